@@ -1,0 +1,35 @@
+# make        derives and proves every geometry, regenerates generated/, ends with the table
+# make test   lint, types, tests: the drift check of generated/ included
+# make bench  speed, as ratios measured in one run
+# make accuracy  worst error of every generated function, in units in the last place
+
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+STAMP  := $(VENV)/.installed
+
+.PHONY: all test bench accuracy clean
+
+all: $(STAMP)
+	$(BIN)/derive generate
+
+test: $(STAMP)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/python -m pytest -n auto
+
+bench: $(STAMP)
+	$(BIN)/python -m tests.benchmarks.speed
+
+accuracy: $(STAMP)
+	$(BIN)/python -m tests.accuracy.report
+
+$(STAMP): pyproject.toml constraints.txt
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; make PYTHON=python3.12, say")'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[tests]'
+	touch $@
+
+clean:
+	rm -rf $(VENV) build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis

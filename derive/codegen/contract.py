@@ -1,0 +1,105 @@
+"""Which functions a generated module has, and from which formulas of the sheet each is made.
+
+This table is the contract with users: names, argument order and meanings are fixed.
+"""
+
+from dataclasses import dataclass
+
+from sympy import Expr, Gt, Symbol
+from sympy.logic.boolalg import Boolean
+
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, x
+
+
+@dataclass(frozen=True)
+class Function:
+    """One function of the contract.
+
+    fields      the fields of its result and the formula each comes from; one field without a name
+                for a plain array; a field that returns an argument names its symbol
+    kind        the named tuple that it returns, "" for a plain array
+    material    whether it takes E_star
+    geometric   whether it takes the geometry's own parameters
+    """
+
+    name: str
+    arguments: tuple[Symbol, ...]
+    fields: tuple[tuple[str, str | Symbol], ...]
+    summary: str
+    kind: str = ""
+    defaults: tuple[tuple[Symbol, str], ...] = ()
+    material: bool = True
+    geometric: bool = True
+
+    def available(self, sheet: FormulaSheet) -> bool:
+        """Whether the sheet has every formula that the function needs."""
+        return all(source in sheet for _, source in self.fields if isinstance(source, str))
+
+    def keywords(self, sheet: FormulaSheet) -> tuple[Symbol, ...]:
+        """Its keyword-only arguments: material, then geometry."""
+        own = tuple(q.symbol for q in sheet.geometry.parameters) if self.geometric else ()
+        return ((E_star,) if self.material else ()) + own
+
+    def outputs(self, sheet: FormulaSheet) -> dict[str, Expr]:
+        """Expression of every field."""
+        return {
+            field: sheet[source].expr if isinstance(source, str) else source
+            for field, source in self.fields
+        }
+
+    def conditions(self, sheet: FormulaSheet) -> tuple[Boolean, ...]:
+        """Assumptions under which the state exists; outside the contact the pressure is zero."""
+        held = dict.fromkeys(
+            condition
+            for _, source in self.fields
+            if isinstance(source, str)
+            for condition in sheet[source].conditions
+            if not condition.has(x)
+        )
+        positive = (Gt(symbol, 0, evaluate=False) for symbol in self.keywords(sheet))
+        return (*held, *positive)
+
+
+def _edges(name: str, arguments: tuple[Symbol, ...], summary: str, bare: bool = False) -> Function:
+    fields = tuple((side, f"{name}_{side}") for side in ("left", "right"))
+    return Function(
+        name, arguments, fields, summary, "Edges", material=not bare, geometric=not bare
+    )
+
+
+CONTRACT: tuple[Function, ...] = (
+    Function(
+        "contact",
+        (P, M),
+        (("a", "contact_a"), ("c", "contact_c"), ("alpha", "contact_alpha")),
+        "Contact and tilt under the load P and the moment M.",
+        "Contact",
+        defaults=((M, "0.0"),),
+    ),
+    Function(
+        "contact_at_tilt",
+        (P, alpha),
+        (("a", "contact_at_tilt_a"), ("c", "contact_at_tilt_c"), ("alpha", alpha)),
+        "Contact under the load P at the tilt alpha.",
+        "Contact",
+        defaults=((alpha, "0.0"),),
+    ),
+    Function("tilt", (a, c), (("", "tilt"),), "Tilt at which the contact is [-a, c].", material=False),
+    Function("load", (a, c), (("", "load"),), "Normal load that makes the contact [-a, c]."),
+    Function("moment", (a, c), (("", "moment"),), "Moment that makes the contact [-a, c]."),
+    Function(
+        "pressure",
+        (x, a, c),
+        (("", "pressure"),),
+        "Contact pressure at x; zero outside [-a, c].",
+    ),
+    _edges("K_N", (a, c), "Coefficients of sqrt(s) in the pressure at a distance s from the edges."),
+    _edges("L_N", (a, c), "Coefficients of s**(3/2) in the pressure next to the edges."),
+    _edges(
+        "K_T",
+        (a, c, dQ, dsigma),
+        "Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.",
+        bare=True,
+    ),
+)

@@ -1,0 +1,177 @@
+"""SymPy -> NumPy source.  What the printer does not know it refuses; it never guesses a name.
+
+Two things it does beyond spelling: half powers in a product are gathered under one root, and factors
+that do not vary along the array are multiplied first, so that an array is passed over once.
+"""
+
+from collections.abc import Iterable
+
+from sympy import Add, Basic, Expr, Mul, Pow, Rational, S, Symbol
+from sympy.printing.precedence import PRECEDENCE
+from sympy.printing.str import StrPrinter
+
+from derive.notation import is_half_power
+
+
+class CannotPrint(Exception):
+    """An expression for which no NumPy code is known; a fault of the generator, not of the user."""
+
+
+_FUNCTIONS = {
+    "Abs": "np.abs",
+    "asinh": "np.arcsinh",
+    "atan": "np.arctan",
+    "atan2": "np.arctan2",
+    "cos": "np.cos",
+    "log": "np.log",
+    "sign": "np.sign",
+    "sin": "np.sin",
+    "tan": "np.tan",
+}
+
+
+class NumPyPrinter(StrPrinter):
+    """Prints expressions whose symbols are local variables."""
+
+    def __init__(self, varying: Iterable[Symbol] = ()) -> None:
+        super().__init__()
+        self.varying = frozenset(varying)
+
+    def emptyPrinter(self, expr: Basic) -> str:
+        """Refuse."""
+        raise CannotPrint(f"no NumPy code is known for {type(expr).__name__}: {expr}")
+
+    def parenthesize(self, item: Basic, level: int, strict: bool = False) -> str:
+        """Like SymPy's, but a root is a call and needs no parentheses."""
+        if item.is_Pow and item.exp == S.Half:
+            return self._print(item)
+        return super().parenthesize(item, level, strict)
+
+    def _print_Function(self, expr: Expr) -> str:
+        name = type(expr).__name__
+        if name not in _FUNCTIONS:
+            raise CannotPrint(f"no NumPy function is known for {name}: {expr}")
+        return f"{_FUNCTIONS[name]}({', '.join(map(self._print, expr.args))})"
+
+    _print_Abs = _print_sign = _print_log = _print_Function
+
+    def _print_Symbol(self, expr: Symbol) -> str:
+        return str(expr.name)
+
+    _print_Dummy = _print_Symbol
+
+    def _print_Pi(self, expr: Basic) -> str:
+        return "np.pi"
+
+    def _print_Infinity(self, expr: Basic) -> str:
+        return "np.inf"
+
+    def _print_Add(self, expr: Add, order: object = None) -> str:
+        """Positive terms first: phi - alpha, not -alpha + phi."""
+        terms = sorted(expr.as_ordered_terms(), key=lambda t: t.could_extract_minus_sign())
+        text = self.parenthesize(terms[0], PRECEDENCE["Add"])
+        for term in terms[1:]:
+            negative = term.could_extract_minus_sign()
+            inner = self.parenthesize(-term if negative else term, PRECEDENCE["Add"])
+            text += f" {'-' if negative else '+'} {inner}"
+        return text
+
+    def _print_Mul(self, expr: Mul) -> str:
+        if expr.could_extract_minus_sign():
+            return f"-{self._print(-expr)}"
+        factors = list(Mul.make_args(expr))
+        fixed = [f for f in factors if not f.free_symbols & self.varying]
+        moving = [f for f in factors if f.free_symbols & self.varying]
+        if len(fixed) < 2 or not moving:
+            return self._quotient(factors)
+        top, bottom = _split(moving)
+        if not top:
+            return self._quotient(factors)
+        return f"({self._quotient(fixed)}) * {self._quotient(moving)}"
+
+    def _quotient(self, factors: list[Expr]) -> str:
+        top, bottom = _split(factors)
+        above = " * ".join(self.parenthesize(f, PRECEDENCE["Mul"]) for f in top) or "1"
+        if not bottom:
+            return above
+        below = " * ".join(self.parenthesize(f, PRECEDENCE["Mul"]) for f in bottom)
+        return f"{above} / ({below})" if len(bottom) > 1 else f"{above} / {self.parenthesize(bottom[0], PRECEDENCE['Pow'])}"
+
+    def _print_Pow(self, expr: Pow, rational: bool = False) -> str:
+        base, exponent = expr.base, expr.exp
+        if exponent == S.Half:
+            return f"np.sqrt({self._print(base)})"
+        if exponent.is_negative:
+            return self._quotient([expr])
+        if exponent.is_Rational and exponent.q == 2 and exponent.p > 1:
+            return f"{self.parenthesize(base, PRECEDENCE['Pow'])}**{exponent.p // 2} * np.sqrt({self._print(base)})"
+        return f"{self.parenthesize(base, PRECEDENCE['Pow'])}**{self.parenthesize(exponent, PRECEDENCE['Pow'])}"
+
+    def _print_Rational(self, expr: Rational) -> str:
+        return f"{expr.p} / {expr.q}"
+
+    def _print_Max(self, expr: Expr) -> str:
+        return self._nested("np.maximum", expr)
+
+    def _print_Min(self, expr: Expr) -> str:
+        return self._nested("np.minimum", expr)
+
+    def _nested(self, name: str, expr: Expr) -> str:
+        first, *rest = sorted(expr.args, key=lambda arg: (arg.is_number, str(arg)))
+        text = self._print(first)
+        for other in rest:
+            text = f"{name}({text}, {self._print(other)})"
+        return text
+
+    def _print_Piecewise(self, expr: Expr) -> str:
+        *cases, (last, always) = expr.args
+        if always is not S.true:
+            raise CannotPrint(f"a Piecewise without a last resort: {expr}")
+        text = self._print(last)
+        for value, condition in reversed(cases):
+            text = f"np.where({self._print(condition)}, {self._print(value)}, {text})"
+        return text
+
+    def _print_Relational(self, expr: Basic) -> str:
+        left, right = (self._print(side) for side in expr.args)
+        return f"{left} {expr.rel_op} {right}"  # type: ignore[attr-defined]
+
+    def _print_And(self, expr: Basic) -> str:
+        return " & ".join(f"({self._print(arg)})" for arg in _ordered(expr))
+
+    def _print_Or(self, expr: Basic) -> str:
+        return " | ".join(f"({self._print(arg)})" for arg in _ordered(expr))
+
+
+def _ordered(expr: Basic) -> list[Basic]:
+    return sorted(expr.args, key=str)
+
+
+def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
+    """Numerator and denominator, rationals taken apart, half powers under one root each."""
+    top: list[Expr] = []
+    bottom: list[Expr] = []
+    roots: tuple[list[Expr], list[Expr]] = ([], [])
+    for f in factors:
+        if f.is_Rational and not f.is_Integer:
+            top += [S(f.p)] if f.p != 1 else []
+            bottom.append(S(f.q))
+        elif is_half_power(f):
+            roots[0 if f.exp > 0 else 1].append(f.base)
+        elif f.is_Pow and f.exp.could_extract_minus_sign():
+            bottom.append(f.base ** -f.exp)
+        else:
+            top.append(f)
+    above, below = roots
+    if above:
+        top.append(_root(Mul(*above, *(1 / f for f in below))))
+    elif below:
+        bottom.append(_root(Mul(*below)))
+    return top, bottom
+
+
+def _root(inside: Expr) -> Expr:
+    """sqrt(inside), which SymPy would take apart again."""
+    return Pow(inside, S.Half, evaluate=False)
+
+

@@ -1,0 +1,1 @@
+"""What generated modules need besides NumPy; copied beside them, never imported from here."""

@@ -1,0 +1,168 @@
+"""From a body to its formula sheet: the theory's stages in order, each result named and sourced.
+
+In:  Geometry.
+Out: FormulaSheet without proofs.
+"""
+
+from collections.abc import Iterator
+
+from sympy import Symbol, pi
+from sympy.logic.boolalg import Boolean
+
+from derive.geometry import Geometry
+from derive.sheet import (
+    Formula,
+    FormulaSheet,
+    contact_conditions,
+    inside_contact,
+    load_conditions,
+    tilt_conditions,
+)
+from derive.symbols import M, P, a, alpha, c, dQ, dsigma, x
+from derive.theory import contact_law, equilibrium, stick
+from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
+from derive.theory.frame import Frame
+from derive.theory.pressure import pressure
+
+_PAPER = "Andresen, Fleury, Moore & Hills 2020"
+_CLASSIC = "singular integral equation of the half-plane, pressure bounded at both edges"
+
+
+def derive_sheet(geometry: Geometry) -> FormulaSheet:
+    """Derive everything that the theory gives for one body; nothing is proven yet.
+
+    >>> from derive.library import load_geometry
+    >>> sheet = derive_sheet(load_geometry("wedge"))
+    >>> sheet.flat("load")
+    E_star*phi*sqrt(a*c)
+    """
+    sheet = FormulaSheet(geometry, Frame(geometry.slope))
+    for stage in (_equilibrium, _pressure, _contact_law, _edges, _stick, _inverses):
+        for formula in stage(sheet):
+            sheet = sheet.plus(formula)
+    return sheet
+
+
+def _equilibrium(sheet: FormulaSheet) -> Iterator[Formula]:
+    conditions = contact_conditions(sheet.frame)
+    for name, symbol, derive, meaning, unit, source in (
+        ("tilt", alpha, equilibrium.tilt, "tilt that this contact takes", "rad", "I_0 = 0"),
+        ("load", P, equilibrium.load, "normal load", "N/m", "P = (E*/2) I_1"),
+        ("moment", M, equilibrium.moment, "moment", "N", "M = -(E*/2) (I_2 - mid I_1)"),
+    ):
+        source = f"{source}; {_CLASSIC}"
+        yield Formula(
+            name, symbol, (a, c), derive(sheet.frame), meaning, unit, source, conditions
+        )
+
+
+def _pressure(sheet: FormulaSheet) -> Iterator[Formula]:
+    yield Formula(
+        "pressure",
+        Symbol("p"),
+        (x, a, c),
+        pressure(sheet.frame),
+        "contact pressure",
+        "Pa",
+        _CLASSIC,
+        inside_contact(sheet.frame, x),
+    )
+
+
+def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
+    frame, conditions = sheet.frame, contact_conditions(sheet.frame)
+    ratio = edge_ratio(frame, sheet["tilt"].expr)
+    rate = load_rate(frame, sheet["load"].expr, ratio)
+    for name, symbol, expr, meaning, unit, source in (
+        ("edge_ratio", "a_prime", ratio, "a'(c), left edge against right at fixed tilt", "-", ""),
+        ("load_rate", "P_prime", rate, "P'(c), the contact law's slope at fixed tilt", "Pa", ""),
+        ("punch", "F", rate / pi, "weight of the flat punches", "Pa", "eq. (eqn:PFRelation), "),
+    ):
+        source = f"Mossakovskii's method; {source}{_PAPER}, section 2"
+        yield Formula(name, Symbol(symbol), (a, c), expr, meaning, unit, source, conditions)
+
+
+def _edges(sheet: FormulaSheet) -> Iterator[Formula]:
+    conditions = contact_conditions(sheet.frame)
+    series = {edge: pressure_series(sheet.frame, edge, 2) for edge in Edge}
+    for order, name, unit, meaning in (
+        (0, "K_N", "Pa/sqrt(m)", "coefficient of sqrt(s) in p"),
+        (1, "L_N", "Pa/m**(3/2)", "coefficient of s**(3/2) in p"),
+    ):
+        for edge in Edge:
+            side = edge.name.lower()
+            yield Formula(
+                f"{name}_{side}",
+                Symbol(f"{name}_{side}"),
+                (a, c),
+                series[edge][order],
+                f"{meaning} at the {side} edge",
+                unit,
+                f"expansion of p(x); cf. eqs. (eqn:Knc), (eqn:Kna), {_PAPER}",
+                conditions,
+            )
+
+
+def _stick(sheet: FormulaSheet) -> Iterator[Formula]:
+    source = "similar bodies, full stick: (1/pi) PV int dq/(x - xi) dxi = dsigma/4, int dq = dQ"
+    conditions = contact_conditions(sheet.frame)[:1]
+    inside = (*conditions, x > -a, x < c)
+    arguments = (a, c, dQ, dsigma)
+    yield Formula(
+        "full_stick_change",
+        Symbol("dq"),
+        (x, *arguments),
+        stick.full_stick_change(),
+        "change of the shear traction of a fully stuck contact",
+        "Pa",
+        source,
+        inside,
+    )
+    for edge in Edge:
+        side = edge.name.lower()
+        yield Formula(
+            f"K_T_{side}",
+            Symbol(f"K_T_{side}"),
+            arguments,
+            stick.K_T(edge),
+            f"coefficient of 1/sqrt(s) in the full-stick change at the {side} edge",
+            "Pa*sqrt(m)",
+            f"edge limit of full_stick_change; cf. eq. (K_T), {_PAPER}",
+            conditions,
+        )
+
+
+def _inverses(sheet: FormulaSheet) -> Iterator[Formula]:
+    tilt, load, moment = (sheet[name].expr for name in ("tilt", "load", "moment"))
+    at_moment = contact_law.contact_from_moment(sheet.frame, tilt, load, moment)
+    if at_moment is not None:
+        yield from _inverse("contact", (P, M), at_moment, load_conditions())
+    at_tilt = contact_law.contact_from_tilt(sheet.frame, tilt, load, moment)
+    if at_tilt is not None:
+        yield from _inverse("contact_at_tilt", (P, alpha), at_tilt, tilt_conditions(sheet.frame))
+
+
+def _inverse(
+    name: str,
+    given: tuple[Symbol, ...],
+    found: contact_law.Inverse,
+    conditions: tuple[Boolean, ...],
+) -> Iterator[Formula]:
+    loads = " and ".join({P: "load", M: "moment", alpha: "tilt"}[symbol] for symbol in given)
+    for symbol, expr, meaning, unit in (
+        (a, found.a, "left edge", "m"),
+        (c, found.c, "right edge", "m"),
+        (alpha, found.alpha, "tilt", "rad"),
+        (M, found.M, "moment", "N"),
+    ):
+        if symbol not in given:
+            yield Formula(
+                f"{name}_{symbol}",
+                symbol,
+                given,
+                expr,
+                f"{meaning} from {loads}",
+                unit,
+                "load(a, c), moment(a, c) and tilt(a, c) solved",
+                conditions,
+            )

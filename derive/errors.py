@@ -1,0 +1,147 @@
+"""What a user can get wrong: one small class a mistake, each with its facts.
+
+Every message says what was given, what is allowed and what to do.  The command line prints the
+message alone and leaves with status 2.
+"""
+
+from dataclasses import dataclass
+
+
+class UserError(Exception):
+    """A mistake in what the user gave; never a fault of the program."""
+
+    def __str__(self) -> str:
+        return self.message
+
+    @property
+    def message(self) -> str:
+        """One line: what was given, what is allowed, what to do."""
+        raise AssertionError("each mistake writes its own message")
+
+
+@dataclass
+class BadName(UserError):
+    """A geometry or a parameter has a name that the generated code cannot carry."""
+
+    what: str
+    given: str
+    why: str
+
+    @property
+    def message(self) -> str:
+        """What was wrong with the name."""
+        return (
+            f"{self.what} {self.given!r} {self.why}; a name is lower- or upper-case letters, digits "
+            "and _, does not start with a digit, and is none of the theory's own: choose another"
+        )
+
+
+@dataclass
+class BadUnit(UserError):
+    """A unit that is no product of powers of m, Pa, N and rad."""
+
+    given: str
+    why: str
+
+    @property
+    def message(self) -> str:
+        """What was wrong with the unit."""
+        return (
+            f"unit {self.given!r}: {self.why}; write a product of powers of m, Pa, N, rad or '-', "
+            "such as 'm', '1/m' or 'N/m'"
+        )
+
+
+@dataclass
+class DimensionMismatch(UserError):
+    """A formula whose terms, or whose two sides, differ in dimension."""
+
+    where: str
+    found: str
+    expected: str
+
+    @property
+    def message(self) -> str:
+        """Which dimensions do not agree."""
+        return (
+            f"{self.where} has the dimension {self.found} where {self.expected} is needed: "
+            "check the units of the parameters and the powers of x"
+        )
+
+
+@dataclass
+class UnknownSymbol(UserError):
+    """g(x) holds a symbol that is neither x nor made by `parameter`."""
+
+    geometry: str
+    given: str
+
+    @property
+    def message(self) -> str:
+        """Which symbol is unknown."""
+        return (
+            f"g of {self.geometry!r} holds the symbol {self.given!r}; only x and parameters are "
+            f'allowed: write {self.given} = parameter("{self.given}", "its meaning", unit="m")'
+        )
+
+
+@dataclass
+class BadProfile(UserError):
+    """g(x) is not the profile of one convex contact that can be derived."""
+
+    geometry: str
+    why: str
+    remedy: str
+
+    @property
+    def message(self) -> str:
+        """Why the profile is refused."""
+        return f"g of {self.geometry!r} {self.why}: {self.remedy}"
+
+
+@dataclass
+class BadGeometryFile(UserError):
+    """A file that does not define `geometry`, or is not there."""
+
+    given: str
+    why: str
+
+    @property
+    def message(self) -> str:
+        """What is wrong with the file."""
+        return (
+            f"{self.given}: {self.why}; a geometry file is Python and ends in "
+            "`geometry = Geometry(name, g=...)`, as in derive/geometries/hertz.py"
+        )
+
+
+@dataclass
+class UnknownGeometry(UserError):
+    """A name that is neither a geometry of the library nor a file."""
+
+    given: str
+    known: tuple[str, ...]
+
+    @property
+    def message(self) -> str:
+        """Which names there are."""
+        return (
+            f"there is no geometry {self.given!r}; the library has {', '.join(self.known)}: "
+            "name one of them, or give the path of a geometry file"
+        )
+
+
+@dataclass
+class BadOutput(UserError):
+    """A directory that `derive generate --out` must not replace."""
+
+    given: str
+    why: str
+
+    @property
+    def message(self) -> str:
+        """Why the directory is refused."""
+        return (
+            f"{self.given} {self.why}; --out takes a directory that does not exist, is empty, or "
+            "was made by `derive generate`: choose another"
+        )

@@ -1,0 +1,1 @@
+"""The library: one body a file, nothing but g(x)."""

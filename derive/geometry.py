@@ -1,0 +1,124 @@
+"""A body: its name, its profile g(x), and the parameters that g holds."""
+
+import keyword
+from copy import copy
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from sympy import Expr, Symbol, sympify
+
+from derive.errors import BadName, UnknownSymbol
+from derive.profile import Slope, read_slope
+from derive.symbols import QUANTITIES, RESERVED, Quantity, x
+from derive.units import Dimension, check, parse_unit
+
+
+class Parameter(Symbol):
+    """A positive real symbol that remembers what it means; made by `parameter`."""
+
+    __slots__ = ("meaning", "unit")
+
+    meaning: str
+    unit: str
+
+    def __new__(cls, name: str, meaning: str, unit: str) -> "Parameter":
+        symbol = Symbol.__xnew__(cls, name, positive=True)
+        symbol.meaning, symbol.unit = meaning, unit
+        return symbol  # type: ignore[no-any-return]
+
+    def __getnewargs_ex__(self) -> tuple[tuple[str, ...], dict[str, Any]]:
+        return (self.name, self.meaning, self.unit), {}
+
+
+def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
+    """Make a positive real parameter of a profile.
+
+    name: a Python identifier that is none of the theory's own symbols.
+    meaning: a few words for the formula sheet and the docstrings.
+    unit: a product of powers of m, Pa, N, rad; '-' for a number.
+
+    Raises BadName or BadUnit.
+
+    >>> R = parameter("R", "relative radius of curvature", unit="m")
+    >>> R.is_positive
+    True
+    """
+    if not isinstance(name, str) or not _usable(name):
+        raise BadName("parameter", str(name), "cannot be a name")
+    if name in RESERVED:
+        raise BadName("parameter", name, "is taken by the theory")
+    parse_unit(unit)
+    return Parameter(name, meaning, unit)
+
+
+def _usable(name: str) -> bool:
+    return (
+        name.isascii()
+        and name.isidentifier()
+        and not keyword.iskeyword(name)
+        and not name.startswith("_")
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """One body that presses on a half-plane, given by its profile g(x) before loading.
+
+    name: a Python identifier; the generated module bears it.
+    g: SymPy expression of x and parameters, in metres, upward positive, convex where it can touch.
+       The tilt is never part of g.
+
+    Raises BadName, UnknownSymbol, BadUnit, DimensionMismatch or BadProfile.
+
+    >>> from derive import parameter, x
+    >>> R = parameter("R", "radius", unit="m")
+    >>> Geometry("cylinder", g=x**2 / (2 * R)).slope.base
+    x/R
+    """
+
+    name: str
+    g: Expr
+    description: str = field(init=False, default="")
+    parameters: tuple[Quantity, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not _usable(self.name):
+            raise BadName("geometry", str(self.name), "cannot be the name of a module")
+        given = sympify(self.g, strict=True)
+        plain = {}
+        for symbol in sorted(given.free_symbols, key=str):
+            if isinstance(symbol, Parameter):
+                quantity = Quantity(
+                    Symbol(symbol.name, positive=True), symbol.meaning, symbol.unit
+                )
+                plain[symbol] = quantity
+            elif symbol != x:
+                raise UnknownSymbol(self.name, str(symbol))
+        object.__setattr__(
+            self, "g", given.xreplace({p: q.symbol for p, q in plain.items()})
+        )
+        object.__setattr__(self, "parameters", tuple(plain.values()))
+        check(self.g, "m", f"g of {self.name!r}", self.dimensions)
+        self.slope  # noqa: B018  (a profile that cannot be read is refused here)
+
+    @cached_property
+    def slope(self) -> Slope:
+        """g'(x), read as a polynomial and what each kink adds to it."""
+        return read_slope(self.name, self.g)
+
+    def described(self, description: str) -> "Geometry":
+        """The same body with its file's docstring."""
+        twin = copy(self)
+        object.__setattr__(twin, "description", description)
+        return twin
+
+    @property
+    def quantities(self) -> dict[str, Quantity]:
+        """Theory's symbols and the body's parameters by name."""
+        return QUANTITIES | {q.name: q for q in self.parameters}
+
+    @property
+    def dimensions(self) -> dict[Symbol, Dimension]:
+        """Dimension of every symbol that a formula of this body may hold."""
+        return {q.symbol: parse_unit(q.unit) for q in self.quantities.values()}

@@ -1,0 +1,52 @@
+"""Finds and loads geometry files: those of the library by name, a user's by path."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+from derive.errors import BadGeometryFile, UnknownGeometry
+from derive.geometry import Geometry
+
+FOLDER = Path(__file__).parent / "geometries"
+
+
+def library() -> tuple[str, ...]:
+    """Names of all bodies in derive/geometries/, in alphabetical order."""
+    return tuple(sorted(p.stem for p in FOLDER.glob("*.py") if not p.stem.startswith("_")))
+
+
+def load_geometry(name_or_path: str | Path) -> Geometry:
+    """The geometry of a library name or of a file's path.
+
+    Raises UnknownGeometry or BadGeometryFile; what is wrong with g(x) itself is raised by Geometry.
+
+    >>> load_geometry("hertz").g
+    x**2/(2*R)
+    """
+    given = str(name_or_path)
+    if given in library():
+        return _execute(FOLDER / f"{given}.py")
+    path = Path(given)
+    if path.suffix == ".py" or path.exists():
+        return _execute(path)
+    raise UnknownGeometry(given, library())
+
+
+def _execute(path: Path) -> Geometry:
+    if not path.is_file():
+        raise BadGeometryFile(str(path), "there is no such file")
+    spec = importlib.util.spec_from_file_location(f"_geometry_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise BadGeometryFile(str(path), "it is no Python file")
+    module = importlib.util.module_from_spec(spec)
+    keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    try:
+        spec.loader.exec_module(module)
+    except (SyntaxError, ImportError, NameError, TypeError) as error:
+        raise BadGeometryFile(str(path), f"{type(error).__name__}: {error}") from error
+    finally:
+        sys.dont_write_bytecode = keep
+    geometry = getattr(module, "geometry", None)
+    if not isinstance(geometry, Geometry):
+        raise BadGeometryFile(str(path), "it defines no `geometry`")
+    return geometry.described((module.__doc__ or "").strip())

@@ -1,0 +1,55 @@
+"""How formulas are written: text and LaTeX, rendered from expressions and never typed."""
+
+from functools import cache
+
+from sympy import Basic, Expr, Mul, Pow, S, Symbol, latex, sstr
+
+from derive.symbols import QUANTITIES
+
+_OWN = {
+    "K_N_left": r"K_{N,\mathrm{left}}",
+    "K_N_right": r"K_{N,\mathrm{right}}",
+    "L_N_left": r"L_{N,\mathrm{left}}",
+    "L_N_right": r"L_{N,\mathrm{right}}",
+    "K_T_left": r"K_{T,\mathrm{left}}",
+    "K_T_right": r"K_{T,\mathrm{right}}",
+    "dq": r"\Delta q",
+    "a_prime": "a'",
+    "P_prime": "P'",
+}
+
+
+def text_of(expr: Basic) -> str:
+    """`expr` as one line of text."""
+    return str(sstr(gathered(expr)))
+
+
+def latex_of(expr: Basic) -> str:
+    """`expr` in LaTeX, in the notation of the theory."""
+    symbols = {s: _names()[s.name] for s in expr.atoms(Symbol) if s.name in _names()}
+    return str(latex(gathered(expr), symbol_names=symbols, ln_notation=True))
+
+
+@cache
+def _names() -> dict[str, str]:
+    return _OWN | {q.name: q.latex for q in QUANTITIES.values() if q.latex}
+
+
+def gathered(expr: Basic) -> Basic:
+    """`expr` with the half powers of every product under one root: sqrt(P R/E*), not three roots."""
+    return expr.replace(lambda node: isinstance(node, Mul), gathered_product)
+
+
+def gathered_product(product: Expr) -> Expr:
+    """One product with its half powers under one root."""
+    halves = [f for f in Mul.make_args(product) if is_half_power(f)]
+    if len(halves) < 2:
+        return product
+    rest = [f for f in Mul.make_args(product) if not is_half_power(f)]
+    inside = Mul(*(f.base ** (2 * f.exp) for f in halves))
+    return Mul(*rest, Pow(inside, S.Half, evaluate=False), evaluate=False)
+
+
+def is_half_power(factor: Expr) -> bool:
+    """Whether a factor is a root or one over a root."""
+    return bool(factor.is_Pow and factor.exp.is_Rational and abs(factor.exp) == S.Half)

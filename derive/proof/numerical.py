@@ -1,0 +1,139 @@
+"""Routes that end in 30 digits or more at 24 points.
+
+In:  FormulaSheet, and the name of a formula.
+Out: Proof with the verdict *numerical*, *refuted* or *unknown*; None where there is no such route.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import mpmath
+from mpmath import mpf
+from sympy import Symbol
+
+from derive.proof.points import Point, contacts, loads, named, numeric
+from derive.proof.quadrature import Contact
+from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
+from derive.sheet import Formula, FormulaSheet
+from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, w, x
+
+_QUADRATURE = "quadrature of the defining integral of g(x)"
+_FORWARD = {P: "load", M: "moment", alpha: "tilt"}
+
+Pairs = Iterator[tuple[mpf, mpf]]
+Route = Callable[[Point, Contact], Pairs]
+"""At one contact: pairs of numbers that must agree."""
+
+
+@dataclass(frozen=True, eq=False)
+class NumericalRoutes:
+    """The numerical routes of one sheet; they share its random contacts."""
+
+    sheet: FormulaSheet
+
+    def proof(self, name: str) -> Proof | None:
+        """The proof of one formula by its numerical route."""
+        with mpmath.workdps(WORKING):
+            if self.sheet[name].arguments[0] == P:
+                return self._put_back(self.sheet[name])
+            if name not in self._routes:
+                return None
+            words, route = self._routes[name]
+            return numerical_proof(
+                words,
+                (
+                    Comparison(here, there, named(point))
+                    for point, contact in self._contacts
+                    for here, there in route(point, contact)
+                ),
+            )
+
+    @cached_property
+    def _routes(self) -> dict[str, tuple[str, Route]]:
+        return {
+            "tilt": (_QUADRATURE, self._tilt),
+            "load": ("int p dx by quadrature", self._load),
+            "moment": ("-int p x dx by quadrature", self._moment),
+            "pressure": (_QUADRATURE, self._pressure),
+            "L_N_left": ("p - K_N sqrt(s) close to the edge", self._second_left),
+            "L_N_right": ("p - K_N sqrt(s) close to the edge", self._second_right),
+            "full_stick_change": ("its force and its strain by quadrature", self._full_stick),
+        }
+
+    @cached_property
+    def _contacts(self) -> list[tuple[Point, Contact]]:
+        body = self.sheet.geometry
+        found = []
+        for point in contacts(self.sheet):
+            values = {q.symbol: point[q.symbol] for q in body.parameters}
+            found.append((point, Contact(body, values, point[a], point[c], point[E_star])))
+        return found
+
+    def _at(self, name: str, point: Point) -> mpf:
+        return numeric(self.sheet.flat(name))(point)
+
+    def _tilt(self, point: Point, contact: Contact) -> Pairs:
+        yield self._at("tilt", point), contact.tilt
+
+    def _load(self, point: Point, contact: Contact) -> Pairs:
+        yield self._at("load", point), contact.resultant(self._p(point), lambda s: mpf(1))
+
+    def _moment(self, point: Point, contact: Contact) -> Pairs:
+        yield self._at("moment", point), contact.resultant(self._p(point), lambda s: -s)
+
+    def _pressure(self, point: Point, contact: Contact) -> Pairs:
+        yield self._at("pressure", point), contact.pressure(point[x])
+
+    def _p(self, point: Point) -> Callable[[mpf], mpf]:
+        p = numeric(self.sheet.flat("pressure"))
+        return lambda place: p({**point, x: place})
+
+    def _second_left(self, point: Point, contact: Contact) -> Pairs:
+        yield self._at("L_N_left", point), self._second("left", point, contact)
+
+    def _second_right(self, point: Point, contact: Contact) -> Pairs:
+        yield self._at("L_N_right", point), self._second("right", point, contact)
+
+    def _second(self, side: str, point: Point, contact: Contact) -> mpf:
+        """(p/sqrt(s) - K_N)/s so close to the edge that the next term is beyond all digits."""
+        with mpmath.workdps(3 * WORKING):
+            s = contact.h * mpf(10) ** (2 - WORKING)
+            place = s - point[a] if side == "left" else point[c] - s
+            first = self._at(f"K_N_{side}", point)
+            return (self._p(point)(place) / mpmath.sqrt(s) - first) / s
+
+    def _full_stick(self, point: Point, contact: Contact) -> Pairs:
+        """int dq = dQ and (1/pi) PV int dq(s)/(x - s) ds = dsigma/4.
+
+        PV int ds/(w(s) (x - s)) is zero inside the contact, so the value at x is taken off first.
+        """
+        change = numeric(self.sheet["full_stick_change"].expr * w)
+
+        def numerator(place: mpf) -> mpf:
+            return change({**point, x: place})
+
+        here, place = numerator(point[x]), point[x]
+        strain = contact.integral(lambda s: (numerator(s) - here) / (place - s), place)
+        yield contact.integral(numerator), point[dQ]
+        yield strain / mpmath.pi, point[dsigma] / 4
+
+    def _put_back(self, formula: Formula) -> Proof:
+        """The inverse put back into what it was solved from."""
+        stem = formula.name.removesuffix(f"_{formula.symbol}")
+        given = formula.arguments
+        asked = [*given, *([formula.symbol] if formula.symbol in _FORWARD else [])]
+
+        def comparisons() -> Iterator[Comparison]:
+            for point in loads(self.sheet, formula):
+                edges = {edge: self._at(f"{stem}_{edge}", point) for edge in (a, c)}
+                for symbol in asked:
+                    wanted = point[symbol] if symbol in given else self._at(formula.name, point)
+                    found = self._at(_FORWARD[symbol], {**point, **edges})
+                    yield Comparison(wanted, found, named(point))
+
+        return numerical_proof(f"put back into {_names(asked)}", comparisons())
+
+
+def _names(asked: list[Symbol]) -> str:
+    return ", ".join(f"{_FORWARD[symbol]}(a, c)" for symbol in asked)

@@ -1,0 +1,111 @@
+r"""The defining integrals by quadrature at any number of digits: the route that no algebra shares.
+
+In:  g(x) as the user wrote it, and numbers for its parameters and the contact.
+Out: the integrals of theory.equilibrium and theory.pressure, evaluated with x = mid + (h/2) cos(theta)
+     on the pieces between kinks, so that every integrand is analytic up to the ends of its piece.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import mpmath
+from mpmath import mpf
+from sympy import Expr, Piecewise, Symbol, diff, lambdify
+
+from derive.geometry import Geometry
+from derive.symbols import x
+
+Real = mpf
+Function = Callable[[mpf], mpf]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One contact [-a, c] of one body, in numbers."""
+
+    geometry: Geometry
+    values: Mapping[Symbol, Real]
+    a: Real
+    c: Real
+    E_star: Real
+
+    @cached_property
+    def slope(self) -> Function:
+        """g'(x) from g as it was given, not from the pieces that the derivation uses."""
+        return _numeric(diff(self.geometry.g.rewrite(Piecewise), x), self.values)
+
+    @cached_property
+    def kinks(self) -> list[Real]:
+        """Kinks inside the contact, from left to right."""
+        places = [_number(k.position, self.values) for k in self.geometry.slope.kinks]
+        return sorted(p for p in places if -self.a < p < self.c)
+
+    @property
+    def h(self) -> Real:
+        """Contact width."""
+        return self.a + self.c
+
+    @property
+    def mid(self) -> Real:
+        """Middle of the contact."""
+        return (self.c - self.a) / 2
+
+    def at(self, theta: Real) -> Real:
+        """The x at the angle theta."""
+        return self.mid + self.h / 2 * mpmath.cos(theta)
+
+    def angle(self, place: Real) -> Real:
+        """The angle of a place in the contact."""
+        return mpmath.acos((place - self.mid) / (self.h / 2))
+
+    def integral(self, integrand: Function, *also: Real, singular: bool = False) -> Real:
+        """int_{-a}^{c} integrand(s)/w(s) ds, cut at the kinks and at the places named `also`."""
+        cuts = sorted({mpf(0), mpmath.pi, *(self.angle(p) for p in (*self.kinks, *also))})
+        method = "tanh-sinh" if singular else "gauss-legendre"
+        return mpmath.quad(lambda theta: integrand(self.at(theta)), cuts, method=method)
+
+    @cached_property
+    def tilt(self) -> Real:
+        """alpha from I_0 = 0."""
+        return -self.integral(self.slope) / mpmath.pi
+
+    @cached_property
+    def load(self) -> Real:
+        """(E*/2) I_1."""
+        return self.E_star / 2 * self.integral(lambda s: s * (self.slope(s) + self.tilt))
+
+    @cached_property
+    def moment(self) -> Real:
+        """-(E*/2) (I_2 - mid I_1)."""
+        arm = self.integral(lambda s: s * (s - self.mid) * (self.slope(s) + self.tilt))
+        return -self.E_star / 2 * arm
+
+    def pressure(self, place: Real) -> Real:
+        """p(x) from its principal value, the singularity taken off."""
+        here = self.slope(place)
+        root = mpmath.sqrt((self.a + place) * (self.c - place))
+        principal = self.integral(lambda s: (self.slope(s) - here) / (s - place), place)
+        return self.E_star / (2 * mpmath.pi) * root * principal
+
+    def resultant(self, pressure: Function, weight: Function) -> Real:
+        """int weight(s) p(s) ds of a given p; p may be infinite, as a logarithm, at a kink."""
+
+        def integrand(s: Real) -> Real:
+            try:
+                return weight(s) * pressure(s) * mpmath.sqrt((self.a + s) * (self.c - s))
+            except ZeroDivisionError:  # a node that rounds to the kink itself has no weight
+                return mpf(0)
+
+        return self.integral(integrand, singular=True)
+
+
+def _numeric(expr: Expr, values: Mapping[Symbol, Real]) -> Function:
+    symbols = sorted(values, key=str)
+    function = lambdify([x, *symbols], expr, modules="mpmath")
+    numbers = [values[symbol] for symbol in symbols]
+    return lambda place: function(place, *numbers)
+
+
+def _number(expr: Expr, values: Mapping[Symbol, Real]) -> Real:
+    return _numeric(expr, values)(mpf(0))

@@ -1,0 +1,152 @@
+"""Routes that end in an exact zero.
+
+In:  FormulaSheet, and the name of a formula.
+Out: Proof with the verdict *proved*, or None where no symbolic route is known or none succeeds.
+
+The integrals are done a second time by antiderivatives that are certified by differentiating them
+back; load and moment by parts, from the curvature of g; the pressure from its growth by flat punches;
+the contact law against the edge limit of p; the inverses by substitution.
+"""
+
+from collections.abc import Callable
+
+from sympy import Expr, Poly, S, Symbol, count_ops, diff, expand, linsolve, pi, simplify, sqrt, symbols
+
+from derive.proof.verdict import Proof, Verdict
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, M, P, a, c, e, h, mid, w, x
+from derive.theory.algebra import is_zero
+from derive.theory.frame import KinkFrame
+
+_LIMIT = "limit of p at the edges"
+_RATE = "(2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated"
+_SHORT = 60
+"""Operations up to which an inverse is put back symbolically."""
+
+
+def symbolic_proof(sheet: FormulaSheet, name: str) -> Proof | None:
+    """The proof of one formula by its symbolic route, if there is one and it succeeds."""
+    route = _ROUTES.get(name)
+    words = route and route(sheet, name)
+    return Proof(Verdict.PROVED, words) if words else None
+
+
+Route = Callable[[FormulaSheet, str], str | None]
+
+
+def _equal_to(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
+    """The route that computes the formula once more as `value`."""
+
+    def route(sheet: FormulaSheet, name: str) -> str | None:
+        return words if is_zero(sheet[name].expr - value(sheet), sheet.frame) else None
+
+    return route
+
+
+def _tilt(sheet: FormulaSheet) -> Expr:
+    """I_0 of g', every antiderivative certified."""
+    return -_integral(sheet, lambda slope: slope) / pi
+
+
+def _load(sheet: FormulaSheet) -> Expr:
+    """(E*/2) int g'' w ds."""
+    return E_star / 2 * _curvature_integral(sheet, S.One)
+
+
+def _moment(sheet: FormulaSheet) -> Expr:
+    """-(E*/2) int g'' w (s + mid)/2 ds: a corner at s is a wedge, its load acts half-way to mid."""
+    return -E_star / 2 * _curvature_integral(sheet, (x + mid) / 2)
+
+
+def _curvature_integral(sheet: FormulaSheet, density: Expr) -> Expr:
+    """int g'' density w ds; at a corner g'' is a step of g' times a delta."""
+    total = _integral(sheet, lambda slope: diff(slope, x) * density * w**2)
+    for k in sheet.frame.kinks:
+        step = k.kink.side * (k.kink.jump * density).subs(x, k.kink.position)
+        total += step * k.w
+    return total
+
+
+def _integral(sheet: FormulaSheet, of: Callable[[Expr], Expr]) -> Expr:
+    """int of(g')/w ds, the base and each kink's jump by itself."""
+    total = certified_integral(of(sheet.frame.slope.base))
+    for k in sheet.frame.kinks:
+        total += certified_integral(of(k.kink.jump), k)
+    return total
+
+
+def certified_integral(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
+    """int polynomial(s)/w ds over the contact, or where the kink's jump acts.
+
+    The antiderivative q w + k theta is found from its own derivative, q' w**2 + q (mid - s) + k =
+    polynomial, coefficient by coefficient: a second way beside the recursion, and its own proof.
+    """
+    polynomial = expand(polynomial)
+    degree = Poly(polynomial, x).degree() if polynomial != 0 else 0
+    unknowns = symbols(f"q_0:{max(degree, 1)}", cls=Symbol)
+    constant = Symbol("k")
+    q = sum((u * x**n for n, u in enumerate(unknowns)), S.Zero)
+    residual = Poly(expand(diff(q, x) * w**2 + q * (mid - x) + constant - polynomial), x)
+    (values,) = linsolve(residual.all_coeffs(), [*unknowns, constant])
+    *coefficients, angle = values
+    if kink is None:
+        return angle * pi
+    at = sum((v * kink.kink.position**n for n, v in enumerate(coefficients)), S.Zero)
+    return angle * kink.theta - kink.kink.side * at * kink.w
+
+
+def _pressure(sheet: FormulaSheet, name: str) -> str | None:
+    """d/dc p at fixed tilt is P'(c)/(pi w), and p vanishes with w and the L_j at both edges.
+
+    At fixed tilt d/dc is d/dc - (alpha_c/alpha_a) d/da; times alpha_a, nothing is divided.
+    """
+    frame = sheet.frame
+    tilt, load, p = (sheet[key].expr for key in ("tilt", "load", name))
+    by_a, by_c = frame.diff(tilt, a), frame.diff(tilt, c)
+
+    def along(expr: Expr) -> Expr:
+        return frame.diff(expr, c) * by_a - frame.diff(expr, a) * by_c
+
+    if not is_zero(along(p) - along(load) / (pi * w), frame):
+        return None
+    return "grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt"
+
+
+def _stick(sheet: FormulaSheet, name: str) -> str | None:
+    edge = -a if name.endswith("left") else c
+    without_root = sheet["full_stick_change"].expr.subs(1 / w, 1)
+    limit = without_root.subs(x, edge) / sqrt(h)
+    if without_root.has(w) or simplify(sheet[name].expr - limit) != 0:
+        return None
+    return "limit of the full-stick change at the edge"
+
+
+def _put_back(sheet: FormulaSheet, name: str) -> str | None:
+    """The contact of (P, M) carries P, at the lever arm e."""
+    edges = {edge: sheet[f"contact_{edge}"].expr for edge in (a, c)}
+    load = sheet.flat("load").subs(edges, simultaneous=True)
+    moment = sheet.flat("moment").subs(edges, simultaneous=True)
+    if count_ops(moment) > 4 * _SHORT:
+        return None
+    if simplify(load - P) != 0 or simplify(moment - P * e) != 0:
+        return None
+    return "put back symbolically"
+
+
+_ROUTES: dict[str, Route] = {
+    "tilt": _equal_to(_tilt, "I_0 by antiderivatives that differentiate back"),
+    "load": _equal_to(_load, "by parts, P = (E*/2) int g'' w ds"),
+    "moment": _equal_to(_moment, "by parts, M = -(E*/2) int g'' w (s + mid)/2 ds"),
+    "pressure": _pressure,
+    "edge_ratio": _equal_to(lambda s: s["K_N_right"].expr / s["K_N_left"].expr, _LIMIT),
+    "load_rate": _equal_to(lambda s: pi / 2 * sqrt(h) * s["K_N_right"].expr, _LIMIT),
+    "punch": _equal_to(lambda s: sqrt(h) / 2 * s["K_N_right"].expr, _LIMIT),
+    "K_N_left": _equal_to(
+        lambda s: 2 / pi * s["load_rate"].expr / sqrt(h) / s["edge_ratio"].expr, _RATE
+    ),
+    "K_N_right": _equal_to(lambda s: 2 / pi * s["load_rate"].expr / sqrt(h), _RATE),
+    "K_T_left": _stick,
+    "K_T_right": _stick,
+    "contact_a": _put_back,
+    "contact_c": _put_back,
+}

@@ -1,0 +1,104 @@
+"""What a proof is: a verdict, the route by which it was reached, and its numbers.
+
+A formula is *proved* when its difference from an independent route is zero symbolically, *numerical*
+when both agree to DIGITS digits at POINTS random points of the formula's assumptions, *refuted* when
+they differ at one point, and *unknown* when no point could be drawn.  Only the first two are printed
+or generated.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+import mpmath
+from mpmath import mpf
+
+DIGITS = 30
+"""Digits to which both routes must agree."""
+POINTS = 24
+"""Random points at which they are compared."""
+WORKING = 50
+"""Digits that the comparison works with."""
+
+
+class Verdict(StrEnum):
+    """What is known of a formula."""
+
+    PROVED = "proved"
+    NUMERICAL = "numerical"
+    UNKNOWN = "unknown"
+    REFUTED = "refuted"
+
+
+@dataclass(frozen=True)
+class Proof:
+    """How a formula was shown right.
+
+    route    in words: what it was compared with
+    points   at how many random points both were evaluated (0: symbolically only)
+    digits   to how many digits they agreed at the worst of them
+    example  the point at which they differ, of a refuted formula
+    """
+
+    verdict: Verdict
+    route: str
+    points: int = 0
+    digits: int = 0
+    example: str = ""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the formula may be printed and generated."""
+        return self.verdict in (Verdict.PROVED, Verdict.NUMERICAL)
+
+    def __str__(self) -> str:
+        numbers = f"; {self.digits} digits at {self.points} points" if self.points else ""
+        return f"{self.verdict}: {self.route}{numbers}{self.example and '; at ' + self.example}"
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Two values of one thing at one point."""
+
+    formula: mpf
+    route: mpf
+    point: str
+
+    @property
+    def digits(self) -> int:
+        """Digits to which both agree."""
+        scale = max(abs(self.formula), abs(self.route))
+        gap = abs(self.formula - self.route)
+        if not mpmath.isfinite(scale):
+            return 0
+        return WORKING if gap == 0 else max(0, int(-mpmath.log10(gap / scale)))
+
+
+def numerical_proof(route: str, comparisons: Iterable[Comparison]) -> Proof:
+    """Verdict of a numerical comparison, all points drawn."""
+    points, worst = 0, WORKING
+    for comparison in comparisons:
+        points += 1
+        if comparison.digits < DIGITS:
+            example = f"{comparison.point}: {mpmath.nstr(comparison.formula, 17)} against "
+            example += mpmath.nstr(comparison.route, 17)
+            return Proof(Verdict.REFUTED, route, points, comparison.digits, example)
+        worst = min(worst, comparison.digits)
+    if points < POINTS:
+        return Proof(Verdict.UNKNOWN, f"{route}: only {points} of {POINTS} points drawn", points)
+    return Proof(Verdict.NUMERICAL, route, points, worst)
+
+
+def combined(symbolic: Proof | None, numerical: Proof | None) -> Proof:
+    """One verdict of a symbolic and a numerical route; a refutation by either one counts."""
+    known = [proof for proof in (symbolic, numerical) if proof is not None]
+    for verdict in (Verdict.REFUTED, Verdict.PROVED, Verdict.NUMERICAL):
+        first = next((proof for proof in known if proof.verdict == verdict), None)
+        if first is not None:
+            break
+    else:
+        return Proof(Verdict.UNKNOWN, "; ".join(proof.route for proof in known))
+    if first.verdict != Verdict.PROVED or numerical is None or not numerical.holds:
+        return first
+    route = f"{first.route}; {numerical.route}"
+    return Proof(Verdict.PROVED, route, numerical.points, numerical.digits)

@@ -1,0 +1,177 @@
+"""The formula sheet: everything derived for one body, in one object.
+
+In:  a geometry.
+Out: `FormulaSheet`, a mapping from names to `Formula`; it prints itself in a terminal and renders as
+     LaTeX in Jupyter.  A formula's dimensions are checked when it is made.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from sympy import Expr, Gt, Or, Symbol, oo
+from sympy.logic.boolalg import Boolean
+
+from derive.geometry import Geometry
+from derive.notation import latex_of, text_of
+from derive.proof.verdict import Proof
+from derive.symbols import P, a, alpha, c, h
+from derive.theory.frame import Frame
+from derive.units import Dimension, check, parse_unit
+
+
+@dataclass(frozen=True)
+class Formula:
+    """One derived formula: left = right, with all that a reader needs to trust and use it.
+
+    name        by which the sheet is asked for it, e.g. "load"
+    symbol      left-hand side, e.g. P
+    arguments   what it is a function of, e.g. (a, c)
+    expr        right-hand side; may hold the frame's symbols theta_j, w_j, L_j
+    meaning, unit, source
+    conditions  assumptions under which it holds
+    proof       None until proven
+    """
+
+    name: str
+    symbol: Symbol
+    arguments: tuple[Symbol, ...]
+    expr: Expr
+    meaning: str
+    unit: str
+    source: str
+    conditions: tuple[Boolean, ...]
+    proof: Proof | None = None
+
+    @property
+    def left(self) -> str:
+        """Left-hand side in LaTeX, e.g. P(a, c)."""
+        arguments = ", ".join(latex_of(argument) for argument in self.arguments)
+        return rf"{latex_of(self.symbol)}({arguments})"
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.left} = {latex_of(self.expr)}$"
+
+
+@dataclass(frozen=True, eq=False)
+class FormulaSheet(Mapping[str, Formula]):
+    """All formulas of one body, by name and in the order of their derivation."""
+
+    geometry: Geometry
+    frame: Frame
+    formulas: Mapping[str, Formula] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> Formula:
+        return self.formulas[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.formulas)
+
+    def __len__(self) -> int:
+        return len(self.formulas)
+
+    @cached_property
+    def dimensions(self) -> dict[Symbol, Dimension]:
+        """Dimension of every symbol that a formula may hold."""
+        return self.geometry.dimensions | {
+            symbol: parse_unit(unit)
+            for k in self.frame.kinks
+            for symbol, unit in ((k.theta, "rad"), (k.w, "m"), (k.L, "-"))
+        }
+
+    def plus(self, formula: Formula) -> "FormulaSheet":
+        """The sheet with one more formula.
+
+        Raises DimensionMismatch if the formula does not have the dimension of its unit.
+        """
+        where = f"{formula.name} of {self.geometry.name!r}"
+        check(formula.expr, formula.unit, where, self.dimensions)
+        return replace(self, formulas={**self.formulas, formula.name: formula})
+
+    def flat(self, name: str) -> Expr:
+        """A formula's right-hand side with every symbol of the frame written out."""
+        return self.frame.flat(self[name].expr)
+
+    def shown(self, name: str) -> Expr:
+        """A formula's right-hand side as it is printed: roots that are never clipped written out."""
+        roots = {k.w: k.root for k in self.frame.kinks if not k.clipped}
+        return self[name].expr.xreplace(roots)
+
+    @cached_property
+    def definitions(self) -> dict[Symbol, Expr]:
+        """The frame's symbols that some formula holds."""
+        held = set().union(*(self.shown(name).free_symbols for name in self))
+        return {s: d for s, d in self.frame.definitions.items() if s in held}
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the contact follows from the loads in closed form, too."""
+        return "contact_a" in self and "contact_at_tilt_a" in self
+
+    @property
+    def latex(self) -> str:
+        """All formulas as one LaTeX display."""
+        rows = [rf"g(x) &= {latex_of(self.geometry.g)}"]
+        rows += [rf"{f.left} &= {latex_of(self.shown(name))}" for name, f in self.items()]
+        rows += [
+            rf"{latex_of(s)} &= {latex_of(definition)}"
+            for s, definition in self.definitions.items()
+        ]
+        body = " \\\\\n".join(rows)
+        return f"\\begin{{aligned}}\n{body}\n\\end{{aligned}}"
+
+    def _repr_latex_(self) -> str:
+        return f"$$\n{self.latex}\n$$"
+
+    def __str__(self) -> str:
+        lines = [f"{self.geometry.name}: g(x) = {text_of(self.geometry.g)}"]
+        lines += [
+            f"  {f.symbol}({', '.join(map(str, f.arguments))}) = {text_of(self.shown(name))}"
+            for name, f in self.items()
+        ]
+        lines += [f"  {symbol} = {text_of(definition)}" for symbol, definition in self.definitions.items()]
+        return "\n".join(lines)
+
+
+POSITIVE_LOAD = Gt(P, 0, evaluate=False)
+"""Bodies in contact are pressed together."""
+
+
+def contact_conditions(frame: Frame) -> tuple[Boolean, ...]:
+    """When [-a, c] is a contact: it has a width, and is not inside one straight piece of g.
+
+    A body that is straight all over the contact carries no load there.
+    """
+    conditions = []
+    for piece in frame.slope.straight_pieces:
+        left, right = a > -piece.lower, c > piece.upper
+        if piece.lower == -oo:
+            conditions.append(right)
+        elif piece.upper == oo:
+            conditions.append(left)
+        else:
+            conditions.append(Or(left, right))
+    spans = {str(condition): condition for condition in conditions}
+    return (h > 0, *spans.values())
+
+
+def load_conditions() -> tuple[Boolean, ...]:
+    """A contact carries a positive load, and any moment that its flanks can take."""
+    return (POSITIVE_LOAD,)
+
+
+def tilt_conditions(frame: Frame) -> tuple[Boolean, ...]:
+    """The tilt leaves a slope of either sign at the two ends of the body, or contact cannot close."""
+    low, high = frame.slope.limits
+    bounds = []
+    if high != oo:
+        bounds.append(alpha > -high)
+    if low != -oo:
+        bounds.append(alpha < -low)
+    return (POSITIVE_LOAD, *bounds)
+
+
+def inside_contact(frame: Frame, place: Symbol) -> tuple[Boolean, ...]:
+    """`place` lies in the contact."""
+    return (*contact_conditions(frame), place > -a, place < c)
+

@@ -1,0 +1,82 @@
+"""Every symbol of the theory once: its meaning, unit and assumptions.
+
+One convention of signs for the whole project: x to the right, the tilt alpha anticlockwise, the
+contact [-a, c] with signed a and c, M = -int p x dx so that M > 0 goes with alpha > 0 on a
+symmetric body, dsigma > 0 and dQ > 0 together load the left edge more.
+"""
+
+from dataclasses import dataclass
+
+from sympy import Symbol, sqrt
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A symbol with what a reader must know of it."""
+
+    symbol: Symbol
+    meaning: str
+    unit: str
+    latex: str = ""
+
+    @property
+    def name(self) -> str:
+        """The name in code and in commands."""
+        return str(self.symbol.name)
+
+
+x = Symbol("x", real=True)
+a = Symbol("a", real=True)
+c = Symbol("c", real=True)
+alpha = Symbol("alpha", real=True)
+E_star = Symbol("E_star", positive=True)
+P = Symbol("P", positive=True)
+M = Symbol("M", real=True)
+e = Symbol("e", real=True)
+s = Symbol("s", positive=True)
+f = Symbol("f", positive=True)
+dQ = Symbol("dQ", nonnegative=True)
+dsigma = Symbol("dsigma", real=True)
+
+h = a + c
+"""Contact width."""
+mid = (c - a) / 2
+"""Middle of the contact."""
+w = sqrt((a + x) * (c - x))
+"""The root that vanishes at both edges."""
+
+_TABLE = (
+    Quantity(x, "position along the interface, right positive", "m"),
+    Quantity(a, "left edge of the contact at x = -a", "m"),
+    Quantity(c, "right edge of the contact at x = c", "m"),
+    Quantity(alpha, "tilt, anticlockwise positive: the slope in contact is g'(x) + alpha", "rad"),
+    Quantity(
+        E_star,
+        "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain",
+        "Pa",
+        "E^{*}",
+    ),
+    Quantity(P, "normal load per unit depth", "N/m"),
+    Quantity(M, "moment per unit depth, M = -int p x dx", "N"),
+    Quantity(e, "lever arm M/P: the load acts at x = -e", "m"),
+    Quantity(s, "distance inward from an edge", "m"),
+    Quantity(f, "coefficient of friction", "-"),
+    Quantity(dQ, "change of the shear load over the half-cycle that raises it", "N/m", r"\Delta Q"),
+    Quantity(
+        dsigma,
+        "change of the differential bulk tension over the same half-cycle",
+        "Pa",
+        r"\Delta\sigma",
+    ),
+)
+
+QUANTITIES: dict[str, Quantity] = {q.name: q for q in _TABLE}
+
+RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(
+    # names that the theory and the generated modules use besides
+    "b1 d da dc dq d_left d_right h kappa lambda m mid n p p1 p2 pi q Q sigma t theta w xi "
+    "np scipy first second order exists E I N O S oo nan inf "
+    "contact contact_at_tilt tilt load moment pressure K_N L_N K_T L_T K_Q "
+    "stick_zone tension_threshold slip_zones Contact Edges StickZone Threshold Regime".split()
+)
+"""Names that no parameter may take."""

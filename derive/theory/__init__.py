@@ -1,0 +1,10 @@
+"""The mechanics of one half-plane contact, stage by stage; each module imports only earlier ones.
+
+frame        what a kink brings: its angle, its root, its logarithm
+moments      I_k(a, c), the integrals that equilibrium is made of
+equilibrium  tilt from I_0 = 0, load and moment from I_1 and I_2
+pressure     p(x) inside the contact
+contact_law  P'(c) along fixed tilt, F(c), and the inverses (P, M), (P, alpha) -> (a, c)
+edges        K_N by two routes, the series of p at an edge
+stick        the change of shear in a fully stuck contact, K_T
+"""

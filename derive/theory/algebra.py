@@ -1,0 +1,112 @@
+"""Bringing formulas into one form, and deciding whether one is zero.
+
+All closed forms are rational functions of a, c, x, the parameters and the symbols of the kinks, of
+which w_j obeys w_j**2 = (a + x_j)(c - x_j).  In that ring "is it zero" has an exact answer.
+"""
+
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    Poly,
+    Pow,
+    Rational,
+    S,
+    Symbol,
+    cancel,
+    count_ops,
+    expand,
+    factor,
+    fraction,
+    together,
+)
+
+from derive.theory.frame import Frame
+
+
+def reduced(expr: Expr, frame: Frame) -> Expr:
+    """`expr` as one quotient, no w_j above the first power in numerator and denominator."""
+    numerator, denominator = fraction(together(expr))
+    return cancel(_first_power(numerator, frame) / _first_power(denominator, frame))
+
+
+def tidy(expr: Expr, frame: Frame) -> Expr:
+    """`expr` in the form that is shown: factored, or collected by the kinks' symbols if shorter."""
+    quotient = reduced(expr, frame)
+    forms = [factor(quotient), _collected(quotient, frame)]
+    return min(forms, key=lambda form: (count_ops(form), str(form)))
+
+
+def is_zero(expr: Expr, frame: Frame) -> bool:
+    """Whether `expr` vanishes identically in the ring; exact, never a guess.
+
+    Every root becomes a symbol whose square is known and every denominator is multiplied up, so that
+    a polynomial remains; it is expanded, even powers of roots are replaced, and it is zero or not.
+    """
+    expr, roots = _without_roots(expr)
+    squares = {k.w: k.left * k.right for k in frame.kinks} | roots
+    return bool(_even_powers_replaced(expand(_numerator(expr)), squares) == 0)
+
+
+def _numerator(expr: Expr) -> Expr:
+    """`expr` times every denominator that it holds, to the highest power at which it occurs."""
+    inverses = {p for p in expr.atoms(Pow) if p.exp.is_Integer and p.exp < 0}
+    symbols = {base: Dummy("v") for base in sorted({p.base for p in inverses}, key=str)}
+    table = {p: symbols[p.base] ** -p.exp for p in inverses}
+    terms = Add.make_args(expand(expr.xreplace(table)))
+    powers = [term.as_powers_dict() for term in terms]
+    total = S.Zero
+    highest = {v: max(p.get(v, 0) for p in powers) for v in symbols.values()}
+    for term, held in zip(terms, powers, strict=True):
+        for base, v in symbols.items():
+            term *= base ** highest[v] * (v * base) ** -held.get(v, 0)
+        total += term
+    return total
+
+
+def _even_powers_replaced(expanded: Expr, squares: dict[Symbol, Expr]) -> Expr:
+    total = []
+    for term in Add.make_args(expanded):
+        powers = term.as_powers_dict()
+        for root, square in squares.items():
+            even = powers.get(root, 0) // 2
+            term *= (square / root**2) ** even
+        total.append(term)
+    return expand(Add(*total))
+
+
+def _without_roots(expr: Expr) -> tuple[Expr, dict[Symbol, Expr]]:
+    """Each sqrt(base) as a symbol r, an odd power base**(n/2) as r base**((n-1)/2)."""
+    halves = {p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2}
+    symbols = {base: Dummy("r") for base in sorted({p.base for p in halves}, key=str)}
+    table = {p: symbols[p.base] * p.base ** (p.exp - Rational(1, 2)) for p in halves}
+    return expr.xreplace(table), {symbol: base for base, symbol in symbols.items()}
+
+
+def _symbols(frame: Frame) -> list[Symbol]:
+    return [symbol for k in frame.kinks for symbol in (k.theta, k.w)]
+
+
+def _collected(quotient: Expr, frame: Frame) -> Expr:
+    """Each coefficient of theta_j and w_j factored by itself."""
+    numerator, denominator = fraction(quotient)
+    symbols = [s for s in _symbols(frame) if numerator.has(s)]
+    if not symbols:
+        return factor(quotient)
+    content, primitive = Poly(numerator, *symbols).primitive()
+    collected = sum(
+        factor(coefficient) * Poly({powers: 1}, *symbols).as_expr()
+        for powers, coefficient in primitive.terms()
+    )
+    return factor(content / denominator) * collected
+
+
+def _first_power(expr: Expr, frame: Frame) -> Expr:
+    for k in frame.kinks:
+        if expr.has(k.w):
+            square = k.left * k.right
+            expr = sum(
+                coefficient * square ** (power // 2) * k.w ** (power % 2)
+                for (power,), coefficient in Poly(expr, k.w).terms()
+            )
+    return expr

@@ -1,0 +1,153 @@
+r"""From loads to the contact: (P, M) -> (a, c, alpha) and (P, alpha) -> (a, c, M) in closed form.
+
+The natural unknowns are the width h and the middle mid, for M/P holds mid to the first power
+wherever a closed inverse is known.  A body whose flanks are straight and meet in one corner is better
+served by the corner's angle: mid = x_1 -/+ (h/2) cos(theta_1) and w_1 = (h/2) sin(theta_1).
+
+Where no closed inverse is found the result is None; nothing is guessed and nothing times out: the
+equations tried are those of first or second degree, so that the answer is the same on every machine.
+"""
+
+from dataclasses import dataclass
+
+from sympy import (
+    Expr,
+    Poly,
+    Rational,
+    S,
+    Symbol,
+    atan2,
+    cos,
+    expand,
+    factor,
+    simplify,
+    sin,
+    sqrt,
+    tan,
+)
+
+from derive.symbols import P, a, alpha, c, e
+from derive.theory.algebra import reduced
+from derive.theory.frame import Frame, KinkFrame
+
+_h = Symbol("h", positive=True)
+_mid = Symbol("mid", real=True)
+_kappa = Symbol("kappa", positive=True)
+
+
+@dataclass(frozen=True)
+class Inverse:
+    """A contact, its tilt and its moment, as functions of the loads."""
+
+    a: Expr
+    c: Expr
+    alpha: Expr
+    M: Expr
+
+
+def contact_from_moment(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> Inverse | None:
+    """(P, M) -> (a, c, alpha), in terms of P and the lever arm e = M/P."""
+    to_middle = _in_middle_and_width(frame)
+    arm = reduced(moment / load, frame)
+    middle = _root_of_first_degree(arm.subs(to_middle) - e, _mid)
+    if middle is None:
+        return None
+    half = _half_width(simplify(load.subs(to_middle).subs(_mid, middle)))
+    if half is None:
+        return None
+    edges = {_mid: middle, _h: 2 * half}
+    angle = tilt.subs(_angles(frame)).subs(to_middle).subs(edges)
+    return Inverse(half - middle, half + middle, _opened_roots(angle), M=P * e)
+
+
+def contact_from_tilt(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> Inverse | None:
+    """(P, alpha) -> (a, c, M)."""
+    arm = reduced(moment / load, frame)
+    if not frame.kinks:
+        return _smooth_at_tilt(frame, tilt, load, arm)
+    if len(frame.kinks) == 1 and not frame.kinks[0].clipped:
+        return _corner_at_tilt(frame.kinks[0], tilt, load, arm)
+    return None
+
+
+def _smooth_at_tilt(frame: Frame, tilt: Expr, load: Expr, arm: Expr) -> Inverse | None:
+    to_middle = _in_middle_and_width(frame)
+    middle = _root_of_first_degree(tilt.subs(to_middle) - alpha, _mid)
+    if middle is None:
+        return None
+    half = _half_width(simplify(load.subs(to_middle).subs(_mid, middle)))
+    if half is None:
+        return None
+    edges = {a: half - middle, c: half + middle}
+    return Inverse(edges[a], edges[c], alpha, M=P * simplify(arm.subs(edges)))
+
+
+def _corner_at_tilt(corner: KinkFrame, tilt: Expr, load: Expr, arm: Expr) -> Inverse | None:
+    """One corner between straight flanks, by half its angle.
+
+    From (1 - cos u)/sin u = tan(u/2): the edge on the jump's side lies (h/2) sin(theta_1) times
+    tan(theta_1/2) from the corner, the other the same over the tangent.
+    """
+    angle = _root_of_first_degree(tilt - alpha, corner.theta)
+    if angle is None:
+        return None
+    place, side = corner.kink.position, corner.kink.side
+    middle = place - side * _h / 2 * cos(_kappa)
+    at_angle = {corner.w: _h / 2 * sin(_kappa), corner.theta: _kappa}
+    edges = {a: _h / 2 - middle, c: _h / 2 + middle}
+    half = _half_width(simplify(load.subs(at_angle).subs(edges)))
+    if half is None:
+        return None
+    arm_of_angle = simplify(arm.subs(at_angle).subs(edges).subs(_h, 2 * half))
+    base = simplify(half * sin(_kappa))
+    if base.has(_kappa):
+        return None
+    tangent = tan(factor(angle) / 2)
+    near, far = base * tangent, base / tangent
+    right, left = (near, far) if side > 0 else (far, near)
+    return Inverse(left - place, right + place, alpha, M=P * arm_of_angle.subs(_kappa, factor(angle)))
+
+
+def _in_middle_and_width(frame: Frame) -> dict[Expr, Expr]:
+    """a, c and the roots in terms of mid and h."""
+    table: dict[Expr, Expr] = {a: _h / 2 - _mid, c: _h / 2 + _mid}
+    for k in frame.kinks:
+        table[k.w] = sqrt(_h**2 / 4 - (k.kink.position - _mid) ** 2)
+    return table
+
+
+def _angles(frame: Frame) -> dict[Expr, Expr]:
+    """theta_j from its sine 2 w_j/h and its cosine, both of which the loads give directly."""
+    return {k.theta: atan2(k.w, k.kink.side * (k.kink.position - _mid)) for k in frame.kinks}
+
+
+def _root_of_first_degree(expr: Expr, unknown: Symbol) -> Expr | None:
+    """The root of `expr` = 0 if it is linear in `unknown` and free of the width."""
+    expr = expand(simplify(expr))
+    if not expr.is_polynomial(unknown):
+        return None
+    poly = Poly(expr, unknown)
+    root = -poly.nth(0) / poly.nth(1) if poly.degree() == 1 else S.NaN
+    return None if root.has(_h, S.NaN) else simplify(root)
+
+
+def _half_width(load: Expr) -> Expr | None:
+    """h/2 > 0 at which load(h) = P, if the load is C h, C h**2 or C sqrt(h**2 + D)."""
+    if load.is_polynomial(_h):
+        terms = Poly(load, _h).terms()
+        if len(terms) == 1 and terms[0][0][0] in (1, 2):
+            (power,), coefficient = terms[0]
+            return (P / (2**power * coefficient)) ** Rational(1, power)
+        return None
+    square = expand(load**2)
+    if not square.is_polynomial(_h):
+        return None
+    poly = Poly(square, _h)
+    if not {power for (power,), _ in poly.terms()} <= {2, 0}:
+        return None
+    return sqrt(factor(-poly.nth(0) / poly.nth(2) / 4) + P**2 * factor(1 / poly.nth(2) / 4))
+
+
+def _opened_roots(expr: Expr) -> Expr:
+    """`expr` with every root that opens without one opened."""
+    return expr.replace(lambda n: n.is_Pow and n.exp == S.Half, lambda n: sqrt(simplify(n.base)))

@@ -1,0 +1,95 @@
+r"""The pressure next to an edge: K_N by two routes, and the series to any order.
+
+Route 1 (Mossakovskii): along fixed tilt, K_N,right = (2/pi) P'(c)/sqrt(a + c) and
+K_N,left = K_N,right / a'(c).
+Route 2: expand p itself.  With s the distance inward, w = sqrt(s) sqrt(h - s), and from
+
+    dL_j/dx = -w_j / (2 (x - x_j) w(x))
+
+each logarithm is an integral of a binomial series; no limit is taken of anything.
+"""
+
+from enum import Enum
+
+from sympy import Expr, Integer, Poly, Rational, S, binomial, cancel, expand, pi, sqrt
+
+from derive.symbols import E_star, a, c, h, s, x
+from derive.theory.algebra import tidy
+from derive.theory.frame import Frame, KinkFrame
+from derive.theory.pressure import smooth_part
+
+
+class Edge(Enum):
+    """An edge of the contact: where it lies, and which way is inward."""
+
+    LEFT = (-a, 1)
+    RIGHT = (c, -1)
+
+    @property
+    def position(self) -> Expr:
+        """x of the edge."""
+        return self.value[0]
+
+    @property
+    def inward(self) -> int:
+        """+1 where inward is to the right."""
+        return int(self.value[1])
+
+
+def pressure_series(frame: Frame, edge: Edge, terms: int) -> list[Expr]:
+    """[K_N, L_N, ...] with p = sqrt(s) (K_N + L_N s + ...) at a distance s inward of `edge`."""
+    at = edge.position + edge.inward * s
+    smooth = _taylor(smooth_part(frame).subs(x, at), terms)
+    total = _product(smooth, _root_series(Rational(1, 2), terms), terms)
+    for kink in frame.kinks:
+        jump = _taylor(kink.kink.jump.subs(x, at), terms)
+        logarithm = _logarithm_series(kink, edge, terms)
+        sense = kink.kink.side * 2 / pi
+        for i, term in enumerate(_product(jump, logarithm, terms)):
+            total[i] += sense * term
+    return [tidy(E_star / 2 * sqrt(h) * cancel(term), frame) for term in total]
+
+
+def _taylor(polynomial: Expr, terms: int) -> list[Expr]:
+    coefficients = Poly(polynomial, s).all_coeffs()[::-1]
+    return (coefficients + [S.Zero] * terms)[:terms]
+
+
+def _product(first: list[Expr], second: list[Expr], terms: int) -> list[Expr]:
+    return [
+        expand(sum((first[i] * second[n - i] for i in range(n + 1)), S.Zero)) for n in range(terms)
+    ]
+
+
+def _root_series(power: Expr, terms: int) -> list[Expr]:
+    """(1 - s/h)**power."""
+    return [binomial(power, n) * (-1 / h) ** n for n in range(terms)]
+
+
+def _logarithm_series(kink: KinkFrame, edge: Edge, terms: int) -> list[Expr]:
+    """L_j / (sqrt(h) sqrt(s)): the integral of w_j / (2 (d - t) sqrt(t) sqrt(h - t)) over 0 < t < s.
+
+    d is the distance from the edge to the kink.
+    """
+    distance = kink.right if edge is Edge.RIGHT else kink.left
+    geometric = [distance ** -(n + 1) for n in range(terms)]
+    integrand = _product(geometric, _root_series(Rational(-1, 2), terms), terms)
+    return [
+        kink.w / (2 * h) * term / (Integer(n) + Rational(1, 2)) for n, term in enumerate(integrand)
+    ]
+
+
+def edge_ratio(frame: Frame, tilt: Expr) -> Expr:
+    """a'(c) along fixed tilt, -(d alpha/dc)/(d alpha/da)."""
+    return tidy(-frame.diff(tilt, c) / frame.diff(tilt, a), frame)
+
+
+def load_rate(frame: Frame, load: Expr, ratio: Expr) -> Expr:
+    """P'(c) along fixed tilt."""
+    return tidy(frame.diff(load, c) + frame.diff(load, a) * ratio, frame)
+
+
+def K_N_from_contact_law(frame: Frame, rate: Expr, ratio: Expr) -> tuple[Expr, Expr]:
+    """K_N at the left and the right edge by the Mossakovskii route."""
+    right = 2 / pi * rate / sqrt(h)
+    return tidy(right / ratio, frame), tidy(right, frame)

@@ -1,0 +1,29 @@
+r"""Tilt, load and moment of the contact [-a, c].
+
+I_0 = 0 keeps the pressure bounded at both edges; it is linear in the tilt, so alpha is explicit.
+The tilt drops out of I_1 - mid I_0, so the load needs no tilt at all; the moment needs it once.
+"""
+
+from sympy import Expr, pi
+
+from derive.symbols import E_star, mid
+from derive.theory.algebra import tidy
+from derive.theory.frame import Frame
+from derive.theory.moments import full_moment, slope_moment
+
+
+def tilt(frame: Frame) -> Expr:
+    """alpha(a, c) from I_0 = 0."""
+    return tidy(-slope_moment(0, frame) / pi, frame)
+
+
+def load(frame: Frame) -> Expr:
+    """P(a, c) = (E*/2) (I_1 - mid I_0)."""
+    return tidy(E_star / 2 * (slope_moment(1, frame) - mid * slope_moment(0, frame)), frame)
+
+
+def moment(frame: Frame) -> Expr:
+    """M(a, c) = -(E*/2) (I_2 - mid I_1), the tilt included."""
+    alpha = -slope_moment(0, frame) / pi
+    first, second = (slope_moment(k, frame) + alpha * full_moment(k) for k in (1, 2))
+    return tidy(-E_star / 2 * (second - mid * first), frame)

@@ -1,0 +1,123 @@
+r"""What a kink brings into the formulas: its angle, its root, its logarithm.
+
+With x = mid + (h/2) cos(theta) the contact is the half circle 0 < theta < pi, and a kink at x_j cuts
+it.  All formulas are rational in three symbols per kink:
+
+    theta_j  the angle of that part of the contact in which the jump acts,
+             2 atan( sqrt(c - x_j) / sqrt(a + x_j) ) for a jump on the right of the kink
+    w_j      sqrt((a + x_j)(c - x_j))
+    L_j      (1/2) log |(sqrt u_j + sqrt v_j) / (sqrt u_j - sqrt v_j)|,
+             u_j = (c - x_j)(a + x),  v_j = (a + x_j)(c - x)
+
+A kink outside the contact has theta_j = 0 or pi and w_j = L_j = 0: its roots are clipped at zero, so
+that one formula serves the contact that has left the kink.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from sympy import Abs, Expr, Max, Symbol, atan2, log, sqrt
+
+from derive.profile import Kink, Slope
+from derive.symbols import a, c, h, w, x
+
+
+@dataclass(frozen=True)
+class KinkFrame:
+    """A kink with the three symbols that stand for it."""
+
+    kink: Kink
+    clipped: bool
+
+    @cached_property
+    def theta(self) -> Symbol:
+        """Angle of the part of the contact in which the jump acts."""
+        return Symbol(f"theta_{self.kink.number}", nonnegative=True)
+
+    @cached_property
+    def w(self) -> Symbol:
+        """Root of the product of the distances from the kink to both edges."""
+        return Symbol(f"w_{self.kink.number}", nonnegative=True)
+
+    @cached_property
+    def L(self) -> Symbol:
+        """Logarithm by which the kink shows in the pressure."""
+        return Symbol(f"L_{self.kink.number}", nonnegative=True)
+
+    @property
+    def left(self) -> Expr:
+        """Distance from the left edge to the kink, a + x_j."""
+        return a + self.kink.position
+
+    @property
+    def right(self) -> Expr:
+        """Distance from the kink to the right edge, c - x_j."""
+        return c - self.kink.position
+
+    def _clip(self, distance: Expr) -> Expr:
+        return Max(0, distance) if self.clipped else distance
+
+    @property
+    def angle(self) -> Expr:
+        """The definition of theta_j."""
+        near, far = (self.right, self.left) if self.kink.side > 0 else (self.left, self.right)
+        return 2 * atan2(sqrt(self._clip(near)), sqrt(self._clip(far)))
+
+    @property
+    def root(self) -> Expr:
+        """The definition of w_j."""
+        return sqrt(self._clip(self.left) * self._clip(self.right))
+
+    @property
+    def logarithm(self) -> Expr:
+        """The definition of L_j."""
+        u = sqrt(self._clip(self.right) * (a + x))
+        v = sqrt(self._clip(self.left) * (c - x))
+        return log(Abs((u + v) / (u - v))) / 2
+
+
+@dataclass(frozen=True)
+class Frame:
+    """All kinks of a body, and the algebra of their symbols."""
+
+    slope: Slope
+
+    @cached_property
+    def kinks(self) -> tuple[KinkFrame, ...]:
+        """One frame a kink; clipped unless every contact must span the kink.
+
+        A single kink between two straight flanks is always spanned: without it nothing presses.
+        """
+        always_spanned = len(self.slope.kinks) == 1 and all(p.straight for p in self.slope.pieces)
+        return tuple(KinkFrame(kink, clipped=not always_spanned) for kink in self.slope.kinks)
+
+    @cached_property
+    def definitions(self) -> dict[Symbol, Expr]:
+        """What each symbol of the frame stands for."""
+        pairs = [
+            pair
+            for k in self.kinks
+            for pair in ((k.theta, k.angle), (k.w, k.root), (k.L, k.logarithm))
+        ]
+        return dict(pairs)
+
+    def flat(self, expr: Expr) -> Expr:
+        """`expr` with every symbol of the frame written out."""
+        return expr.xreplace(self.definitions)
+
+    def diff(self, expr: Expr, edge: Symbol) -> Expr:
+        """Derivative along the edge a or c, by the chain rule; free of 1/w_j.
+
+        From cos(theta_j) = (x_j - mid)/(h/2):  d theta_j/dc = w_j/(h (c - x_j)) and
+        d theta_j/da = -w_j/(h (a + x_j)) where the jump acts on the right, the opposite on the left;
+        d w_j/dc = w_j/(2 (c - x_j)),  d w_j/da = w_j/(2 (a + x_j));
+        d L_j/dc = w_j (a + x)/(2 h w (c - x_j)),  d L_j/da = w_j (c - x)/(2 h w (a + x_j)).
+        """
+        total = expr.diff(edge)
+        for k in self.kinks:
+            distance, sense = (k.right, 1) if edge == c else (k.left, -1)
+            total += expr.diff(k.theta) * sense * k.kink.side * k.w / (h * distance)
+            total += expr.diff(k.w) * k.w / (2 * distance)
+            opposite = a + x if edge == c else c - x
+            total += expr.diff(k.L) * k.w * opposite / (2 * h * w * distance)
+        return total

@@ -1,0 +1,51 @@
+r"""I_k(a, c) = int_{-a}^{c} s^k g'(s)/w(s) ds: what equilibrium is made of.
+
+The powers obey one recursion.  From d/ds (s^(k-1) w) = (-k s^k + (2k-1) mid s^(k-1)
++ (k-1) a c s^(k-2))/w, over any part of the contact,
+
+    k J_k = (2k-1) mid J_{k-1} + (k-1) a c J_{k-2} - [s^(k-1) w],     J_0 = angle of the part,
+
+and w vanishes at both edges, so that only a kink leaves a bracket.
+"""
+
+from sympy import Expr, Integer, Poly, S, expand, pi
+
+from derive.symbols import a, c, mid, x
+from derive.theory.frame import Frame, KinkFrame
+
+
+def full_moment(k: int) -> Expr:
+    """int_{-a}^{c} s^k / w ds."""
+    return _recursion(k, pi, at=S.Zero, bracket=S.Zero)
+
+
+def kink_moment(k: int, kink: KinkFrame) -> Expr:
+    """int s^k / w ds over that part of the contact in which the kink's jump acts."""
+    return _recursion(k, kink.theta, at=kink.kink.position, bracket=-kink.kink.side * kink.w)
+
+
+def _recursion(k: int, angle: Expr, at: Expr, bracket: Expr) -> Expr:
+    """J_k of a part with [s^n w] = at**n * bracket."""
+    before, current = S.Zero, angle
+    for n in range(1, k + 1):
+        boundary = bracket * (Integer(1) if n == 1 else at ** (n - 1))
+        following = ((2 * n - 1) * mid * current + (n - 1) * a * c * before - boundary) / n
+        before, current = current, expand(following)
+    return current
+
+
+def weighted(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
+    """int polynomial(s)/w ds over the contact, or over the part in which `kink` acts."""
+    total = S.Zero
+    for (power,), coefficient in Poly(polynomial, x).terms():
+        part = full_moment(power) if kink is None else kink_moment(power, kink)
+        total += coefficient * part
+    return expand(total)
+
+
+def slope_moment(k: int, frame: Frame) -> Expr:
+    """I_k of g' alone, without the tilt."""
+    total = weighted(x**k * frame.slope.base)
+    for kink in frame.kinks:
+        total += weighted(x**k * kink.kink.jump, kink)
+    return expand(total)
