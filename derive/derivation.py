@@ -51,9 +51,7 @@ def _equilibrium(sheet: FormulaSheet) -> Iterator[Formula]:
         ("moment", M, equilibrium.moment, "moment", "N", "M = -(E*/2) (I_2 - mid I_1)"),
     ):
         source = f"{source}; {_CLASSIC}"
-        yield Formula(
-            name, symbol, (a, c), derive(sheet.frame), meaning, unit, source, conditions
-        )
+        yield Formula(name, symbol, (a, c), derive(sheet.frame), meaning, unit, source, conditions)
 
 
 def _pressure(sheet: FormulaSheet) -> Iterator[Formula]:

@@ -31,8 +31,8 @@ class BadName(UserError):
     def message(self) -> str:
         """What was wrong with the name."""
         return (
-            f"{self.what} {self.given!r} {self.why}; a name is lower- or upper-case letters, digits "
-            "and _, does not start with a digit, and is none of the theory's own: choose another"
+            f"{self.what} {self.given!r} {self.why}; a name is letters, digits and "
+            "_, does not start with a digit, and is none of the theory's own: choose another"
         )
 
 

@@ -1,6 +1,7 @@
 """A body: its name, its profile g(x), and the parameters that g holds."""
 
 import keyword
+import re
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -23,9 +24,10 @@ class Parameter(Symbol):
     unit: str
 
     def __new__(cls, name: str, meaning: str, unit: str) -> "Parameter":
+        """A symbol of its own: two parameters of one name stay apart."""
         symbol = Symbol.__xnew__(cls, name, positive=True)
         symbol.meaning, symbol.unit = meaning, unit
-        return symbol  # type: ignore[no-any-return]
+        return symbol
 
     def __getnewargs_ex__(self) -> tuple[tuple[str, ...], dict[str, Any]]:
         return (self.name, self.meaning, self.unit), {}
@@ -46,7 +48,7 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     """
     if not isinstance(name, str) or not _usable(name):
         raise BadName("parameter", str(name), "cannot be a name")
-    if name in RESERVED:
+    if name in RESERVED or re.fullmatch(r"(theta|w|L)_\d+", name):
         raise BadName("parameter", name, "is taken by the theory")
     parse_unit(unit)
     return Parameter(name, meaning, unit)
@@ -89,15 +91,11 @@ class Geometry:
         plain = {}
         for symbol in sorted(given.free_symbols, key=str):
             if isinstance(symbol, Parameter):
-                quantity = Quantity(
-                    Symbol(symbol.name, positive=True), symbol.meaning, symbol.unit
-                )
+                quantity = Quantity(Symbol(symbol.name, positive=True), symbol.meaning, symbol.unit)
                 plain[symbol] = quantity
             elif symbol != x:
                 raise UnknownSymbol(self.name, str(symbol))
-        object.__setattr__(
-            self, "g", given.xreplace({p: q.symbol for p, q in plain.items()})
-        )
+        object.__setattr__(self, "g", given.xreplace({p: q.symbol for p, q in plain.items()}))
         object.__setattr__(self, "parameters", tuple(plain.values()))
         check(self.g, "m", f"g of {self.name!r}", self.dimensions)
         self.slope  # noqa: B018  (a profile that cannot be read is refused here)

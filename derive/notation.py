@@ -36,7 +36,7 @@ def _names() -> dict[str, str]:
 
 
 def gathered(expr: Basic) -> Basic:
-    """`expr` with the half powers of every product under one root: sqrt(P R/E*), not three roots."""
+    """`expr` with the half powers of every product under one root, e.g. sqrt(P R/E*)."""
     return expr.replace(lambda node: isinstance(node, Mul), gathered_product)
 
 

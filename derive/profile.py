@@ -8,6 +8,7 @@ Out: a `Slope`, g'(x) as the polynomial of one reference piece plus a polynomial
 import random
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 from sympy import (
     Abs,
@@ -102,7 +103,7 @@ class Slope:
 def read_slope(name: str, g: Expr) -> Slope:
     """Read the profile of the body `name`.
 
-    Raises BadProfile when g is no polynomial on its pieces, not continuous, not convex, or straight.
+    Raises BadProfile when g is no polynomial on its pieces, not continuous, not convex or straight.
     """
     pieces = _merged(_resolved(name, g, -oo, oo))
     for piece in pieces:
@@ -124,7 +125,7 @@ def read_slope(name: str, g: Expr) -> Slope:
             side=1 if i > reference else -1,
             jump=expand((right.slope - left.slope) * (1 if i > reference else -1)),
         )
-        for i, (left, right) in enumerate(zip(pieces, pieces[1:], strict=False), start=1)
+        for i, (left, right) in enumerate(pairwise(pieces), start=1)
     ]
     return Slope(tuple(pieces), expand(pieces[reference].slope), tuple(kinks))
 
@@ -136,7 +137,7 @@ def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
         return [Piece(lower, upper, expand(g))]
     points = [lower, *_between(name, _switching_points(name, inner), lower, upper), upper]
     pieces = []
-    for left, right in zip(points, points[1:], strict=False):
+    for left, right in pairwise(points):
         value = _branch(name, inner, _inside(left, right))
         pieces += _resolved(name, g.xreplace({inner: value}), left, right)
     return pieces
@@ -227,8 +228,10 @@ def _branch(name: str, node: Expr, at: Expr) -> Expr:
             return all(values) if isinstance(condition, And) else any(values)
         if isinstance(condition, Relational):
             value = simplify((condition.lhs - condition.rhs).subs(x, at))
-            return bool(condition.func(value, 0)) if value == 0 else bool(
-                condition.func(1 if _is_positive(name, value) else -1, 0)
+            return (
+                bool(condition.func(value, 0))
+                if value == 0
+                else bool(condition.func(1 if _is_positive(name, value) else -1, 0))
             )
         raise BadProfile(name, f"has the condition {condition}", "use <, <=, >, >= and, or, not")
 
@@ -265,7 +268,7 @@ def _merged(pieces: list[Piece]) -> list[Piece]:
 
 
 def _demand_continuous(name: str, pieces: list[Piece]) -> None:
-    for left, right in zip(pieces, pieces[1:], strict=False):
+    for left, right in pairwise(pieces):
         step = simplify((right.profile - left.profile).subs(x, right.lower))
         if step != 0:
             raise BadProfile(
@@ -293,7 +296,7 @@ def _at(piece: Piece, values: dict[Symbol, Rational]) -> Piece:
 def _demand_rising(name: str, pieces: list[Piece], values: dict[Symbol, Rational]) -> None:
     given = ", ".join(f"{k} = {v}" for k, v in values.items())
     remedy = f"the contact could break into several patches (seen with {given}); make it convex"
-    for left, right in zip(pieces, pieces[1:], strict=False):
+    for left, right in pairwise(pieces):
         if (right.slope - left.slope).subs(x, right.lower) < 0:
             raise BadProfile(name, f"is not convex: its slope falls at x = {right.lower}", remedy)
     for piece in pieces:
@@ -303,12 +306,14 @@ def _demand_rising(name: str, pieces: list[Piece], values: dict[Symbol, Rational
         for at in _probes(curvature, lower, upper):
             if curvature.eval(at) < 0:
                 raise BadProfile(
-                    name, f"is not convex: its curvature is negative near x = {float(at):.3g}", remedy
+                    name,
+                    f"is not convex: its curvature is negative near x = {float(at):.3g}",
+                    remedy,
                 )
 
 
 def _probes(curvature: Poly, lower: Expr | None, upper: Expr | None) -> list[Rational]:
-    """One point between every two neighbouring roots of the curvature: all that decides its sign."""
+    """One point between every two neighbouring roots of the curvature, which decide its sign."""
     if curvature.is_ground:
         return [Integer(0)]
     marks = sorted({Rational(str(r)) for r in curvature.nroots(n=30, maxsteps=200) if r.is_real})
@@ -317,4 +322,4 @@ def _probes(curvature: Poly, lower: Expr | None, upper: Expr | None) -> list[Rat
     inner = inner or [Integer(0)]
     points = [inner[0] - 1, *inner] if lower is None else inner
     points = [*points, inner[-1] + 1] if upper is None else points
-    return [cancel((p + q) / 2) for p, q in zip(points, points[1:], strict=False)]
+    return [cancel((p + q) / 2) for p, q in pairwise(points)]

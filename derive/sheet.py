@@ -1,8 +1,8 @@
 """The formula sheet: everything derived for one body, in one object.
 
 In:  a geometry.
-Out: `FormulaSheet`, a mapping from names to `Formula`; it prints itself in a terminal and renders as
-     LaTeX in Jupyter.  A formula's dimensions are checked when it is made.
+Out: `FormulaSheet`, a mapping from names to `Formula`; it prints itself in a terminal and renders
+     as LaTeX in Jupyter.  A formula's dimensions are checked when it is made.
 """
 
 from collections.abc import Iterator, Mapping
@@ -93,7 +93,7 @@ class FormulaSheet(Mapping[str, Formula]):
         return self.frame.flat(self[name].expr)
 
     def shown(self, name: str) -> Expr:
-        """A formula's right-hand side as it is printed: roots that are never clipped written out."""
+        """A formula's right-hand side as printed: roots that are never clipped written out."""
         roots = {k.w: k.root for k in self.frame.kinks if not k.clipped}
         return self[name].expr.xreplace(roots)
 
@@ -129,7 +129,9 @@ class FormulaSheet(Mapping[str, Formula]):
             f"  {f.symbol}({', '.join(map(str, f.arguments))}) = {text_of(self.shown(name))}"
             for name, f in self.items()
         ]
-        lines += [f"  {symbol} = {text_of(definition)}" for symbol, definition in self.definitions.items()]
+        lines += [
+            f"  {symbol} = {text_of(definition)}" for symbol, definition in self.definitions.items()
+        ]
         return "\n".join(lines)
 
 
@@ -161,7 +163,7 @@ def load_conditions() -> tuple[Boolean, ...]:
 
 
 def tilt_conditions(frame: Frame) -> tuple[Boolean, ...]:
-    """The tilt leaves a slope of either sign at the two ends of the body, or contact cannot close."""
+    """The tilt leaves slopes of both signs at the ends of the body, or contact cannot close."""
     low, high = frame.slope.limits
     bounds = []
     if high != oo:
@@ -174,4 +176,3 @@ def tilt_conditions(frame: Frame) -> tuple[Boolean, ...]:
 def inside_contact(frame: Frame, place: Symbol) -> tuple[Boolean, ...]:
     """`place` lies in the contact."""
     return (*contact_conditions(frame), place > -a, place < c)
-

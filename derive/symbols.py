@@ -72,11 +72,18 @@ _TABLE = (
 
 QUANTITIES: dict[str, Quantity] = {q.name: q for q in _TABLE}
 
-RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(
-    # names that the theory and the generated modules use besides
-    "b1 d da dc dq d_left d_right h kappa lambda m mid n p p1 p2 pi q Q sigma t theta w xi "
-    "np scipy first second order exists E I N O S oo nan inf "
-    "contact contact_at_tilt tilt load moment pressure K_N L_N K_T L_T K_Q "
-    "stick_zone tension_threshold slip_zones Contact Edges StickZone Threshold Regime".split()
+_USED_BESIDES = (
+    # by the theory
+    *("b1", "d", "da", "dc", "dq", "d_left", "d_right", "h", "kappa", "lambda", "m", "mid", "n"),
+    *("p", "p1", "p2", "pi", "q", "Q", "sigma", "t", "theta", "w", "xi"),
+    # by SymPy
+    *("E", "I", "N", "O", "S", "oo", "nan", "inf"),
+    # by the generated modules
+    *("np", "scipy", "elementwise", "Array", "exists", "first", "second", "order"),
+    *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure"),
+    *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),
+    *("Contact", "Edges", "StickZone", "Threshold", "Regime"),
 )
-"""Names that no parameter may take."""
+
+RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_USED_BESIDES)
+"""Names that no parameter may take; nor may it look like a kink's theta_1, w_1, L_1."""

@@ -186,8 +186,6 @@ def _demand(
         raise DimensionMismatch(where, str(found), str(wanted))
 
 
-def check(
-    expr: Expr, unit: str, where: str, dimensions: Mapping[Symbol, Dimension]
-) -> None:
+def check(expr: Expr, unit: str, where: str, dimensions: Mapping[Symbol, Dimension]) -> None:
     """Raise DimensionMismatch unless `expr` has the dimension of `unit`."""
     _demand(expr, parse_unit(unit), where, dimensions)

@@ -85,7 +85,9 @@ CONTRACT: tuple[Function, ...] = (
         "Contact",
         defaults=((alpha, "0.0"),),
     ),
-    Function("tilt", (a, c), (("", "tilt"),), "Tilt at which the contact is [-a, c].", material=False),
+    Function(
+        "tilt", (a, c), (("", "tilt"),), "Tilt at which the contact is [-a, c].", material=False
+    ),
     Function("load", (a, c), (("", "load"),), "Normal load that makes the contact [-a, c]."),
     Function("moment", (a, c), (("", "moment"),), "Moment that makes the contact [-a, c]."),
     Function(
@@ -94,7 +96,9 @@ CONTRACT: tuple[Function, ...] = (
         (("", "pressure"),),
         "Contact pressure at x; zero outside [-a, c].",
     ),
-    _edges("K_N", (a, c), "Coefficients of sqrt(s) in the pressure at a distance s from the edges."),
+    _edges(
+        "K_N", (a, c), "Coefficients of sqrt(s) in the pressure at a distance s from the edges."
+    ),
     _edges("L_N", (a, c), "Coefficients of s**(3/2) in the pressure next to the edges."),
     _edges(
         "K_T",

@@ -105,7 +105,12 @@ class _FunctionText:
     @property
     def text(self) -> str:
         return "\n".join(
-            ["@elementwise", self._signature, textwrap.indent(self._docstring, " " * 4), *self._code]
+            [
+                "@elementwise",
+                self._signature,
+                textwrap.indent(self._docstring, " " * 4),
+                *self._code,
+            ]
         )
 
     @property
@@ -117,7 +122,9 @@ class _FunctionText:
         ]
         if self.keywords:
             arguments += ["*", *(f"{s}: Array" for s in self.keywords)]
-        return f"def {self.function.name}({', '.join(arguments)}) -> {self.function.kind or 'Array'}:"
+        return (
+            f"def {self.function.name}({', '.join(arguments)}) -> {self.function.kind or 'Array'}:"
+        )
 
     # ------------------------------------------------------------------ code
 
@@ -185,7 +192,9 @@ class _FunctionText:
         width = max(len(q.name) for q in given)
         lines = [f'"""{self.function.summary}', ""]
         for equation in self._equations:
-            lines += textwrap.wrap(equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8)
+            lines += textwrap.wrap(
+                equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
+            )
         lines += ["", "Arguments broadcast; results are float64 of the broadcast shape."]
         for q in given:
             lines += textwrap.wrap(
@@ -234,7 +243,9 @@ class _FunctionText:
     def _proofs(self) -> Iterator[str]:
         for name in self._sources:
             yield from textwrap.wrap(
-                f"{self.sheet[name].symbol} {self.sheet[name].proof}.", LINE - 4, subsequent_indent="    "
+                f"{self.sheet[name].symbol} {self.sheet[name].proof}.",
+                LINE - 4,
+                subsequent_indent="    ",
             )
         yield f"Derived from {self.source}."
 
@@ -282,5 +293,3 @@ def _example(sheet: FormulaSheet, function: Function) -> Point:
         if holds(function.conditions(sheet), point):
             return point
     raise NotProven(f"no example found for {function.name} of {sheet.geometry.name!r}")
-
-

@@ -1,7 +1,7 @@
 """SymPy -> NumPy source.  What the printer does not know it refuses; it never guesses a name.
 
-Two things it does beyond spelling: half powers in a product are gathered under one root, and factors
-that do not vary along the array are multiplied first, so that an array is passed over once.
+Two things it does beyond spelling: half powers in a product are gathered under one root, and
+factors that do not vary along the array are multiplied first, so that an array is passed over once.
 """
 
 from collections.abc import Iterable
@@ -95,7 +95,11 @@ class NumPyPrinter(StrPrinter):
         if not bottom:
             return above
         below = " * ".join(self.parenthesize(f, PRECEDENCE["Mul"]) for f in bottom)
-        return f"{above} / ({below})" if len(bottom) > 1 else f"{above} / {self.parenthesize(bottom[0], PRECEDENCE['Pow'])}"
+        return (
+            f"{above} / ({below})"
+            if len(bottom) > 1
+            else f"{above} / {self.parenthesize(bottom[0], PRECEDENCE['Pow'])}"
+        )
 
     def _print_Pow(self, expr: Pow, rational: bool = False) -> str:
         base, exponent = expr.base, expr.exp
@@ -159,7 +163,7 @@ def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
         elif is_half_power(f):
             roots[0 if f.exp > 0 else 1].append(f.base)
         elif f.is_Pow and f.exp.could_extract_minus_sign():
-            bottom.append(f.base ** -f.exp)
+            bottom.append(f.base**-f.exp)
         else:
             top.append(f)
     above, below = roots
@@ -173,5 +177,3 @@ def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
 def _root(inside: Expr) -> Expr:
     """sqrt(inside), which SymPy would take apart again."""
     return Pow(inside, S.Half, evaluate=False)
-
-

@@ -102,8 +102,8 @@ def _frame_steps(sheet: FormulaSheet) -> list[Step]:
 
 
 def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Program:
-    """q (pi/2 - theta_j) -> q atan2(v - u, 2 w_j) for theta_j = 2 atan2(sqrt u, sqrt v), u v = w_j**2;
-    q (pi/2 - atan2(y, x)) -> q atan2(x, y) for y > 0; q (pi - theta_j) -> q theta_j of the other side.
+    """q (pi/2 - theta_j) -> q atan2(v - u, 2 w_j) for theta_j = 2 atan2(sqrt u, sqrt v), u v =
+    w_j**2; q (pi/2 - atan2(y, x)) -> q atan2(x, y) for y > 0; q (pi - theta_j) -> q theta_j of the other side.
 
     A tilt near zero is a difference of angles near pi/2; the difference of u and v is exact instead.
     """
@@ -143,8 +143,8 @@ def _opposite(k: KinkFrame) -> Expr:
 def logarithms_to_asinh(program: Program) -> Program:
     """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> asinh( sqrt(min(u, v)) / sqrt|u - v| ).
 
-    The difference u - v is factored, so that it is a product of exact differences; at an edge min(u, v)
-    vanishes instead of a logarithm of one, and far from it nothing overflows before the root is taken.
+    The difference u - v is factored, so that it is a product of exact differences; at an edge
+    min(u, v) vanishes instead of a logarithm of one, and far from it nothing overflows before the root is taken.
     """
 
     def change(expr: Expr) -> Expr:
@@ -170,7 +170,9 @@ def _asinh(argument: Expr) -> Expr | None:
 
 
 def _root_of(factor_of_gap: Expr) -> Expr:
-    return sqrt(factor_of_gap if factor_of_gap.is_positive or factor_of_gap == h else Abs(factor_of_gap))
+    return sqrt(
+        factor_of_gap if factor_of_gap.is_positive or factor_of_gap == h else Abs(factor_of_gap)
+    )
 
 
 def conjugate_roots(program: Program) -> Program:
@@ -249,7 +251,9 @@ def shared_once(program: Program) -> Program:
     """What several outputs share is computed once, if it holds a root or a function."""
     shared, _ = cse(list(program.outputs.values()), symbols=numbered_symbols("shared_", start=1))
     for symbol, expr in shared:
-        costly = expr.atoms(Function) or any(p.exp.is_Rational and p.exp.q > 1 for p in expr.atoms(Pow))
+        costly = expr.atoms(Function) or any(
+            p.exp.is_Rational and p.exp.q > 1 for p in expr.atoms(Pow)
+        )
         alone = expr in program.outputs.values()
         if costly and not alone and not expr.free_symbols & {s for s, _ in shared}:
             program = program.with_step(Step(symbol, expr, ""))

@@ -19,9 +19,7 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
     """
     numerical = NumericalRoutes(sheet)
     proven = {
-        name: replace(
-            formula, proof=combined(symbolic_proof(sheet, name), numerical.proof(name))
-        )
+        name: replace(formula, proof=combined(symbolic_proof(sheet, name), numerical.proof(name)))
         for name, formula in sheet.items()
     }
     return replace(sheet, formulas=proven)

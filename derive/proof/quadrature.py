@@ -1,8 +1,9 @@
 r"""The defining integrals by quadrature at any number of digits: the route that no algebra shares.
 
 In:  g(x) as the user wrote it, and numbers for its parameters and the contact.
-Out: the integrals of theory.equilibrium and theory.pressure, evaluated with x = mid + (h/2) cos(theta)
-     on the pieces between kinks, so that every integrand is analytic up to the ends of its piece.
+Out: the integrals of theory.equilibrium and theory.pressure, evaluated with
+     x = mid + (h/2) cos(theta) on the pieces between kinks, so that every integrand is analytic up
+     to the ends of its piece.
 """
 
 from collections.abc import Callable, Mapping
@@ -16,7 +17,6 @@ from sympy import Expr, Piecewise, Symbol, diff, lambdify
 from derive.geometry import Geometry
 from derive.symbols import x
 
-Real = mpf
 Function = Callable[[mpf], mpf]
 
 
@@ -25,10 +25,10 @@ class Contact:
     """One contact [-a, c] of one body, in numbers."""
 
     geometry: Geometry
-    values: Mapping[Symbol, Real]
-    a: Real
-    c: Real
-    E_star: Real
+    values: Mapping[Symbol, mpf]
+    a: mpf
+    c: mpf
+    E_star: mpf
 
     @cached_property
     def slope(self) -> Function:
@@ -36,62 +36,62 @@ class Contact:
         return _numeric(diff(self.geometry.g.rewrite(Piecewise), x), self.values)
 
     @cached_property
-    def kinks(self) -> list[Real]:
+    def kinks(self) -> list[mpf]:
         """Kinks inside the contact, from left to right."""
         places = [_number(k.position, self.values) for k in self.geometry.slope.kinks]
         return sorted(p for p in places if -self.a < p < self.c)
 
     @property
-    def h(self) -> Real:
+    def h(self) -> mpf:
         """Contact width."""
         return self.a + self.c
 
     @property
-    def mid(self) -> Real:
+    def mid(self) -> mpf:
         """Middle of the contact."""
         return (self.c - self.a) / 2
 
-    def at(self, theta: Real) -> Real:
+    def at(self, theta: mpf) -> mpf:
         """The x at the angle theta."""
         return self.mid + self.h / 2 * mpmath.cos(theta)
 
-    def angle(self, place: Real) -> Real:
+    def angle(self, place: mpf) -> mpf:
         """The angle of a place in the contact."""
         return mpmath.acos((place - self.mid) / (self.h / 2))
 
-    def integral(self, integrand: Function, *also: Real, singular: bool = False) -> Real:
+    def integral(self, integrand: Function, *also: mpf, singular: bool = False) -> mpf:
         """int_{-a}^{c} integrand(s)/w(s) ds, cut at the kinks and at the places named `also`."""
         cuts = sorted({mpf(0), mpmath.pi, *(self.angle(p) for p in (*self.kinks, *also))})
         method = "tanh-sinh" if singular else "gauss-legendre"
         return mpmath.quad(lambda theta: integrand(self.at(theta)), cuts, method=method)
 
     @cached_property
-    def tilt(self) -> Real:
+    def tilt(self) -> mpf:
         """alpha from I_0 = 0."""
         return -self.integral(self.slope) / mpmath.pi
 
     @cached_property
-    def load(self) -> Real:
+    def load(self) -> mpf:
         """(E*/2) I_1."""
         return self.E_star / 2 * self.integral(lambda s: s * (self.slope(s) + self.tilt))
 
     @cached_property
-    def moment(self) -> Real:
+    def moment(self) -> mpf:
         """-(E*/2) (I_2 - mid I_1)."""
         arm = self.integral(lambda s: s * (s - self.mid) * (self.slope(s) + self.tilt))
         return -self.E_star / 2 * arm
 
-    def pressure(self, place: Real) -> Real:
+    def pressure(self, place: mpf) -> mpf:
         """p(x) from its principal value, the singularity taken off."""
         here = self.slope(place)
         root = mpmath.sqrt((self.a + place) * (self.c - place))
         principal = self.integral(lambda s: (self.slope(s) - here) / (s - place), place)
         return self.E_star / (2 * mpmath.pi) * root * principal
 
-    def resultant(self, pressure: Function, weight: Function) -> Real:
+    def resultant(self, pressure: Function, weight: Function) -> mpf:
         """int weight(s) p(s) ds of a given p; p may be infinite, as a logarithm, at a kink."""
 
-        def integrand(s: Real) -> Real:
+        def integrand(s: mpf) -> mpf:
             try:
                 return weight(s) * pressure(s) * mpmath.sqrt((self.a + s) * (self.c - s))
             except ZeroDivisionError:  # a node that rounds to the kink itself has no weight
@@ -100,12 +100,12 @@ class Contact:
         return self.integral(integrand, singular=True)
 
 
-def _numeric(expr: Expr, values: Mapping[Symbol, Real]) -> Function:
+def _numeric(expr: Expr, values: Mapping[Symbol, mpf]) -> Function:
     symbols = sorted(values, key=str)
     function = lambdify([x, *symbols], expr, modules="mpmath")
     numbers = [values[symbol] for symbol in symbols]
     return lambda place: function(place, *numbers)
 
 
-def _number(expr: Expr, values: Mapping[Symbol, Real]) -> Real:
+def _number(expr: Expr, values: Mapping[Symbol, mpf]) -> mpf:
     return _numeric(expr, values)(mpf(0))

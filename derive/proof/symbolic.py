@@ -4,17 +4,30 @@ In:  FormulaSheet, and the name of a formula.
 Out: Proof with the verdict *proved*, or None where no symbolic route is known or none succeeds.
 
 The integrals are done a second time by antiderivatives that are certified by differentiating them
-back; load and moment by parts, from the curvature of g; the pressure from its growth by flat punches;
-the contact law against the edge limit of p; the inverses by substitution.
+back; load and moment by parts, from the curvature of g; the pressure from its growth by flat
+punches; the contact law against the edge limit of p; the inverses by substitution.
 """
 
 from collections.abc import Callable
 
-from sympy import Expr, Poly, S, Symbol, count_ops, diff, expand, linsolve, pi, simplify, sqrt, symbols
+from sympy import (
+    Expr,
+    Poly,
+    S,
+    Symbol,
+    count_ops,
+    diff,
+    expand,
+    linsolve,
+    pi,
+    simplify,
+    sqrt,
+    symbols,
+)
 
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, a, c, e, h, mid, w, x
+from derive.symbols import E_star, P, a, c, e, h, mid, w, x
 from derive.theory.algebra import is_zero
 from derive.theory.frame import KinkFrame
 

@@ -1,9 +1,9 @@
 """What a proof is: a verdict, the route by which it was reached, and its numbers.
 
-A formula is *proved* when its difference from an independent route is zero symbolically, *numerical*
-when both agree to DIGITS digits at POINTS random points of the formula's assumptions, *refuted* when
-they differ at one point, and *unknown* when no point could be drawn.  Only the first two are printed
-or generated.
+A formula is *proved* when its difference from an independent route is zero symbolically,
+*numerical* when both agree to DIGITS digits at POINTS random points of the formula's assumptions,
+*refuted* when they differ at one point, and *unknown* when no point could be drawn.  Only the first
+two are printed or generated.
 """
 
 from collections.abc import Iterable

@@ -40,8 +40,9 @@ def tidy(expr: Expr, frame: Frame) -> Expr:
 def is_zero(expr: Expr, frame: Frame) -> bool:
     """Whether `expr` vanishes identically in the ring; exact, never a guess.
 
-    Every root becomes a symbol whose square is known and every denominator is multiplied up, so that
-    a polynomial remains; it is expanded, even powers of roots are replaced, and it is zero or not.
+    Every root becomes a symbol whose square is known and every denominator is multiplied up, so
+    that a polynomial remains; it is expanded, even powers of roots are replaced, and it is zero or
+    not.
     """
     expr, roots = _without_roots(expr)
     squares = {k.w: k.left * k.right for k in frame.kinks} | roots

@@ -1,11 +1,11 @@
 r"""From loads to the contact: (P, M) -> (a, c, alpha) and (P, alpha) -> (a, c, M) in closed form.
 
 The natural unknowns are the width h and the middle mid, for M/P holds mid to the first power
-wherever a closed inverse is known.  A body whose flanks are straight and meet in one corner is better
-served by the corner's angle: mid = x_1 -/+ (h/2) cos(theta_1) and w_1 = (h/2) sin(theta_1).
+wherever a closed inverse is known.  A body whose flanks are straight and meet in one corner is
+better served by the corner's angle: mid = x_1 -/+ (h/2) cos(theta_1) and w_1 = (h/2) sin(theta_1).
 
 Where no closed inverse is found the result is None; nothing is guessed and nothing times out: the
-equations tried are those of first or second degree, so that the answer is the same on every machine.
+equations tried are of first or second degree, so that the answer is the same on every machine.
 """
 
 from dataclasses import dataclass
@@ -105,7 +105,9 @@ def _corner_at_tilt(corner: KinkFrame, tilt: Expr, load: Expr, arm: Expr) -> Inv
     tangent = tan(factor(angle) / 2)
     near, far = base * tangent, base / tangent
     right, left = (near, far) if side > 0 else (far, near)
-    return Inverse(left - place, right + place, alpha, M=P * arm_of_angle.subs(_kappa, factor(angle)))
+    return Inverse(
+        left - place, right + place, alpha, M=P * arm_of_angle.subs(_kappa, factor(angle))
+    )
 
 
 def _in_middle_and_width(frame: Frame) -> dict[Expr, Expr]:

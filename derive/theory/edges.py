@@ -67,7 +67,7 @@ def _root_series(power: Expr, terms: int) -> list[Expr]:
 
 
 def _logarithm_series(kink: KinkFrame, edge: Edge, terms: int) -> list[Expr]:
-    """L_j / (sqrt(h) sqrt(s)): the integral of w_j / (2 (d - t) sqrt(t) sqrt(h - t)) over 0 < t < s.
+    """L_j / (sqrt(h) sqrt(s)): int_0^s w_j / (2 (d - t) sqrt(t) sqrt(h - t)) dt.
 
     d is the distance from the edge to the kink.
     """

@@ -1,7 +1,7 @@
 r"""What a kink brings into the formulas: its angle, its root, its logarithm.
 
-With x = mid + (h/2) cos(theta) the contact is the half circle 0 < theta < pi, and a kink at x_j cuts
-it.  All formulas are rational in three symbols per kink:
+With x = mid + (h/2) cos(theta) the contact is the half circle 0 < theta < pi, and a kink at x_j
+cuts it.  All formulas are rational in three symbols per kink:
 
     theta_j  the angle of that part of the contact in which the jump acts,
              2 atan( sqrt(c - x_j) / sqrt(a + x_j) ) for a jump on the right of the kink
@@ -9,8 +9,8 @@ it.  All formulas are rational in three symbols per kink:
     L_j      (1/2) log |(sqrt u_j + sqrt v_j) / (sqrt u_j - sqrt v_j)|,
              u_j = (c - x_j)(a + x),  v_j = (a + x_j)(c - x)
 
-A kink outside the contact has theta_j = 0 or pi and w_j = L_j = 0: its roots are clipped at zero, so
-that one formula serves the contact that has left the kink.
+A kink outside the contact has theta_j = 0 or pi and w_j = L_j = 0: its roots are clipped at zero,
+so that one formula serves the contact that has left the kink.
 """
 
 from dataclasses import dataclass
@@ -109,8 +109,8 @@ class Frame:
         """Derivative along the edge a or c, by the chain rule; free of 1/w_j.
 
         From cos(theta_j) = (x_j - mid)/(h/2):  d theta_j/dc = w_j/(h (c - x_j)) and
-        d theta_j/da = -w_j/(h (a + x_j)) where the jump acts on the right, the opposite on the left;
-        d w_j/dc = w_j/(2 (c - x_j)),  d w_j/da = w_j/(2 (a + x_j));
+        d theta_j/da = -w_j/(h (a + x_j)) where the jump acts on the right, the opposite on the
+        left; d w_j/dc = w_j/(2 (c - x_j)),  d w_j/da = w_j/(2 (a + x_j));
         d L_j/dc = w_j (a + x)/(2 h w (c - x_j)),  d L_j/da = w_j (c - x)/(2 h w (a + x_j)).
         """
         total = expr.diff(edge)

@@ -1,7 +1,7 @@
 """How a formula written for one block of float64 serves every input.
 
-A formula's temporaries are as large as its argument.  Evaluated over blocks that fit the processor's
-cache they cost little, over a whole large array they cost more than the arithmetic.
+A formula's temporaries are as large as its argument.  Evaluated over blocks that fit the
+processor's cache they cost little, over a whole large array they cost more than the arithmetic.
 """
 
 from collections.abc import Callable, Iterator
@@ -32,7 +32,9 @@ def elementwise(function: Function) -> Function:
         arrays = [np.asarray(v, dtype=np.float64) for v in given]
         with np.errstate(all="ignore"):
             if all(v.size <= BLOCK for v in arrays) and _small(arrays):
-                return _plain(function(*arrays[: len(args)], **dict(zip(kwargs, arrays[len(args) :]))))
+                return _plain(
+                    function(*arrays[: len(args)], **dict(zip(kwargs, arrays[len(args) :])))
+                )
             return _in_blocks(function, arrays, len(args), tuple(kwargs))
 
     return call  # type: ignore[return-value]
@@ -76,8 +78,8 @@ def _in_blocks(
 
 
 def _blocks(shape: tuple[int, ...]) -> Iterator[tuple[slice, ...]]:
-    """Index tuples that cut `shape` into blocks: whole inner axes, a slice of one, single outer rows."""
-    axis, inner = len(shape) - 1, 1
+    """Index tuples that cut `shape` into blocks: whole inner axes, a slice of one, single outer
+    rows.""" axis, inner = len(shape) - 1, 1
     while axis > 0 and inner * shape[axis] <= BLOCK:
         inner *= shape[axis]
         axis -= 1
