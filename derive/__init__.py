@@ -14,18 +14,28 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from derive.derivation import derive_sheet
     from derive.geometry import Geometry, parameter
-    from derive.pipeline import derive_sheet, prove_sheet
+    from derive.library import load_geometry
+    from derive.proof.prove import prove_sheet
     from derive.symbols import x
 
-__all__ = ["Geometry", "derive_sheet", "parameter", "prove_sheet", "x"]
+__all__ = [
+    "Geometry",
+    "derive_sheet",
+    "load_geometry",
+    "parameter",
+    "prove_sheet",
+    "x",
+]
 
 _HOME = {
     "Geometry": "derive.geometry",
+    "load_geometry": "derive.library",
     "parameter": "derive.geometry",
     "x": "derive.symbols",
-    "derive_sheet": "derive.pipeline",
-    "prove_sheet": "derive.pipeline",
+    "derive_sheet": "derive.derivation",
+    "prove_sheet": "derive.proof.prove",
 }
 
 

@@ -145,3 +145,30 @@ class BadOutput(UserError):
             f"{self.given} {self.why}; --out takes a directory that does not exist, is empty, or "
             "was made by `derive generate`: choose another"
         )
+
+
+@dataclass
+class NeedsOutput(UserError):
+    """A geometry outside the library, and no directory for its module."""
+
+    given: str
+
+    @property
+    def message(self) -> str:
+        """What to add."""
+        return (
+            f"{self.given} is not in the library, and the package `generated` holds nothing else: "
+            f"say where its module goes, as in `derive generate {self.given} --out my_package`"
+        )
+
+
+@dataclass
+class TwoOfOneName(UserError):
+    """Two geometries that would become one module."""
+
+    name: str
+
+    @property
+    def message(self) -> str:
+        """Which name occurs twice."""
+        return f"two geometries are named {self.name!r}, one module each is needed: rename one"

@@ -112,6 +112,11 @@ class Geometry:
         return twin
 
     @property
+    def title(self) -> str:
+        """First line of its description, or its name."""
+        return self.description.splitlines()[0] if self.description else self.name
+
+    @property
     def quantities(self) -> dict[str, Quantity]:
         """Theory's symbols and the body's parameters by name."""
         return QUANTITIES | {q.name: q for q in self.parameters}

@@ -4,7 +4,7 @@ import importlib.util
 import sys
 from pathlib import Path
 
-from derive.errors import BadGeometryFile, UnknownGeometry
+from derive.errors import BadGeometryFile, UnknownGeometry, UserError
 from derive.geometry import Geometry
 
 FOLDER = Path(__file__).parent / "geometries"
@@ -13,6 +13,11 @@ FOLDER = Path(__file__).parent / "geometries"
 def library() -> tuple[str, ...]:
     """Names of all bodies in derive/geometries/, in alphabetical order."""
     return tuple(sorted(p.stem for p in FOLDER.glob("*.py") if not p.stem.startswith("_")))
+
+
+def is_in_library(name: str) -> bool:
+    """Whether a body of this name is in derive/geometries/."""
+    return name in library()
 
 
 def load_geometry(name_or_path: str | Path) -> Geometry:
@@ -24,7 +29,7 @@ def load_geometry(name_or_path: str | Path) -> Geometry:
     x**2/(2*R)
     """
     given = str(name_or_path)
-    if given in library():
+    if is_in_library(given):
         return _execute(FOLDER / f"{given}.py")
     path = Path(given)
     if path.suffix == ".py" or path.exists():
@@ -42,7 +47,9 @@ def _execute(path: Path) -> Geometry:
     keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
         spec.loader.exec_module(module)
-    except (SyntaxError, ImportError, NameError, TypeError) as error:
+    except UserError:
+        raise
+    except Exception as error:
         raise BadGeometryFile(str(path), f"{type(error).__name__}: {error}") from error
     finally:
         sys.dont_write_bytecode = keep

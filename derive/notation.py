@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from sympy import Basic, Expr, Mul, Pow, S, Symbol, latex, sstr
+from sympy import Add, Basic, Expr, Mul, Pow, S, Symbol, latex, sstr
 
 from derive.symbols import QUANTITIES
 
@@ -37,15 +37,22 @@ def _names() -> dict[str, str]:
 
 def gathered(expr: Basic) -> Basic:
     """`expr` with the half powers of every product under one root, e.g. sqrt(P R/E*)."""
-    return expr.replace(lambda node: isinstance(node, Mul), gathered_product)
+    if not expr.args:
+        return expr
+    args = [gathered(arg) for arg in expr.args]
+    if isinstance(expr, Mul):
+        return gathered_product(args)
+    if isinstance(expr, Add | Pow):
+        return expr.func(*args, evaluate=False)
+    return expr.func(*args)
 
 
-def gathered_product(product: Expr) -> Expr:
-    """One product with its half powers under one root."""
-    halves = [f for f in Mul.make_args(product) if is_half_power(f)]
+def gathered_product(factors: list[Expr]) -> Expr:
+    """A product with its half powers under one root."""
+    halves = [f for f in factors if is_half_power(f)]
     if len(halves) < 2:
-        return product
-    rest = [f for f in Mul.make_args(product) if not is_half_power(f)]
+        return Mul(*factors, evaluate=False)
+    rest = [f for f in factors if not is_half_power(f)]
     inside = Mul(*(f.base ** (2 * f.exp) for f in halves))
     return Mul(*rest, Pow(inside, S.Half, evaluate=False), evaluate=False)
 

@@ -14,7 +14,7 @@ from sympy.logic.boolalg import Boolean
 
 from derive.geometry import Geometry
 from derive.notation import latex_of, text_of
-from derive.proof.verdict import Proof
+from derive.proof.verdict import NotProven, Proof
 from derive.symbols import P, a, alpha, c, h
 from derive.theory.frame import Frame
 from derive.units import Dimension, check, parse_unit
@@ -42,6 +42,16 @@ class Formula:
     source: str
     conditions: tuple[Boolean, ...]
     proof: Proof | None = None
+
+    @property
+    def head(self) -> str:
+        """Left-hand side in text, e.g. P(a, c)."""
+        return f"{self.symbol}({', '.join(str(argument) for argument in self.arguments)})"
+
+    @property
+    def assumptions(self) -> str:
+        """The conditions in words."""
+        return " and ".join(str(condition) for condition in self.conditions)
 
     @property
     def left(self) -> str:
@@ -88,6 +98,16 @@ class FormulaSheet(Mapping[str, Formula]):
         check(formula.expr, formula.unit, where, self.dimensions)
         return replace(self, formulas={**self.formulas, formula.name: formula})
 
+    def demand_proven(self) -> "FormulaSheet":
+        """The sheet itself.
+
+        Raises NotProven if the proof of any formula is missing or falls short.
+        """
+        for name, formula in self.items():
+            if formula.proof is None or not formula.proof.holds:
+                raise NotProven(f"{name} of {self.geometry.name!r}: {formula.proof}")
+        return self
+
     def flat(self, name: str) -> Expr:
         """A formula's right-hand side with every symbol of the frame written out."""
         return self.frame.flat(self[name].expr)
@@ -100,8 +120,17 @@ class FormulaSheet(Mapping[str, Formula]):
     @cached_property
     def definitions(self) -> dict[Symbol, Expr]:
         """The frame's symbols that some formula holds."""
-        held = set().union(*(self.shown(name).free_symbols for name in self))
-        return {s: d for s, d in self.frame.definitions.items() if s in held}
+        return self.defined_in(*self)
+
+    def defined_in(self, *names: str) -> dict[Symbol, Expr]:
+        """The frame's symbols that the formulas of these names hold, as they are printed."""
+        held = set().union(*(self.shown(name).free_symbols for name in names))
+        definitions: dict[Symbol, Expr] = {}
+        for k in self.frame.kinks:
+            definitions |= {k.theta: k.angle} if k.theta in held else {}
+            definitions |= {k.w: k.root} if k.w in held else {}
+            definitions |= k.logarithm_in_words if k.L in held else {}
+        return definitions
 
     @property
     def is_closed(self) -> bool:
@@ -123,15 +152,31 @@ class FormulaSheet(Mapping[str, Formula]):
     def _repr_latex_(self) -> str:
         return f"$$\n{self.latex}\n$$"
 
+    def equation(self, name: str) -> str:
+        """One formula as a line of text."""
+        return f"{self[name].head} = {text_of(self.shown(name))}"
+
+    @property
+    def title(self) -> str:
+        """The body and its profile as a line of text."""
+        return f"{self.geometry.name}: g(x) = {text_of(self.geometry.g)}"
+
     def __str__(self) -> str:
-        lines = [f"{self.geometry.name}: g(x) = {text_of(self.geometry.g)}"]
-        lines += [
-            f"  {f.symbol}({', '.join(map(str, f.arguments))}) = {text_of(self.shown(name))}"
-            for name, f in self.items()
-        ]
-        lines += [
-            f"  {symbol} = {text_of(definition)}" for symbol, definition in self.definitions.items()
-        ]
+        """Every formula with its meaning, unit, assumptions, source and proof."""
+        lines = [self.title, ""]
+        for name, formula in self.items():
+            lines += [
+                f"{name}: {formula.meaning} [{formula.unit}]",
+                f"    {self.equation(name)}",
+                f"    if {formula.assumptions}",
+                f"    {formula.proof or 'not proven yet'}",
+                f"    source: {formula.source}",
+            ]
+        if self.definitions:
+            lines += ["where"]
+            lines += [
+                f"    {s} = {text_of(definition)}" for s, definition in self.definitions.items()
+            ]
         return "\n".join(lines)
 
 
@@ -154,7 +199,7 @@ def contact_conditions(frame: Frame) -> tuple[Boolean, ...]:
         else:
             conditions.append(Or(left, right))
     spans = {str(condition): condition for condition in conditions}
-    return (h > 0, *spans.values())
+    return (h > 0, *(spans[name] for name in sorted(spans)))
 
 
 def load_conditions() -> tuple[Boolean, ...]:

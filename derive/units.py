@@ -25,6 +25,7 @@ from sympy import (
     Rational,
     S,
     Symbol,
+    UnevaluatedExpr,
     atan2,
     sign,
     simplify,
@@ -148,7 +149,7 @@ def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimensio
         return base**expr.exp
     if isinstance(expr, Add | Max | Min):
         return _common(expr.args, expr, dimensions)
-    if isinstance(expr, Abs):
+    if isinstance(expr, Abs | UnevaluatedExpr):
         return dimension_of(expr.args[0], dimensions)
     if isinstance(expr, atan2 | sign | Heaviside):
         _common(expr.args[:2] if isinstance(expr, atan2) else expr.args[:1], expr, dimensions)

@@ -1,7 +1,8 @@
 """SymPy -> NumPy source.  What the printer does not know it refuses; it never guesses a name.
 
-Two things it does beyond spelling: half powers in a product are gathered under one root, and
-factors that do not vary along the array are multiplied first, so that an array is passed over once.
+Two things it does beyond spelling: half powers in a product are gathered under one root (those in
+an UnevaluatedExpr are kept apart), and factors that do not vary along the array are multiplied
+first, so that an array is passed over once.
 """
 
 from collections.abc import Iterable
@@ -9,8 +10,6 @@ from collections.abc import Iterable
 from sympy import Add, Basic, Expr, Mul, Pow, Rational, S, Symbol
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
-
-from derive.notation import is_half_power
 
 
 class CannotPrint(Exception):
@@ -82,10 +81,7 @@ class NumPyPrinter(StrPrinter):
         factors = list(Mul.make_args(expr))
         fixed = [f for f in factors if not f.free_symbols & self.varying]
         moving = [f for f in factors if f.free_symbols & self.varying]
-        if len(fixed) < 2 or not moving:
-            return self._quotient(factors)
-        top, bottom = _split(moving)
-        if not top:
+        if len(fixed) < 2 or not moving or not _split(moving)[0]:
             return self._quotient(factors)
         return f"({self._quotient(fixed)}) * {self._quotient(moving)}"
 
@@ -95,21 +91,19 @@ class NumPyPrinter(StrPrinter):
         if not bottom:
             return above
         below = " * ".join(self.parenthesize(f, PRECEDENCE["Mul"]) for f in bottom)
-        return (
-            f"{above} / ({below})"
-            if len(bottom) > 1
-            else f"{above} / {self.parenthesize(bottom[0], PRECEDENCE['Pow'])}"
-        )
+        return f"{above} / ({below})" if len(bottom) > 1 else f"{above} / {below}"
 
     def _print_Pow(self, expr: Pow, rational: bool = False) -> str:
         base, exponent = expr.base, expr.exp
         if exponent == S.Half:
             return f"np.sqrt({self._print(base)})"
-        if exponent.is_negative:
+        if exponent.is_negative or _is_odd_half(exponent):
             return self._quotient([expr])
-        if exponent.is_Rational and exponent.q == 2 and exponent.p > 1:
-            return f"{self.parenthesize(base, PRECEDENCE['Pow'])}**{exponent.p // 2} * np.sqrt({self._print(base)})"
-        return f"{self.parenthesize(base, PRECEDENCE['Pow'])}**{self.parenthesize(exponent, PRECEDENCE['Pow'])}"
+        below, above = (self.parenthesize(part, PRECEDENCE["Pow"]) for part in (base, exponent))
+        return f"{below}**{above}"
+
+    def _print_UnevaluatedExpr(self, expr: Expr) -> str:
+        return self._print(expr.args[0])
 
     def _print_Rational(self, expr: Rational) -> str:
         return f"{expr.p} / {expr.q}"
@@ -138,7 +132,7 @@ class NumPyPrinter(StrPrinter):
 
     def _print_Relational(self, expr: Basic) -> str:
         left, right = (self._print(side) for side in expr.args)
-        return f"{left} {expr.rel_op} {right}"  # type: ignore[attr-defined]
+        return f"{left} {expr.rel_op} {right}"
 
     def _print_And(self, expr: Basic) -> str:
         return " & ".join(f"({self._print(arg)})" for arg in _ordered(expr))
@@ -160,8 +154,10 @@ def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
         if f.is_Rational and not f.is_Integer:
             top += [S(f.p)] if f.p != 1 else []
             bottom.append(S(f.q))
-        elif is_half_power(f):
-            roots[0 if f.exp > 0 else 1].append(f.base)
+        elif f.is_Pow and _is_odd_half(f.exp):
+            half, sense = (abs(f.exp) - S.Half), (0 if f.exp > 0 else 1)
+            roots[sense].append(f.base)
+            (top, bottom)[sense].extend([f.base**half] if half else [])
         elif f.is_Pow and f.exp.could_extract_minus_sign():
             bottom.append(f.base**-f.exp)
         else:
@@ -172,6 +168,11 @@ def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
     elif below:
         bottom.append(_root(Mul(*below)))
     return top, bottom
+
+
+def _is_odd_half(exponent: Expr) -> bool:
+    """Whether an exponent is 1/2, -1/2, 3/2, ..."""
+    return bool(exponent.is_Rational and exponent.q == 2)
 
 
 def _root(inside: Expr) -> Expr:

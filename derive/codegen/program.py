@@ -1,6 +1,6 @@
 """What a generated function computes, before it is text: named steps, then its outputs."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from sympy import Expr, Symbol
@@ -22,20 +22,21 @@ class Program:
     outputs: Mapping[str, Expr]
     steps: tuple[Step, ...] = ()
 
-    def mapped(self, change: object) -> "Program":
+    def mapped(self, change: Callable[[Expr], Expr]) -> "Program":
         """The program with `change` applied to every expression."""
         return replace(
             self,
-            outputs={name: change(expr) for name, expr in self.outputs.items()},  # type: ignore[operator]
-            steps=tuple(replace(s, expr=change(s.expr)) for s in self.steps),  # type: ignore[operator]
+            outputs={name: change(expr) for name, expr in self.outputs.items()},
+            steps=tuple(replace(s, expr=change(s.expr)) for s in self.steps),
         )
 
-    def with_step(self, step: Step) -> "Program":
-        """The program with one more step, which every equal subexpression then uses."""
-        if any(s.symbol == step.symbol for s in self.steps):
-            return self
-        used = self.mapped(lambda expr: expr.subs(step.expr, step.symbol))
-        return replace(used, steps=(*used.steps, step))
+    def with_steps(self, *steps: Step) -> "Program":
+        """The program with more steps; every expression equal to one of them refers to it."""
+        program = self
+        for step in steps:
+            program = program.mapped(lambda expr, s=step: expr.xreplace({s.expr: s.symbol}))  # type: ignore[misc]
+            program = replace(program, steps=(*program.steps, step))
+        return program
 
     def ordered(self) -> "Program":
         """Only the steps that some output needs, each after those it needs itself."""
@@ -51,6 +52,18 @@ class Program:
         for expr in self.outputs.values():
             visit(expr)
         return replace(self, steps=tuple(done.values()))
+
+    def renamed(self, taken: Iterable[str]) -> "Program":
+        """The program without a step that bears one of the names `taken`."""
+        names = set(taken)
+        table = {
+            s.symbol: Symbol(f"{s.symbol}_", **s.symbol.assumptions0)
+            for s in self.steps
+            if str(s.symbol) in names
+        }
+        program = self.mapped(lambda expr: expr.xreplace(table))
+        steps = (replace(s, symbol=table.get(s.symbol, s.symbol)) for s in program.steps)
+        return replace(program, steps=tuple(steps))
 
     def flat(self) -> dict[str, Expr]:
         """The outputs with every step written in."""

@@ -14,7 +14,6 @@ from sympy import (
     Abs,
     Add,
     Expr,
-    Function,
     Max,
     Min,
     Mul,
@@ -23,14 +22,14 @@ from sympy import (
     Pow,
     S,
     Symbol,
+    UnevaluatedExpr,
     asinh,
     atan2,
     cancel,
     count_ops,
-    cse,
     factor,
+    fraction,
     log,
-    numbered_symbols,
     pi,
     simplify,
     sqrt,
@@ -47,9 +46,11 @@ from derive.theory.frame import KinkFrame
 
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
+_half = Symbol("half", positive=True)
 _base = Symbol("base", positive=True)
 _ratio = Symbol("ratio", real=True)
 _root = Symbol("root", positive=True)
+_scale = Symbol("scale", positive=True)
 _angle = Symbol("angle", positive=True)
 _rest = Symbol("rest", positive=True)
 _tangent = Symbol("tangent", positive=True)
@@ -58,18 +59,21 @@ _tangent = Symbol("tangent", positive=True)
 def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point) -> Program:
     """The outputs in stable forms.
 
-    `example` is any point of their assumptions; rules that need the sign of an argument take it there.
+    `example` is any point of their assumptions; a rule that needs the sign of an argument takes it
+    there.
     """
     program = Program(outputs, tuple(_frame_steps(sheet)))
     program = angles_about_the_right_angle(program, sheet)
     program = logarithms_to_asinh(program)
     program = conjugate_roots(program)
     program = tangents_from_both_ends(program, example)
-    program = program.with_step(Step(e, M / P, "lever arm of the load"))
-    program = program.with_step(Step(_w, sqrt(Max(0, (a + x) * (c - x))), ""))
-    program = program.mapped(lambda expr: expr.subs(w, _w))
-    program = program.with_step(Step(_h, h, "contact width"))
-    return shared_once(program).ordered()
+    program = roots_under_the_edges(program)
+    program = program.with_steps(
+        Step(e, M / P, "lever arm of the load"), Step(_h, h, "contact width")
+    )
+    program = half_width_once(program)
+    program = common_factor_once(program)
+    return program.renamed(q.name for q in sheet.geometry.parameters).ordered()
 
 
 def prove_equal(program: Program, source: dict[str, Expr], points: Iterable[Point]) -> Proof:
@@ -98,14 +102,17 @@ def _frame_steps(sheet: FormulaSheet) -> list[Step]:
     return steps
 
 
-# ------------------------------------------------------------------ rules
+# ------------------------------------------------------------------ angles
 
 
 def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Program:
-    """q (pi/2 - theta_j) -> q atan2(v - u, 2 w_j) for theta_j = 2 atan2(sqrt u, sqrt v), u v =
-    w_j**2; q (pi/2 - atan2(y, x)) -> q atan2(x, y) for y > 0; q (pi - theta_j) -> q theta_j of the other side.
+    """Three identities, with theta_j = 2 atan2(sqrt u, sqrt v) and u v = w_j**2.
 
-    A tilt near zero is a difference of angles near pi/2; the difference of u and v is exact instead.
+        q (pi/2 - theta_j)     -> q atan2(v - u, 2 w_j)
+        q (pi/2 - atan2(y, x)) -> q atan2(x, y) for y > 0
+        q (pi - theta_j)       -> q theta_j of the other side
+
+    A tilt near zero is a difference of angles near pi/2; the difference of u and v is exact.
     """
     kinks = {k.theta: k for k in sheet.frame.kinks}
 
@@ -116,15 +123,14 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
             linear = expr.subs(angle, stand_in)
             if not linear.is_polynomial(stand_in) or Poly(linear, stand_in).degree() != 1:
                 continue
-            factor_of, rest = Poly(linear, stand_in).all_coeffs()
-            if simplify(rest + factor_of * pi / 2) == 0:
-                expr = simplify(-factor_of) * _complement(angle, kinks)
-            elif angle in kinks and simplify(rest + factor_of * pi) == 0:
-                expr = simplify(-factor_of) * _opposite(kinks[angle])
+            times, rest = Poly(linear, stand_in).all_coeffs()
+            if simplify(rest + times * pi / 2) == 0:
+                expr = simplify(-times) * _complement(angle, kinks)
+            elif angle in kinks and simplify(rest + times * pi) == 0:
+                expr = simplify(-times) * _opposite(kinks[angle])
         return expr
 
-    steps = tuple(s for s in program.steps)
-    return replace(program, outputs={n: change(v) for n, v in program.outputs.items()}, steps=steps)
+    return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
 
 
 def _complement(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:
@@ -140,11 +146,49 @@ def _opposite(k: KinkFrame) -> Expr:
     return 2 * atan2(along, y)
 
 
-def logarithms_to_asinh(program: Program) -> Program:
-    """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> asinh( sqrt(min(u, v)) / sqrt|u - v| ).
+def tangents_from_both_ends(program: Program, example: Point) -> Program:
+    """tan z -> tan z up to pi/4 and 1/tan(pi/2 - z) beyond, the rest pi/2 - z in factored form.
 
-    The difference u - v is factored, so that it is a product of exact differences; at an edge
-    min(u, v) vanishes instead of a logarithm of one, and far from it nothing overflows before the root is taken.
+    Near pi/2 the rest is the exact small difference, and z is not.
+    """
+    tangents = sorted({t for v in program.outputs.values() for t in v.atoms(tan)}, key=str)
+    if len(tangents) != 1:
+        return program
+    (tangent,) = tangents
+    sign = 1 if numeric(tangent.args[0])(example) > 0 else -1
+    angle = _signs_inside(factor(together(sign * tangent.args[0])))
+    rest = _signs_inside(factor(together(pi / 2 - angle)))
+    safe = Piecewise((tan(_angle), _angle <= pi / 4), (1 / tan(_rest), True))
+    outputs = {n: cancel(v.subs(tangent, sign * _tangent)) for n, v in program.outputs.items()}
+    program = replace(program, outputs=outputs)
+    return program.with_steps(
+        Step(_angle, angle, "half the angle of the corner"),
+        Step(_rest, rest, "what it lacks of a right angle"),
+        Step(_tangent, safe, ""),
+    )
+
+
+def _signs_inside(product: Expr) -> Expr:
+    """-k (p - q) -> k (q - p)."""
+    if not product.could_extract_minus_sign():
+        return product
+    factors = list(Mul.make_args(product))
+    place = next((i for i, f in enumerate(factors) if isinstance(f, Add)), None)
+    if place is None:
+        return product
+    factors[place] = -factors[place]
+    return -Mul(*factors)
+
+
+# ------------------------------------------------------------------ logarithms and roots
+
+
+def logarithms_to_asinh(program: Program) -> Program:
+    """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> asinh( sqrt min(u, v) / sqrt |u - v| ).
+
+    The difference u - v is factored, so that it is a product of exact differences.  At an edge
+    min(u, v) vanishes instead of a logarithm of one; outside it is clipped; and as each factor has
+    a root of its own, nothing overflows next to a kink.
     """
 
     def change(expr: Expr) -> Expr:
@@ -164,97 +208,104 @@ def _asinh(argument: Expr) -> Expr | None:
     if not all(isinstance(r, Pow) and r.exp == S.Half for r in (first, second)):
         return None
     u, v = first.base, second.base
-    gap = Mul.make_args(factor(u - v))
-    smaller = Max(0, Min(u, v))
-    return 2 * asinh(sqrt(smaller) / Mul(*(_root_of(f) for f in gap if f != -1)))
+    smaller = UnevaluatedExpr(sqrt(Max(0, Min(u, v))))
+    gap = [f for f in Mul.make_args(factor(u - v)) if f != -1]
+    return 2 * asinh(smaller / Mul(*(UnevaluatedExpr(sqrt(_absolute(f))) for f in gap)))
 
 
-def _root_of(factor_of_gap: Expr) -> Expr:
-    return sqrt(
-        factor_of_gap if factor_of_gap.is_positive or factor_of_gap == h else Abs(factor_of_gap)
-    )
+def _absolute(expr: Expr) -> Expr:
+    return expr if expr.is_positive or expr == h else Abs(expr)
 
 
 def conjugate_roots(program: Program) -> Program:
-    """+-A + sqrt(A**2 + B**2) -> B (r +- t) or, where that would cancel, B/(r -+ t); t = A/B, r = sqrt(1 + t**2).
+    """+-A + sqrt(A**2 + B**2) -> B (r +- t) or, where that cancels, B/(r -+ t).
 
-    A and B are never squared alone, so that neither overflows.
+    t = A/B and r = sqrt(1 + t**2); neither A nor B is ever squared alone, so that neither
+    overflows.  Used where every output in question holds the same A and B.
     """
-    steps: list[Step] = []
-
-    def change(expr: Expr) -> Expr:
-        if not isinstance(expr, Add):
-            return expr
-        for root in [r for r in expr.args if isinstance(r, Pow) and r.exp == S.Half]:
-            legs = [sqrt(term) for term in Add.make_args(root.base)]
-            if len(legs) != 2:
-                continue
-            for leg, other in (legs, legs[::-1]):
-                signed = _plain(leg)
-                for sign in (1, -1):
-                    rest = expr - root - sign * signed
-                    if count_ops(rest) < count_ops(expr - root) and other.is_positive:
-                        return rest + _conjugate(signed, other, sign, steps)
-        return expr
-
-    outputs = {name: change(expr) for name, expr in program.outputs.items()}
-    program = replace(program, outputs=outputs)
-    if steps:
-        base, ratio, _ = steps[:3]
-        of_loads = ratio.expr.subs(_base, base.expr)
-        program = program.mapped(lambda expr: expr.subs(of_loads, _ratio))
-    for step in steps:
-        program = program.with_step(step)
-    return program
-
-
-def _plain(leg: Expr) -> Expr:
-    """2 |e| -> 2 e: the rule asks for the sign of its leg."""
-    return leg.replace(Abs, lambda inner: inner)
-
-
-def _conjugate(leg: Expr, other: Expr, sign: int, steps: list[Step]) -> Expr:
-    steps += [
+    found = {name: _conjugate(expr) for name, expr in program.outputs.items()}
+    legs = {legs for legs, _ in filter(None, found.values())}
+    if len(legs) != 1:
+        return program
+    ((leg, other),) = legs
+    outputs = {
+        name: pair[1] if (pair := found[name]) else expr.xreplace({leg / other: _ratio})
+        for name, expr in program.outputs.items()
+    }
+    return replace(program, outputs=outputs).with_steps(
         Step(_base, other, "half-width without the moment"),
         Step(_ratio, leg / _base, "eccentricity of the load"),
         Step(_root, sqrt(1 + _ratio**2), ""),
-    ]
-    signed = sign * _ratio
-    safe = signed >= 0
-    return _base * Piecewise((_root + signed, safe), (1 / (_root - signed), True))
-
-
-def tangents_from_both_ends(program: Program, example: Point) -> Program:
-    """tan z -> tan z up to pi/4 and 1/tan(pi/2 - z) beyond, the rest pi/2 - z in factored form.
-
-    Near pi/2 the rest is the exact small difference, and z is not.
-    """
-    tangents = sorted({t for v in program.outputs.values() for t in v.atoms(tan)}, key=str)
-    if len(tangents) != 1:
-        return program
-    (tangent,) = tangents
-    sign = 1 if numeric(tangent.args[0])(example) > 0 else -1
-    angle = factor(together(sign * tangent.args[0]))
-    rest = factor(together(pi / 2 - angle))
-    safe = Piecewise((tan(_angle), _angle <= pi / 4), (1 / tan(_rest), True))
-    outputs = {n: cancel(v.subs(tangent, sign * _tangent)) for n, v in program.outputs.items()}
-    program = replace(program, outputs=outputs)
-    steps = (
-        Step(_angle, angle, "half the angle of the corner"),
-        Step(_rest, rest, "what it lacks of a right angle"),
-        Step(_tangent, safe, ""),
     )
-    return replace(program, steps=(*program.steps, *steps))
 
 
-def shared_once(program: Program) -> Program:
-    """What several outputs share is computed once, if it holds a root or a function."""
-    shared, _ = cse(list(program.outputs.values()), symbols=numbered_symbols("shared_", start=1))
-    for symbol, expr in shared:
-        costly = expr.atoms(Function) or any(
-            p.exp.is_Rational and p.exp.q > 1 for p in expr.atoms(Pow)
-        )
-        alone = expr in program.outputs.values()
-        if costly and not alone and not expr.free_symbols & {s for s, _ in shared}:
-            program = program.with_step(Step(symbol, expr, ""))
-    return program
+def _conjugate(expr: Expr) -> tuple[tuple[Expr, Expr], Expr] | None:
+    """(A, B), and rest +-A + sqrt(A**2 + B**2) in terms of t, r and B."""
+    for root in (t for t in Add.make_args(expr) if isinstance(t, Pow) and t.exp == S.Half):
+        legs = [sqrt(term) for term in Add.make_args(root.base)]
+        if len(legs) != 2:
+            continue
+        for leg, other in (legs, legs[::-1]):
+            signed = leg.replace(Abs, lambda inner: inner)
+            for sign in (1, -1):
+                rest = expr - root - sign * signed
+                if other.is_positive and count_ops(rest) < count_ops(expr - root):
+                    along = sign * _ratio
+                    stable = Piecewise((_root + along, along >= 0), (1 / (_root - along), True))
+                    return (signed, other), rest + _base * stable
+    return None
+
+
+def roots_under_the_edges(program: Program) -> Program:
+    """sqrt((a + x)(c - x)) -> the same, zero outside the contact."""
+    if not any(expr.has(x) for expr in program.outputs.values()):
+        return program
+    program = program.mapped(lambda expr: expr.subs(w, _w))
+    return program.with_steps(Step(_w, sqrt(Max(0, (a + x) * (c - x))), "root at x"))
+
+
+# ------------------------------------------------------------------ once for all outputs
+
+
+def half_width_once(program: Program) -> Program:
+    """a = half - mid, c = half + mid: their common term is half the width."""
+    if not {"a", "c"} <= program.outputs.keys():
+        return program
+    left, right = ({*Add.make_args(program.outputs[edge])} for edge in ("a", "c"))
+    half = Add(*(left & right))
+    if half == 0 or not half.atoms(Pow):
+        return program
+    return replace(
+        program,
+        outputs=dict(program.outputs)
+        | {"a": _half + Add(*(left - right)), "c": _half + Add(*(right - left))},
+        steps=(*program.steps, Step(_half, half, "half the contact width")),
+    )
+
+
+def common_factor_once(program: Program) -> Program:
+    """left = F u and right = F v: F once, where it is more than one operation."""
+    products = {n: v for n, v in program.outputs.items() if isinstance(v, Mul)}
+    if len(products) < 2:
+        return program
+    common = _common_factor(list(products.values()))
+    if common == 1 or common.is_Symbol:
+        return program
+    above, below = fraction(common)
+    symbol, once = (_root, below) if above == 1 else (_scale, common)
+    held = symbol if above != 1 else 1 / symbol
+    outputs = {n: v / common * held if n in products else v for n, v in program.outputs.items()}
+    return replace(program, outputs=outputs, steps=(*program.steps, Step(symbol, once, "")))
+
+
+def _common_factor(products: list[Expr]) -> Expr:
+    """What all products hold; numbers only if the products are equal."""
+    first, *others = products
+    if all(other == first for other in others):
+        return first
+    common = S.One
+    for base, exponent in first.as_powers_dict().items():
+        exponents = [exponent, *(p.as_powers_dict().get(base, S.Zero) for p in others)]
+        if not base.is_number and all(e.is_number and e * exponent > 0 for e in exponents):
+            common *= base ** min(exponents, key=abs)
+    return common

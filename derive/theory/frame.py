@@ -16,7 +16,7 @@ so that one formula serves the contact that has left the kink.
 from dataclasses import dataclass
 from functools import cached_property
 
-from sympy import Abs, Expr, Max, Symbol, atan2, log, sqrt
+from sympy import Abs, Expr, Max, Symbol, atan2, log, sqrt, symbols
 
 from derive.profile import Kink, Slope
 from derive.symbols import a, c, h, w, x
@@ -69,11 +69,29 @@ class KinkFrame:
         return sqrt(self._clip(self.left) * self._clip(self.right))
 
     @property
+    def u(self) -> Expr:
+        """Vanishes at the left edge."""
+        return self._clip(self.right) * (a + x)
+
+    @property
+    def v(self) -> Expr:
+        """Vanishes at the right edge."""
+        return self._clip(self.left) * (c - x)
+
+    @property
     def logarithm(self) -> Expr:
         """The definition of L_j."""
-        u = sqrt(self._clip(self.right) * (a + x))
-        v = sqrt(self._clip(self.left) * (c - x))
-        return log(Abs((u + v) / (u - v))) / 2
+        return _logarithm(self.u, self.v)
+
+    @property
+    def logarithm_in_words(self) -> dict[Symbol, Expr]:
+        """The definition of L_j by two more symbols, u_j and v_j."""
+        u, v = symbols(f"u_{self.kink.number} v_{self.kink.number}", nonnegative=True)
+        return {self.L: _logarithm(u, v), u: self.u, v: self.v}
+
+
+def _logarithm(u: Expr, v: Expr) -> Expr:
+    return log(Abs((sqrt(u) + sqrt(v)) / (sqrt(u) - sqrt(v)))) / 2
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,151 @@
+"""The command `derive`: parse, call, print.
+
+Exit status: 0 done, 1 a check fell short, 2 bad input.  SymPy is imported by the commands that need
+it, so that help is instant.
+"""
+
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+from rich.console import Console, RenderableType
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from derive.errors import UserError
+
+if TYPE_CHECKING:
+    from derive.pipeline import Body, Order
+
+_WIDE = 180
+"""Columns where the output is no terminal, so that nothing is broken that a program reads."""
+
+FELL_SHORT, BAD_INPUT = 1, 2
+
+
+class _Commands(click.Group):
+    """Shows a user's mistake as one message, and leaves with the status it deserves."""
+
+    def invoke(self, ctx: click.Context) -> object:
+        try:
+            return super().invoke(ctx)
+        except UserError as error:
+            _console(stderr=True).print(f"[bold red]Error:[/] {_plain(error.message)}")
+            ctx.exit(BAD_INPUT)
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="contact-derive", prog_name="derive")
+def main() -> None:
+    """Contact laws of half-plane contacts: derived from g(x), proven, generated as NumPy."""
+
+
+@main.command("list")
+def list_() -> None:
+    """Every geometry, its g(x), what is closed form and what is numerical."""
+    from derive import derive_sheet, load_geometry, view
+    from derive.library import library
+
+    _print(view.listing(derive_sheet(load_geometry(name)) for name in library()))
+
+
+@main.command()
+@click.argument("name")
+@click.option("--latex", is_flag=True, help="As one LaTeX display.")
+def show(name: str, latex: bool) -> None:
+    """The derived and proven formula sheet of NAME, a geometry or a geometry file."""
+    from derive import derive_sheet, load_geometry, prove_sheet, view
+
+    geometry = load_geometry(name)
+    with _console(stderr=True).status(f"deriving and proving {geometry.name}"):
+        sheet = prove_sheet(derive_sheet(geometry)).demand_proven()
+    if latex:
+        click.echo(sheet.latex)
+    else:
+        _print(view.formulas(sheet))
+
+
+@main.command()
+@click.argument("sources", nargs=-1, metavar="[NAME|FILE]...")
+@click.option("--out", type=click.Path(path_type=Path), help="Write an importable package here.")
+@click.option("--check", is_flag=True, help="Write nothing; fail if anything would change.")
+def generate(sources: tuple[str, ...], out: Path | None, check: bool) -> None:
+    """Derive, prove and write NumPy modules: the whole library, or the geometries named."""
+    from derive import view
+    from derive.pipeline import Order
+
+    order = Order(sources, out.resolve() if out else None)
+    bodies = _built(order)
+    if check:
+        _report_drift(order, bodies)
+        return
+    changed = order.write(bodies)
+    _print(view.summary(bodies))
+    _print(f"{'Wrote' if changed else 'Nothing to change in'} {_shown(order.target)}")
+
+
+def _built(order: "Order") -> "list[Body]":
+    """Every body of an order, under a progress bar."""
+    from derive.pipeline import STAGES, build
+    from derive.proof.verdict import NotProven
+
+    try:
+        with _progress(len(order.names) * len(STAGES)) as step:
+            return [build(name, step) for name in order.names]
+    except NotProven as error:
+        _console(stderr=True).print(f"[bold red]Not proven:[/] {_plain(str(error))}")
+        sys.exit(FELL_SHORT)
+
+
+def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:
+    from derive import view
+
+    found = order.check(bodies)
+    if not found:
+        _print(f"{_shown(order.target)} is as generated")
+        return
+    _print(view.drift(found))
+    where = f" --out {_shown(order.target)}" if order.folder else ""
+    _print(f"Update with: derive generate{''.join(f' {s}' for s in order.sources)}{where}")
+    sys.exit(FELL_SHORT)
+
+
+@contextmanager
+def _progress(total: int) -> Iterator[Callable[[str, str], None]]:
+    """A bar that is told each body and the stage that it enters."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
+    console = _console(stderr=True)
+    with Progress(*columns, TimeElapsedColumn(), console=console, transient=True) as bar:
+        task = bar.add_task("", total=total)
+        entered = 0
+
+        def step(body: str, stage: str) -> None:
+            nonlocal entered
+            bar.update(task, description=f"{body}: {stage}", completed=entered)
+            entered += 1
+
+        yield step
+
+
+def _console(stderr: bool = False) -> Console:
+    stream = sys.stderr if stderr else sys.stdout
+    width = None if stream.isatty() else _WIDE
+    return Console(stderr=stderr, width=width, highlight=False)
+
+
+def _print(what: RenderableType) -> None:
+    _console().print(what)
+
+
+def _plain(text: str) -> str:
+    from rich.markup import escape
+
+    return escape(text)
+
+
+def _shown(path: Path) -> str:
+    """A path as the user would type it."""
+    here = Path.cwd()
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)

@@ -1,0 +1,120 @@
+"""A generated package as a whole: its files, compared with a directory or put in its place.
+
+In:  texts of modules.
+Out: a list of differences, or the directory replaced whole or not at all.
+"""
+
+import shutil
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import unified_diff
+from pathlib import Path
+
+from derive.codegen.module import MARK
+from derive.errors import BadOutput
+
+_SUPPORT = Path(__file__).parent / "support"
+_TITLE = '"""Contact laws as NumPy functions, one module a body; every formula is proven."""\n'
+
+Files = Mapping[str, str]
+"""Name of each file of a package, and its text."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One file that is not as it would be generated."""
+
+    name: str
+    what: str
+    diff: str = ""
+
+
+def package_files(modules: Files) -> dict[str, str]:
+    """All files of a package that holds `modules`, texts by module name."""
+    files = {"__init__.py": f"{MARK}\n{_TITLE}", "py.typed": ""}
+    for path in sorted(_SUPPORT.glob("_[a-z]*.py")):
+        files[path.name] = f"{MARK}\n{path.read_text(encoding='utf-8')}"
+    return files | {f"{name}.py": text for name, text in sorted(modules.items())}
+
+
+def modules_in(folder: Path) -> dict[str, str]:
+    """Texts of the modules of bodies that a generated package holds, by name."""
+    paths = [p for p in sorted(folder.glob("*.py")) if not p.name.startswith("_")]
+    return {p.stem: p.read_text(encoding="utf-8") for p in paths}
+
+
+def differences(files: Files, folder: Path) -> list[Difference]:
+    """What in `folder` is not as in `files`: the list of names first, then every byte."""
+    held = {p.name: p for p in _entries(folder)}
+    found = [Difference(name, "missing") for name in files if name not in held]
+    found += [Difference(name, "not generated") for name in held if name not in files]
+    for name, path in held.items():
+        if name in files and path.read_bytes() != files[name].encode():
+            found.append(Difference(name, "changed", _diff(name, path, files[name])))
+    return sorted(found, key=lambda difference: difference.name)
+
+
+def _diff(name: str, path: Path, wanted: str) -> str:
+    on_disk = path.read_text(encoding="utf-8", errors="replace")
+    lines = unified_diff(
+        on_disk.splitlines(keepends=True),
+        wanted.splitlines(keepends=True),
+        f"{name} on disk",
+        f"{name} as generated",
+    )
+    return "".join(lines)
+
+
+def publish(files: Files, folder: Path) -> None:
+    """Put a package in place of `folder`, whole or not at all.
+
+    Raises BadOutput where `folder` holds anything that was not generated, or can't be written.
+    """
+    demand_replaceable(folder)
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    except OSError as error:
+        raise BadOutput(str(folder), f"can't be written ({error.strerror})") from error
+    try:
+        fresh, old = workshop / "fresh", workshop / "old"
+        fresh.mkdir()
+        for name, text in files.items():
+            (fresh / name).write_bytes(text.encode())
+        if folder.exists():
+            folder.replace(old)
+        try:
+            fresh.replace(folder)
+        except OSError:
+            if old.exists():
+                old.replace(folder)
+            raise
+    except OSError as error:
+        raise BadOutput(str(folder), f"can't be replaced ({error.strerror})") from error
+    finally:
+        shutil.rmtree(workshop, ignore_errors=True)
+
+
+def demand_replaceable(folder: Path) -> None:
+    """Raise BadOutput unless `folder` is absent, empty, or a package made here."""
+    if not folder.exists() and not folder.is_symlink():
+        return
+    if folder.is_symlink() or not folder.is_dir():
+        raise BadOutput(str(folder), "is no directory")
+    for path in _entries(folder):
+        if not _is_ours(path):
+            raise BadOutput(str(folder), f"holds {path.name!r}, which was not generated")
+
+
+def _entries(folder: Path) -> list[Path]:
+    if not folder.is_dir():
+        return []
+    return sorted(p for p in folder.iterdir() if p.name != "__pycache__")
+
+
+def _is_ours(path: Path) -> bool:
+    if not path.is_file():
+        return False
+    first = path.read_bytes()[: len(MARK)]
+    return first == MARK.encode() if path.suffix == ".py" else path.name == "py.typed"
