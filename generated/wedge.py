@@ -53,15 +53,14 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     exists = (P > 0) & (E_star > 0) & (phi > 0)
     base = P / (E_star * phi)  # half-width without the moment [m]
     e = M / P  # lever arm of the load [m]
-    ratio = 2 * e / base  # eccentricity of the load [-]
-    root = np.sqrt(ratio**2 + 1)
-    a = base * np.where(ratio >= 0, ratio + root, 1 / (root - ratio))
-    c = base * np.where(ratio <= 0, root - ratio, 1 / (ratio + root))
+    root = np.hypot(base, 2 * e)
+    a = np.where(e >= 0, 2 * e + root, base * (P / (phi * (E_star * (root - 2 * e)))))
+    c = np.where(e <= 0, root - 2 * e, base * (P / (phi * (E_star * (2 * e + root)))))
     exists = exists & (a + c > 0) & (a + c < np.inf)
     return Contact(
         a=np.where(exists, a, np.nan),
         c=np.where(exists, c, np.nan),
-        alpha=np.where(exists, 2 * phi * np.arctan(ratio) / np.pi, np.nan),
+        alpha=np.where(exists, 2 * phi * np.arctan2(2 * e, base) / np.pi, np.nan),
     )
 
 
@@ -89,12 +88,16 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     ['11.9728', '5.34543', '0.03125']
     """
     exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (E_star > 0) & (phi > 0)
+    angle = (
+        np.pi * np.where(np.abs(alpha) < phi / 2, 1 - alpha / phi, (phi - alpha) / phi) / 4
+    )  # half the angle of the corner [-]
+    rest = (
+        np.pi * np.where(np.abs(alpha) < phi / 2, alpha / phi + 1, (alpha + phi) / phi) / 4
+    )  # what it lacks of a right angle [-]
     scale = P / (E_star * phi)
-    angle = np.pi * (phi - alpha) / (4 * phi)  # half the angle of the corner [-]
-    rest = np.pi * (alpha + phi) / (4 * phi)  # what it lacks of a right angle [-]
-    tangent = np.where(angle <= np.pi / 4, np.tan(angle), 1 / np.tan(rest))
-    a = scale / tangent
-    c = scale * tangent
+    tangent = np.tan(np.minimum(angle, rest))
+    a = np.where(angle <= rest, scale / tangent, scale * tangent)
+    c = np.where(angle <= rest, scale * tangent, scale / tangent)
     exists = exists & (a + c > 0) & (a + c < np.inf)
     return Contact(
         a=np.where(exists, a, np.nan),
@@ -126,8 +129,7 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     '0.0160236'
     """
     exists = (a > 0) & (c > 0) & (phi > 0) & (a + c < np.inf)
-    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
-    return np.where(exists, 2 * phi * np.arctan2(a - c, 2 * w_1) / np.pi, np.nan)
+    return np.where(exists, 2 * phi * np.arctan((a - c) / (2 * np.sqrt(a * c))) / np.pi, np.nan)
 
 
 @elementwise
@@ -153,8 +155,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """
     exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
     E_star = np.where(exists, E_star, np.nan)
-    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
-    return w_1 * E_star * phi
+    return E_star * phi * np.sqrt(a * c)
 
 
 @elementwise
@@ -181,8 +182,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """
     exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
     E_star = np.where(exists, E_star, np.nan)
-    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
-    return w_1 * E_star * phi * (a - c) / 4
+    return E_star * phi * (a - c) * np.sqrt(a * c) / 4
 
 
 @elementwise
@@ -214,9 +214,11 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
     E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
+    smaller_1 = np.maximum(
+        np.minimum(a * (c - x), c * (a + x)), 0
+    )  # vanishes at both edges [m**(2)]
     L_1 = np.arcsinh(
-        np.sqrt(np.maximum(np.minimum(a * (c - x), c * (a + x)), 0))
-        / (np.sqrt(np.abs(x)) * np.sqrt(h))
+        2.0**32 * (np.sqrt(smaller_1 / (np.abs(x) * (h * 2.0**64))))
     )  # logarithm of the kink x = 0 [-]
     return (2 * E_star * phi / np.pi) * L_1
 
@@ -247,9 +249,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
     E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
-    scale = w_1 * E_star * phi / np.sqrt(h)
-    return Edges(left=2 * scale / (np.pi * a), right=2 * scale / (np.pi * c))
+    scale = 2 * E_star * phi / np.pi
+    return Edges(left=scale * np.sqrt(c / (a * h)), right=scale * np.sqrt(a / (c * h)))
 
 
 @elementwise
@@ -278,11 +279,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
     E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    w_1 = np.sqrt(a * c)  # root at the kink x = 0 [m]
-    scale = w_1 * E_star * phi / (h * np.sqrt(h))
+    scale = E_star * phi / (3 * np.pi)
     return Edges(
-        left=scale * (3 * a + 2 * c) / (3 * np.pi * a**2),
-        right=scale * (2 * a + 3 * c) / (3 * np.pi * c**2),
+        left=scale * (1 / h + 2 / a) * np.sqrt(c / (a * h)),
+        right=scale * (1 / h + 2 / c) * np.sqrt(a / (c * h)),
     )
 
 

@@ -1,13 +1,13 @@
 """SymPy -> NumPy source.  What the printer does not know it refuses; it never guesses a name.
 
-Two things it does beyond spelling: half powers in a product are gathered under one root (those in
-an UnevaluatedExpr are kept apart), and factors that do not vary along the array are multiplied
-first, so that an array is passed over once.
+Three things it does beyond spelling: the root of two squares is a hypotenuse; half powers in a
+product are gathered under one root (those in an UnevaluatedExpr are kept apart); and factors that
+do not vary along the array are multiplied first, so that an array is passed over once.
 """
 
 from collections.abc import Iterable
 
-from sympy import Add, Basic, Expr, Mul, Pow, Rational, S, Symbol
+from sympy import Abs, Add, Basic, Expr, Mul, Pow, Rational, S, Symbol, UnevaluatedExpr, sqrt
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
@@ -42,6 +42,9 @@ class NumPyPrinter(StrPrinter):
 
     def parenthesize(self, item: Basic, level: int, strict: bool = False) -> str:
         """Like SymPy's, but a root is a call and needs no parentheses."""
+        if isinstance(item, UnevaluatedExpr):
+            inner = self._print(item)
+            return f"({inner})" if isinstance(item.args[0], Mul | Add) else inner
         if item.is_Pow and item.exp == S.Half:
             return self._print(item)
         return super().parenthesize(item, level, strict)
@@ -96,9 +99,13 @@ class NumPyPrinter(StrPrinter):
     def _print_Pow(self, expr: Pow, rational: bool = False) -> str:
         base, exponent = expr.base, expr.exp
         if exponent == S.Half:
-            return f"np.sqrt({self._print(base)})"
+            legs = _legs(base)
+            inner = ", ".join(self._print(leg) for leg in legs) or self._print(base)
+            return f"np.{'hypot' if legs else 'sqrt'}({inner})"
         if exponent.is_negative or _is_odd_half(exponent):
             return self._quotient([expr])
+        if base.is_Integer:
+            return f"{base}.0**{self.parenthesize(exponent, PRECEDENCE['Pow'])}"
         below, above = (self.parenthesize(part, PRECEDENCE["Pow"]) for part in (base, exponent))
         return f"{below}**{above}"
 
@@ -168,6 +175,14 @@ def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
     elif below:
         bottom.append(_root(Mul(*below)))
     return top, bottom
+
+
+def _legs(base: Expr) -> list[Expr]:
+    """A and B of A**2 + B**2, of which the root is a hypotenuse; nothing else has legs."""
+    legs = [sqrt(term) for term in base.as_ordered_terms()] if isinstance(base, Add) else []
+    legs = [leg.replace(Abs, lambda inner: inner) for leg in legs]
+    whole = all(not p.exp.is_Rational or p.exp.q == 1 for leg in legs for p in leg.atoms(Pow))
+    return legs if len(legs) == 2 and whole else []
 
 
 def _is_odd_half(exponent: Expr) -> bool:

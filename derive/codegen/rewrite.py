@@ -24,13 +24,16 @@ from sympy import (
     Symbol,
     UnevaluatedExpr,
     asinh,
+    atan,
     atan2,
     cancel,
     count_ops,
+    expand,
     factor,
     fraction,
     log,
     pi,
+    powsimp,
     simplify,
     sqrt,
     tan,
@@ -44,11 +47,11 @@ from derive.sheet import FormulaSheet
 from derive.symbols import M, P, a, c, e, h, w, x
 from derive.theory.frame import KinkFrame
 
+_POWER, _SQUARE = (UnevaluatedExpr(Pow(2, n, evaluate=False)) for n in (32, 64))
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
 _half = Symbol("half", positive=True)
 _base = Symbol("base", positive=True)
-_ratio = Symbol("ratio", real=True)
 _root = Symbol("root", positive=True)
 _scale = Symbol("scale", positive=True)
 _angle = Symbol("angle", positive=True)
@@ -66,13 +69,14 @@ def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point
     program = angles_about_the_right_angle(program, sheet)
     program = logarithms_to_asinh(program)
     program = conjugate_roots(program)
-    program = tangents_from_both_ends(program, example)
     program = roots_under_the_edges(program)
     program = program.with_steps(
         Step(e, M / P, "lever arm of the load"), Step(_h, h, "contact width")
     )
+    program = lengths_of_one_sign(program, sheet)
+    program = sums_term_by_term(program)
     program = half_width_once(program)
-    program = common_factor_once(program)
+    program = tangents_from_both_ends(program, example)
     return program.renamed(q.name for q in sheet.geometry.parameters).ordered()
 
 
@@ -147,25 +151,44 @@ def _opposite(k: KinkFrame) -> Expr:
 
 
 def tangents_from_both_ends(program: Program, example: Point) -> Program:
-    """tan z -> tan z up to pi/4 and 1/tan(pi/2 - z) beyond, the rest pi/2 - z in factored form.
+    """F tan z and F/tan z from t, the tangent of the smaller of z and pi/2 - z.
 
-    Near pi/2 the rest is the exact small difference, and z is not.
+    Near pi/2 the rest pi/2 - z is the exact small difference, and z is not.
     """
     tangents = sorted({t for v in program.outputs.values() for t in v.atoms(tan)}, key=str)
     if len(tangents) != 1:
-        return program
+        return common_factor_once(program)
     (tangent,) = tangents
     sign = 1 if numeric(tangent.args[0])(example) > 0 else -1
-    angle = _signs_inside(factor(together(sign * tangent.args[0])))
-    rest = _signs_inside(factor(together(pi / 2 - angle)))
-    safe = Piecewise((tan(_angle), _angle <= pi / 4), (1 / tan(_rest), True))
+    angle = factor(together(sign * tangent.args[0]))
+    rest = factor(together(pi / 2 - angle))
     outputs = {n: cancel(v.subs(tangent, sign * _tangent)) for n, v in program.outputs.items()}
-    program = replace(program, outputs=outputs)
-    return program.with_steps(
-        Step(_angle, angle, "half the angle of the corner"),
-        Step(_rest, rest, "what it lacks of a right angle"),
-        Step(_tangent, safe, ""),
+    program = common_factor_once(replace(program, outputs=outputs))
+
+    def resolved(expr: Expr) -> Expr:
+        if not expr.has(_tangent):
+            return expr
+        return Piecewise((expr, _angle <= _rest), (expr.subs(_tangent, 1 / _tangent), True))
+
+    outputs = {n: resolved(v) for n, v in program.outputs.items()}
+    return replace(program, outputs=outputs).with_steps(
+        Step(_angle, _shares_taken_off(angle), "half the angle of the corner"),
+        Step(_rest, _shares_taken_off(rest), "what it lacks of a right angle"),
+        Step(_tangent, tan(Min(_angle, _rest)), ""),
     )
+
+
+def _shares_taken_off(product: Expr) -> Expr:
+    """k (p - q)/p -> k (1 - q/p) while q is small against p: one rounding less."""
+    product = _signs_inside(product)
+    for total in (f for f in Mul.make_args(product) if isinstance(f, Add)):
+        outer = product / total
+        for p in total.args:
+            q = p - total
+            if outer.subs(p, 1 / p) != outer and p.is_positive and not (outer * p).has(p):
+                k = outer * p
+                return k * Piecewise((1 - q / p, Abs(q) < p / 2), (total / p, True))
+    return product
 
 
 def _signs_inside(product: Expr) -> Expr:
@@ -187,17 +210,20 @@ def logarithms_to_asinh(program: Program) -> Program:
     """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> asinh( sqrt min(u, v) / sqrt |u - v| ).
 
     The difference u - v is factored, so that it is a product of exact differences.  At an edge
-    min(u, v) vanishes instead of a logarithm of one; outside it is clipped; and as each factor has
-    a root of its own, nothing overflows next to a kink.
+    min(u, v) vanishes instead of a logarithm of one; outside it is clipped.  A power of two, exact
+    in floating point, keeps the quotient finite next to a kink.
     """
 
+    smaller: list[Step] = []
+
     def change(expr: Expr) -> Expr:
-        return expr.replace(log, lambda argument: _asinh(argument) or log(argument))
+        return expr.replace(log, lambda argument: _asinh(argument, smaller) or log(argument))
 
-    return program.mapped(change)
+    program = program.mapped(change)
+    return replace(program, steps=(*program.steps, *smaller))
 
 
-def _asinh(argument: Expr) -> Expr | None:
+def _asinh(argument: Expr, smaller: list[Step]) -> Expr | None:
     quotient = argument.args[0] if isinstance(argument, Abs) else argument
     top, bottom = quotient.as_numer_denom()
     if not (isinstance(top, Add) and len(top.args) == 2):
@@ -208,39 +234,45 @@ def _asinh(argument: Expr) -> Expr | None:
     if not all(isinstance(r, Pow) and r.exp == S.Half for r in (first, second)):
         return None
     u, v = first.base, second.base
-    smaller = UnevaluatedExpr(sqrt(Max(0, Min(u, v))))
     gap = [f for f in Mul.make_args(factor(u - v)) if f != -1]
-    return 2 * asinh(smaller / Mul(*(UnevaluatedExpr(sqrt(_absolute(f))) for f in gap)))
-
-
-def _absolute(expr: Expr) -> Expr:
-    return expr if expr.is_positive or expr == h else Abs(expr)
+    vanishing = [f for f in gap if f.has(x)]
+    steady = Mul(*(f for f in gap if not f.has(x)))
+    below = UnevaluatedExpr(_SQUARE * steady) * Mul(*map(Abs, vanishing))
+    least = Symbol(f"smaller_{len(smaller) + 1}", nonnegative=True)
+    smaller.append(Step(least, Max(0, Min(u, v)), "vanishes at both edges"))
+    return 2 * asinh(_POWER * UnevaluatedExpr(sqrt(least / below)))
 
 
 def conjugate_roots(program: Program) -> Program:
-    """+-A + sqrt(A**2 + B**2) -> B (r +- t) or, where that cancels, B/(r -+ t).
+    """+-A + sqrt(A**2 + B**2) -> r +- A or, where that cancels, B (B/(r -+ A)).
 
-    t = A/B and r = sqrt(1 + t**2); neither A nor B is ever squared alone, so that neither
-    overflows.  Used where every output in question holds the same A and B.
+    r = sqrt(A**2 + B**2) is printed as a hypotenuse, which does not overflow.
     """
     found = {name: _conjugate(expr) for name, expr in program.outputs.items()}
     legs = {legs for legs, _ in filter(None, found.values())}
     if len(legs) != 1:
         return program
     ((leg, other),) = legs
-    outputs = {
-        name: pair[1] if (pair := found[name]) else expr.xreplace({leg / other: _ratio})
-        for name, expr in program.outputs.items()
-    }
-    return replace(program, outputs=outputs).with_steps(
-        Step(_base, other, "half-width without the moment"),
-        Step(_ratio, leg / _base, "eccentricity of the load"),
-        Step(_root, sqrt(1 + _ratio**2), ""),
+    outputs = {name: pair[1] if (pair := found[name]) else v for name, v in program.outputs.items()}
+    program = replace(program, outputs=outputs).mapped(lambda expr: _quotients_to(other, expr))
+    steps = Step(_base, other, "half-width without the moment"), Step(_root, _hypot(leg), "")
+    return replace(program, steps=(*program.steps, *steps))
+
+
+def _hypot(leg: Expr) -> Expr:
+    return sqrt(leg**2 + _base**2)
+
+
+def _quotients_to(other: Expr, expr: Expr) -> Expr:
+    """atan(y/B) -> atan2(y, B)."""
+    return expr.replace(
+        lambda n: isinstance(n, atan) and (n.args[0] * other).count_ops() < n.args[0].count_ops(),
+        lambda n: atan2(n.args[0] * other, _base, evaluate=False),
     )
 
 
 def _conjugate(expr: Expr) -> tuple[tuple[Expr, Expr], Expr] | None:
-    """(A, B), and rest +-A + sqrt(A**2 + B**2) in terms of t, r and B."""
+    """(A, B), and rest +-A + sqrt(A**2 + B**2) in terms of r, A and B."""
     for root in (t for t in Add.make_args(expr) if isinstance(t, Pow) and t.exp == S.Half):
         legs = [sqrt(term) for term in Add.make_args(root.base)]
         if len(legs) != 2:
@@ -250,10 +282,51 @@ def _conjugate(expr: Expr) -> tuple[tuple[Expr, Expr], Expr] | None:
             for sign in (1, -1):
                 rest = expr - root - sign * signed
                 if other.is_positive and count_ops(rest) < count_ops(expr - root):
-                    along = sign * _ratio
-                    stable = Piecewise((_root + along, along >= 0), (1 / (_root - along), True))
-                    return (signed, other), rest + _base * stable
+                    along = sign * signed
+                    apart = UnevaluatedExpr(_over(_root - along, other))
+                    stable = Piecewise((_root + along, along >= 0), (_base * apart, True))
+                    return (signed, other), rest + stable
     return None
+
+
+def _over(divisor: Expr, quotient: Expr) -> Expr:
+    """(p/q)/divisor as p/(divisor q): its roundings are none of those that p/q has."""
+    above, below = fraction(quotient)
+    for f in Mul.make_args(below):
+        divisor = UnevaluatedExpr(divisor * f)
+    return above / divisor
+
+
+def lengths_of_one_sign(program: Program, sheet: FormulaSheet) -> Program:
+    """sqrt(a c)/a -> sqrt(c/a) where all contacts have a > 0 and c > 0."""
+    conditions = set(sheet["load"].conditions)
+    known = {s: Symbol(str(s), positive=True) for s in (a, c) if (s > 0) in conditions}
+    if len(known) < 2 or x in set().union(*(v.free_symbols for v in program.flat().values())):
+        return program
+    opened = {k.w: k.root.subs(known) for k in sheet.frame.kinks}
+    outputs = {
+        name: powsimp(v.xreplace(opened | known)).xreplace({new: old for old, new in known.items()})
+        for name, v in program.outputs.items()
+    }
+    return replace(program, outputs=outputs)
+
+
+def sums_term_by_term(program: Program) -> Program:
+    """(p a + q c)/(a h) -> sum of p'/a and q'/h where all terms are positive and fewer."""
+    return replace(program, outputs={n: _term_by_term(v) for n, v in program.outputs.items()})
+
+
+def _term_by_term(product: Expr) -> Expr:
+    sums = (f for f in Mul.make_args(product) if isinstance(f, Add))
+    for total in (f for f in sums if f.free_symbols <= {a, c}):
+        below = fraction(product / total)[1]
+        over = Mul(*(s for s in (a, c, _h) if below.has(s)))
+        for edge, other in ((a, c), (c, a)):
+            terms = expand(total.subs(edge, _h - other) / over)
+            positive = all(not t.could_extract_minus_sign() for t in Add.make_args(terms))
+            if positive and count_ops(terms) < count_ops(total / over):
+                return product / total * over * terms
+    return product
 
 
 def roots_under_the_edges(program: Program) -> Program:
@@ -284,11 +357,13 @@ def half_width_once(program: Program) -> Program:
 
 
 def common_factor_once(program: Program) -> Program:
-    """left = F u and right = F v: F once, where it is more than one operation."""
+    """left = F u and right = F v: F once, unless that would split a root."""
     products = {n: v for n, v in program.outputs.items() if isinstance(v, Mul)}
     if len(products) < 2:
         return program
     common = _common_factor(list(products.values()))
+    if any(_roots(v / common) for v in products.values()):
+        common = Mul(*(f for f in Mul.make_args(common) if not _roots(f)))
     if common == 1 or common.is_Symbol:
         return program
     above, below = fraction(common)
@@ -298,14 +373,18 @@ def common_factor_once(program: Program) -> Program:
     return replace(program, outputs=outputs, steps=(*program.steps, Step(symbol, once, "")))
 
 
+def _roots(expr: Expr) -> set[Expr]:
+    return {p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2}
+
+
 def _common_factor(products: list[Expr]) -> Expr:
-    """What all products hold; numbers only if the products are equal."""
+    """What all products hold, to the smallest power."""
     first, *others = products
     if all(other == first for other in others):
         return first
     common = S.One
     for base, exponent in first.as_powers_dict().items():
         exponents = [exponent, *(p.as_powers_dict().get(base, S.Zero) for p in others)]
-        if not base.is_number and all(e.is_number and e * exponent > 0 for e in exponents):
+        if all(e.is_number and e * exponent > 0 for e in exponents):
             common *= base ** min(exponents, key=abs)
     return common

@@ -1,0 +1,1 @@
+"""The proof: right formulas hold, and no broken one does."""

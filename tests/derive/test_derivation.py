@@ -1,0 +1,323 @@
+"""Whole sheets: known bodies by hand, and what holds for every body whatever its profile."""
+
+from functools import cache
+
+import mpmath
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import mpf
+from sympy import Expr, Symbol, atan, log, pi, simplify, sqrt
+
+from derive import Geometry, parameter, x
+from derive.derivation import derive_sheet
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, a, c
+from tests.derive import bodies
+from tests.derive.bodies import BODIES, VALUES, close, evaluated, mirrored, sheet, value
+
+FORWARD = ("tilt", "load", "moment", "pressure", "edge_ratio", "load_rate", "punch")
+EDGES = ("K_N_left", "K_N_right", "L_N_left", "L_N_right")
+STICK = ("full_stick_change", "K_T_left", "K_T_right")
+
+R, C, phi, psi, b = (Symbol(name, positive=True) for name in ("R", "C", "phi", "psi", "b"))
+A, B = Symbol("A", positive=True), Symbol("B", positive=True)  # a > 0 and c > 0
+
+
+def at_positive_edges(name: str, formula: str) -> Expr:
+    return sheet(name).flat(formula).subs({a: A, c: B})
+
+
+# The classics, each worked out on paper.
+#
+# hertz: g' = x/R.  int s/w = pi mid, int s^2/w = pi (mid^2 + h^2/8), int s^3/w = pi (mid^3 +
+#   3 mid h^2/8), so alpha = -mid/R;  P = (E*/2R)(I_2 - mid I_1) = pi E* h^2/(16 R);
+#   M = -(E*/2R) [pi mid h^2/4 - mid pi h^2/8] = -P mid;  p = E* w/(2 R).
+# wedge: with s = mid + (h/2) cos t the apex lies at cos t0 = -mid/(h/2), the right part is t < t0.
+#   int g'/w = phi (t0 - (pi - t0)), so alpha = phi (1 - 2 t0/pi), tan(t0/2) = sqrt(c/a);
+#   int s g'/w = mid phi (2 t0 - pi) + 2 phi (h/2) sin t0, (h/2) sin t0 = sqrt(ac), P = E* phi
+#   sqrt(ac).  Its load acts half-way from the apex to mid: M = -P mid/2.
+# quartic: g' = 4 x^3/C, alpha = -(4/C)(mid^3 + 3 mid h^2/8);  at a = c: P = (E*/2)(4/C)(3 pi/8) a^4.
+_KNOWN = {
+    ("hertz", "tilt"): (A - B) / (2 * R),
+    ("hertz", "load"): pi * E_star * (A + B) ** 2 / (16 * R),
+    ("hertz", "moment"): pi * E_star * (A + B) ** 2 * (A - B) / (32 * R),
+    ("hertz", "pressure"): E_star * sqrt((A + x) * (B - x)) / (2 * R),
+    ("hertz", "edge_ratio"): 1,
+    ("hertz", "load_rate"): pi * E_star * (A + B) / (4 * R),  # dP/dc + dP/da at a' = 1
+    ("hertz", "punch"): E_star * (A + B) / (4 * R),
+    ("hertz", "K_N_left"): E_star * sqrt(A + B) / (2 * R),
+    ("hertz", "K_N_right"): E_star * sqrt(A + B) / (2 * R),
+    ("hertz", "L_N_left"): -E_star / (4 * R * sqrt(A + B)),  # sqrt(h - s) = sqrt(h)(1 - s/2h)
+    ("hertz", "L_N_right"): -E_star / (4 * R * sqrt(A + B)),
+    ("wedge", "tilt"): phi * (1 - 4 * atan(sqrt(B / A)) / pi),
+    ("wedge", "load"): E_star * phi * sqrt(A * B),
+    ("wedge", "moment"): E_star * phi * sqrt(A * B) * (A - B) / 4,
+    ("wedge", "edge_ratio"): A / B,  # alpha is a function of c/a
+    ("wedge", "load_rate"): E_star * phi * sqrt(A / B),  # P = E* phi c sqrt(a/c), a/c fixed
+    ("wedge", "punch"): E_star * phi * sqrt(A / B) / pi,
+    ("wedge", "K_N_right"): 2 * E_star * phi / pi * sqrt(A / (B * (A + B))),
+    ("wedge", "K_N_left"): 2 * E_star * phi / pi * sqrt(B / (A * (A + B))),
+    ("unequal_wedge", "load"): E_star * (phi + psi) / 2 * sqrt(A * B),  # the tilt adds no load
+    ("unequal_wedge", "moment"): E_star * (phi + psi) / 8 * sqrt(A * B) * (A - B),
+    ("quartic", "tilt"): (A - B) * (5 * A**2 + 2 * A * B + 5 * B**2) / (4 * C),
+}
+
+
+@pytest.mark.parametrize(("name", "formula"), _KNOWN, ids="-".join)
+def test_the_classics(name: str, formula: str) -> None:
+    assert simplify(at_positive_edges(name, formula) - _KNOWN[name, formula]) == 0
+
+
+def test_the_pressure_of_the_wedge() -> None:
+    """(2 E* phi/pi) (1/2) log((sqrt u + sqrt v)/(sqrt u - sqrt v)), u = c (a + x), v = a (c - x).
+
+    On the right of the apex; half the log is artanh sqrt(v/u).
+    """
+    u, v = B * (A + x), A * (B - x)
+    expected = E_star * phi / pi * log((sqrt(u) + sqrt(v)) / (sqrt(u) - sqrt(v)))
+    found = at_positive_edges("wedge", "pressure")
+    for place in (mpf("0.125"), mpf("0.625"), mpf("0.99")):
+        point = {A: 2, B: 1, x: place, E_star: 1, phi: 1}
+        assert close(mpf(found.subs(point).evalf(30)), mpf(expected.subs(point).evalf(30)))
+
+
+def test_the_symmetric_quartic() -> None:
+    # alpha = 0, P = (E*/2)(4/C) int s^4/w = (2 E*/C)(3 pi/8) a^4,
+    # p = (E*/2 pi)(4/C) w int (s^2 + s x + x^2)/w = (2 E*/C) w (a^2/2 + x^2)
+    found = {key: sheet("quartic")[key].expr.subs(c, a) for key in ("tilt", "load", "pressure")}
+    assert found["tilt"] == 0
+    assert simplify(found["load"] - 3 * pi * E_star * a**4 / (4 * C)) == 0
+    expected = 2 * E_star / C * sqrt((a + x) * (a - x)) * (a**2 / 2 + x**2)
+    assert simplify(found["pressure"] - expected) == 0
+
+
+def test_a_sheet_lists_its_formulas_in_the_order_of_derivation() -> None:
+    assert tuple(sheet("quartic")) == (*FORWARD, *EDGES, *STICK)
+    inverses = ["contact_a", "contact_c", "contact_alpha"]
+    inverses += ["contact_at_tilt_a", "contact_at_tilt_c", "contact_at_tilt_M"]
+    for name in ("hertz", "wedge"):
+        assert list(sheet(name)) == [*FORWARD, *EDGES, *STICK, *inverses]
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_symbol_and_arguments_are_those_of_the_convention(name: str) -> None:
+    heads = {key: formula.head for key, formula in sheet(name).items()}
+    assert heads["tilt"] == "alpha(a, c)"
+    assert heads["load"] == "P(a, c)"
+    assert heads["moment"] == "M(a, c)"
+    assert heads["pressure"] == "p(x, a, c)"
+    assert heads["full_stick_change"] == "dq(x, a, c, dQ, dsigma)"
+    assert all(head.endswith("(a, c)") for key, head in heads.items() if key in EDGES)
+
+
+# What holds for every body.
+
+number = st.floats(0.125, 8, allow_nan=False, width=32)
+_at = st.floats(0.03125, 0.96875, width=32)
+SIDED = ("unequal_wedge", "shifted_wedge", "two_radii", "half_parabola", "spline", "skew")
+
+
+def contact(name: str, left: float, right: float) -> dict[str, mpf]:
+    """A contact of the body: left of its leftmost kink, right of its rightmost."""
+    kinks = BODIES[name].kinks or (0.0,)
+    return {"a": left - mpf(min(kinks)), "c": right + mpf(max(kinks))}
+
+
+def inside(edges: dict[str, mpf], share: float) -> mpf:
+    """An x at a share of the width, never a kink of BODIES."""
+    place = -edges["a"] + mpf(share) * (edges["a"] + edges["c"])
+    return place + mpf("1e-7") if any(place == k for k in (0, 0.5, -0.5)) else place
+
+
+@pytest.mark.parametrize("name", SIDED)
+@given(number, number, _at)
+def test_a_mirrored_body_has_mirrored_formulas(
+    name: str, left: float, right: float, share: float
+) -> None:
+    """g(-x) in the contact [-c, a]: P and p(-x) stay, alpha and M change sign, the edges swap."""
+    here = contact(name, left, right)
+    there = {"a": here["c"], "c": here["a"]}
+    place = inside(here, share)
+    mirror = mirrored(name)
+    for formula, factor in (("tilt", -1), ("load", 1), ("moment", -1)):
+        first = value(name, formula, **here)
+        second = factor * evaluated(mirror, formula, **there)
+        assert close(first, second, digits=20, scale=1e-3), formula
+    assert close(
+        value(name, "pressure", x=place, **here), evaluated(mirror, "pressure", x=-place, **there)
+    )
+    for formula in ("K_N", "L_N"):
+        for side, other in (("left", "right"), ("right", "left")):
+            first = value(name, f"{formula}_{side}", **here)
+            second = evaluated(mirror, f"{formula}_{other}", **there)
+            assert close(first, second, digits=18, scale=1e-3), (formula, side)
+    ratios = value(name, "edge_ratio", **here) * evaluated(mirror, "edge_ratio", **there)
+    assert close(ratios, mpf(1), digits=18)
+
+
+_POWERS = {  # of length, with E* kept
+    "tilt": 0,
+    "load": 1,
+    "moment": 2,
+    "pressure": 0,
+    "edge_ratio": 0,
+    "load_rate": 0,
+    "punch": 0,
+    "K_N_left": -0.5,
+    "K_N_right": -0.5,
+    "L_N_left": -1.5,
+    "L_N_right": -1.5,
+}
+_LENGTHS = {"R": 1, "R1": 1, "b": 1, "C": 3, "phi": 0, "psi": 0}
+
+
+@pytest.mark.parametrize("name", BODIES)
+@given(number, number, _at, st.floats(0.01, 100))
+def test_all_lengths_together_scale_every_formula_by_its_power(
+    name: str, left: float, right: float, share: float, factor: float
+) -> None:
+    k, here = mpf(factor), contact(name, left, right)
+    there = {key: k * edge for key, edge in here.items()}
+    there |= {key: k**power * VALUES[key] for key, power in _LENGTHS.items()}
+    place = inside(here, share)
+    for formula, power in _POWERS.items():
+        first = value(name, formula, x=place, **here) * k**power
+        second = value(name, formula, x=k * place, **there)
+        assert close(first, second, digits=18, scale=1e-6 * k**power), formula
+
+
+@pytest.mark.parametrize("name", BODIES)
+@given(number, number, _at, st.floats(0.01, 100))
+def test_forces_scale_with_the_modulus(
+    name: str, left: float, right: float, share: float, factor: float
+) -> None:
+    here = contact(name, left, right)
+    place = inside(here, share)
+    stiffer = {"E_star": mpf(factor) * VALUES["E_star"]}
+    for formula in _POWERS:
+        power = 0 if formula in ("tilt", "edge_ratio") else 1
+        first = value(name, formula, x=place, **here) * mpf(factor) ** power
+        assert close(first, value(name, formula, x=place, **here, **stiffer), scale=1e-9), formula
+
+
+@pytest.mark.parametrize(
+    ("whole", "parts"),
+    [
+        ("wedge_on_parabola", {"wedge": 1, "hertz": 1}),
+        ("parabola_quartic", {"quartic": 1, "hertz": 1}),
+        ("hertz", {"flat_rounded": 1, "rounded_wedge": 1}),  # (|x|-b)/R beyond b + min(|x|, b)/R
+        ("three_corners", {"wedge": 1, "flat_cornered": 2}),  # phi + 2 phi beyond b
+    ],
+    ids=lambda given: given if isinstance(given, str) else "+".join(given),
+)
+@given(number, number, _at)
+def test_bodies_add_up_at_one_contact(
+    whole: str, parts: dict[str, int], left: float, right: float, share: float
+) -> None:
+    """Everything but a'(c) and P'(c), which follow the contact along fixed tilt, is linear in g."""
+    here = {"a": mpf(left) + 0.5, "c": mpf(right) + 0.5}
+    place = inside(here, share)
+    for formula in ("tilt", "load", "moment", "pressure", *EDGES):
+        total = sum(n * value(part, formula, x=place, **here) for part, n in parts.items())
+        first = value(whole, formula, x=place, **here)
+        assert close(first, total, digits=18, scale=1e-3), formula
+
+
+def test_two_halves_make_two_radii() -> None:
+    """max(0, x)^2/2R and max(0, -x)^2/2R1 are the two halves of one body."""
+    here = {"a": mpf("1.25"), "c": mpf("0.5")}
+    for formula in ("tilt", "load", "moment", *EDGES):
+        right = value("half_parabola", formula, **here)
+        left = evaluated(mirrored("half_parabola"), formula, **here, R=VALUES["R1"])
+        assert close(left + right, value("two_radii", formula, **here)), formula
+
+
+@pytest.mark.parametrize("name", BODIES)
+@given(number, number, _at)
+def test_a_convex_body_presses_everywhere_in_its_contact(
+    name: str, left: float, right: float, share: float
+) -> None:
+    here = contact(name, left, right)
+    assert value(name, "load", **here) > 0
+    assert value(name, "pressure", x=inside(here, share), **here) > 0
+    assert value(name, "K_N_left", **here) > 0
+    assert value(name, "K_N_right", **here) > 0
+    assert value(name, "load_rate", **here) > 0
+    assert value(name, "edge_ratio", **here) > 0
+
+
+@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded", "quartic", "three_corners"])
+@given(number)
+def test_a_symmetric_contact_of_a_symmetric_body_has_no_tilt_and_no_moment(
+    name: str, half: float
+) -> None:
+    here = {"a": mpf(half) + 0.5, "c": mpf(half) + 0.5}
+    size = value(name, "load", **here)
+    assert close(value(name, "tilt", **here), mpf(0), scale=1)
+    assert close(value(name, "moment", **here), mpf(0), scale=size * here["a"])
+    assert close(value(name, "K_N_left", **here), value(name, "K_N_right", **here))
+
+
+@pytest.mark.parametrize("name", ["hertz", "wedge", "quartic", "flat_rounded", "rounded_wedge"])
+@given(number, number)
+def test_moment_and_tilt_of_a_symmetric_body_have_one_sign(
+    name: str, left: float, right: float
+) -> None:
+    here = {"a": mpf(left) + 0.5, "c": mpf(right) + 0.5}
+    if left != right:
+        assert mpmath.sign(value(name, "tilt", **here)) == (1 if left > right else -1)
+        assert mpmath.sign(value(name, "moment", **here)) == (1 if left > right else -1)
+
+
+@cache
+def shifted(name: str) -> FormulaSheet:
+    """The sheet of g(x - b)."""
+    return derive_sheet(Geometry(f"{name}_shifted", g=BODIES[name].g.subs(x, x - bodies.b)))
+
+
+@pytest.mark.parametrize("name", ["hertz", "quartic", "skew"])
+@given(number, number, number, _at)
+def test_a_shifted_body_has_a_shifted_contact(
+    name: str, left: float, right: float, shift: float, share: float
+) -> None:
+    """g(x - b) in [-a + b, c + b] is g in [-a, c], and M = -int p x dx gains -P b."""
+    here = {"a": mpf(left), "c": mpf(right)}
+    there = {"a": here["a"] - shift, "c": here["c"] + shift, "b": mpf(shift)}
+    place, load = inside(here, share), value(name, "load", **here)
+    assert close(evaluated(shifted(name), "load", **there), load, digits=18)
+    pressure = evaluated(shifted(name), "pressure", x=place + shift, **there)
+    assert close(pressure, value(name, "pressure", x=place, **here), digits=15)
+    tilt = evaluated(shifted(name), "tilt", **there)
+    assert close(tilt, value(name, "tilt", **here), digits=15, scale=1)
+    moment = evaluated(shifted(name), "moment", **there)
+    assert close(moment, value(name, "moment", **here) - load * shift, digits=15, scale=load)
+
+
+def test_a_flank_only_contact_of_a_rounded_flat_is_hertz() -> None:
+    """Wholly on the right shoulder the body is a cylinder around x = b."""
+    for left, right in ((-1.0, 3.0), (-0.75, 0.875)):
+        here = {"a": mpf(left), "c": mpf(right)}
+        there = {"a": here["a"] + 0.5, "c": here["c"] - 0.5}
+        for formula in ("load", "edge_ratio", "load_rate", *EDGES):
+            assert close(value("flat_rounded", formula, **here), value("hertz", formula, **there))
+        # the slope is (x - b)/R: the tilt is that of a cylinder about x = b
+        assert close(value("flat_rounded", "tilt", **here), value("hertz", "tilt", **there))
+        moment = value("hertz", "moment", **there) - 0.5 * value("hertz", "load", **there)
+        assert close(value("flat_rounded", "moment", **here), moment)
+
+
+def test_a_rounded_flat_without_a_flat_is_hertz() -> None:
+    """b -> 0: every formula tends to the cylinder's, with an error of the order of b."""
+    here = {"a": mpf(2), "c": mpf("0.75"), "x": mpf("0.25")}
+    for formula in FORWARD:
+        gap = value("flat_rounded", formula, **here, b=1e-8) - value("hertz", formula, **here)
+        assert abs(gap) < 1e-7, formula
+
+
+def test_a_body_of_another_name_has_the_same_formulas() -> None:
+    radius = parameter("R", "radius of curvature", unit="m")
+    other = derive_sheet(Geometry("other", g=x**2 / (2 * radius)))
+    assert {k: f.expr for k, f in other.items()} == {
+        k: f.expr for k, f in sheet("hertz").items()
+    }

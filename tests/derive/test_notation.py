@@ -1,0 +1,119 @@
+"""How formulas are written: what is printed says the same as the expression."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mpf
+from sympy import Expr, Rational, Symbol, lambdify, parse_expr, pi, sqrt, symbols
+
+from derive.notation import gathered, is_half_power, latex_of, text_of
+from derive.symbols import QUANTITIES, E_star, P, alpha, dQ, dsigma
+from tests.derive.bodies import VALUES, close, sheet
+
+p, q, r = symbols("p q r", positive=True)
+NUMBERS = {"p": 1.5, "q": 1.25, "r": 0.875}
+
+
+def number(expr: Expr, numbers: dict[str, float]) -> mpf:
+    held = sorted(expr.free_symbols, key=str)
+    return mpf(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
+
+
+@pytest.mark.parametrize(
+    ("expr", "text"),
+    [
+        (sqrt(p) * sqrt(q), "sqrt(p*q)"),
+        (sqrt(p) / sqrt(q), "sqrt(p/q)"),
+        (2 * sqrt(P) * sqrt(r) / (sqrt(pi) * sqrt(E_star)), "2*sqrt(P*r/(pi*E_star))"),
+        (sqrt(p) * q, "sqrt(p)*q"),
+        (p + q, "p + q"),
+        (1 / sqrt(p), "1/sqrt(p)"),
+    ],
+    ids=str,
+)
+def test_half_powers_go_under_one_root(expr: Expr, text: str) -> None:
+    assert text_of(expr) in (text, text.replace("sqrt(p)*q", "q*sqrt(p)"))
+
+
+_exponents = st.tuples(*[st.sampled_from([-2, -1, 0, 1, 2, 3])] * 3)
+_factor = st.integers(-3, 3).filter(bool)
+
+
+@settings(max_examples=50)
+@given(_exponents, _exponents, _factor, st.booleans())
+def test_gathering_never_changes_the_value(
+    first: tuple[int, ...], second: tuple[int, ...], factor: int, root: bool
+) -> None:
+    terms = [
+        s_p ** Rational(i, 2) * q ** Rational(j, 2) * (r + q) ** Rational(k, 2)
+        for (i, j, k), s_p in ((first, p), (second, p + r))
+    ]
+    expr = terms[0] * factor + terms[1] / 3
+    expr = sqrt(expr**2 + 1) * terms[0] if root else expr
+    assert close(number(gathered(expr), NUMBERS), number(expr, NUMBERS), scale=1)
+
+
+@pytest.mark.parametrize(
+    ("expr", "expected"),
+    [(sqrt(p), True), (1 / sqrt(p), True), (p, False), (p ** Rational(3, 2), False), (pi, False)],
+    ids=str,
+)
+def test_a_half_power_is_known(expr: Expr, expected: bool) -> None:
+    assert is_half_power(expr) is expected
+
+
+@pytest.mark.parametrize(
+    ("expr", "latex"),
+    [
+        (E_star, "E^{*}"),
+        (alpha, r"\alpha"),
+        (dQ, r"\Delta Q"),
+        (dsigma, r"\Delta\sigma"),
+        (Symbol("K_N_left"), r"K_{N,\mathrm{left}}"),
+        (Symbol("theta_1"), r"\theta_{1}"),
+        (Symbol("P_prime"), "P'"),
+    ],
+    ids=str,
+)
+def test_symbols_are_set_as_the_theory_writes_them(expr: Expr, latex: str) -> None:
+    assert latex_of(expr) == latex
+
+
+def test_every_symbol_with_latex_of_its_own_is_set_in_it() -> None:
+    for quantity in QUANTITIES.values():
+        if quantity.latex:
+            assert latex_of(2 * quantity.symbol) == f"2 {quantity.latex}"
+
+
+@pytest.mark.parametrize("name", ["hertz", "wedge", "two_radii", "flat_rounded"])
+def test_a_printed_formula_reads_back_to_the_same_number(name: str) -> None:
+    """The text is what a user copies: it must be the formula, not something like it."""
+    numbers = VALUES | {"a": 2, "c": 1, "x": 0.375, "dQ": 0.5, "dsigma": -0.25}
+    numbers |= {"P": 0.75, "M": 0.125, "e": 0.125 / 0.75, "alpha": 0.125}
+    body = sheet(name)
+    local = {s.name: s for key in body for s in body.flat(key).free_symbols}
+    for formula in body:
+        expr = body.flat(formula)
+        again = parse_expr(text_of(expr), local_dict=local)
+        assert close(number(again, numbers), number(expr, numbers)), formula
+
+
+@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded"])
+def test_a_sheet_prints_every_formula_and_every_definition(name: str) -> None:
+    body, lines = sheet(name), [line.strip() for line in str(sheet(name)).splitlines()]
+    assert lines[0] == f"{name}: g(x) = {text_of(body.geometry.g)}"
+    for key, formula in body.items():
+        assert sum(line == body.equation(key) for line in lines) == 1
+        assert any(formula.meaning in line for line in lines)
+        assert any(formula.source in line for line in lines)
+    for symbol, definition in body.definitions.items():
+        assert f"{symbol} = {text_of(definition)}" in lines
+
+
+@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded"])
+def test_the_latex_of_a_sheet_has_one_row_a_formula(name: str) -> None:
+    body = sheet(name)
+    rows = body.latex.splitlines()
+    assert (rows[0], rows[-1]) == (r"\begin{aligned}", r"\end{aligned}")
+    assert len(rows) == 3 + len(body) + len(body.definitions)
+    assert all(row.count("&=") == 1 for row in rows[1:-1])

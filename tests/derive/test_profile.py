@@ -1,0 +1,396 @@
+"""Reading g(x): one slope for every way to write a body, and a reason for every refusal."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sympy import (
+    Abs,
+    And,
+    Eq,
+    Expr,
+    Heaviside,
+    Max,
+    Min,
+    Not,
+    Or,
+    Piecewise,
+    Rational,
+    Symbol,
+    Xor,
+    cosh,
+    exp,
+    expand,
+    floor,
+    log,
+    oo,
+    sign,
+    simplify,
+    sqrt,
+)
+
+from derive import Geometry, parameter, x
+from derive.errors import BadProfile
+from derive.profile import Slope
+from tests.derive.bodies import BODIES, VALUES, geometry
+
+R = parameter("R", "radius", unit="m")
+R1 = parameter("R1", "radius on the left", unit="m")
+phi = parameter("phi", "slope of the left flank", unit="rad")
+psi = parameter("psi", "slope of the right flank", unit="rad")
+b = parameter("b", "half-width", unit="m")
+b2 = parameter("b2", "another width", unit="m")
+
+beyond = Abs(x) - b
+
+
+def slope(g: Expr, name: str = "body") -> Slope:
+    return Geometry(name, g=g).slope
+
+
+def read(g: Expr) -> tuple[Expr, list[tuple[Expr, int, Expr]]]:
+    """What the slope consists of, in plain symbols."""
+    found = slope(g)
+    return found.base, [(k.position, k.side, k.jump) for k in found.kinks]
+
+
+_wedge = (phi * Abs(x), phi * Max(x, -x), -phi * Min(x, -x), phi * x * sign(x))
+_wedge += (
+    phi * x * (2 * Heaviside(x) - 1),
+    phi * sqrt(x**2),
+    phi * Abs(-x),
+    Abs(phi * x),
+    phi * (Max(0, x) + Max(0, -x)),
+    Piecewise((-phi * x, x < 0), (phi * x, True)),
+    Piecewise((phi * x, x >= 0), (-phi * x, x < 0)),
+    Piecewise((0, Eq(x, 0)), (phi * Abs(x), True)),
+    phi * x * Piecewise((1, x > 0), (-1, True)),
+    phi * Abs(Abs(x)),
+)
+_flat_rounded = (
+    Piecewise((0, beyond <= 0), (beyond**2 / (2 * R), True)),
+    Max(0, beyond) ** 2 / (2 * R),
+    (Max(0, x - b) ** 2 + Max(0, -x - b) ** 2) / (2 * R),
+    Heaviside(beyond) * beyond**2 / (2 * R),
+    (1 + sign(beyond)) * beyond**2 / (4 * R),
+    (beyond + Abs(beyond)) ** 2 / (8 * R),
+    Piecewise((0, And(x > -b, x < b)), (beyond**2 / (2 * R), True)),
+    Piecewise((beyond**2 / (2 * R), Or(x < -b, x > b)), (0, True)),
+    Piecewise((beyond**2 / (2 * R), Not(And(x > -b, x < b))), (0, True)),
+    Piecewise(((x + b) ** 2 / (2 * R), x < -b), (0, x < b), ((x - b) ** 2 / (2 * R), True)),
+    Piecewise((0, x**2 < b**2), (beyond**2 / (2 * R), True)),
+    beyond**2 / (2 * R) - Min(0, beyond) ** 2 / (2 * R),
+)
+_two_radii = (
+    Piecewise((x**2 / (2 * R1), x < 0), (x**2 / (2 * R), True)),
+    Max(0, x) ** 2 / (2 * R) + Min(0, x) ** 2 / (2 * R1),
+    x**2 * Heaviside(x) / (2 * R) + x**2 * Heaviside(-x) / (2 * R1),
+    x**2 * ((1 + sign(x)) / R + (1 - sign(x)) / R1) / 4,
+)
+
+
+@pytest.mark.parametrize("g", _wedge, ids=str)
+def test_every_form_of_the_wedge_has_one_slope(g: Expr) -> None:
+    # g' = -phi for x < 0, +phi for x > 0: a jump of 2 phi at the apex
+    plain = Symbol("phi", positive=True)
+    assert read(g) == (-plain, [(0, 1, 2 * plain)])
+
+
+@pytest.mark.parametrize("g", _flat_rounded, ids=str)
+def test_every_form_of_the_rounded_flat_has_one_slope(g: Expr) -> None:
+    # g' = 0 within, (x - b)/R to the right, (x + b)/R to the left
+    width, radius = Symbol("b", positive=True), Symbol("R", positive=True)
+    assert read(g) == (
+        0,
+        [(-width, -1, expand((x + width) / radius)), (width, 1, expand((x - width) / radius))],
+    )
+
+
+@pytest.mark.parametrize("g", _two_radii, ids=str)
+def test_every_form_of_two_radii_has_one_slope(g: Expr) -> None:
+    right, left = Symbol("R", positive=True), Symbol("R1", positive=True)
+    assert read(g) == (x / left, [(0, 1, x / right - x / left)])
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        phi * (Abs(beyond) + Abs(x)),  # phi (b - |x| + |x|) within, phi (2|x| - b) beyond
+        phi * Max(b, 2 * Abs(x) - b),
+        phi * (Abs(x - b) + Abs(x + b)) - phi * b,
+        phi * (b + 2 * Max(0, Abs(x) - b)),
+        phi * Max(b, 2 * x - b, -2 * x - b),
+    ],
+    ids=str,
+)
+def test_nested_branches_are_read_from_the_inside(g: Expr) -> None:
+    width, steep = Symbol("b", positive=True), Symbol("phi", positive=True)
+    assert read(g) == (0, [(-width, -1, -2 * steep), (width, 1, 2 * steep)])
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_the_slope_is_the_derivative_by_hand(name: str) -> None:
+    body, read_slope = BODIES[name], geometry(name).slope
+    numbers = {Symbol(key, positive=True): Rational(v) for key, v in VALUES.items()}
+    for place in (-3.1, -1.2, -0.7, -0.3, 0.2, 0.6, 0.9, 2.6):
+        total = read_slope.base.subs(numbers).subs(x, Rational(place))
+        for kink in read_slope.kinks:
+            if kink.side * (place - kink.position.subs(numbers)) > 0:
+                total += kink.jump.subs(numbers).subs(x, Rational(place))
+        assert float(total) == pytest.approx(float(body.slope(place)), rel=1e-14, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("g", "places", "sides"),
+    [
+        (phi * Abs(x + b), ["-b"], [-1]),
+        (phi * Abs(x - b), ["b"], [1]),
+        (phi * (Abs(x - b) + Abs(x - 2 * b) + Abs(x + 3 * b)), ["-3*b", "b", "2*b"], [-1, 1, 1]),
+        (Max(0, x**2 - R * R1) / R, ["-sqrt(R)*sqrt(R1)", "sqrt(R)*sqrt(R1)"], [-1, 1]),
+        (phi * (Abs(x) + Abs(x - b)), ["0", "b"], [1, 1]),
+        (x**2 / R, [], []),
+    ],
+    ids=str,
+)
+def test_kinks_are_found_from_left_to_right(g: Expr, places: list[str], sides: list[int]) -> None:
+    kinks = slope(g).kinks
+    assert [str(k.position) for k in kinks] == places
+    assert [k.side for k in kinks] == sides
+    assert [k.number for k in kinks] == list(range(1, len(kinks) + 1))
+
+
+def test_places_in_order_through_a_sum_of_positive_parameters() -> None:
+    g = (Max(0, x - b) ** 2 + Max(0, x - b - b2) ** 2 + x**2) / R
+    assert [str(k.position) for k in slope(g).kinks] == ["b", "b + b2"]
+
+
+def test_a_corner_is_a_jump_of_the_slope_itself() -> None:
+    assert [k.is_corner for k in slope(phi * Abs(x)).kinks] == [True]
+    assert [k.is_corner for k in slope(_flat_rounded[0]).kinks] == [False, False]
+
+
+@pytest.mark.parametrize(
+    ("g", "low", "high"),
+    [
+        (phi * Abs(x), -Symbol("phi", positive=True), Symbol("phi", positive=True)),
+        (x**2 / R, -oo, oo),
+        (Max(0, x) ** 2 / R, 0, oo),
+        (phi * Max(0, -x), -Symbol("phi", positive=True), 0),
+    ],
+    ids=str,
+)
+def test_the_slope_at_both_ends_of_the_body(g: Expr, low: Expr, high: Expr) -> None:
+    assert slope(g).limits == (low, high)
+
+
+@pytest.mark.parametrize(
+    ("g", "spans"),
+    [
+        (phi * Abs(x), [("-oo", "0"), ("0", "oo")]),
+        (_flat_rounded[0], [("-b", "b")]),
+        (Max(0, x) ** 2 / R, [("-oo", "0")]),
+        (x**4 / R**3, []),
+        (BODIES["rounded_wedge"].g, [("-oo", "-b"), ("b", "oo")]),
+    ],
+    ids=["wedge", "flat_rounded", "half_parabola", "quartic", "rounded_wedge"],
+)
+def test_straight_pieces_are_known(g: Expr, spans: list[tuple[str, str]]) -> None:
+    found = slope(g).straight_pieces
+    assert [(str(piece.lower), str(piece.upper)) for piece in found] == spans
+
+
+def test_a_branch_that_changes_nothing_makes_no_kink() -> None:
+    radius = Symbol("R", positive=True)
+    assert read(Abs(x**2) / R) == (2 * x / radius, [])
+    assert read(Piecewise((x**2 / R, x < b), (x**2 / R, True))) == (2 * x / radius, [])
+    assert read(Max(x**2, -(x**2)) / R) == (2 * x / radius, [])
+
+
+def test_an_odd_power_of_the_modulus_is_a_kink_of_high_order() -> None:
+    radius = Symbol("R", positive=True)
+    assert read(Abs(x) ** 3 / R**2) == (-3 * x**2 / radius**2, [(0, 1, 6 * x**2 / radius**2)])
+
+
+def test_a_double_zero_of_the_curvature_is_still_convex() -> None:
+    assert slope((x - b) ** 4 / R**3).kinks == ()
+
+
+@pytest.mark.parametrize("power", [6, 8], ids=str)
+def test_a_zero_of_the_curvature_of_high_order_is_still_convex(power: int) -> None:
+    assert slope((x - b) ** power / R ** (power - 1)).kinks == ()
+
+
+_coefficient = st.fractions(min_value=Fraction(1, 8), max_value=4, max_denominator=8)
+
+
+@settings(max_examples=40)
+@given(
+    st.lists(st.tuples(_coefficient, st.integers(-3, 3), st.integers(1, 3)), min_size=1, max_size=3),
+    st.fractions(min_value=-2, max_value=2, max_denominator=4),
+)
+def test_any_sum_of_convex_ramps_is_read_right(
+    ramps: list[tuple[Fraction, int, int]], incline: Fraction
+) -> None:
+    """g = t x + sum k max(0, x - j b)^n b^(1-n) has g' = t + sum k n ((x - j b)/b)^(n-1)."""
+    g = Rational(incline) * x + sum(
+        Rational(k) * Max(0, x - j * b) ** n / b ** (n - 1) for k, j, n in ramps
+    )
+    found = slope(g)
+    width = Symbol("b", positive=True)
+    for place in [Fraction(i, 2) for i in range(-9, 10, 2)]:
+        expected = incline + sum(k * n * (place - j) ** (n - 1) for k, j, n in ramps if place > j)
+        total = found.base.subs(x, Rational(place) * width)
+        for kink in found.kinks:
+            if kink.side * (Rational(place) - kink.position / width) > 0:
+                total += kink.jump.subs(x, Rational(place) * width)
+        assert simplify(total - Rational(expected)) == 0
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        -(x**2) / R,
+        phi * Abs(x) - x**2 / R,
+        (x**2 - b**2) ** 2 / b**3,
+        x**3 / R**2,
+        x**2 / R + x**3 / R**2,
+        x**3 * Abs(x) / R**3,
+        -phi * Abs(x),
+        phi * Abs(beyond),
+        Piecewise((x**2 / R, x < b), (b**2 / R, True)),
+        phi * Min(x, 2 * x),
+        R - sqrt(x**4) / R,
+        Abs(x**2 - b**2) / R,
+    ],
+    ids=str,
+)
+def test_a_body_that_is_not_convex_is_refused(g: Expr) -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert "is not convex" in caught.value.why
+    assert "make it convex" in caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    ("g", "step", "place"),
+    [
+        (Piecewise((x**2 / R, x < 0), (x**2 / R + b, True)), "b", "0"),
+        (phi * Abs(x) + b * Heaviside(x), "b", "0"),
+        (Piecewise((phi * b, Abs(x) < b), (2 * phi * Abs(x), True)), "b*phi", "b"),
+        (b * sign(x) + x**2 / R, "2*b", "0"),
+    ],
+    ids=str,
+)
+def test_a_body_with_a_step_is_refused(g: Expr, step: str, place: str) -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert caught.value.why.startswith("jumps by")
+    assert step in caught.value.why
+    assert place in caught.value.why
+    assert "shift one piece" in caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    "g", [phi * x, b * 1, phi * x + b, Abs(b), phi * (Max(0, x) - Max(0, -x)), 0], ids=str
+)
+def test_a_straight_body_is_refused(g: Expr) -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert caught.value.why == "is straight"
+    assert "convex somewhere" in caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        R * cosh(x / R),
+        R * exp(x / R),
+        R * log(2 + x / R),
+        sqrt(x**2 + R**2),
+        Abs(x) ** Rational(3, 2) / sqrt(R),
+        R**2 / (R + x),
+        floor(x / R) * R,
+        Max(0, R * cosh(x / R) - 2 * x**2 / R),
+        Abs(R * cosh(x / R) - R),
+    ],
+    ids=str,
+)
+def test_what_is_no_polynomial_on_its_pieces_is_refused(g: Expr) -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert "no polynomial in x" in caught.value.why
+    assert "polynomials" in caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        Piecewise((x**2 / R, x < 0)),
+        Piecewise((x**2 / R, x < 0), (x**2 / R1, x > b)),
+        Piecewise((x**2 / R, Abs(x) > b)),
+    ],
+    ids=str,
+)
+def test_a_gap_in_a_piecewise_is_refused(g: Expr) -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert "is not defined near" in caught.value.why
+    assert "(expression, True)" in caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        (Max(0, x - b) ** 2 + Max(0, x - b2) ** 2) / R,
+        phi * (Abs(x - b) + Abs(x - b2)),
+        Max(0, phi * x, psi * x) + x**2 / R,
+        Max(0, x**2 - (R - R1) * b) / b,
+    ],
+    ids=str,
+)
+def test_kinks_of_open_order_are_refused(g: Expr) -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert "order is open" in caught.value.why
+    assert "b2 = b1 + d" in caught.value.remedy
+
+
+def test_a_switch_that_may_or_may_not_be_real_is_not_overlooked() -> None:
+    """Where both parabolas meet depends on which is wider; the smaller must not win silently."""
+    with pytest.raises(BadProfile):
+        slope(Max(x**2 / (2 * R), x**2 / (2 * R1) - b))
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        Piecewise((x**2 / (2 * R), x**5 - b**4 * x - b**5 < 0), (x**2 / R, True)),
+        x**2 / R + Max(0, x**5 - b**4 * x - b**5) / b**4,
+    ],
+    ids=["in a condition", "in a maximum"],
+)
+def test_a_switch_that_no_root_is_known_of_is_not_overlooked(g: Expr) -> None:
+    """x^5 - b^4 x - b^5 changes its sign near x = 1.17 b, and has no root in radicals."""
+    with pytest.raises(BadProfile):
+        slope(g)
+
+
+def test_an_unusual_condition_is_refused() -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(Piecewise((beyond**2 / R, Xor(x > -b, x < b)), (0, True)))
+    assert "use <, <=, >, >=" in caught.value.remedy
+
+
+def test_whether_a_body_is_accepted_does_not_hang_on_its_name() -> None:
+    """Convex for psi > phi only: the same answer under every name."""
+    g = Piecewise((-phi * x, x < 0), ((psi - 2 * phi) * x, True))
+
+    def accepted(name: str) -> bool:
+        try:
+            slope(g, name)
+        except BadProfile:
+            return False
+        return True
+
+    assert len({accepted(f"n{i}") for i in range(64)}) == 1

@@ -1,0 +1,1 @@
+"""The mechanics, each stage against integrals done here by quadrature."""

@@ -1,0 +1,112 @@
+"""The ring of the formulas: one form for each, and an exact answer to "is it zero"."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mpf
+from sympy import Expr, Integer, Rational, Symbol, lambdify, sqrt
+
+from derive.symbols import a, c, h, w, x
+from derive.theory.algebra import is_zero, reduced, tidy
+from tests.derive.bodies import VALUES, close, sheet
+
+SMOOTH, CORNER = sheet("hertz").frame, sheet("shifted_wedge").frame
+(KINK,) = CORNER.kinks
+b = Symbol("b", positive=True)
+
+
+def number(expr: Expr, **given: float) -> mpf:
+    expr = CORNER.flat(expr)
+    held = sorted(expr.free_symbols, key=str)
+    numbers = VALUES | {"a": 2.0, "c": 1.5, "x": 0.875} | given
+    return mpf(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
+
+
+@pytest.mark.parametrize(
+    "expr",
+    [
+        Integer(0),
+        (a + c) ** 2 - a**2 - 2 * a * c - c**2,
+        1 / (a + c) + 1 / (a - c) - 2 * a / ((a + c) * (a - c)),
+        KINK.w**2 - (a + b) * (c - b),
+        KINK.w**4 - (a + b) ** 2 * (c - b) ** 2,
+        KINK.w**3 / (a + b) - KINK.w * (c - b),
+        1 / KINK.w - KINK.w / ((a + b) * (c - b)),
+        sqrt(h) ** 3 / h - sqrt(h),
+        w**2 - (a + x) * (c - x),
+        KINK.theta * (a + c) - KINK.theta * a - KINK.theta * c,
+        1 / sqrt(a + c) - sqrt(a + c) / (a + c),
+        (sqrt(h) + 1) * (sqrt(h) - 1) - h + 1,
+    ],
+    ids=str,
+)
+def test_what_is_zero_is_found_zero(expr: Expr) -> None:
+    assert is_zero(expr, CORNER)
+
+
+@pytest.mark.parametrize(
+    "expr",
+    [
+        Integer(1),
+        Rational(1, 10**40),
+        KINK.w,
+        KINK.w - KINK.theta,
+        KINK.w**2 - (a + b) * (c + b),
+        KINK.w**2 + (a + b) * (c - b),
+        KINK.w**3 - KINK.w,
+        a * c - c * a + Rational(1, 10**30) * KINK.theta,
+        1 / (a + c) - 1 / (a + c + Rational(1, 10**20)),
+        sqrt(a + c) - (a + c),
+        w - KINK.w,
+        1 / (KINK.w**2 - (a + b) * c),
+    ],
+    ids=str,
+)
+def test_what_is_not_zero_is_not_found_zero(expr: Expr) -> None:
+    assert not is_zero(expr, CORNER)
+
+
+_part = st.sampled_from([a, c, b, KINK.w, KINK.theta, h, a + b, c - b, a * KINK.w, KINK.w**3])
+_term = st.tuples(st.integers(-4, 4).filter(bool), _part, _part, st.sampled_from([1, a + c, h + 2]))
+
+
+@settings(max_examples=40)
+@given(st.lists(_term, min_size=1, max_size=3))
+def test_tidying_keeps_the_value(terms: list[tuple[int, Expr, Expr, Expr]]) -> None:
+    expr = sum((n * p * q / r for n, p, q, r in terms), Integer(0))
+    for form in (reduced(expr, CORNER), tidy(expr, CORNER)):
+        assert close(number(form), number(expr), scale=1)
+        assert is_zero(form - expr, CORNER)
+
+
+@settings(max_examples=40)
+@given(st.lists(_term, min_size=1, max_size=3), st.integers(1, 9))
+def test_a_difference_is_seen_however_it_is_dressed(
+    terms: list[tuple[int, Expr, Expr, Expr]], gap: int
+) -> None:
+    expr = sum((n * p * q / r for n, p, q, r in terms), Integer(0))
+    assert not is_zero(expr + Rational(gap, 10**25) - reduced(expr, CORNER), CORNER)
+
+
+def test_a_reduced_quotient_holds_no_square_of_a_root() -> None:
+    form = reduced((KINK.w**3 + a * KINK.w**2) / (KINK.w**2 + 1), CORNER)
+    assert form.as_numer_denom()[0].as_poly(KINK.w).degree() <= 1
+
+
+@pytest.mark.parametrize("name", ["two_radii", "flat_rounded"])
+def test_a_reduced_form_also_holds_where_the_contact_has_left_the_kink(name: str) -> None:
+    """A clipped root is zero there, its square is not (a + x_j)(c - x_j)."""
+    frame = sheet(name).frame
+    for k in frame.kinks:
+        form = frame.flat(reduced(k.w**2 + a, frame))
+        held = sorted(form.free_symbols, key=str)
+        for left, right in ((-1.0, 3.0), (3.0, -1.0)):
+            numbers = VALUES | {"a": left, "c": right}
+            found = lambdify(held, form, modules="mpmath")(*(mpf(numbers[s.name]) for s in held))
+            assert close(found, mpf(left))
+
+
+def test_tidying_chooses_the_shorter_form() -> None:
+    expr = KINK.theta * a**2 + 2 * KINK.theta * a * c + KINK.theta * c**2
+    assert tidy(expr, CORNER) == KINK.theta * (a + c) ** 2
+    assert tidy((a**2 - c**2) / (a + c), SMOOTH) == a - c

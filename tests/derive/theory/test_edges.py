@@ -1,0 +1,134 @@
+"""K_N and the series at an edge: against limits of p, and against the contact law."""
+
+import mpmath
+import pytest
+from mpmath import mpf
+from sympy import Expr, Rational, Symbol, expand, lambdify, limit, simplify, sqrt
+
+from derive.symbols import E_star, a, c, h, s, x
+from derive.theory.edges import Edge, K_N_from_contact_law, pressure_series
+from tests.derive.bodies import BODIES, CASES, IDS, VALUES, close, sheet, value
+
+ALL = pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+A, C = Symbol("A", positive=True), Symbol("B", positive=True)
+CONTACTS = [{a: 2, c: 1}, {a: Rational(3, 4), c: 3}]
+
+
+def at_edge(p: Expr, edge: Edge) -> Expr:
+    return p.subs(x, edge.position + edge.inward * s)
+
+
+def near(name: str, edge: Edge, step: mpf, left: float, right: float) -> mpf:
+    """p at a distance `step` inward."""
+    at = -mpf(left) if edge is Edge.LEFT else mpf(right)
+    return value(name, "pressure", x=at + edge.inward * step, a=left, c=right)
+
+
+@pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
+@pytest.mark.parametrize("name", ["hertz", "wedge", "quartic", "unequal_wedge"])
+def test_K_N_is_sympys_own_limit(name: str, edge: Edge) -> None:
+    """lim p/sqrt(s) for all positive a and c."""
+    p = at_edge(sheet(name).flat("pressure"), edge).subs({a: A, c: C})
+    expected = limit(p / sqrt(s), s, 0, "+")
+    found = sheet(name).flat(f"K_N_{edge.name.lower()}").subs({a: A, c: C})
+    assert simplify(found - expected) == 0
+
+
+@pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
+@pytest.mark.parametrize("name", ["hertz", "quartic", "parabola_quartic", "skew"])
+@pytest.mark.parametrize("contact", CONTACTS, ids=["a > c", "a < c"])
+def test_L_N_is_sympys_own_limit(name: str, edge: Edge, contact: dict[Symbol, Expr]) -> None:
+    """lim (p/sqrt(s) - K_N)/s."""
+    side = edge.name.lower()
+    p = at_edge(sheet(name).flat("pressure"), edge).subs(contact)
+    first, second = (sheet(name).flat(f"{key}_{side}").subs(contact) for key in ("K_N", "L_N"))
+    assert simplify(limit((p / sqrt(s) - first) / s, s, 0, "+") - second) == 0
+
+
+@ALL
+@pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
+def test_K_N_and_L_N_are_what_the_pressure_tends_to(
+    name: str, left: float, right: float, edge: Edge
+) -> None:
+    """p = sqrt(s)(K + L s + ...): two evaluations at s and s/2 tell K and L apart."""
+    side = edge.name.lower()
+    with mpmath.workdps(60):
+        step = mpf("1e-20")
+        full, half = (
+            near(name, edge, d, left, right) / mpmath.sqrt(d) for d in (step, step / 2)
+        )
+        first, second = 2 * half - full, 2 * (full - half) / step
+    assert close(value(name, f"K_N_{side}", a=left, c=right), first)
+    assert close(value(name, f"L_N_{side}", a=left, c=right), second, digits=15, scale=1)
+
+
+@ALL
+def test_both_routes_to_K_N_agree(name: str, left: float, right: float) -> None:
+    """Mossakovskii: (2/pi) P'(c)/sqrt(a + c) on the right, over a'(c) on the left."""
+    rate = value(name, "load_rate", a=left, c=right)
+    ratio = value(name, "edge_ratio", a=left, c=right)
+    K = 2 / mpmath.pi * rate / mpmath.sqrt(mpf(left) + right)
+    assert close(value(name, "K_N_right", a=left, c=right), K)
+    assert close(value(name, "K_N_left", a=left, c=right), K / ratio)
+
+
+@pytest.mark.parametrize("name", ["hertz", "wedge", "two_radii"])
+def test_the_route_of_the_contact_law_gives_left_and_right(name: str) -> None:
+    body = sheet(name)
+    left, right = K_N_from_contact_law(
+        body.frame, body["load_rate"].expr, body["edge_ratio"].expr
+    )
+    flat = {"K_N_left": body.frame.flat(left), "K_N_right": body.frame.flat(right)}
+    for key, expr in flat.items():
+        held = sorted(expr.free_symbols, key=str)
+        numbers = VALUES | {"a": 2.0, "c": 1.0}
+        found = lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held))
+        assert close(found, value(name, key, a=2.0, c=1.0))
+
+
+@pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
+@pytest.mark.parametrize("name", ["hertz", "shifted_wedge", "two_radii", "skew"])
+def test_four_terms_leave_an_error_of_the_fifth(name: str, edge: Edge) -> None:
+    """p - (four terms) ~ s^(9/2): a tenth of s leaves 10^-4.5 of it."""
+    body, (left, right) = sheet(name), (mpf(2), mpf("1.5"))
+    terms = []
+    for term in pressure_series(body.frame, edge, 4):
+        expr = body.frame.flat(term)
+        held = sorted(expr.free_symbols, key=str)
+        numbers = VALUES | {"a": left, "c": right}
+        terms.append(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
+
+    def rest(step: mpf) -> mpf:
+        series = sum(term * step**n for n, term in enumerate(terms))
+        return near(name, edge, step, left, right) - mpmath.sqrt(step) * series
+
+    with mpmath.workdps(60):
+        ratio = rest(mpf("1e-5")) / rest(mpf("1e-6"))
+    assert abs(mpmath.log10(ratio) - mpf("4.5")) < mpf("1e-4")
+
+
+def test_the_series_of_a_cylinder_is_the_binomial_series() -> None:
+    """p = (E*/2R) sqrt(s) sqrt(h - s) and sqrt(1 - t) = 1 - t/2 - t^2/8 - t^3/16 - 5 t^4/128."""
+    R = Symbol("R", positive=True)
+    found = pressure_series(sheet("hertz").frame, Edge.LEFT, 5)
+    for n, factor in enumerate((1, -Rational(1, 2), -Rational(1, 8), -Rational(1, 16))):
+        assert simplify(found[n] - E_star / (2 * R) * sqrt(h) * factor / h**n) == 0
+    assert simplify(found[4] + E_star / (2 * R) * sqrt(h) * Rational(5, 128) / h**4) == 0
+
+
+def test_edges_are_where_the_theory_says() -> None:
+    assert (Edge.LEFT.position, Edge.LEFT.inward) == (-a, 1)
+    assert (Edge.RIGHT.position, Edge.RIGHT.inward) == (c, -1)
+    assert expand(Edge.RIGHT.position - Edge.LEFT.position - h) == 0
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_the_nearer_edge_of_a_corner_is_the_steeper(name: str) -> None:
+    """p/sqrt(s) rises where the contact ends close to its corner; on a cylinder both are equal."""
+    left, right = (value(name, f"K_N_{side}", a=2.5, c=1.0) for side in ("left", "right"))
+    if name in ("wedge", "unequal_wedge", "shifted_wedge"):
+        assert right > left
+    if name == "hertz":
+        assert close(left, right)
+    if name in ("quartic", "parabola_quartic", "flat_rounded"):
+        assert left > right

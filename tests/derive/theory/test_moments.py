@@ -1,0 +1,82 @@
+"""I_k: the recursion against direct integration."""
+
+import mpmath
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import mpf
+from sympy import Expr, Integer, Symbol, expand, lambdify, pi
+
+from derive.symbols import a, c, h, mid, x
+from derive.theory.moments import full_moment, kink_moment, slope_moment, weighted
+from tests.derive.bodies import BODIES, CASES, IDS, VALUES, close, sheet
+from tests.derive.integrals import over_contact
+
+
+def number(expr: Expr, **given: float) -> mpf:
+    held = sorted(expr.free_symbols, key=str)
+    numbers = VALUES | given
+    return mpf(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
+
+
+@pytest.mark.parametrize(
+    ("k", "expected"),
+    [
+        (0, pi),
+        (1, pi * mid),
+        (2, pi * (mid**2 + h**2 / 8)),  # cos^2 has the mean 1/2
+        (3, pi * (mid**3 + 3 * mid * h**2 / 8)),
+        (4, pi * (mid**4 + 6 * mid**2 * h**2 / 8 + 3 * h**4 / 128)),  # cos^4 has the mean 3/8
+    ],
+)
+def test_powers_over_the_whole_contact(k: int, expected: Expr) -> None:
+    assert expand(full_moment(k) - expected) == 0
+
+
+@pytest.mark.parametrize("k", range(8))
+@pytest.mark.parametrize(("left", "right"), [(2.0, 1.0), (-0.5, 3.0), (1.0, -0.25)])
+def test_the_recursion_is_the_integral(k: int, left: float, right: float) -> None:
+    direct = over_contact(lambda s: s**k, left, right)
+    assert close(number(full_moment(k), a=left, c=right), direct, scale=1)
+
+
+@pytest.mark.parametrize("k", range(6))
+@pytest.mark.parametrize("name", ["shifted_wedge", "wedge_on_the_left", "flat_rounded"])
+def test_the_recursion_up_to_a_kink_is_the_integral_over_its_side(name: str, k: int) -> None:
+    left, right = 1.5, 2.25
+    for frame in sheet(name).frame.kinks:
+        place, side = number(frame.kink.position), frame.kink.side
+        direct = over_contact(
+            lambda s, p=place, q=side: s**k if q * (s - p) > 0 else mpf(0), left, right, (place,)
+        )
+        expr = kink_moment(k, frame).xreplace({frame.theta: frame.angle, frame.w: frame.root})
+        assert close(number(expr, a=left, c=right), direct, scale=1)
+
+
+@given(st.lists(st.integers(-5, 5), min_size=1, max_size=6))
+def test_a_polynomial_is_weighted_term_by_term(coefficients: list[int]) -> None:
+    polynomial = sum((n * x**k for k, n in enumerate(coefficients)), Integer(0))
+    direct = over_contact(lambda s: sum(n * s**k for k, n in enumerate(coefficients)), 1.25, 2.0)
+    assert close(number(weighted(polynomial), a=1.25, c=2.0), direct, scale=1)
+
+
+def test_a_parameter_in_a_polynomial_is_a_constant() -> None:
+    t = Symbol("t1", positive=True)
+    assert expand(weighted(t * x + t**2) - (t * full_moment(1) + t**2 * pi)) == 0
+
+
+@pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+def test_the_slope_s_moments_are_its_integrals(name: str, left: float, right: float) -> None:
+    body, frame = BODIES[name], sheet(name).frame
+    for k in range(3):
+        direct = over_contact(lambda s: s**k * body.slope(s), left, right, body.kinks)  # noqa: B023
+        found = number(frame.flat(slope_moment(k, frame)), a=left, c=right)
+        assert close(found, direct, scale=1)
+
+
+def test_moments_of_a_contact_without_width_are_those_of_a_point() -> None:
+    """h -> 0 around x0: int s^k/w -> pi x0^k."""
+    for k in range(5):
+        assert close(
+            number(full_moment(k), a=-0.75, c=0.75), mpmath.pi * mpf("0.75") ** k, digits=28
+        )

@@ -1,0 +1,122 @@
+"""p(x): against principal values, the integral equation it solves, and its own limits."""
+
+import mpmath
+import pytest
+from mpmath import mpf
+from sympy import Rational, Symbol, limit, oo, simplify
+
+from derive.symbols import E_star, a, c, w, x
+from derive.theory.pressure import logarithmic_part, pressure, smooth_part
+from tests.derive import integrals
+from tests.derive.bodies import BODIES, CASES, CORNERED, IDS, VALUES, close, sheet, value
+
+ALL = pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+SHARES = ("0.03125", "0.28125", "0.53125", "0.84375")
+"""Places across the contact, no kink of any body among them."""
+
+
+def places(left: float, right: float) -> list[mpf]:
+    return [-mpf(left) + mpf(share) * (mpf(left) + right) for share in SHARES]
+
+
+@ALL
+def test_the_pressure_is_the_principal_value(name: str, left: float, right: float) -> None:
+    body = BODIES[name]
+    for place in places(left, right):
+        expected = integrals.pressure(
+            body.slope, place, left, right, body.kinks, VALUES["E_star"]
+        )
+        found = value(name, "pressure", x=place, a=left, c=right)
+        assert close(found, expected, digits=12)
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_the_pressure_deforms_the_half_plane_to_the_body(name: str) -> None:
+    """PV int p(s)/(x - s) ds = (pi E*/2)(g'(x) + alpha): what the pressure is there for."""
+    (left, right), body = BODIES[name].contacts[0], BODIES[name]
+    alpha = value(name, "tilt", a=left, c=right)
+
+    def p(s: mpf) -> mpf:
+        return value(name, "pressure", x=s, a=left, c=right)
+
+    for place in places(left, right)[1:3]:
+        found = integrals.principal_value(p, place, mpf(left), mpf(right), body.kinks)
+        expected = mpmath.pi * VALUES["E_star"] / 2 * (body.slope(place) + alpha)
+        assert close(found, expected, digits=9, scale=1)
+
+
+@ALL
+def test_the_pressure_vanishes_at_both_edges_as_a_root(
+    name: str, left: float, right: float
+) -> None:
+    edges = {"a": mpf(left), "c": mpf(right)}
+    for at, inward in ((-edges["a"], 1), (edges["c"], -1)):
+        near, nearer = (
+            value(name, "pressure", x=at + inward * step, **edges)
+            for step in (mpf("1e-16"), mpf("1e-18"))
+        )
+        assert 0 < near < mpf("1e-6")
+        assert close(near / nearer, mpf(10), digits=12)
+
+
+@pytest.mark.parametrize("name", ["hertz", "wedge", "quartic", "shifted_wedge", "skew"])
+def test_sympy_finds_the_pressure_zero_at_both_edges(name: str) -> None:
+    p = sheet(name).flat("pressure")
+    numbers = {s: Rational(VALUES[s.name]) for s in p.free_symbols if s.name in VALUES}
+    p = p.subs(numbers).subs({a: 2, c: 1})
+    assert limit(p, x, -2, "+") == 0
+    assert limit(p, x, 1, "-") == 0
+
+
+@pytest.mark.parametrize("name", CORNERED)
+def test_the_pressure_at_a_corner_is_infinite_from_both_sides(name: str) -> None:
+    p = sheet(name).flat("pressure")
+    numbers = {s: Rational(VALUES[s.name]) for s in p.free_symbols if s.name in VALUES}
+    p = p.subs(numbers).subs({a: 2, c: 1})
+    for kink in sheet(name).geometry.slope.kinks:
+        at = kink.position.subs({Symbol("b", positive=True): Rational(1, 2)})
+        assert limit(p, x, at, "+") == oo
+        assert limit(p, x, at, "-") == oo
+
+
+@pytest.mark.parametrize("name", CORNERED)
+def test_the_pressure_at_a_corner_grows_as_its_logarithm(name: str) -> None:
+    """p ~ (E*/2 pi) [step of g'] log(1/|x - x_j|): halving the distance adds (..) log 2."""
+    body = BODIES[name]
+    for kink in body.kinks:
+        step = body.slope(mpf(kink) + 1e-6) - body.slope(mpf(kink) - 1e-6)
+        for side in (1, -1):
+            far, near = (
+                value(name, "pressure", x=kink + side * d, a=2.0, c=1.0)
+                for d in (mpf("1e-14"), mpf("5e-15"))
+            )
+            gained = VALUES["E_star"] / (2 * mpmath.pi) * step * mpmath.log(2)
+            assert close(near - far, gained, digits=5)
+
+
+@pytest.mark.parametrize("name", ["flat_rounded", "two_radii", "spline", "half_parabola"])
+def test_the_pressure_passes_smoothly_where_the_slope_has_no_corner(name: str) -> None:
+    for kink in BODIES[name].kinks:
+        below, above = (
+            value(name, "pressure", x=mpf(kink) + d, a=2.0, c=1.5)
+            for d in (mpf("-1e-20"), mpf("1e-20"))
+        )
+        assert close(below, above, digits=16)
+
+
+@ALL
+def test_the_pressure_is_positive_throughout(name: str, left: float, right: float) -> None:
+    for share in range(1, 64):
+        place = -mpf(left) + (mpf(left) + right) * (mpf(share) / 64 + mpf("1e-5"))
+        assert value(name, "pressure", x=place, a=left, c=right) > 0
+
+
+def test_the_pressure_is_a_root_times_a_polynomial_and_logarithms() -> None:
+    for name in ("hertz", "wedge", "flat_rounded"):
+        frame = sheet(name).frame
+        smooth, logs = smooth_part(frame), logarithmic_part(frame)
+        assert smooth.is_polynomial(x)
+        assert simplify(pressure(frame) - E_star / 2 * w * smooth - E_star * logs / Symbol("q")) != 0
+        assert logs.has(x) == (name == "flat_rounded")
+    assert smooth_part(sheet("wedge").frame) == 0
+    assert logarithmic_part(sheet("hertz").frame) == 0
