@@ -40,7 +40,7 @@ class BadName(UserError):
 class BadUnit(UserError):
     """A unit that is no product of powers of m, Pa, N and rad."""
 
-    given: str
+    given: object
     why: str
 
     @property

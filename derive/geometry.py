@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, Symbol, sympify
+from sympy import Expr, I, Symbol, SympifyError, nan, oo, sympify, zoo
 
-from derive.errors import BadName, UnknownSymbol
+from derive.errors import BadName, BadProfile, UnknownSymbol
 from derive.profile import Slope, read_slope
 from derive.symbols import QUANTITIES, RESERVED, Quantity, x
 from derive.units import Dimension, check, parse_unit
@@ -24,10 +24,13 @@ class Parameter(Symbol):
     unit: str
 
     def __new__(cls, name: str, meaning: str, unit: str) -> "Parameter":
-        """A symbol of its own: two parameters of one name stay apart."""
+        """A symbol of its own: parameters of one name that mean different things stay apart."""
         symbol = Symbol.__xnew__(cls, name, positive=True)
         symbol.meaning, symbol.unit = meaning, unit
         return symbol
+
+    def _hashable_content(self) -> tuple[Any, ...]:
+        return (*super()._hashable_content(), self.meaning, self.unit)
 
     def __getnewargs_ex__(self) -> tuple[tuple[str, ...], dict[str, Any]]:
         return (self.name, self.meaning, self.unit), {}
@@ -48,7 +51,7 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     """
     if not isinstance(name, str) or not _usable(name):
         raise BadName("parameter", str(name), "cannot be a name")
-    if name in RESERVED or re.fullmatch(r"(theta|w|L)_\d+", name):
+    if name in RESERVED or re.fullmatch(r"(theta|w|L|u|v)_\d+", name):
         raise BadName("parameter", name, "is taken by the theory")
     parse_unit(unit)
     return Parameter(name, meaning, unit)
@@ -61,6 +64,20 @@ def _usable(name: str) -> bool:
         and not keyword.iskeyword(name)
         and not name.startswith("_")
     )
+
+
+def _expression(name: str, g: Any) -> Expr:
+    """g as a real SymPy expression."""
+    remedy = "write a real SymPy expression of x and parameters, such as x**2/(2*R)"
+    try:
+        given = sympify(g, strict=True)
+    except SympifyError:
+        raise BadProfile(name, f"is {g!r:.60}, which is no expression", remedy) from None
+    if not isinstance(given, Expr):
+        raise BadProfile(name, f"is {given!s:.60}, which is no expression", remedy)
+    if given.has(I, nan, oo, -oo, zoo) or given.is_real is False:
+        raise BadProfile(name, f"is {given}, which is not real and finite", remedy)
+    return given
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,10 +104,12 @@ class Geometry:
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not _usable(self.name):
             raise BadName("geometry", str(self.name), "cannot be the name of a module")
-        given = sympify(self.g, strict=True)
-        plain = {}
+        given = _expression(self.name, self.g)
+        plain: dict[Symbol, Quantity] = {}
         for symbol in sorted(given.free_symbols, key=str):
             if isinstance(symbol, Parameter):
+                if symbol.name in (q.name for q in plain.values()):
+                    raise BadName("parameter", symbol.name, "has two meanings in one geometry")
                 quantity = Quantity(Symbol(symbol.name, positive=True), symbol.meaning, symbol.unit)
                 plain[symbol] = quantity
             elif symbol != x:

@@ -79,6 +79,8 @@ def parse_unit(text: str) -> Dimension:
 
     Raises BadUnit, with the reason, on anything else.
     """
+    if not isinstance(text, str):
+        raise BadUnit(text, "is no text")
     if text.strip() in ("-", "1", ""):
         return NUMBER
     try:
@@ -92,7 +94,7 @@ def _unit(node: ast.expr, text: str) -> Dimension:
     match node:
         case ast.Name(id=name) if name in _UNITS:
             return _UNITS[name]
-        case ast.Constant(value=1):
+        case ast.Constant(value=int(number)) if number == 1 and number is not True:
             return NUMBER
         case ast.BinOp(left=left, op=ast.Mult(), right=right):
             return _unit(left, text) * _unit(right, text)

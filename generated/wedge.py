@@ -10,11 +10,11 @@ from ._arrays import elementwise
 from ._types import Array, Contact, Edges
 
 __all__ = [
-    "Contact",
-    "Edges",
     "K_N",
     "K_T",
     "L_N",
+    "Contact",
+    "Edges",
     "contact",
     "contact_at_tilt",
     "load",
@@ -42,9 +42,9 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     Returns Contact(a [m], c [m], alpha [rad]).
     NaN unless P > 0 and E_star > 0 and phi > 0.
 
-    a proved: put back symbolically; put back into load(a, c), moment(a, c); 45 digits at 48 points.
-    c proved: put back symbolically; put back into load(a, c), moment(a, c); 44 digits at 48 points.
-    alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 48 digits at 72 points.
+    a proved: put back symbolically; put back into load(a, c), moment(a, c); 45 digits at 24 points.
+    c proved: put back symbolically; put back into load(a, c), moment(a, c); 44 digits at 24 points.
+    alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 48 digits at 24 points.
     Derived from derive/geometries/wedge.py.
 
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi=0.125)]
@@ -80,8 +80,8 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     Returns Contact(a [m], c [m], alpha as given).
     NaN unless P > 0 and alpha > -phi and alpha < phi and E_star > 0 and phi > 0.
 
-    a numerical: put back into load(a, c), tilt(a, c); 48 digits at 48 points.
-    c numerical: put back into load(a, c), tilt(a, c); 48 digits at 48 points.
+    a numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.
+    c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.
     Derived from derive/geometries/wedge.py.
 
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi=0.125)]

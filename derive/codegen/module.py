@@ -40,7 +40,7 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     functions = [f for f in CONTRACT if f.available(sheet)]
     kinds = sorted({f.kind for f in functions if f.kind})
     bodies = "\n\n".join(_FunctionText(sheet, f, source).text for f in functions)
-    names = sorted([f.name for f in functions] + kinds)
+    names = sorted([f.name for f in functions] + kinds, key=_order_of_names)
     text = f'''{MARK}
 """{sheet.geometry.title}
 
@@ -58,6 +58,11 @@ __all__ = {names}
 {bodies}
 '''
     return formatted(text)
+
+
+def _order_of_names(name: str) -> tuple[bool, bool, str]:
+    """K_N before Contact before load: as the linter sorts `__all__`."""
+    return not name.isupper(), name.islower(), name
 
 
 def formatted(text: str) -> str:

@@ -6,7 +6,7 @@ Out: the integrals of theory.equilibrium and theory.pressure, evaluated with
      to the ends of its piece.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -85,8 +85,17 @@ class Contact:
         """p(x) from its principal value, the singularity taken off."""
         here = self.slope(place)
         root = mpmath.sqrt((self.a + place) * (self.c - place))
-        principal = self.integral(lambda s: (self.slope(s) - here) / (s - place), place)
+        cuts = [place, *self._around(place)]
+        principal = self.integral(lambda s: (self.slope(s) - here) / (s - place), *cuts)
         return self.E_star / (2 * mpmath.pi) * root * principal
+
+    def _around(self, place: mpf) -> Iterator[mpf]:
+        """Cuts about a kink next to `place`, ever wider, for the kernel 1/(s - place)."""
+        for kink in self.kinks:
+            distance = abs(place - kink)
+            while 0 < distance < self.h:
+                yield from (s for s in (kink - distance, kink + distance) if -self.a < s < self.c)
+                distance *= 8
 
     def resultant(self, pressure: Function, weight: Function) -> mpf:
         """int weight(s) p(s) ds of a given p; p may be infinite, as a logarithm, at a kink."""

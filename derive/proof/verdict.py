@@ -73,21 +73,23 @@ class Comparison:
         """Digits to which both agree."""
         scale = max(abs(self.formula), abs(self.route))
         gap = abs(self.formula - self.route)
-        if not mpmath.isfinite(scale):
+        if not (mpmath.isfinite(self.formula) and mpmath.isfinite(self.route)):
             return 0
         return WORKING if gap == 0 else max(0, int(-mpmath.log10(gap / scale)))
 
 
 def numerical_proof(route: str, comparisons: Iterable[Comparison]) -> Proof:
-    """Verdict of a numerical comparison, all points drawn."""
-    points, worst = 0, WORKING
+    """Verdict of a numerical comparison; a point counts once, however much is compared there."""
+    drawn: set[str] = set()
+    worst = WORKING
     for comparison in comparisons:
-        points += 1
+        drawn.add(comparison.point)
         if comparison.digits < DIGITS:
             example = f"{comparison.point}: {mpmath.nstr(comparison.formula, 17)} against "
             example += mpmath.nstr(comparison.route, 17)
-            return Proof(Verdict.REFUTED, route, points, comparison.digits, example)
+            return Proof(Verdict.REFUTED, route, len(drawn), comparison.digits, example)
         worst = min(worst, comparison.digits)
+    points = len(drawn)
     if points < POINTS:
         return Proof(Verdict.UNKNOWN, f"{route}: only {points} of {POINTS} points drawn", points)
     return Proof(Verdict.NUMERICAL, route, points, worst)

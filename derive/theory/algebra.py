@@ -1,7 +1,9 @@
 """Bringing formulas into one form, and deciding whether one is zero.
 
-All closed forms are rational functions of a, c, x, the parameters and the symbols of the kinks, of
-which w_j obeys w_j**2 = (a + x_j)(c - x_j).  In that ring "is it zero" has an exact answer.
+All closed forms are rational functions of a, c, x, the parameters and the symbols of the kinks.  A
+kink that every contact spans has w_j**2 = (a + x_j)(c - x_j).  One that a contact can leave has
+w_j = 0 then, so that only w_j**3 = (a + x_j)(c - x_j) w_j holds throughout.  In that ring "is it
+zero" has an exact answer.
 """
 
 from sympy import (
@@ -21,13 +23,13 @@ from sympy import (
     together,
 )
 
-from derive.theory.frame import Frame
+from derive.theory.frame import Frame, KinkFrame
 
 
 def reduced(expr: Expr, frame: Frame) -> Expr:
-    """`expr` as one quotient, no w_j above the first power in numerator and denominator."""
+    """`expr` as one quotient of polynomials of lowest degree in every w_j."""
     numerator, denominator = fraction(together(expr))
-    return cancel(_first_power(numerator, frame) / _first_power(denominator, frame))
+    return cancel(_low_power(numerator, frame) / _low_power(denominator, frame))
 
 
 def tidy(expr: Expr, frame: Frame) -> Expr:
@@ -45,8 +47,8 @@ def is_zero(expr: Expr, frame: Frame) -> bool:
     not.
     """
     expr, roots = _without_roots(expr)
-    squares = {k.w: k.left * k.right for k in frame.kinks} | roots
-    return bool(_even_powers_replaced(expand(_numerator(expr)), squares) == 0)
+    polynomial = _low_power(_numerator(expr), frame)
+    return bool(_even_powers_replaced(expand(polynomial), roots) == 0)
 
 
 def _numerator(expr: Expr) -> Expr:
@@ -102,12 +104,17 @@ def _collected(quotient: Expr, frame: Frame) -> Expr:
     return factor(content / denominator) * collected
 
 
-def _first_power(expr: Expr, frame: Frame) -> Expr:
+def _low_power(expr: Expr, frame: Frame) -> Expr:
+    """A polynomial in w_j of degree one, of degree two where a contact can leave the kink."""
     for k in frame.kinks:
         if expr.has(k.w):
-            square = k.left * k.right
             expr = sum(
-                coefficient * square ** (power // 2) * k.w ** (power % 2)
+                coefficient * _power_of_root(k, power)
                 for (power,), coefficient in Poly(expr, k.w).terms()
             )
     return expr
+
+
+def _power_of_root(kink: KinkFrame, power: int) -> Expr:
+    lowest = (power - 1) % 2 + 1 if kink.clipped and power else power % 2
+    return (kink.left * kink.right) ** ((power - lowest) // 2) * kink.w**lowest

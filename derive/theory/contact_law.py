@@ -47,6 +47,8 @@ class Inverse:
 
 def contact_from_moment(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> Inverse | None:
     """(P, M) -> (a, c, alpha), in terms of P and the lever arm e = M/P."""
+    if any(k.clipped for k in frame.kinks):
+        return None
     to_middle = _in_middle_and_width(frame)
     arm = reduced(moment / load, frame)
     middle = _root_of_first_degree(arm.subs(to_middle) - e, _mid)

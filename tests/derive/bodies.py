@@ -106,9 +106,7 @@ BODIES = {
     "wedge_on_parabola": Body(
         phi * Abs(x) + x**2 / (2 * R), lambda s: 0.25 * _sign(s) + s / 1.5, (0.0,)
     ),
-    "half_parabola": Body(
-        Max(0, x) ** 2 / (2 * R), lambda s: max(s, mpf(0)) / 1.5, (0.0,), RIGHT
-    ),
+    "half_parabola": Body(Max(0, x) ** 2 / (2 * R), lambda s: max(s, mpf(0)) / 1.5, (0.0,), RIGHT),
     "three_corners": Body(
         phi * (Abs(Abs(x) - b) + 2 * Abs(x)),  # slope 3 phi beyond b, phi within
         lambda s: _sign(s) * (0.75 if abs(s) > 0.5 else 0.25),
@@ -120,9 +118,7 @@ BODIES = {
 CORNERED = ("wedge", "unequal_wedge", "shifted_wedge", "wedge_on_parabola", "three_corners")
 """Bodies whose pressure is infinite at a corner."""
 
-CASES = [
-    (name, a, c) for name, body in BODIES.items() for a, c in body.contacts
-]
+CASES = [(name, a, c) for name, body in BODIES.items() for a, c in body.contacts]
 IDS = [f"{name}[{-a:g},{c:g}]" for name, a, c in CASES]
 
 

@@ -44,16 +44,10 @@ def load(slope: Function, a: mpf, c: mpf, kinks: Iterable[mpf], E_star: mpf) -> 
 def moment(slope: Function, a: mpf, c: mpf, kinks: Iterable[mpf], E_star: mpf) -> mpf:
     """M = -(E*/2) int s (s - mid) (g' + alpha)/w ds."""
     alpha, middle = tilt(slope, a, c, kinks), mpf(c - a) / 2
-    return (
-        -E_star
-        / 2
-        * over_contact(lambda s: s * (s - middle) * (slope(s) + alpha), a, c, kinks)
-    )
+    return -E_star / 2 * over_contact(lambda s: s * (s - middle) * (slope(s) + alpha), a, c, kinks)
 
 
-def pressure(
-    slope: Function, x: mpf, a: mpf, c: mpf, kinks: Iterable[mpf], E_star: mpf
-) -> mpf:
+def pressure(slope: Function, x: mpf, a: mpf, c: mpf, kinks: Iterable[mpf], E_star: mpf) -> mpf:
     """p(x) = (E*/2 pi) w(x) int (g'(s) - g'(x)) / ((s - x) w(s)) ds."""
     here = slope(x)
     principal = over_contact(lambda s: (slope(s) - here) / (s - x), a, c, (*kinks, x))

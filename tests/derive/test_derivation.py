@@ -37,7 +37,8 @@ def at_positive_edges(name: str, formula: str) -> Expr:
 #   int g'/w = phi (t0 - (pi - t0)), so alpha = phi (1 - 2 t0/pi), tan(t0/2) = sqrt(c/a);
 #   int s g'/w = mid phi (2 t0 - pi) + 2 phi (h/2) sin t0, (h/2) sin t0 = sqrt(ac), P = E* phi
 #   sqrt(ac).  Its load acts half-way from the apex to mid: M = -P mid/2.
-# quartic: g' = 4 x^3/C, alpha = -(4/C)(mid^3 + 3 mid h^2/8);  at a = c: P = (E*/2)(4/C)(3 pi/8) a^4.
+# quartic: g' = 4 x^3/C, alpha = -(4/C)(mid^3 + 3 mid h^2/8);  at a = c:
+#   P = (E*/2)(4/C)(3 pi/8) a^4.
 _KNOWN = {
     ("hertz", "tilt"): (A - B) / (2 * R),
     ("hertz", "load"): pi * E_star * (A + B) ** 2 / (16 * R),
@@ -318,6 +319,4 @@ def test_a_rounded_flat_without_a_flat_is_hertz() -> None:
 def test_a_body_of_another_name_has_the_same_formulas() -> None:
     radius = parameter("R", "radius of curvature", unit="m")
     other = derive_sheet(Geometry("other", g=x**2 / (2 * radius)))
-    assert {k: f.expr for k, f in other.items()} == {
-        k: f.expr for k, f in sheet("hertz").items()
-    }
+    assert {k: f.expr for k, f in other.items()} == {k: f.expr for k, f in sheet("hertz").items()}

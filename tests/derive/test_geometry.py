@@ -34,7 +34,9 @@ def test_a_parameter_survives_copy_and_pickle() -> None:
         assert twin.is_positive
 
 
-@pytest.mark.parametrize("name", ["alpha", "E_star", "theta_1", "w_12", "L_3", "u_1", "v_2", "np", "pi", "E"])
+@pytest.mark.parametrize(
+    "name", ["alpha", "E_star", "theta_1", "w_12", "L_3", "u_1", "v_2", "np", "pi", "E"]
+)
 def test_a_name_of_the_theory_is_refused(name: str) -> None:
     with pytest.raises(BadName) as caught:
         parameter(name, "something")
@@ -160,7 +162,9 @@ def test_a_profile_that_is_no_length_is_refused(g: object) -> None:
     assert "check the units of the parameters" in caught.value.message
 
 
-@pytest.mark.parametrize("g", ["x**2/R", None, [x], {"g": x}, object()], ids=lambda g: type(g).__name__)
+@pytest.mark.parametrize(
+    "g", ["x**2/R", None, [x], {"g": x}, object()], ids=lambda g: type(g).__name__
+)
 def test_what_is_no_expression_is_refused(g: object) -> None:
     with pytest.raises(UserError):
         Geometry("body", g=g)  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""Geometry files: found, executed once, leaving nothing behind; and what is wrong with a bad one."""
+"""Geometry files: found, executed once, leaving nothing behind; what is wrong with a bad one."""
 
 import subprocess
 import sys

@@ -130,8 +130,14 @@ def test_a_place_inside_lies_between_the_edges() -> None:
 
 @pytest.mark.parametrize(
     ("name", "closed"),
-    [("hertz", True), ("wedge", True), ("shifted_wedge", True), ("flat_rounded", False)]
-    + [("quartic", False), ("two_radii", False)],
+    [
+        ("hertz", True),
+        ("wedge", True),
+        ("shifted_wedge", True),
+        ("flat_rounded", False),
+        ("quartic", False),
+        ("two_radii", False),
+    ],
 )
 def test_closed_means_that_the_loads_give_the_contact(name: str, closed: bool) -> None:
     assert sheet(name).is_closed is closed

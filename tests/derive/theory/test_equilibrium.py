@@ -21,18 +21,14 @@ def test_the_tilt_is_minus_the_mean_slope(name: str, left: float, right: float) 
 
 
 @ALL
-def test_the_load_is_the_first_moment_of_the_slope(
-    name: str, left: float, right: float
-) -> None:
+def test_the_load_is_the_first_moment_of_the_slope(name: str, left: float, right: float) -> None:
     body = BODIES[name]
     expected = integrals.load(body.slope, left, right, body.kinks, VALUES["E_star"])
     assert close(value(name, "load", a=left, c=right), expected)
 
 
 @ALL
-def test_the_moment_is_the_second_moment_of_the_slope(
-    name: str, left: float, right: float
-) -> None:
+def test_the_moment_is_the_second_moment_of_the_slope(name: str, left: float, right: float) -> None:
     body = BODIES[name]
     expected = integrals.moment(body.slope, left, right, body.kinks, VALUES["E_star"])
     size = value(name, "load", a=left, c=right)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from mpmath import mpf
 from sympy import Expr, Integer, Symbol, expand, lambdify, pi
 
-from derive.symbols import a, c, h, mid, x
+from derive.symbols import h, mid, x
 from derive.theory.moments import full_moment, kink_moment, slope_moment, weighted
 from tests.derive.bodies import BODIES, CASES, IDS, VALUES, close, sheet
 from tests.derive.integrals import over_contact

@@ -3,7 +3,7 @@
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Rational, Symbol, limit, oo, simplify
+from sympy import Rational, Symbol, factor, limit, oo, pi, simplify
 
 from derive.symbols import E_star, a, c, w, x
 from derive.theory.pressure import logarithmic_part, pressure, smooth_part
@@ -23,9 +23,7 @@ def places(left: float, right: float) -> list[mpf]:
 def test_the_pressure_is_the_principal_value(name: str, left: float, right: float) -> None:
     body = BODIES[name]
     for place in places(left, right):
-        expected = integrals.pressure(
-            body.slope, place, left, right, body.kinks, VALUES["E_star"]
-        )
+        expected = integrals.pressure(body.slope, place, left, right, body.kinks, VALUES["E_star"])
         found = value(name, "pressure", x=place, a=left, c=right)
         assert close(found, expected, digits=12)
 
@@ -111,12 +109,18 @@ def test_the_pressure_is_positive_throughout(name: str, left: float, right: floa
         assert value(name, "pressure", x=place, a=left, c=right) > 0
 
 
-def test_the_pressure_is_a_root_times_a_polynomial_and_logarithms() -> None:
-    for name in ("hertz", "wedge", "flat_rounded"):
-        frame = sheet(name).frame
-        smooth, logs = smooth_part(frame), logarithmic_part(frame)
-        assert smooth.is_polynomial(x)
-        assert simplify(pressure(frame) - E_star / 2 * w * smooth - E_star * logs / Symbol("q")) != 0
-        assert logs.has(x) == (name == "flat_rounded")
+@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded", "skew"])
+def test_the_pressure_is_a_root_times_a_polynomial_and_logarithms(name: str) -> None:
+    """p = (E*/2) [w R + (2/pi) sum side_j D_j L_j]."""
+    frame = sheet(name).frame
+    smooth, logarithms = smooth_part(frame), logarithmic_part(frame)
+    assert smooth.is_polynomial(x)
+    assert logarithms == sum(k.kink.side * factor(k.kink.jump) * k.L for k in frame.kinks)
+    whole = E_star / 2 * (w * smooth + 2 / pi * logarithms)
+    assert simplify(pressure(frame) - whole) == 0
+
+
+def test_straight_flanks_leave_logarithms_only_and_a_polynomial_none() -> None:
     assert smooth_part(sheet("wedge").frame) == 0
-    assert logarithmic_part(sheet("hertz").frame) == 0
+    assert smooth_part(sheet("three_corners").frame) == 0
+    assert logarithmic_part(sheet("quartic").frame) == 0

@@ -1,0 +1,116 @@
+"""The program's quadrature: against integrals known by hand, and between kinks."""
+
+import mpmath
+import pytest
+from mpmath import mpf
+from sympy import Piecewise, Symbol
+
+from derive import Geometry, x
+from derive.proof.quadrature import Contact
+from derive.proof.verdict import DIGITS, WORKING
+from tests.derive import integrals
+from tests.derive.bodies import BODIES, CASES, IDS, VALUES, R, b, close, geometry
+
+
+def contact(name: str, left: float, right: float) -> Contact:
+    body = geometry(name)
+    values = {q.symbol: mpf(VALUES[q.name]) for q in body.parameters}
+    return Contact(body, values, mpf(left), mpf(right), mpf(VALUES["E_star"]))
+
+
+@pytest.mark.parametrize(("left", "right"), [(2.0, 1.0), (-1.0, 3.0), (3.0, -1.0)])
+def test_a_cylinder_by_hand(left: float, right: float) -> None:
+    """alpha = (a - c)/2R, P = pi E* h^2/16R, M = -P mid, p = E* w/2R."""
+    here = contact("hertz", left, right)
+    E, radius, width = mpf(VALUES["E_star"]), mpf(VALUES["R"]), mpf(left) + right
+    load = mpmath.pi * E * width**2 / (16 * radius)
+    assert close(here.tilt, (mpf(left) - right) / (2 * radius), scale=1)
+    assert close(here.load, load)
+    assert close(here.moment, load * (mpf(left) - right) / 2, scale=load)
+    place = (mpf(right) - left) / 2 + mpf("0.25")
+    expected = E * mpmath.sqrt((left + place) * (right - place)) / (2 * radius)
+    assert close(here.pressure(place), expected)
+
+
+@pytest.mark.parametrize(("left", "right"), [(2.0, 1.0), (0.75, 3.0)])
+def test_a_wedge_by_hand(left: float, right: float) -> None:
+    """P = E* phi sqrt(ac), M = P (a - c)/4, p = (2 E* phi/pi) artanh sqrt(v/u) for x > 0."""
+    here = contact("wedge", left, right)
+    load = mpf("1.25") * mpf("0.25") * mpmath.sqrt(mpf(left) * right)
+    assert close(here.load, load)
+    assert close(here.moment, load * (mpf(left) - right) / 4, scale=load)
+    place = mpf("0.375")
+    v_over_u = left * (right - place) / (right * (left + place))
+    expected = 2 * mpf("0.3125") / mpmath.pi * mpmath.atanh(mpmath.sqrt(v_over_u))
+    assert close(here.pressure(place), expected)
+
+
+@pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+def test_it_takes_the_slope_from_g_as_it_was_written(name: str, left: float, right: float) -> None:
+    here, body = contact(name, left, right), BODIES[name]
+    for share in ("0.0625", "0.3125", "0.6875", "0.9375"):
+        place = -here.a + mpf(share) * here.h
+        assert close(here.slope(place), mpf(body.slope(place)), scale=1)
+    assert here.kinks == sorted(k for k in body.kinks if -left < k < right)
+
+
+@pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+def test_it_agrees_with_another_quadrature(name: str, left: float, right: float) -> None:
+    here, body = contact(name, left, right), BODIES[name]
+    assert close(here.tilt, integrals.tilt(body.slope, left, right, body.kinks), scale=1)
+    E = VALUES["E_star"]
+    assert close(here.load, integrals.load(body.slope, left, right, body.kinks, E))
+    moment = integrals.moment(body.slope, left, right, body.kinks, E)
+    assert close(here.moment, moment, scale=here.load)
+
+
+def test_places_and_angles() -> None:
+    here = contact("hertz", 2.0, 1.0)
+    assert (here.h, here.mid) == (3, mpf("-0.5"))
+    assert close(here.at(mpf(0)), mpf(1))
+    assert close(here.at(mpmath.pi), mpf(-2))
+    for place in (mpf("-1.75"), mpf("-0.5"), mpf("0.875")):
+        assert close(here.at(here.angle(place)), place)
+
+
+def test_resultants_by_hand() -> None:
+    """int w ds = pi h^2/8, int w s ds = mid times it; a logarithm at a kink is integrable."""
+    here = contact("wedge", 2.0, 1.0)
+
+    def root(s: mpf) -> mpf:
+        return mpmath.sqrt((2 + s) * (1 - s))
+
+    assert close(here.resultant(root, lambda s: mpf(1)), mpmath.pi * 9 / 8)
+    assert close(here.resultant(root, lambda s: s), -mpmath.pi * 9 / 16)
+    # int_{-2}^{1} log|s| ds = (1 log 1 - 1) + (2 log 2 - 2)
+    found = here.resultant(lambda s: mpmath.log(abs(s)), lambda s: mpf(1))
+    assert close(found, 2 * mpmath.log(2) - 3, digits=18)
+
+
+@pytest.mark.parametrize("distance", ["0.1", "5e-4", "-5e-4", "1e-6"])
+def test_the_pressure_close_to_a_kink_keeps_all_its_digits(distance: str) -> None:
+    """min(|x|, b)/R: on the parabola p has a closed form, which both sides of x = b must meet.
+
+    p = (E*/2 pi R) [w (pi - t1 - t2) + 2 (b + x) L1 + 2 (b - x) L2] for a = c, with
+    t = acos(b/a), L1 and L2 the wedge's logarithms at -b and b.
+    """
+    with mpmath.workdps(WORKING):
+        half, width, radius = mpf(2), mpf("0.5"), mpf("1.5")
+        place = width + mpf(distance)
+        body = Geometry(
+            "rounded",
+            g=Piecewise((x**2 / (2 * R), abs(x) < b), (b * abs(x) / R - b**2 / (2 * R), True)),
+        )
+        values = {Symbol("R", positive=True): radius, Symbol("b", positive=True): width}
+        here = Contact(body, values, half, half, mpf(1))
+
+        def logarithm(at: mpf) -> mpf:
+            u, v = (half - at) * (half + place), (half + at) * (half - place)
+            near = mpmath.sqrt(min(u, v) / (abs(place - at) * 2 * half))
+            return mpmath.asinh(near)
+
+        angle = mpmath.acos(width / half)
+        root = mpmath.sqrt(half**2 - place**2)
+        logs = (width + place) * logarithm(-width) + (width - place) * logarithm(width)
+        expected = (root * (mpmath.pi - 2 * angle) + 2 * logs) / (2 * mpmath.pi * radius)
+        assert close(here.pressure(place), expected, digits=DIGITS)

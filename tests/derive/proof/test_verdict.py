@@ -1,0 +1,153 @@
+"""Verdicts: how many digits two numbers share, and what may be concluded from how many points."""
+
+from itertools import product
+
+import pytest
+from mpmath import inf, mpf, nan, workdps
+
+from derive.proof.verdict import (
+    DIGITS,
+    POINTS,
+    WORKING,
+    Comparison,
+    Proof,
+    Verdict,
+    combined,
+    numerical_proof,
+)
+
+ONE = mpf(1)
+
+
+def comparison(first: mpf, second: mpf, point: str = "x = 1") -> Comparison:
+    return Comparison(first, second, point)
+
+
+def agreeing(count: int) -> list[Comparison]:
+    return [comparison(ONE, ONE, f"x = {i}") for i in range(count)]
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "digits"),
+    [
+        (ONE, ONE, WORKING),
+        (mpf(0), mpf(0), WORKING),
+        (ONE, -ONE, 0),
+        (ONE, mpf(2), 0),
+        (mpf(0), mpf("1e-40"), 0),
+        (ONE, nan, 0),
+        (nan, nan, 0),
+        (inf, inf, 0),
+        (ONE, inf, 0),
+    ],
+    ids=str,
+)
+def test_digits_that_two_numbers_share(first: mpf, second: mpf, digits: int) -> None:
+    assert comparison(first, second).digits == digits
+    assert comparison(second, first).digits == digits
+
+
+@pytest.mark.parametrize("power", [5, 12, 29, 31, 45])
+@pytest.mark.parametrize("scale", [mpf("1e-30"), ONE, mpf("-1e20")], ids=str)
+def test_digits_are_relative_and_never_overstated(power: int, scale: mpf) -> None:
+    with workdps(WORKING + 20):
+        gap = mpf(3) * mpf(10) ** -(power + 1)  # 3e-(p+1): more than p digits, less than p + 1
+        assert comparison(scale, scale * (1 + gap)).digits == power
+
+
+def test_agreement_at_every_point_is_numerical() -> None:
+    proof = numerical_proof("a route", agreeing(POINTS))
+    assert proof == Proof(Verdict.NUMERICAL, "a route", POINTS, WORKING)
+    assert proof.holds
+
+
+def test_the_worst_point_is_reported() -> None:
+    with workdps(WORKING):
+        some = agreeing(POINTS)
+        some[7] = comparison(ONE, ONE + mpf(10) ** -(DIGITS + 3) / 2, some[7].point)
+    assert numerical_proof("a route", some).digits == DIGITS + 3
+
+
+@pytest.mark.parametrize("count", [0, 1, 5, 19, POINTS - 1])
+def test_too_few_points_prove_nothing(count: int) -> None:
+    proof = numerical_proof("a route", agreeing(count))
+    assert proof.verdict == Verdict.UNKNOWN
+    assert not proof.holds
+    assert f"only {count} of {POINTS}" in proof.route
+
+
+def test_twenty_points_at_least_are_asked() -> None:
+    assert POINTS >= 20
+    assert DIGITS >= 30
+    assert WORKING > DIGITS
+
+
+@pytest.mark.parametrize("at", [0, 7, POINTS - 1])
+@pytest.mark.parametrize("wrong", [-ONE, mpf(2), 1 + mpf("1e-12"), nan, inf], ids=str)
+def test_one_point_refutes(at: int, wrong: mpf) -> None:
+    some = agreeing(POINTS)
+    some[at] = comparison(ONE, wrong, "x = 7, y = 8")
+    proof = numerical_proof("a route", some)
+    assert proof.verdict == Verdict.REFUTED
+    assert not proof.holds
+    assert proof.points == at + 1
+    assert "x = 7, y = 8" in proof.example
+    assert "against" in str(proof)
+
+
+def test_a_refutation_comes_before_a_lack_of_points() -> None:
+    assert numerical_proof("a route", [comparison(ONE, -ONE)]).verdict == Verdict.REFUTED
+
+
+def test_many_comparisons_at_one_point_are_one_point() -> None:
+    """A route may compare several numbers at a point; a proof needs POINTS points all the same."""
+    proof = numerical_proof("a route", [comparison(ONE, ONE, "x = 1")] * POINTS)
+    assert not proof.holds
+
+
+SYMBOLIC = [None, Proof(Verdict.PROVED, "by symbols")]
+NUMERICAL = [None, *(Proof(v, "by numbers", 24, 40) for v in Verdict if v != Verdict.PROVED)]
+
+
+@pytest.mark.parametrize(
+    ("symbolic", "numerical"),
+    list(product(SYMBOLIC, NUMERICAL)),
+    ids=lambda proof: "none" if proof is None else str(proof.verdict),
+)
+def test_both_routes_together(symbolic: Proof | None, numerical: Proof | None) -> None:
+    """Refuted by either is refuted; an exact zero is a proof; 24 points are numerical."""
+    verdicts = {proof.verdict for proof in (symbolic, numerical) if proof}
+    order = (Verdict.REFUTED, Verdict.PROVED, Verdict.NUMERICAL, Verdict.UNKNOWN)
+    expected = next((v for v in order if v in verdicts), Verdict.UNKNOWN)
+    proof = combined(symbolic, numerical)
+    assert proof.verdict == expected
+    assert proof.holds == (expected in (Verdict.PROVED, Verdict.NUMERICAL))
+
+
+def test_both_routes_are_named_where_both_hold() -> None:
+    proof = combined(SYMBOLIC[1], Proof(Verdict.NUMERICAL, "by numbers", 24, 40))
+    assert proof == Proof(Verdict.PROVED, "by symbols; by numbers", 24, 40)
+
+
+def test_a_route_that_could_not_be_tried_is_not_named_as_a_proof() -> None:
+    proof = combined(SYMBOLIC[1], Proof(Verdict.UNKNOWN, "by numbers", 3))
+    assert (proof.route, proof.points) == ("by symbols", 0)
+
+
+@pytest.mark.parametrize(
+    ("proof", "text"),
+    [
+        (Proof(Verdict.PROVED, "by parts"), "proved: by parts"),
+        (
+            Proof(Verdict.NUMERICAL, "put back", 24, 40),
+            "numerical: put back; 40 digits at 24 points",
+        ),
+        (
+            Proof(Verdict.REFUTED, "put back", 1, 0, "x = 1: 1 against 2"),
+            "refuted: put back; 0 digits at 1 points; at x = 1: 1 against 2",
+        ),
+    ],
+    ids=lambda given: str(given.verdict) if isinstance(given, Proof) else "",
+)
+def test_a_proof_in_words(proof: Proof, text: str) -> None:
+    assert str(proof) == text

@@ -1,0 +1,194 @@
+"""Growth along fixed tilt, and the inverses: against quadrature, and by putting back."""
+
+import mpmath
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import mpf
+from sympy import Symbol, atan2, pi, simplify, sqrt, tan
+
+from derive.symbols import E_star, P, alpha, e
+from derive.theory.contact_law import contact_from_moment, contact_from_tilt
+from tests.derive import integrals
+from tests.derive.bodies import BODIES, CASES, IDS, VALUES, close, sheet, value
+from tests.derive.integrals import Function
+
+ALL = pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+CLOSED = ("hertz", "wedge", "unequal_wedge", "shifted_wedge", "wedge_on_the_left")
+OPEN = ("quartic", "two_radii", "flat_rounded", "wedge_on_parabola", "skew")
+
+R, phi, psi, b = (Symbol(name, positive=True) for name in ("R", "phi", "psi", "b"))
+
+
+def by_edge(f: Function, left: float, right: float) -> tuple[mpf, mpf]:
+    """df/da and df/dc by the central difference of a quadrature."""
+    step = mpf("1e-8")
+    left, right = mpf(left), mpf(right)
+    by_a = (f(left + step, right) - f(left - step, right)) / (2 * step)
+    by_c = (f(left, right + step) - f(left, right - step)) / (2 * step)
+    return by_a, by_c
+
+
+@ALL
+def test_the_edges_advance_so_that_the_tilt_stays(name: str, left: float, right: float) -> None:
+    """alpha_a a'(c) + alpha_c = 0, alpha by quadrature."""
+    body = BODIES[name]
+    by_a, by_c = by_edge(lambda i, j: integrals.tilt(body.slope, i, j, body.kinks), left, right)
+    assert close(value(name, "edge_ratio", a=left, c=right), -by_c / by_a, digits=12)
+
+
+@ALL
+def test_the_load_grows_along_fixed_tilt_at_its_rate(name: str, left: float, right: float) -> None:
+    """P'(c) = P_c + P_a a'(c), both by quadrature."""
+    body = BODIES[name]
+    tilts = by_edge(lambda i, j: integrals.tilt(body.slope, i, j, body.kinks), left, right)
+    loads = by_edge(
+        lambda i, j: integrals.load(body.slope, i, j, body.kinks, VALUES["E_star"]), left, right
+    )
+    expected = loads[1] - loads[0] * tilts[1] / tilts[0]
+    assert close(value(name, "load_rate", a=left, c=right), expected, digits=12)
+
+
+@ALL
+def test_the_weight_of_the_punches_is_the_rate_over_pi(
+    name: str, left: float, right: float
+) -> None:
+    rate = value(name, "load_rate", a=left, c=right)
+    assert close(value(name, "punch", a=left, c=right) * mpmath.pi, rate)
+
+
+@pytest.mark.parametrize("name", ["hertz", "quartic"])
+def test_flat_punches_of_all_widths_add_up_to_the_pressure(name: str) -> None:
+    """Without tilt: p(x) = int_{|x|}^{c} F(s) / sqrt(s^2 - x^2) ds, s = sqrt(x^2 + t^2)."""
+    end, place = mpf("1.5"), mpf("0.4375")
+    total = mpmath.quad(
+        lambda t: (
+            value(name, "punch", a=mpmath.sqrt(place**2 + t**2), c=mpmath.sqrt(place**2 + t**2))
+            / mpmath.sqrt(place**2 + t**2)
+        ),
+        [0, mpmath.sqrt(end**2 - place**2)],
+    )
+    assert close(total, value(name, "pressure", x=place, a=end, c=end), digits=18)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
+def test_flat_punches_of_a_tilted_wedge_add_up_to_its_pressure(ratio: float) -> None:
+    """At fixed tilt a = r c: p(x) = int_x^c F(s) / sqrt((r s + x)(s - x)) ds for x > 0.
+
+    With s = x + t^2 the root takes ds along, 2 dt / sqrt(r s + x) stays.
+    """
+    end, place = mpf(2), mpf("0.625")
+
+    def integrand(t: mpf) -> mpf:
+        s = place + t**2
+        return 2 * value("wedge", "punch", a=ratio * s, c=s) / mpmath.sqrt(ratio * s + place)
+
+    total = mpmath.quad(integrand, [0, mpmath.sqrt(end - place)])
+    assert close(total, value("wedge", "pressure", x=place, a=ratio * end, c=end), digits=18)
+
+
+_positive = st.floats(0.0625, 16)
+_arm = st.floats(-4, 4)
+_share = st.floats(-0.9375, 0.9375)
+
+
+@pytest.mark.parametrize("name", CLOSED)
+@given(_positive, _arm)
+def test_the_contact_of_load_and_moment_carries_them(name: str, load: float, arm: float) -> None:
+    given_loads = {"P": mpf(load), "M": mpf(load) * arm}
+    edges = {key: value(name, f"contact_{key}", **given_loads) for key in ("a", "c")}
+    assert edges["a"] + edges["c"] > 0
+    # a and c are differences of much larger numbers when the arm is long
+    assert close(value(name, "load", **edges), mpf(load), digits=18)
+    assert close(value(name, "moment", **edges), given_loads["M"], digits=18, scale=load)
+    expected = value(name, "tilt", **edges)
+    assert close(value(name, "contact_alpha", **given_loads), expected, digits=18, scale=1)
+
+
+@pytest.mark.parametrize("name", CLOSED)
+@given(_positive, _share)
+def test_the_contact_of_load_and_tilt_carries_them(name: str, load: float, share: float) -> None:
+    low, high = (-0.375 if name == "unequal_wedge" else -0.25), 0.25  # -g' at both ends
+    tilt = (mpf(low) + high) / 2 + mpf(share) * (mpf(high) - low) / 2
+    given_loads = {"P": mpf(load), "alpha": tilt}
+    edges = {key: value(name, f"contact_at_tilt_{key}", **given_loads) for key in ("a", "c")}
+    assert edges["a"] + edges["c"] > 0
+    assert close(value(name, "load", **edges), mpf(load), digits=18)
+    assert close(value(name, "tilt", **edges), tilt, digits=18, scale=1)
+    expected = value(name, "moment", **edges)
+    found = value(name, "contact_at_tilt_M", **given_loads)
+    assert close(found, expected, digits=18, scale=load)
+
+
+@pytest.mark.parametrize("name", CLOSED)
+@given(_positive, _arm)
+def test_both_inverses_find_one_contact(name: str, load: float, arm: float) -> None:
+    loads = {"P": mpf(load), "M": mpf(load) * arm}
+    tilt = value(name, "contact_alpha", **loads)
+    for edge in ("a", "c"):
+        first = value(name, f"contact_{edge}", **loads)
+        second = value(name, f"contact_at_tilt_{edge}", P=mpf(load), alpha=tilt)
+        assert close(first, second, digits=16, scale=1)
+
+
+# Hertz: P = pi E* h^2/(16 R), so h/2 = 2 sqrt(P R/(pi E*)); e = M/P = -mid; alpha = -mid/R = e/R.
+# Wedge: e = -mid/2, so c - a = -4 e; ac = (P/(E* phi))^2, so (a + c)^2 = 16 e^2 + 4 (P/(E* phi))^2.
+#   At fixed tilt theta_1 = (pi/2)(1 - alpha/phi) and c/a = tan^2(theta_1/2).
+_base = P / (E_star * phi)
+_BY_HAND = {
+    ("hertz", "contact_a"): 2 * sqrt(P * R / (pi * E_star)) + e,
+    ("hertz", "contact_c"): 2 * sqrt(P * R / (pi * E_star)) - e,
+    ("hertz", "contact_alpha"): e / R,
+    ("hertz", "contact_at_tilt_a"): 2 * sqrt(P * R / (pi * E_star)) + R * alpha,
+    ("hertz", "contact_at_tilt_c"): 2 * sqrt(P * R / (pi * E_star)) - R * alpha,
+    ("hertz", "contact_at_tilt_M"): P * R * alpha,
+    ("wedge", "contact_a"): 2 * e + sqrt(4 * e**2 + _base**2),
+    ("wedge", "contact_c"): -2 * e + sqrt(4 * e**2 + _base**2),
+    ("wedge", "contact_alpha"): phi * (1 - 2 * atan2(_base, 2 * e) / pi),
+    ("wedge", "contact_at_tilt_a"): _base / tan(pi / 4 * (1 - alpha / phi)),
+    ("wedge", "contact_at_tilt_c"): _base * tan(pi / 4 * (1 - alpha / phi)),
+    ("wedge", "contact_at_tilt_M"): P * _base / 2 / tan(pi / 2 * (1 - alpha / phi)),
+}
+
+
+@pytest.mark.parametrize(("name", "formula"), _BY_HAND, ids="-".join)
+def test_the_classic_inverses(name: str, formula: str) -> None:
+    assert simplify(sheet(name).flat(formula) - _BY_HAND[name, formula]) == 0
+
+
+def test_a_shifted_wedge_is_a_wedge_about_its_corner() -> None:
+    """x = b + y: a + b and c - b are the wedge's edges, the arm of the load about b is e + b."""
+    loads = {"P": mpf("0.75"), "M": mpf("0.3125")}
+    centred = {"P": mpf("0.75"), "M": loads["M"] + mpf("0.75") * mpf("0.5")}
+    first, second = (value("shifted_wedge", f"contact_{k}", **loads) for k in ("a", "c"))
+    assert close(first + mpf("0.5"), value("wedge", "contact_a", **centred))
+    assert close(second - mpf("0.5"), value("wedge", "contact_c", **centred))
+
+
+@pytest.mark.parametrize("name", OPEN)
+def test_where_no_closed_inverse_is_known_none_is_given(name: str) -> None:
+    body = sheet(name)
+    forward = (body.frame, body["tilt"].expr, body["load"].expr, body["moment"].expr)
+    assert contact_from_moment(*forward) is None
+    assert contact_from_tilt(*forward) is None
+    assert not any(key.startswith("contact") for key in body)
+
+
+@pytest.mark.parametrize("name", ["wedge", "hertz"])
+def test_without_moment_a_symmetric_body_stands_upright(name: str) -> None:
+    loads = {"P": mpf("0.75"), "M": mpf(0)}
+    first, second = (value(name, f"contact_{k}", **loads) for k in ("a", "c"))
+    assert close(first, second)
+    assert close(value(name, "contact_alpha", **loads), mpf(0), scale=1)
+
+
+def test_a_wedge_tilted_to_its_flank_loses_contact_on_the_other_side() -> None:
+    """alpha -> phi: the right flank lifts off, c/a -> 0, at one load."""
+    edges = [
+        tuple(value("wedge", f"contact_at_tilt_{k}", P=1.0, alpha=t) for k in ("a", "c"))
+        for t in (mpf("0.2"), mpf("0.24"), mpf("0.2499"))
+    ]
+    ratios = [right / left for left, right in edges]
+    assert ratios[0] > ratios[1] > ratios[2] > 0
+    assert ratios[2] < 1e-6
+    assert all(close(left * right, (1 / mpf("0.3125")) ** 2) for left, right in edges)
