@@ -4,6 +4,7 @@ Exit status: 0 done, 1 a check fell short, 2 bad input.  SymPy is imported by th
 it, so that help is instant.
 """
 
+import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -36,6 +37,16 @@ class _Commands(click.Group):
             ctx.exit(BAD_INPUT)
 
 
+class _WithFormula(click.Command):
+    """Takes -x + b for a formula; there is no option of one letter but -h."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        shielded = [
+            f" {arg}" if arg[:1] == "-" != arg[1:2] and arg != "-h" else arg for arg in args
+        ]
+        return super().parse_args(ctx, shielded)
+
+
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="contact-derive", prog_name="derive")
 def main() -> None:
@@ -65,6 +76,44 @@ def show(name: str, latex: bool) -> None:
         click.echo(sheet.latex)
     else:
         _print(view.formulas(sheet))
+
+
+@main.command(cls=_WithFormula)
+@click.argument("name")
+@click.argument("profile", metavar="G")
+@click.option("--unit", "units", multiple=True, metavar="NAME=UNIT", help="Unit of a parameter.")
+@click.option("--meaning", "meanings", multiple=True, metavar="NAME=TEXT", help="What it means.")
+@click.option("--title", default="", help="First line of the file.")
+@click.option("--out", type=click.Path(path_type=Path), help="A directory, or a path in .py.")
+def new(
+    name: str,
+    profile: str,
+    units: tuple[str, ...],
+    meanings: tuple[str, ...],
+    title: str,
+    out: Path | None,
+) -> None:
+    """Write the geometry file NAME.py from G, g(x) as text such as "x**2/(2*R)".
+
+    Every name in G but x becomes a parameter; units that are not given follow from g(x) being a
+    length.  A file that is there is never changed.
+    """
+    from derive.writing.draft import Wanted, draft, said
+    from derive.writing.target import place, write_new
+
+    wanted = Wanted(
+        name, profile.strip(), title, said("--unit", units), said("--meaning", meanings)
+    )
+    path = place(name, out)
+    with _console(stderr=True).status("reading g(x)"):
+        made = draft(wanted)
+    write_new(path, made.text)
+    shown = _shown(path)
+    click.echo(f"Wrote {shown}: g(x) = {made.geometry.g}")
+    for parameter in made.geometry.parameters:
+        click.echo(f"  {parameter.name} [{parameter.unit}]  {parameter.meaning}")
+    click.echo(f"See its formulas:    derive show {shlex.quote(shown)}")
+    click.echo(f"Make a module of it: derive generate {shlex.quote(shown)} --out DIRECTORY")
 
 
 @main.command()

@@ -172,3 +172,88 @@ class TwoOfOneName(UserError):
     def message(self) -> str:
         """Which name occurs twice."""
         return f"two geometries are named {self.name!r}, one module each is needed: rename one"
+
+
+@dataclass
+class BadText(UserError):
+    """A text of g(x) that cannot be read; the message shows where."""
+
+    given: str
+    column: int
+    why: str
+    remedy: str
+    allowed: str
+
+    _BEFORE, _AFTER = 48, 24
+    """Characters shown on each side of the place."""
+
+    @property
+    def message(self) -> str:
+        """What is wrong, a caret under it, and what is allowed."""
+        start = max(0, self.column - self._BEFORE)
+        end = self.column + self._AFTER
+        left = "..." if start else ""
+        right = "..." if end < len(self.given) else ""
+        shown = "".join(_visible(character) for character in self.given[start:end])
+        caret = " " * (len(left) + self.column - start) + "^"
+        return (
+            f"{self.why}: {self.remedy}\n    {left}{shown}{right}\n    {caret}\n"
+            f"allowed in g(x): {self.allowed}"
+        )
+
+
+def _visible(character: str) -> str:
+    """One column for one character."""
+    if character.isspace():
+        return " "
+    return character if character.isprintable() else "?"
+
+
+@dataclass
+class BadOption(UserError):
+    """A `--unit` or a `--meaning` that says nothing of any parameter of g(x)."""
+
+    option: str
+    given: str
+    why: str
+
+    @property
+    def message(self) -> str:
+        """What is wrong with the option."""
+        return (
+            f"{self.option} {self.given!r}: {self.why}; write {self.option} NAME=TEXT once for a "
+            f"parameter, such as {self.option} R={'m' if self.option == '--unit' else 'radius'}"
+        )
+
+
+@dataclass
+class OpenUnits(UserError):
+    """Units that g(x) being a length does not fix."""
+
+    parameters: tuple[str, ...]
+    enough: tuple[str, ...]
+
+    @property
+    def message(self) -> str:
+        """Which units are open, and which of them would be enough."""
+        options = " ".join(f"--unit {name}=m" for name in self.enough)
+        return (
+            f"the units of {', '.join(self.parameters)} are open: g(x) must be a length in m, and "
+            f"more than one choice makes it one; say which, such as {options}"
+        )
+
+
+@dataclass
+class BadTarget(UserError):
+    """A place where `derive new` must not, or cannot, write."""
+
+    given: str
+    why: str
+
+    @property
+    def message(self) -> str:
+        """Why nothing was written."""
+        return (
+            f"{self.given} {self.why}; nothing was written: choose a new file by "
+            "--out, a directory that exists or a path that ends in .py"
+        )

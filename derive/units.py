@@ -58,11 +58,15 @@ class Dimension:
 
     def __str__(self) -> str:
         factors = [
-            name if power == 1 else f"{name}**({power})"
+            name if power == 1 else f"{name}**{_in_parentheses(power)}"
             for name, power in (("Pa", self.pressure), ("m", self.length))
             if power != 0
         ]
         return " ".join(factors) or "1"
+
+
+def _in_parentheses(power: Expr) -> str:
+    return str(power) if power.is_Integer and power > 0 else f"({power})"
 
 
 NUMBER = Dimension()

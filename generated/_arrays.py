@@ -5,9 +5,9 @@ A formula's temporaries are as large as its argument.  Evaluated over blocks tha
 processor's cache they cost little; over a whole large array they cost more than the arithmetic.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from functools import wraps
-from inspect import signature
+from inspect import Parameter, signature
 from itertools import product
 from typing import Any, TypeVar
 
@@ -19,51 +19,88 @@ Shape = tuple[int, ...]
 BLOCK = 16_384
 """Elements evaluated at once: a few arrays of this length stay in a core's own cache."""
 
+_FLOAT64 = np.dtype(np.float64)
+_NAN = np.float64(np.nan)
+
 
 def elementwise(function: Function) -> Function:
     """Let `function` take anything that broadcasts, and compute large arrays in blocks.
 
     Numbers and NumPy arrays of any real type become float64; arrays of other libraries are passed
-    through as they are.  No floating-point warning leaves the call: what does not exist is NaN.
+    through as they are.  Keyword-only arguments are material and geometry: NaN unless positive.
+    No floating-point warning leaves the call: what does not exist is NaN.
 
     Raises TypeError for what is no real number, ValueError for shapes that do not broadcast.
     """
-    names = tuple(signature(function).parameters)
+    parameters = signature(function).parameters
+    names = tuple(parameters)
+    constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
+    quiet = np.errstate(all="ignore")(function)
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
-        given = (*args, *kwargs.values())
-        if any(map(_foreign, given)):
-            return function(*args, **kwargs)
-        labels = (*names[: len(args)], *kwargs)
-        values = [_float64(v, label) for v, label in zip(given, labels, strict=False)]
-        count = len(args)
-
-        def on(parts: Sequence[Any]) -> Any:
-            return function(*parts[:count], **dict(zip(kwargs, parts[count:], strict=True)))
-
-        shapes = {v.shape for v in values if v.ndim}
-        with np.errstate(all="ignore"):
-            if len(shapes) < 2 and all(v.size <= BLOCK for v in values):
-                return _plain(on(values))
-            return _in_blocks(on, values, _broadcast(values, labels))
+        given = dict(zip(names, args, strict=False)) | kwargs
+        if len(given) < len(args) + len(kwargs):
+            return function(*args, **kwargs)  # too many, or one twice: Python's own message
+        shape: Shape = ()
+        alike, foreign, size = True, False, 1
+        for name, value in given.items():
+            if type(value) is not np.ndarray or value.dtype is not _FLOAT64 or not value.ndim:
+                value = given[name] = _float64(value, name)
+            if name in constants:
+                value = given[name] = _positive(value)
+            if type(value) is np.ndarray:
+                alike, shape = alike and shape in ((), value.shape), value.shape
+                size = max(size, value.size)
+            elif type(value) is not np.float64:
+                foreign = True
+        if foreign or (alike and size <= BLOCK):
+            return quiet(**given)
+        return _in_blocks(quiet, given, shape if alike else _broadcast(given))
 
     return call  # type: ignore[return-value]
 
 
-def _foreign(value: Any) -> bool:
-    """Whether a value is an array of another library."""
-    return hasattr(value, "__array_function__") and not isinstance(value, np.ndarray | np.generic)
+def only_where(exists: Any, *values: Any) -> Any:
+    """The values where `exists`, NaN elsewhere, all of one shape."""
+    if type(exists) is np.bool_:
+        found = [v if exists else v * _NAN for v in values]
+    elif type(exists) is np.ndarray and exists.all():
+        found = [v if v.shape == exists.shape else np.where(exists, v, _NAN) for v in values]
+    else:
+        found = [np.where(exists, v, _NAN) for v in values]
+    return found if len(found) > 1 else found[0]
+
+
+def select(condition: Any, first: Any, second: Any) -> Any:
+    """`first` where `condition`, else `second`, without a branch for each element.
+
+    np.where is several times slower where the condition changes at random along an array.
+    """
+    if not {type(v) for v in (condition, first, second)} <= {np.ndarray, np.float64}:
+        return np.where(condition, first, second)[()]
+    mask = -condition.astype(np.int64)
+    one, other = first.view(np.int64), second.view(np.int64)
+    return (other ^ ((one ^ other) & mask)).view(np.float64)
+
+
+def _positive(value: Any) -> Any:
+    """A constant of the material or the geometry, NaN unless it is positive."""
+    if type(value) is np.float64:
+        return value if value > 0 else _NAN
+    return only_where(value > 0, value)
 
 
 def _float64(value: Any, label: str) -> Any:
     """A number as np.float64, anything else as an array; masked elements are NaN."""
-    if isinstance(value, float | int):
-        return np.float64(value)
-    if type(value) is np.ndarray and value.dtype == np.float64:
+    if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.ndim:
         return value
+    if isinstance(value, float | int) and not isinstance(value, bool):
+        return np.float64(value)
     if isinstance(value, np.ma.MaskedArray):
         return np.ma.filled(value.astype(np.float64), np.nan)
+    if hasattr(value, "__array_function__") and not isinstance(value, np.ndarray | np.generic):
+        return value
     try:
         return np.asarray(value).astype(np.float64, casting="same_kind")[()]
     except (TypeError, ValueError):
@@ -71,34 +108,32 @@ def _float64(value: Any, label: str) -> Any:
         raise TypeError(f"{label} must be a real number or an array of such; got {found}") from None
 
 
-def _broadcast(values: Sequence[Any], labels: Sequence[str]) -> Shape:
+def _broadcast(given: Mapping[str, Any]) -> Shape:
     try:
-        return np.broadcast_shapes(*(v.shape for v in values))
+        return np.broadcast_shapes(*(v.shape for v in given.values()))
     except ValueError:
-        shapes = ", ".join(f"{n} {v.shape}" for n, v in zip(labels, values, strict=False) if v.ndim)
+        shapes = ", ".join(f"{name} {v.shape}" for name, v in given.items() if v.ndim)
         raise ValueError(
             f"the arguments must broadcast to one shape; their shapes are {shapes}"
         ) from None
 
 
-def _plain(result: Any) -> Any:
-    """Arrays without dimensions as NumPy scalars."""
-    if isinstance(result, tuple):
-        return type(result)(*(v[()] for v in result))
-    return result[()]
-
-
-def _in_blocks(on: Callable[[Sequence[Any]], Any], values: Sequence[Any], shape: Shape) -> Any:
-    """The result of `on` over the whole of `shape`, block by block."""
-    padded = [v.reshape((1,) * (len(shape) - v.ndim) + v.shape) if v.ndim else v for v in values]
+def _in_blocks(function: Callable[..., Any], given: Mapping[str, Any], shape: Shape) -> Any:
+    """The result of `function` over the whole of `shape`, block by block."""
+    fixed = {name: v for name, v in given.items() if not v.ndim}
+    varying = {
+        name: v.reshape((1,) * (len(shape) - v.ndim) + v.shape)
+        for name, v in given.items()
+        if v.ndim
+    }
     kind: Any = None
     out: list[Any] = []
     for index in _blocks(shape):
-        result = on([_part(v, index) for v in padded])
+        result = function(**fixed, **{name: _part(v, index) for name, v in varying.items()})
         parts = result if isinstance(result, tuple) else (result,)
         if not out:
             kind = type(result)
-            out = [np.empty(shape) for _ in parts]
+            out = [*np.empty((len(parts), *shape))]  # one piece of memory: cheaper than several
         for whole, part in zip(out, parts, strict=True):
             whole[index] = part
     return kind(*out) if issubclass(kind, tuple) else out[0]
@@ -106,8 +141,6 @@ def _in_blocks(on: Callable[[Sequence[Any]], Any], values: Sequence[Any], shape:
 
 def _part(value: Any, index: tuple[slice, ...]) -> Any:
     """The block of one argument; along an axis of length one it is the same everywhere."""
-    if not value.ndim:
-        return value
     whole = slice(None)
     return value[tuple(i if n > 1 else whole for i, n in zip(index, value.shape, strict=True))]
 

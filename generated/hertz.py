@@ -6,7 +6,7 @@ g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 
 import numpy as np
 
-from ._arrays import elementwise
+from ._arrays import elementwise, only_where
 from ._types import Array, Contact, Edges
 
 __all__ = [
@@ -50,17 +50,13 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, R=1.0)]
     ['1.37838', '0.878379', '0.25']
     """
-    exists = (P > 0) & (E_star > 0) & (R > 0)
     e = M / P  # lever arm of the load [m]
-    half = 2 * np.sqrt(P * R / (np.pi * E_star))  # half the contact width [m]
+    half = 2 * np.sqrt((R / (np.pi * E_star)) * P)  # half the contact width [m]
     a = e + half
     c = half - e
-    exists = exists & (a + c > 0) & (a + c < np.inf)
-    return Contact(
-        a=np.where(exists, a, np.nan),
-        c=np.where(exists, c, np.nan),
-        alpha=np.where(exists, e / R, np.nan),
-    )
+    h = a + c  # contact width [m]
+    exists = (P > 0) & (h > 0) & (h < np.inf)
+    return Contact(*only_where(exists, a, c, e / R))
 
 
 @elementwise
@@ -86,16 +82,12 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, R=1.0)]
     ['1.15963', '1.09713', '0.03125']
     """
-    exists = (P > 0) & (E_star > 0) & (R > 0)
-    half = 2 * np.sqrt(P * R / (np.pi * E_star))  # half the contact width [m]
+    half = 2 * np.sqrt((R / (np.pi * E_star)) * P)  # half the contact width [m]
     a = alpha * R + half
     c = half - alpha * R
-    exists = exists & (a + c > 0) & (a + c < np.inf)
-    return Contact(
-        a=np.where(exists, a, np.nan),
-        c=np.where(exists, c, np.nan),
-        alpha=np.where(exists, alpha, np.nan),
-    )
+    h = a + c  # contact width [m]
+    exists = (P > 0) & (h > 0) & (h < np.inf)
+    return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
 @elementwise
@@ -119,8 +111,9 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     >>> f"{tilt(1.5, 1.0, R=1.0):.6g}"
     '0.25'
     """
-    exists = (a + c > 0) & (R > 0) & (a + c < np.inf)
-    return np.where(exists, (a - c) / (2 * R), np.nan)
+    h = a + c  # contact width [m]
+    exists = (h > 0) & (h < np.inf)
+    return only_where(exists, (a - c) / (2 * R))
 
 
 @elementwise
@@ -144,10 +137,9 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     >>> f"{load(1.5, 1.0, E_star=1.0, R=1.0):.6g}"
     '1.22718'
     """
-    exists = (a + c > 0) & (E_star > 0) & (R > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    return np.pi * E_star * h**2 / (16 * R)
+    exists = (h > 0) & (h < np.inf)
+    return only_where(exists, (np.pi * E_star / (16 * R)) * h**2)
 
 
 @elementwise
@@ -172,10 +164,9 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     >>> f"{moment(1.5, 1.0, E_star=1.0, R=1.0):.6g}"
     '0.306796'
     """
-    exists = (a + c > 0) & (E_star > 0) & (R > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    return np.pi * E_star * h**2 * (a - c) / (32 * R)
+    exists = (h > 0) & (h < np.inf)
+    return only_where(exists, (np.pi * E_star / (32 * R)) * h**2 * (a - c))
 
 
 @elementwise
@@ -201,10 +192,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0):.6g}"
     '0.5'
     """
-    exists = (a + c > 0) & (E_star > 0) & (R > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0))  # root at x [m]
-    return (E_star / (2 * R)) * w
+    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    h = a + c  # contact width [m]
+    exists = (h > 0) & (h < np.inf)
+    return only_where(exists, (E_star / (2 * R)) * w)
 
 
 @elementwise
@@ -230,11 +221,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0)]
     ['0.790569', '0.790569']
     """
-    exists = (a + c > 0) & (E_star > 0) & (R > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    scale = E_star * np.sqrt(h) / (2 * R)
-    return Edges(left=scale, right=scale)
+    scale = (E_star / (2 * R)) * np.sqrt(h)
+    exists = (h > 0) & (h < np.inf)
+    return Edges(*only_where(exists, scale, scale.copy()))
 
 
 @elementwise
@@ -260,11 +250,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0)]
     ['-0.158114', '-0.158114']
     """
-    exists = (a + c > 0) & (E_star > 0) & (R > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    scale = -E_star / (4 * R * np.sqrt(h))
-    return Edges(left=scale, right=scale)
+    scale = -(E_star / (4 * R)) / np.sqrt(h)
+    exists = (h > 0) & (h < np.inf)
+    return Edges(*only_where(exists, scale, scale.copy()))
 
 
 @elementwise
@@ -290,10 +279,11 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     >>> [f"{v:.6g}" for v in K_T(1.5, 1.0, 0.25, 0.125)]
     ['0.0750345', '0.0256239']
     """
-    exists = (a + c > 0) & (a + c < np.inf)
     h = a + c  # contact width [m]
     root = np.sqrt(h)
+    exists = (h > 0) & (h < np.inf)
     return Edges(
-        left=np.where(exists, (dQ / np.pi + dsigma * h / 8) / root, np.nan),
-        right=np.where(exists, (dQ / np.pi - dsigma * h / 8) / root, np.nan),
+        *only_where(
+            exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root
+        )
     )

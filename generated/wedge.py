@@ -6,7 +6,7 @@ g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 
 import numpy as np
 
-from ._arrays import elementwise
+from ._arrays import elementwise, only_where, select
 from ._types import Array, Contact, Edges
 
 __all__ = [
@@ -50,18 +50,20 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi=0.125)]
     ['8.51561', '7.51561', '0.00496713']
     """
-    exists = (P > 0) & (E_star > 0) & (phi > 0)
-    base = P / (E_star * phi)  # half-width without the moment [m]
     e = M / P  # lever arm of the load [m]
-    root = np.hypot(base, 2 * e)
-    a = np.where(e >= 0, 2 * e + root, base * (P / (phi * (E_star * (root - 2 * e)))))
-    c = np.where(e <= 0, root - 2 * e, base * (P / (phi * (E_star * (2 * e + root)))))
-    exists = exists & (a + c > 0) & (a + c < np.inf)
-    return Contact(
-        a=np.where(exists, a, np.nan),
-        c=np.where(exists, c, np.nan),
-        alpha=np.where(exists, 2 * phi * np.arctan2(2 * e, base) / np.pi, np.nan),
-    )
+    lean = 2 * e
+    reach = np.abs(lean)  # how far the moment moves it [m]
+    base = P / (E_star * phi)  # half-width without the moment [m]
+    quotient = np.minimum(base, reach) / np.maximum(base, reach)
+    root = np.maximum(base, reach) * np.sqrt(quotient**2 + 1)
+    far = reach + root  # the farther edge [m]
+    leaning = far * np.sign(lean)  # the farther edge, with the side's sign [m]
+    near = base * (P / (phi * (E_star * far)))  # the nearer edge [m]
+    a = np.maximum(leaning, near)
+    c = np.maximum(-leaning, near)
+    h = a + c  # contact width [m]
+    exists = (P > 0) & (h > 0) & (h < np.inf)
+    return Contact(*only_where(exists, a, c, (2 * phi / np.pi) * np.arctan(lean / base)))
 
 
 @elementwise
@@ -87,23 +89,20 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi=0.125)]
     ['11.9728', '5.34543', '0.03125']
     """
-    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (E_star > 0) & (phi > 0)
-    angle = (
-        np.pi * np.where(np.abs(alpha) < phi / 2, 1 - alpha / phi, (phi - alpha) / phi) / 4
-    )  # half the angle of the corner [-]
-    rest = (
-        np.pi * np.where(np.abs(alpha) < phi / 2, alpha / phi + 1, (alpha + phi) / phi) / 4
-    )  # what it lacks of a right angle [-]
     scale = P / (E_star * phi)
-    tangent = np.tan(np.minimum(angle, rest))
-    a = np.where(angle <= rest, scale / tangent, scale * tangent)
-    c = np.where(angle <= rest, scale * tangent, scale / tangent)
-    exists = exists & (a + c > 0) & (a + c < np.inf)
-    return Contact(
-        a=np.where(exists, a, np.nan),
-        c=np.where(exists, c, np.nan),
-        alpha=np.where(exists, alpha, np.nan),
+    # half the smaller angle of the corner [-]
+    angle = (np.pi / 4) * select(
+        np.abs(alpha) < phi / 2, 1 - np.abs(alpha) / phi, (phi - np.abs(alpha)) / phi
     )
+    tangent = np.tan(angle)
+    far = scale / tangent  # to the farther edge [m]
+    leaning = far * np.sign(alpha)  # the farther edge, with the side's sign [m]
+    near = scale * tangent  # from the corner to the nearer edge [m]
+    a = np.maximum(leaning, near)
+    c = np.maximum(-leaning, near)
+    h = a + c  # contact width [m]
+    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (h > 0) & (h < np.inf)
+    return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
 @elementwise
@@ -128,8 +127,9 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     >>> f"{tilt(1.5, 1.0, phi=0.125):.6g}"
     '0.0160236'
     """
-    exists = (a > 0) & (c > 0) & (phi > 0) & (a + c < np.inf)
-    return np.where(exists, 2 * phi * np.arctan((a - c) / (2 * np.sqrt(a * c))) / np.pi, np.nan)
+    h = a + c  # contact width [m]
+    exists = (a > 0) & (c > 0) & (h < np.inf)
+    return only_where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))))
 
 
 @elementwise
@@ -153,9 +153,9 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     >>> f"{load(1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.153093'
     """
-    exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
-    return E_star * phi * np.sqrt(a * c)
+    h = a + c  # contact width [m]
+    exists = (a > 0) & (c > 0) & (h < np.inf)
+    return only_where(exists, (E_star * phi) * np.sqrt(a * c))
 
 
 @elementwise
@@ -180,9 +180,9 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     >>> f"{moment(1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.0191366'
     """
-    exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
-    return E_star * phi * (a - c) * np.sqrt(a * c) / 4
+    h = a + c  # contact width [m]
+    exists = (a > 0) & (c > 0) & (h < np.inf)
+    return only_where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c))
 
 
 @elementwise
@@ -211,16 +211,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.0567155'
     """
-    exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    smaller_1 = np.maximum(
-        np.minimum(a * (c - x), c * (a + x)), 0
-    )  # vanishes at both edges [m**(2)]
-    L_1 = np.arcsinh(
-        2.0**32 * (np.sqrt(smaller_1 / (np.abs(x) * (h * 2.0**64))))
-    )  # logarithm of the kink x = 0 [-]
-    return (2 * E_star * phi / np.pi) * L_1
+    # vanishes at both edges [m]
+    smaller_1 = np.minimum((a + x) * (c * 2.0**-64 / h), (c - x) * (a * 2.0**-64 / h))
+    # logarithm of the kink x = 0 [-]
+    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.abs(x)))
+    exists = (a > 0) & (c > 0) & (h < np.inf)
+    return only_where(exists, (2 * E_star * phi / np.pi) * L_1)
 
 
 @elementwise
@@ -246,11 +243,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, phi=0.125)]
     ['0.0410936', '0.0616404']
     """
-    exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    scale = 2 * E_star * phi / np.pi
-    return Edges(left=scale * np.sqrt(c / (a * h)), right=scale * np.sqrt(a / (c * h)))
+    scale = (2 * E_star * phi / np.pi) / np.sqrt(a * c * h)
+    exists = (a > 0) & (c > 0) & (h < np.inf)
+    return Edges(*only_where(exists, c * scale, a * scale))
 
 
 @elementwise
@@ -276,14 +272,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, phi=0.125)]
     ['0.0118715', '0.0246562']
     """
-    exists = (a > 0) & (c > 0) & (E_star > 0) & (phi > 0) & (a + c < np.inf)
-    E_star = np.where(exists, E_star, np.nan)
     h = a + c  # contact width [m]
-    scale = E_star * phi / (3 * np.pi)
-    return Edges(
-        left=scale * (1 / h + 2 / a) * np.sqrt(c / (a * h)),
-        right=scale * (1 / h + 2 / c) * np.sqrt(a / (c * h)),
-    )
+    scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
+    exists = (a > 0) & (c > 0) & (h < np.inf)
+    return Edges(*only_where(exists, c * scale * (1 / h + 2 / a), a * scale * (1 / h + 2 / c)))
 
 
 @elementwise
@@ -309,10 +301,11 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     >>> [f"{v:.6g}" for v in K_T(1.5, 1.0, 0.25, 0.125)]
     ['0.0750345', '0.0256239']
     """
-    exists = (a + c > 0) & (a + c < np.inf)
     h = a + c  # contact width [m]
     root = np.sqrt(h)
+    exists = (h > 0) & (h < np.inf)
     return Edges(
-        left=np.where(exists, (dQ / np.pi + dsigma * h / 8) / root, np.nan),
-        right=np.where(exists, (dQ / np.pi - dsigma * h / 8) / root, np.nan),
+        *only_where(
+            exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root
+        )
     )

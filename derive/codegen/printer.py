@@ -1,15 +1,19 @@
 """SymPy -> NumPy source.  What the printer does not know it refuses; it never guesses a name.
 
-Three things it does beyond spelling: the root of two squares is a hypotenuse; half powers in a
-product are gathered under one root (those in an UnevaluatedExpr are kept apart); and factors that
-do not vary along the array are multiplied first, so that an array is passed over once.
+Two things it does beyond spelling: half powers in a product are gathered under one root (those in
+an UnevaluatedExpr are kept apart); and factors that do not vary along the array are multiplied
+first, so that an array is passed over once.
 """
 
+import ast
 from collections.abc import Iterable
 
-from sympy import Abs, Add, Basic, Expr, Mul, Pow, Rational, S, Symbol, UnevaluatedExpr, sqrt
-from sympy.printing.precedence import PRECEDENCE
+from sympy import Add, Basic, Expr, Mul, Pow, Rational, S, Symbol, UnevaluatedExpr
+from sympy.printing.precedence import PRECEDENCE, precedence_traditional
 from sympy.printing.str import StrPrinter
+
+
+_MUL = PRECEDENCE["Mul"]
 
 
 class CannotPrint(Exception):
@@ -44,7 +48,8 @@ class NumPyPrinter(StrPrinter):
         """Like SymPy's, but a root is a call and needs no parentheses."""
         if isinstance(item, UnevaluatedExpr):
             inner = self._print(item)
-            return f"({inner})" if isinstance(item.args[0], Mul | Add) else inner
+            bare = _is_call(inner) or precedence_traditional(item.args[0]) > level
+            return inner if bare else f"({inner})"
         if item.is_Pow and item.exp == S.Half:
             return self._print(item)
         return super().parenthesize(item, level, strict)
@@ -82,30 +87,31 @@ class NumPyPrinter(StrPrinter):
         if expr.could_extract_minus_sign():
             return f"-{self._print(-expr)}"
         factors = list(Mul.make_args(expr))
-        fixed = [f for f in factors if not f.free_symbols & self.varying]
-        moving = [f for f in factors if f.free_symbols & self.varying]
-        if len(fixed) < 2 or not moving or not _split(moving)[0]:
+        fixed = [f for f in factors if not (f.free_symbols & self.varying or _is_root(f))]
+        moving = [f for f in factors if f not in fixed]
+        if len(fixed) < 2 or not _split(fixed)[0] or not moving:
             return self._quotient(factors)
+        if not _split(moving)[0]:
+            below = self._print(1 / Mul(*moving))
+            return f"({self._quotient(fixed)}) / {below if _is_call(below) else f'({below})'}"
         return f"({self._quotient(fixed)}) * {self._quotient(moving)}"
 
     def _quotient(self, factors: list[Expr]) -> str:
         top, bottom = _split(factors)
-        above = " * ".join(self.parenthesize(f, PRECEDENCE["Mul"]) for f in top) or "1"
+        above = " * ".join(self.parenthesize(f, _MUL) for f in top) or "1"
         if not bottom:
             return above
-        below = " * ".join(self.parenthesize(f, PRECEDENCE["Mul"]) for f in bottom)
+        below = " * ".join(self.parenthesize(f, _MUL) for f in bottom)
         return f"{above} / ({below})" if len(bottom) > 1 else f"{above} / {below}"
 
     def _print_Pow(self, expr: Pow, rational: bool = False) -> str:
         base, exponent = expr.base, expr.exp
         if exponent == S.Half:
-            legs = _legs(base)
-            inner = ", ".join(self._print(leg) for leg in legs) or self._print(base)
-            return f"np.{'hypot' if legs else 'sqrt'}({inner})"
+            return f"np.sqrt({self._print(base)})"
+        if base.is_Integer and exponent.is_Integer:
+            return f"{base}.0**{exponent}"
         if exponent.is_negative or _is_odd_half(exponent):
             return self._quotient([expr])
-        if base.is_Integer:
-            return f"{base}.0**{self.parenthesize(exponent, PRECEDENCE['Pow'])}"
         below, above = (self.parenthesize(part, PRECEDENCE["Pow"]) for part in (base, exponent))
         return f"{below}**{above}"
 
@@ -125,7 +131,7 @@ class NumPyPrinter(StrPrinter):
         first, *rest = sorted(expr.args, key=lambda arg: (arg.is_number, str(arg)))
         text = self._print(first)
         for other in rest:
-            text = f"{name}({text}, {self._print(other)})"
+            text = f"{name}({text}, {self._print(other)}{'.0' * other.is_Integer})"
         return text
 
     def _print_Piecewise(self, expr: Expr) -> str:
@@ -134,7 +140,7 @@ class NumPyPrinter(StrPrinter):
             raise CannotPrint(f"a Piecewise without a last resort: {expr}")
         text = self._print(last)
         for value, condition in reversed(cases):
-            text = f"np.where({self._print(condition)}, {self._print(value)}, {text})"
+            text = f"select({self._print(condition)}, {self._print(value)}, {text})"
         return text
 
     def _print_Relational(self, expr: Basic) -> str:
@@ -146,6 +152,14 @@ class NumPyPrinter(StrPrinter):
 
     def _print_Or(self, expr: Basic) -> str:
         return " | ".join(f"({self._print(arg)})" for arg in _ordered(expr))
+
+
+def _is_call(text: str) -> bool:
+    """Whether the text is one call or name, so that it needs no parentheses."""
+    try:
+        return isinstance(ast.parse(text, mode="eval").body, ast.Call | ast.Name)
+    except SyntaxError:
+        return False
 
 
 def _ordered(expr: Basic) -> list[Basic]:
@@ -177,12 +191,8 @@ def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
     return top, bottom
 
 
-def _legs(base: Expr) -> list[Expr]:
-    """A and B of A**2 + B**2, of which the root is a hypotenuse; nothing else has legs."""
-    legs = [sqrt(term) for term in base.as_ordered_terms()] if isinstance(base, Add) else []
-    legs = [leg.replace(Abs, lambda inner: inner) for leg in legs]
-    whole = all(not p.exp.is_Rational or p.exp.q == 1 for leg in legs for p in leg.atoms(Pow))
-    return legs if len(legs) == 2 and whole else []
+def _is_root(factor: Expr) -> bool:
+    return bool(factor.is_Pow and _is_odd_half(factor.exp))
 
 
 def _is_odd_half(exponent: Expr) -> bool:

@@ -3,7 +3,17 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Expr, Symbol
+from sympy import Expr, Symbol, UnevaluatedExpr
+
+
+class Kept(UnevaluatedExpr):
+    """An expression that SymPy neither opens nor reorders; as real and as positive as it is."""
+
+    def _eval_is_extended_real(self) -> bool | None:
+        return self.args[0].is_extended_real
+
+    def _eval_is_extended_positive(self) -> bool | None:
+        return self.args[0].is_extended_positive
 
 
 @dataclass(frozen=True)

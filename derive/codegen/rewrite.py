@@ -7,7 +7,7 @@ Each rule is one function with the identity it uses in its docstring; none knows
 """
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import mpmath
 from sympy import (
@@ -22,7 +22,6 @@ from sympy import (
     Pow,
     S,
     Symbol,
-    UnevaluatedExpr,
     asinh,
     atan,
     atan2,
@@ -34,20 +33,21 @@ from sympy import (
     log,
     pi,
     powsimp,
+    sign,
     simplify,
     sqrt,
     tan,
     together,
 )
 
-from derive.codegen.program import Program, Step
+from derive.codegen.program import Kept, Program, Step
 from derive.proof.points import Point, named, numeric
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet import FormulaSheet
-from derive.symbols import M, P, a, c, e, h, w, x
+from derive.symbols import M, P, a, alpha, c, e, h, w, x
 from derive.theory.frame import KinkFrame
 
-_POWER, _SQUARE = (UnevaluatedExpr(Pow(2, n, evaluate=False)) for n in (32, 64))
+_POWER, _SQUARE = (Kept(Pow(2, n, evaluate=False)) for n in (32, -64))
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
 _half = Symbol("half", positive=True)
@@ -56,7 +56,13 @@ _root = Symbol("root", positive=True)
 _scale = Symbol("scale", positive=True)
 _angle = Symbol("angle", positive=True)
 _rest = Symbol("rest", positive=True)
-_tangent = Symbol("tangent", positive=True)
+_t = Symbol("tangent", positive=True)
+_near = Symbol("near", positive=True)
+_far = Symbol("far", positive=True)
+_leaning = Symbol("leaning", real=True)
+_lean = Symbol("lean", real=True)
+_reach = Symbol("reach", nonnegative=True)
+_quotient = Symbol("quotient", nonnegative=True)
 
 
 def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point) -> Program:
@@ -77,6 +83,7 @@ def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point
     program = sums_term_by_term(program)
     program = half_width_once(program)
     program = tangents_from_both_ends(program, example)
+    program = common_factor_once(program)
     return program.renamed(q.name for q in sheet.geometry.parameters).ordered()
 
 
@@ -153,29 +160,64 @@ def _opposite(k: KinkFrame) -> Expr:
 def tangents_from_both_ends(program: Program, example: Point) -> Program:
     """F tan z and F/tan z from t, the tangent of the smaller of z and pi/2 - z.
 
-    Near pi/2 the rest pi/2 - z is the exact small difference, and z is not.
+    Near pi/2 the rest pi/2 - z is the exact small difference, and z is not.  Where z and its rest
+    change places with the sign of alpha, the smaller is z at |alpha|.
     """
     tangents = sorted({t for v in program.outputs.values() for t in v.atoms(tan)}, key=str)
     if len(tangents) != 1:
-        return common_factor_once(program)
+        return program
     (tangent,) = tangents
-    sign = 1 if numeric(tangent.args[0])(example) > 0 else -1
-    angle = factor(together(sign * tangent.args[0]))
+    sign_of = 1 if numeric(tangent.args[0])(example) > 0 else -1
+    angle = factor(together(sign_of * tangent.args[0]))
     rest = factor(together(pi / 2 - angle))
-    outputs = {n: cancel(v.subs(tangent, sign * _tangent)) for n, v in program.outputs.items()}
-    program = common_factor_once(replace(program, outputs=outputs))
+    outputs = {n: v.subs(tangent, sign_of * _t) for n, v in program.outputs.items()}
+    split = {n: _power_of_tangent(v) for n, v in outputs.items()}
+    scales = {times for times, power, _ in split.values() if power}
+    if len(scales) != 1:
+        return program
+    steps = [Step(_scale, scales.pop(), "")]
+    if simplify(angle.subs(alpha, -alpha) - rest) == 0:
+        falls = simplify(angle.diff(alpha)).could_extract_minus_sign()
+        lean, smaller = (alpha if falls else -alpha), _angle
+        least = _shares_taken_off(angle.subs(alpha, Abs(alpha) if falls else -Abs(alpha)))
+        steps += [Step(_angle, least, "half the smaller angle of the corner")]
+    else:
+        lean, smaller = _rest - _angle, Min(_angle, _rest)
+        steps += [
+            Step(_angle, _shares_taken_off(angle), "half the angle of the corner"),
+            Step(_rest, _shares_taken_off(rest), "what it lacks of a right angle"),
+        ]
+    steps += [
+        Step(_t, tan(smaller), ""),
+        Step(_near, _scale * _t, "from the corner to the nearer edge"),
+        Step(_far, _scale / _t, "to the farther edge"),
+    ]
+    outputs = {
+        n: plain + (_on_side(-power * lean, steps) if power else 0)
+        for n, (_, power, plain) in split.items()
+    }
+    return replace(program, outputs=outputs).with_steps(*steps)
 
-    def resolved(expr: Expr) -> Expr:
-        if not expr.has(_tangent):
-            return expr
-        return Piecewise((expr, _angle <= _rest), (expr.subs(_tangent, 1 / _tangent), True))
 
-    outputs = {n: resolved(v) for n, v in program.outputs.items()}
-    return replace(program, outputs=outputs).with_steps(
-        Step(_angle, _shares_taken_off(angle), "half the angle of the corner"),
-        Step(_rest, _shares_taken_off(rest), "what it lacks of a right angle"),
-        Step(_tangent, tan(Min(_angle, _rest)), ""),
-    )
+def _power_of_tangent(expr: Expr) -> tuple[Expr, int, Expr]:
+    """(F, n, rest) of F t**n + rest, n = 1 or -1; n = 0 where t is not held so."""
+    held = [term for term in Add.make_args(expand(expr)) if term.has(_t)]
+    for power in (1, -1):
+        if len(held) == 1 and not (times := cancel(held[0] / _t**power)).has(_t):
+            return times, power, expr - held[0]
+    return S.One, 0, expr
+
+
+def _on_side(lean: Expr, steps: list[Step]) -> Expr:
+    """`far` where `lean` is positive, `near` where it is negative, without a branch.
+
+    near <= far, and they are equal where `lean` is zero.
+    """
+    if all(step.symbol != _leaning for step in steps):
+        steps.append(Step(_leaning, sign(lean) * _far, "the farther edge, with the side's sign"))
+        return Max(_near, _leaning)
+    same = next(step.expr for step in steps if step.symbol == _leaning) == sign(lean) * _far
+    return Max(_near, _leaning if same else -_leaning)
 
 
 def _shares_taken_off(product: Expr) -> Expr:
@@ -210,8 +252,8 @@ def logarithms_to_asinh(program: Program) -> Program:
     """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> asinh( sqrt min(u, v) / sqrt |u - v| ).
 
     The difference u - v is factored, so that it is a product of exact differences.  At an edge
-    min(u, v) vanishes instead of a logarithm of one; outside it is clipped.  A power of two, exact
-    in floating point, keeps the quotient finite next to a kink.
+    min(u, v) vanishes instead of a logarithm of one; outside it is clipped.  A power of two,
+    exact in floating point, keeps the quotient finite next to a kink.
     """
 
     smaller: list[Step] = []
@@ -237,55 +279,76 @@ def _asinh(argument: Expr, smaller: list[Step]) -> Expr | None:
     gap = [f for f in Mul.make_args(factor(u - v)) if f != -1]
     vanishing = [f for f in gap if f.has(x)]
     steady = Mul(*(f for f in gap if not f.has(x)))
-    below = UnevaluatedExpr(_SQUARE * steady) * Mul(*map(Abs, vanishing))
-    least = Symbol(f"smaller_{len(smaller) + 1}", nonnegative=True)
-    smaller.append(Step(least, Max(0, Min(u, v)), "vanishes at both edges"))
-    return 2 * asinh(_POWER * UnevaluatedExpr(sqrt(least / below)))
+    least = Symbol(f"smaller_{len(smaller) + 1}", real=True)
+    smaller.append(Step(least, Min(_per(steady, u), _per(steady, v)), "vanishes at both edges"))
+    return 2 * asinh(_POWER * Kept(sqrt(Max(0, least) / Mul(*map(Abs, vanishing)))))
+
+
+def _per(steady: Expr, product: Expr) -> Expr:
+    """2**-64 product/steady, the factors that do not hold x first."""
+    fixed = Mul(*(f for f in Mul.make_args(product) if not f.has(x)))
+    return Kept(fixed * _SQUARE / steady) * (product / fixed)
 
 
 def conjugate_roots(program: Program) -> Program:
-    """+-A + sqrt(A**2 + B**2) -> r +- A or, where that cancels, B (B/(r -+ A)).
+    """r + A and r - A of one root r = sqrt(A**2 + B**2), the smaller from their product B**2.
 
-    r = sqrt(A**2 + B**2) is printed as a hypotenuse, which does not overflow.
+    far = r + |A|, near = B**2/far.  The root is B or |A|, whichever is larger, times sqrt(1 + q**2)
+    of their quotient: it does not overflow, and either end of the scale costs no digit.
     """
     found = {name: _conjugate(expr) for name, expr in program.outputs.items()}
-    legs = {legs for legs, _ in filter(None, found.values())}
+    legs = {(pair.leg, pair.other) for pair in found.values() if pair}
     if len(legs) != 1:
         return program
     ((leg, other),) = legs
-    outputs = {name: pair[1] if (pair := found[name]) else v for name, v in program.outputs.items()}
-    program = replace(program, outputs=outputs).mapped(lambda expr: _quotients_to(other, expr))
-    steps = Step(_base, other, "half-width without the moment"), Step(_root, _hypot(leg), "")
+    steps = [
+        Step(_base, other, "half-width without the moment"),
+        Step(_lean, leg, ""),
+        Step(_reach, Abs(_lean), "how far the moment moves it"),
+        Step(_quotient, Min(_base, _reach) / Max(_base, _reach), ""),
+        Step(_root, Max(_base, _reach) * sqrt(1 + _quotient**2), ""),
+        Step(_far, _reach + _root, "the farther edge"),
+        Step(_near, _base * Kept(_over(_far, other)), "the nearer edge"),
+    ]
+    outputs = {
+        name: pair.rest + _on_side(pair.sign * _lean, steps) if (pair := found[name]) else expr
+        for name, expr in program.outputs.items()
+    }
+    program = replace(program, outputs=outputs).mapped(
+        lambda expr: _quotients_to(other, expr).subs(leg, _lean)
+    )
     return replace(program, steps=(*program.steps, *steps))
 
 
-def _hypot(leg: Expr) -> Expr:
-    return sqrt(leg**2 + _base**2)
-
-
 def _quotients_to(other: Expr, expr: Expr) -> Expr:
-    """atan(y/B) -> atan2(y, B)."""
+    """atan(y/B) with B as the step that it is."""
     return expr.replace(
         lambda n: isinstance(n, atan) and (n.args[0] * other).count_ops() < n.args[0].count_ops(),
-        lambda n: atan2(n.args[0] * other, _base, evaluate=False),
+        lambda n: atan(n.args[0] * other / _base),
     )
 
 
-def _conjugate(expr: Expr) -> tuple[tuple[Expr, Expr], Expr] | None:
-    """(A, B), and rest +-A + sqrt(A**2 + B**2) in terms of r, A and B."""
+@dataclass(frozen=True)
+class _Conjugate:
+    """rest + sign A + sqrt(A**2 + B**2), A = leg of either sign, B = other > 0."""
+
+    leg: Expr
+    other: Expr
+    sign: int
+    rest: Expr
+
+
+def _conjugate(expr: Expr) -> _Conjugate | None:
     for root in (t for t in Add.make_args(expr) if isinstance(t, Pow) and t.exp == S.Half):
         legs = [sqrt(term) for term in Add.make_args(root.base)]
         if len(legs) != 2:
             continue
         for leg, other in (legs, legs[::-1]):
             signed = leg.replace(Abs, lambda inner: inner)
-            for sign in (1, -1):
-                rest = expr - root - sign * signed
+            for sense in (1, -1):
+                rest = expr - root - sense * signed
                 if other.is_positive and count_ops(rest) < count_ops(expr - root):
-                    along = sign * signed
-                    apart = UnevaluatedExpr(_over(_root - along, other))
-                    stable = Piecewise((_root + along, along >= 0), (_base * apart, True))
-                    return (signed, other), rest + stable
+                    return _Conjugate(signed, other, sense, rest)
     return None
 
 
@@ -293,16 +356,22 @@ def _over(divisor: Expr, quotient: Expr) -> Expr:
     """(p/q)/divisor as p/(divisor q): its roundings are none of those that p/q has."""
     above, below = fraction(quotient)
     for f in Mul.make_args(below):
-        divisor = UnevaluatedExpr(divisor * f)
+        divisor = Kept(divisor * f)
     return above / divisor
 
 
 def lengths_of_one_sign(program: Program, sheet: FormulaSheet) -> Program:
-    """sqrt(a c)/a -> sqrt(c/a) where all contacts have a > 0 and c > 0."""
+    """sqrt(a c)/a -> sqrt(c/a), or c/sqrt(a c), where all contacts have a > 0 and c > 0."""
     conditions = set(sheet["load"].conditions)
     known = {s: Symbol(str(s), positive=True) for s in (a, c) if (s > 0) in conditions}
     if len(known) < 2 or x in set().union(*(v.free_symbols for v in program.flat().values())):
         return program
+    if len(program.outputs) > 1:  # one root serves them all, from w_j/(a + x_j) = (c - x_j)/w_j
+        over = {k.w: k.left * k.right / k.w for k in sheet.frame.kinks}
+        roots = {k.w: k.root for k in sheet.frame.kinks}
+        return program.mapped(
+            lambda expr: factor(expr.xreplace(over)).xreplace(roots) if expr.has(*over) else expr
+        )
     opened = {k.w: k.root.subs(known) for k in sheet.frame.kinks}
     outputs = {
         name: powsimp(v.xreplace(opened | known)).xreplace({new: old for old, new in known.items()})
@@ -320,7 +389,7 @@ def _term_by_term(product: Expr) -> Expr:
     sums = (f for f in Mul.make_args(product) if isinstance(f, Add))
     for total in (f for f in sums if f.free_symbols <= {a, c}):
         below = fraction(product / total)[1]
-        over = Mul(*(s for s in (a, c, _h) if below.has(s)))
+        over = Mul(*(s for s in (a, c, _h) if s in below.as_powers_dict()))
         for edge, other in ((a, c), (c, a)):
             terms = expand(total.subs(edge, _h - other) / over)
             positive = all(not t.could_extract_minus_sign() for t in Add.make_args(terms))

@@ -1,0 +1,196 @@
+"""A geometry file before it is written: all that can be wrong with it is told here.
+
+In:  a name, g(x) as text, and what is said of the parameters.
+Out: the Geometry and the text of the file that defines it.
+"""
+
+import re
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from sympy import Abs
+
+from derive.codegen.module import formatted
+from derive.errors import BadName, BadOption, BadProfile, BadUnit, UserError
+from derive.geometry import Geometry, parameter
+from derive.library import is_in_library
+from derive.symbols import RESERVED, x
+from derive.writing.grammar import Node, parse
+from derive.writing.lengths import units
+from derive.writing.meaning import Meaning, names, read
+from derive.writing.python import Python
+from derive.writing.vocabulary import refusal
+
+NEUTRAL = "parameter of the profile"
+"""The meaning of a parameter of which nothing is said."""
+
+_LONGEST_UNIT = 60
+_TITLE_WIDTH = 80
+
+_MODULES = sys.stdlib_module_names | {
+    *("derive", "generated", "numpy", "scipy", "sympy", "mpmath", "click", "rich", "ruff"),
+}
+"""Modules that a file of the same name would hide."""
+
+
+def said(option: str, given: Iterable[str]) -> dict[str, str]:
+    """What an option NAME=TEXT says of each parameter.
+
+    Raises BadOption.
+
+    >>> said("--unit", ["R=m", "phi = rad"])
+    {'R': 'm', 'phi': 'rad'}
+    """
+    found: dict[str, str] = {}
+    for each in given:
+        name, equals, text = (part.strip() for part in each.partition("="))
+        if not (name and equals and text):
+            raise BadOption(option, each, "is not of the form NAME=TEXT")
+        if name in found:
+            raise BadOption(option, each, f"says something of {name} a second time")
+        found[name] = text
+    return found
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a user says of a new geometry.
+
+    units, meanings: of the parameters, by name; both may be left out.
+
+    Raises BadName.
+    """
+
+    name: str
+    profile: str
+    title: str = ""
+    units: Mapping[str, str] = field(default_factory=dict)
+    meanings: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        Geometry(self.name, g=Abs(x))  # a name that Geometry refuses is told first
+        if self.name in RESERVED:
+            raise BadName("geometry", self.name, "is taken by the theory")
+        if self.name in _MODULES:
+            raise BadName("geometry", self.name, "would hide the Python module of that name")
+        if is_in_library(self.name):
+            raise BadName("geometry", self.name, "is in the library already")
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A geometry, and the text of the file that defines it."""
+
+    geometry: Geometry
+    text: str
+
+
+def draft(wanted: Wanted) -> Draft:
+    """The geometry that is wanted, as Geometry accepts it.
+
+    Raises BadText, BadOption, BadUnit, OpenUnits, and what Geometry raises.
+
+    >>> print(draft(Wanted("cylinder", "x**2/(2*R)")).text)
+    \"""Profile g(x) = x**2/(2*R).\"""
+    <BLANKLINE>
+    from derive import Geometry, parameter, x
+    <BLANKLINE>
+    R = parameter("R", "parameter of the profile", unit="m")
+    geometry = Geometry("cylinder", g=x**2 / (2 * R))
+    <BLANKLINE>
+    """
+    tree = parse(wanted.profile)
+    for option, given in (("--unit", wanted.units), ("--meaning", wanted.meanings)):
+        _demand_held(option, given, tuple(names(tree)))
+    for unit in wanted.units.values():
+        _demand_plain(unit)
+    parameters = _parameters(wanted, tree)
+    return Draft(_geometry(wanted, tree, parameters), _text(wanted, tree, parameters))
+
+
+def _demand_held(option: str, given: Mapping[str, str], held: Sequence[str]) -> None:
+    for name, text in given.items():
+        if name not in held:
+            raise BadOption(option, f"{name}={text}", _absent(name, held))
+
+
+def _absent(name: str, held: Sequence[str]) -> str:
+    there = f"its parameters are {', '.join(held)}" if held else "it has no parameters"
+    return f"g(x) holds no parameter {name!r}; {there}"
+
+
+def _demand_plain(unit: str) -> None:
+    """Refuse a unit that Python's own parser should not be given."""
+    if not unit.isprintable() or len(unit) > _LONGEST_UNIT:
+        raise BadUnit(unit[:_LONGEST_UNIT], "is too long, or no plain text")
+
+
+Parameters = Mapping[str, tuple[str, str]]
+"""Meaning and unit of each parameter, in the order of the text."""
+
+
+def _parameters(wanted: Wanted, tree: Node) -> Parameters:
+    """What each parameter means; one that has no influence is refused."""
+    g = read(wanted.profile)
+    found = units(g, wanted.units)
+    for name, column in names(tree).items():
+        if name not in found:
+            raise refusal(wanted.profile, column, f"{name} cancels out of g(x)", "leave it out")
+    return {name: (wanted.meanings.get(name, NEUTRAL), found[name]) for name in names(tree)}
+
+
+def _geometry(wanted: Wanted, tree: Node, parameters: Parameters) -> Geometry:
+    symbols = {
+        name: parameter(name, meaning, unit=unit) for name, (meaning, unit) in parameters.items()
+    }
+    try:
+        return Geometry(wanted.name, g=Meaning(wanted.profile, symbols).value(tree))
+    except UserError:
+        raise
+    except Exception as error:
+        raise BadProfile(
+            wanted.name,
+            f"cannot be read ({type(error).__name__}: {error})",
+            "write it with polynomials in x on pieces (Abs, Piecewise, Max, ...)",
+        ) from error
+
+
+def _text(wanted: Wanted, tree: Node, parameters: Parameters) -> str:
+    """The file, in the form of those of the library."""
+    python = Python()
+    profile = python.write(tree).text
+    imports = ", ".join(sorted(python.imports, key=lambda name: (name.islower(), name)))
+    lines = [
+        _docstring(wanted.title.strip() or _title(wanted)),
+        "",
+        *([f"from sympy import {imports}", ""] if imports else []),
+        "from derive import Geometry, parameter, x"
+        if parameters
+        else "from derive import Geometry, x",
+        "",
+        *(
+            f"{name} = parameter({name!r}, {meaning!r}, unit={unit!r})"
+            for name, (meaning, unit) in parameters.items()
+        ),
+        f"geometry = Geometry({wanted.name!r}, g={profile})",
+    ]
+    return formatted("\n".join(lines) + "\n")
+
+
+def _title(wanted: Wanted) -> str:
+    formula = " ".join(wanted.profile.split())
+    if len(formula) > _TITLE_WIDTH:
+        return f"Profile {wanted.name}."
+    return f"Profile g(x) = {formula}."
+
+
+def _docstring(title: str) -> str:
+    """A title as a docstring of one line, whatever characters it holds."""
+    plain = "".join(_plain(character) for character in title)
+    return '"""' + re.sub('"(?="|$)', r"\"", plain) + '"""'
+
+
+def _plain(character: str) -> str:
+    shown = character.isprintable() and character != "\\"
+    return character if shown else repr(character)[1:-1]

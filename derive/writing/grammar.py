@@ -1,0 +1,368 @@
+"""Reads a text of g(x) into a tree; nothing is computed.
+
+    or          ::= and (("or" | "|") and)*
+    and         ::= not (("and" | "&") not)*
+    not         ::= ("not" | "~")* comparison
+    comparison  ::= sum (("<" | "<=" | ">" | ">=") sum)*
+    sum         ::= product (("+" | "-") product)*
+    product     ::= unary (("*" | "/") unary)*
+    unary       ::= ("+" | "-")* power
+    power       ::= primary ("**" unary)?
+    primary     ::= number | name | "pi" | "True" | name "(" or ("," or)* ")"
+                  | "(" or ")" | "(" or "," or ")"
+
+The precedence is Python's, but for & | ~, which here are just `and`, `or`, `not`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeVar
+
+from derive.errors import BadName, BadText
+from derive.geometry import parameter
+from derive.writing.tokens import END, NAME, NUMBER, Token, tokens
+from derive.writing.vocabulary import (
+    FUNCTIONS,
+    KEYWORDS,
+    LOGICAL,
+    MANY,
+    OF_THE_FILE,
+    PI,
+    TRUE,
+    refusal,
+)
+
+DEEPEST = 30
+"""Levels of parentheses, calls and powers of powers."""
+
+Result = TypeVar("Result")
+
+_DIGITS = 40
+_POWER_OF_TEN = 100
+
+
+@dataclass(frozen=True)
+class Node:
+    """A part of a formula; `column` is where a message points."""
+
+    column: int
+
+
+@dataclass(frozen=True)
+class Number(Node):
+    """A number, exact."""
+
+    value: Fraction
+
+
+@dataclass(frozen=True)
+class Name(Node):
+    """x or a parameter."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Constant(Node):
+    """pi or True."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Negative(Node):
+    """-operand."""
+
+    operand: Node
+
+
+@dataclass(frozen=True)
+class Negation(Node):
+    """not operand."""
+
+    operand: Node
+
+
+@dataclass(frozen=True)
+class Power(Node):
+    """base**exponent."""
+
+    base: Node
+    exponent: Node
+
+
+@dataclass(frozen=True)
+class Chain(Node):
+    """Operands with operators of one precedence between them, from left to right."""
+
+    operands: tuple[Node, ...]
+    operators: tuple[Token, ...]
+
+
+@dataclass(frozen=True)
+class Sum(Chain):
+    """a + b - c."""
+
+
+@dataclass(frozen=True)
+class Product(Chain):
+    """a * b / c."""
+
+
+@dataclass(frozen=True)
+class Comparison(Chain):
+    """a < b <= c."""
+
+
+@dataclass(frozen=True)
+class Conjunction(Chain):
+    """a and b and c."""
+
+
+@dataclass(frozen=True)
+class Disjunction(Chain):
+    """a or b or c."""
+
+
+@dataclass(frozen=True)
+class Call(Node):
+    """function(arguments)."""
+
+    function: str
+    arguments: tuple[Node, ...]
+
+
+@dataclass(frozen=True)
+class Pair(Node):
+    """(value, condition), of a Piecewise."""
+
+    value: Node
+    condition: Node
+
+
+def parse(text: str) -> Node:
+    """The tree of `text`.
+
+    Raises BadText at the first place that is not of the grammar.
+    """
+    return _Parser(text).whole()
+
+
+class _Parser:
+    """Recursive descent with one token ahead."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self._tokens = tokens(text)
+        self.here = next(self._tokens)
+        self._depth = 0
+
+    def whole(self) -> Node:
+        if self.here.kind == END:
+            raise self._refusal("the text is empty", "write g(x), such as x**2/(2*R)")
+        node = self._or()
+        if self.here.kind != END:
+            raise self._left_over()
+        return node
+
+    def _or(self) -> Node:
+        return self._chain(Disjunction, self._and, "or", "|")
+
+    def _and(self) -> Node:
+        return self._chain(Conjunction, self._not, "and", "&")
+
+    def _not(self) -> Node:
+        column, odd = self._prefixes("not", "~")
+        operand = self._comparison()
+        return Negation(column, operand) if odd else operand
+
+    def _comparison(self) -> Node:
+        return self._chain(Comparison, self._sum, "<", "<=", ">", ">=")
+
+    def _sum(self) -> Node:
+        return self._chain(Sum, self._product, "+", "-")
+
+    def _product(self) -> Node:
+        return self._chain(Product, self._unary, "*", "/")
+
+    def _chain(self, kind: type[Chain], part: Callable[[], Node], *operators: str) -> Node:
+        operands, between = [part()], []
+        while self.here.among(*operators):
+            between.append(self._take())
+            operands.append(part())
+        if not between:
+            return operands[0]
+        return kind(between[0].column, tuple(operands), tuple(between))
+
+    def _unary(self) -> Node:
+        column, odd = self._prefixes("-", "+")
+        operand = self._power()
+        return Negative(column, operand) if odd else operand
+
+    def _prefixes(self, inverting: str, other: str) -> tuple[int, bool]:
+        """Where the prefixes start, and whether they invert: `- -x` is x."""
+        column, odd = self.here.column, False
+        while self.here.among(inverting, other):
+            odd ^= self._take().text in (inverting, LOGICAL.get(inverting))
+        return column, odd
+
+    def _power(self) -> Node:
+        base = self._primary()
+        if not self.here.among("**"):
+            return base
+        operator = self._take()
+        return Power(operator.column, base, self._deeper(operator, self._unary))
+
+    def _primary(self) -> Node:
+        node = self._operand()
+        self._demand_operator()
+        return node
+
+    def _operand(self) -> Node:
+        token = self.here
+        if token.kind == NUMBER:
+            return Number(token.column, self._number())
+        if token.kind == NAME:
+            return self._named()
+        if token.among("("):
+            return self._deeper(token, self._parenthesised)
+        raise self._missing()
+
+    def _number(self) -> Fraction:
+        """The number here, exact; refused before a long one is computed."""
+        mantissa, _, power = self.here.text.lower().partition("e")
+        if len(mantissa) > _DIGITS or len(power) > 4 or abs(int(power or 0)) > _POWER_OF_TEN:
+            raise self._refusal(
+                "the number is too long",
+                f"write at most {_DIGITS} digits and powers of ten up to {_POWER_OF_TEN}",
+            )
+        return Fraction(self._take().text)
+
+    def _named(self) -> Node:
+        name, column = self.here.text, self.here.column
+        if name in FUNCTIONS:
+            self._take()
+            return self._call(name, column)
+        if name not in (PI, TRUE, "x"):
+            self._demand_parameter(name)
+        self._take()
+        if self.here.among("("):
+            raise self._refusal(
+                f"{name} is no function that may be used here",
+                f"write {name}*(...) for a product, or a function of those below",
+                column,
+            )
+        return Constant(column, name) if name in (PI, TRUE) else Name(column, name)
+
+    def _demand_parameter(self, name: str) -> None:
+        """Refuse a name that no parameter can bear."""
+        if name in KEYWORDS or name in LOGICAL:
+            raise self._keyword(name)
+        try:
+            if name in OF_THE_FILE:
+                raise BadName("parameter", name, "is used by the geometry file itself")
+            parameter(name, "")
+        except BadName as error:
+            raise self._refusal(f"parameter {name!r} {error.why}", _other(name)) from None
+
+    def _call(self, name: str, column: int) -> Node:
+        opening = self.here
+        if not opening.among("("):
+            raise self._refusal(f"{name} is a function", f"write {name}(...)", column)
+        self._take()
+        arguments = self._deeper(opening, self._arguments)
+        most = FUNCTIONS[name].most
+        if len(arguments) > most:
+            number = "one argument" if most == 1 else f"at most {MANY} arguments"
+            raise self._refusal(
+                f"{name} takes {number}, here are {len(arguments)}", "leave out the rest", column
+            )
+        return Call(column, name, arguments)
+
+    def _arguments(self) -> tuple[Node, ...]:
+        found = [self._or()]
+        while self.here.among(","):
+            self._take()
+            found.append(self._or())
+        self._close()
+        return tuple(found)
+
+    def _parenthesised(self) -> Node:
+        opening = self._take()
+        inside = self._or()
+        if self.here.among(","):
+            self._take()
+            inside = Pair(opening.column, inside, self._or())
+        self._close()
+        return inside
+
+    def _close(self) -> None:
+        if self.here.kind == END:
+            raise self._refusal("a parenthesis is not closed", "add )")
+        if not self.here.among(")"):
+            raise self._left_over()
+        self._take()
+
+    def _deeper(self, token: Token, part: Callable[[], Result]) -> Result:
+        if self._depth == DEEPEST:
+            raise self._refusal(
+                f"this is nested deeper than {DEEPEST} levels",
+                "write it with fewer parentheses",
+                token.column,
+            )
+        self._depth += 1
+        result = part()
+        self._depth -= 1
+        return result
+
+    def _take(self) -> Token:
+        token, self.here = self.here, next(self._tokens)
+        return token
+
+    def _demand_operator(self) -> None:
+        """Refuse two operands side by side."""
+        if self.here.among("and", "or"):
+            return
+        if self.here.kind == NAME and self.here.text in KEYWORDS | {"not"}:
+            raise self._keyword(self.here.text)
+        if self.here.kind in (NUMBER, NAME) or self.here.among("("):
+            raise self._refusal("an operator is missing here", "write * for a product, such as 2*x")
+
+    def _missing(self) -> BadText:
+        if self.here.kind == END:
+            return self._refusal("the text ends too early", "write a number, a name or (")
+        if self.here.among("|"):
+            return self._refusal("|x| is no absolute value here", "write Abs(x)")
+        return self._refusal(
+            f"a number or a name is missing before {self.here.text}", "write it, or leave this out"
+        )
+
+    def _left_over(self) -> BadText:
+        if self.here.among(")"):
+            return self._refusal("this parenthesis closes nothing", "leave it out, or add (")
+        if self.here.among(","):
+            return self._refusal(
+                "a comma stands between the arguments of a function only",
+                "write a point in a decimal number, such as 2.5",
+            )
+        return self._refusal(f"{self.here.text} cannot stand here", "leave it out")
+
+    def _keyword(self, name: str) -> BadText:
+        remedy = "leave it out"
+        if name in ("if", "else"):
+            remedy = "write Piecewise((value, condition), (value, True))"
+        return self._refusal(f"{name} cannot stand here", remedy)
+
+    def _refusal(self, why: str, remedy: str, column: int | None = None) -> BadText:
+        return refusal(self.text, self.here.column if column is None else column, why, remedy)
+
+
+def _other(name: str) -> str:
+    """What to call a parameter instead."""
+    other = f"{name.strip('_')}0"
+    try:
+        parameter(other, "")
+    except BadName:
+        return "choose another name of letters and digits"
+    return f"choose another name, such as {other}"

@@ -1,0 +1,93 @@
+"""How large a formula may become: bounds that are known before SymPy multiplies it out."""
+
+from functools import reduce
+from math import ceil, comb, inf
+from operator import mul
+
+from sympy import Add, Expr, I, Integer, Mul, Piecewise, Pow, Rational, S, nan, oo, zoo
+
+LARGEST = 10**100
+"""Bound of a constant, and of one over it."""
+
+STEEPEST = 100
+"""Bound of a number in an exponent."""
+
+MOST_TERMS = 1000
+"""Bound of the number of terms that a formula has when it is multiplied out."""
+
+_LONGEST = 2 * LARGEST.bit_length()
+"""Bits of an exact number."""
+
+
+def fault(expr: Expr) -> str:
+    """What makes `expr` no formula to go on with; empty if nothing does."""
+    if expr.has(zoo, nan, oo, -oo):
+        return "is not finite"
+    if expr.has(I) or expr.is_extended_real is False:
+        return "is not real"
+    if any(_bits(number) > _LONGEST for number in expr.atoms(Rational)) or _is_too_large(expr):
+        return "is a number too large or too small to go on with"
+    if terms(expr) > MOST_TERMS:
+        return f"has powers above {STEEPEST} or over {MOST_TERMS} terms when multiplied out"
+    return ""
+
+
+def _bits(number: Rational) -> int:
+    return max(int(number.p).bit_length(), int(number.q).bit_length())
+
+
+def _is_too_large(expr: Expr) -> bool:
+    """Whether a constant is beyond 1e100 or within 1e-100; its own constants were not."""
+    if not expr.is_number:
+        return False
+    size = abs(expr.evalf(15))
+    return bool(size > LARGEST or (size != 0 and size * LARGEST < 1))
+
+
+def terms(expr: Expr) -> int:
+    """A bound of the number of terms of `expr`, multiplied out.
+
+    >>> from sympy.abc import x, y
+    >>> terms((x + y) ** 3 * (1 + x))
+    8
+    """
+    if isinstance(expr, Add):
+        return sum(terms(arg) for arg in expr.args)
+    if isinstance(expr, Mul):
+        return reduce(mul, (terms(arg) for arg in expr.args))
+    if isinstance(expr, Pow) and expr.exp.is_Rational:
+        of_base, power = terms(expr.base), ceil(abs(expr.exp))
+        return comb(of_base + power - 1, power) if power <= STEEPEST else MOST_TERMS + 1
+    return max([1, *(terms(branch) for branch in _branches(expr))])
+
+
+def _branches(expr: Expr) -> tuple[Expr, ...]:
+    """What may come in the place of a function: its arguments, or the values of a Piecewise."""
+    if isinstance(expr, Piecewise):
+        return tuple(value for value, _ in expr.args)
+    return expr.args
+
+
+def reach(expr: Expr) -> float:
+    """A bound of the numbers in `expr`, multiplied out: its value where all names are one.
+
+    >>> from sympy.abc import x
+    >>> reach(2 * (x - 100))
+    202.0
+    """
+    try:
+        return _reach(expr)
+    except OverflowError:
+        return inf
+
+
+def _reach(expr: Expr) -> float:
+    if expr.is_number:
+        return float(abs(expr.evalf(15)))
+    if isinstance(expr, Add):
+        return sum(_reach(arg) for arg in expr.args)
+    if isinstance(expr, Mul):
+        return reduce(mul, (_reach(arg) for arg in expr.args))
+    if isinstance(expr, Pow) and isinstance(expr.exp, Integer) and expr.exp > S.Zero:
+        return _reach(expr.base) ** int(expr.exp)
+    return max([1.0, *(_reach(branch) for branch in _branches(expr))])

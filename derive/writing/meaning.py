@@ -1,0 +1,219 @@
+"""From the tree of a formula to SymPy, step by step as Python would compute it."""
+
+import operator
+from collections.abc import Callable, Mapping
+from functools import reduce
+from itertools import pairwise
+from typing import Any
+
+from sympy import Expr, Rational, Symbol, pi, true
+from sympy.logic.boolalg import Boolean
+
+from derive.errors import BadText
+from derive.symbols import x
+from derive.writing.grammar import (
+    Call,
+    Chain,
+    Comparison,
+    Conjunction,
+    Constant,
+    Disjunction,
+    Name,
+    Negation,
+    Negative,
+    Node,
+    Number,
+    Pair,
+    Power,
+    Product,
+    Sum,
+    parse,
+)
+from derive.writing.limits import STEEPEST, fault, reach
+from derive.writing.vocabulary import FUNCTIONS, TRUE, refusal
+
+_OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+
+MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
+"""A comparison read from the right."""
+
+
+def read(text: str) -> Expr:
+    """g(x) of a text, its parameters plain positive symbols.
+
+    Raises BadText.
+
+    >>> read("abs(x)**1.5 / sqrt(R)")
+    Abs(x)**(3/2)/sqrt(R)
+    """
+    tree = parse(text)
+    return Meaning(text, {name: Symbol(name, positive=True) for name in names(tree)}).value(tree)
+
+
+def names(tree: Node) -> dict[str, int]:
+    """Every parameter of a formula with the column where it is named first."""
+    found: dict[str, int] = {}
+    for node in walk(tree):
+        if isinstance(node, Name) and node.name != "x":
+            found.setdefault(node.name, node.column)
+    return found
+
+
+def walk(tree: Node) -> "list[Node]":
+    """Every node of a tree, in the order of the text."""
+    found = [tree]
+    for part in _parts(tree):
+        found += walk(part)
+    return found
+
+
+def _parts(node: Node) -> tuple[Node, ...]:
+    match node:
+        case Negative() | Negation():
+            return (node.operand,)
+        case Power():
+            return node.base, node.exponent
+        case Chain():
+            return node.operands
+        case Call():
+            return node.arguments
+        case Pair():
+            return node.value, node.condition
+    return ()
+
+
+def is_constant(tree: Node) -> bool:
+    """Whether a formula holds neither x nor a parameter."""
+    return not any(isinstance(node, Name) for node in walk(tree))
+
+
+class Meaning:
+    """The values and conditions that the nodes of one text stand for.
+
+    text: for messages; parameters: a symbol for each name.
+    """
+
+    def __init__(self, text: str, parameters: Mapping[str, Symbol]) -> None:
+        self.text = text
+        self.symbols = {"x": x, **parameters}
+
+    def value(self, node: Node) -> Expr:
+        """The value of a node; BadText if it is a condition."""
+        match node:
+            case Number():
+                return Rational(node.value.numerator, node.value.denominator)
+            case Name():
+                return self.symbols[node.name]
+            case Constant() if node.name != TRUE:
+                return pi
+            case Negative():
+                return self._step(node.column, operator.neg, self.value(node.operand))
+            case Sum() | Product():
+                return self._chain(node)
+            case Power():
+                return self._power(node)
+            case Call(function="Piecewise"):
+                return self._piecewise(node)
+            case Call():
+                function = FUNCTIONS[node.function].of_sympy
+                return self._step(node.column, function, *map(self.value, node.arguments))
+            case Pair():
+                raise self._pair(node)
+        raise self._refusal(
+            node.column,
+            "a condition is no value",
+            "write Piecewise((value, condition), ...) to choose by it",
+        )
+
+    def _chain(self, node: Chain) -> Expr:
+        result = self.value(node.operands[0])
+        for sign, operand in zip(node.operators, node.operands[1:], strict=True):
+            compute = _OPERATORS[sign.text]
+            result = self._step(sign.column, compute, result, self.value(operand))
+        return result
+
+    def _power(self, node: Power) -> Expr:
+        base, exponent = self.value(node.base), self.value(node.exponent)
+        if reach(exponent) > STEEPEST:
+            raise self._refusal(
+                node.column, "the exponent is too large", f"numbers in it may reach {STEEPEST}"
+            )
+        return self._step(node.column, operator.pow, base, exponent)
+
+    def _piecewise(self, node: Call) -> Expr:
+        pairs = []
+        for pair in node.arguments:
+            if not isinstance(pair, Pair):
+                raise self._refusal(
+                    pair.column, "Piecewise takes pairs", "write (value, condition), ..."
+                )
+            pairs.append((self.value(pair.value), self.condition(pair.condition)))
+        return self._step(node.column, FUNCTIONS["Piecewise"].of_sympy, *pairs)
+
+    def condition(self, node: Node) -> Boolean:
+        """The condition that a node stands for; BadText if it is a value."""
+        match node:
+            case Constant() if node.name == TRUE:
+                return true
+            case Negation():
+                return self._step(node.column, operator.invert, self.condition(node.operand))
+            case Conjunction():
+                return self._joined(node, operator.and_)
+            case Disjunction():
+                return self._joined(node, operator.or_)
+            case Comparison():
+                return self._comparison(node)
+            case Pair():
+                raise self._pair(node)
+        raise self._refusal(
+            node.column, "a value is no condition", "write one such as x < b, or True"
+        )
+
+    def _joined(self, node: Chain, join: Callable[[Any, Any], Any]) -> Boolean:
+        parts = [self.condition(part) for part in node.operands]
+        return self._step(node.column, lambda *all_: reduce(join, all_), *parts)
+
+    def _comparison(self, node: Comparison) -> Boolean:
+        found = []
+        for sign, (left, right) in zip(node.operators, pairwise(node.operands), strict=True):
+            if is_constant(left) and is_constant(right):
+                raise self._refusal(
+                    sign.column, "this compares two constants", "compare x with a place"
+                )
+            compare, sides = _OPERATORS[sign.text], (left, right)
+            if is_constant(left):
+                compare, sides = _OPERATORS[MIRRORED[sign.text]], (right, left)
+            found.append(self._step(sign.column, compare, *map(self.value, sides)))
+        return reduce(operator.and_, found)
+
+    def _step(self, column: int, compute: Callable[..., Any], *operands: Any) -> Any:
+        """One step, refused where it leads to no formula of real numbers."""
+        try:
+            result = compute(*operands)
+            why = fault(result) if isinstance(result, Expr) else ""
+        except Exception as error:
+            raise self._refusal(
+                column, f"SymPy cannot compute this ({error})", "write it in another way"
+            ) from error
+        if why:
+            raise self._refusal(column, f"the result {why}", "write another formula")
+        return result
+
+    def _pair(self, node: Pair) -> BadText:
+        return self._refusal(
+            node.column,
+            "a pair stands in a Piecewise only",
+            "write Piecewise((value, condition), ...), or a point in a decimal number",
+        )
+
+    def _refusal(self, column: int, why: str, remedy: str) -> BadText:
+        return refusal(self.text, column, why, remedy)

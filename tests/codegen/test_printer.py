@@ -1,0 +1,409 @@
+"""Printed text means what the expression means; what has no NumPy code is refused."""
+
+from itertools import product
+
+import mpmath
+import numpy as np
+import pytest
+from sympy import (
+    ITE,
+    Abs,
+    Add,
+    Basic,
+    Catalan,
+    Derivative,
+    E,
+    EulerGamma,
+    Expr,
+    FiniteSet,
+    Float,
+    Function,
+    GoldenRatio,
+    Heaviside,
+    I,
+    Implies,
+    Integer,
+    Integral,
+    Interval,
+    Limit,
+    Matrix,
+    Max,
+    Min,
+    Mod,
+    Mul,
+    Piecewise,
+    Pow,
+    Product,
+    Rational,
+    S,
+    Sum,
+    Symbol,
+    TribonacciConstant,
+    Tuple,
+    UnevaluatedExpr,
+    acos,
+    acosh,
+    asin,
+    asinh,
+    atan,
+    atan2,
+    atanh,
+    ceiling,
+    conjugate,
+    cos,
+    cosh,
+    exp,
+    floor,
+    lambdify,
+    log,
+    nan,
+    oo,
+    pi,
+    re,
+    sec,
+    sign,
+    sin,
+    sinh,
+    sqrt,
+    symbols,
+    tan,
+    tanh,
+    zeta,
+    zoo,
+)
+
+from derive.codegen.printer import CannotPrint, NumPyPrinter
+from derive.codegen.support import _arrays
+
+x, y, z = symbols("x y z", real=True)
+p, q = symbols("p q", positive=True)
+t = Symbol("t", real=True)
+n = Symbol("n", integer=True)
+
+# All exact in binary; p and q are positive, t lies between -1 and 1, n is whole.
+POINTS = {
+    x: (0.75, -1.5, 2.25),
+    y: (-1.25, 0.5, 3.0),
+    z: (2.5, -0.375, 2.0),
+    p: (0.625, 3.0, 1.5),
+    q: (3.0, 0.25, 1.75),
+    t: (0.5, -0.75, 0.125),
+    n: (2.0, 3.0, -1.0),
+}
+
+TOLERANCE = 1e-15  # a few units in the last place
+
+
+def kept(expr: Expr | int) -> Expr:
+    """An expression that SymPy does not take apart."""
+    return UnevaluatedExpr(expr)
+
+
+def held(kind: type[Expr], *args: Expr | int) -> Expr:
+    """An expression as it stands."""
+    return kind(*args, evaluate=False)
+
+
+SUMS = [
+    x + y,
+    x - y,
+    -x - y,
+    -x,
+    x - Rational(1, 2),
+    Rational(1, 3) - x,
+    x + 2 * y - 3 * z,
+    held(Add, x, held(Add, y, z)),
+    held(Add, x, held(Mul, -1, held(Add, y, z))),
+    held(Add, -x, -y),
+    x - kept(y + z),
+    x - kept(y - z),
+    -kept(x + y),
+    held(Mul, -1, x + y),
+    held(Mul, -1, held(Add, x, -y)),
+]
+PRODUCTS = [
+    x * y,
+    x * (y + z),
+    2 * x * (y + z) / 3,
+    x / y,
+    x / (y * z),
+    x / y / z,
+    -x / y,
+    -2 * x,
+    -x * (y - z),
+    Rational(-3, 7) * x,
+    Rational(5, 2) / x,
+    pi * x,
+    x / pi,
+    pi**2 * x,
+    Integer(10) ** 30 * x,
+    held(Mul, x, Rational(1, 2), Rational(1, 3)),
+    held(Mul, -1, -1, x),
+    held(Mul, -x, -y),
+    held(Mul, x, -1),
+    held(Mul, 2, held(Mul, x, y)),
+    held(Mul, x, Pow(held(Mul, y, z), -1)),
+    x * kept(y + z),
+    x * kept(-y),
+    x / kept(y + z),
+    x / kept(y * z),
+    x / kept(y / z),
+    x / kept(Rational(1, 2)),
+    x * kept(Rational(1, 2)) * y,
+    1 / Max(x, y),
+    2 * Piecewise((x, x > y), (y, True)) / z,
+]
+POWERS = [
+    x**2,
+    x**3,
+    -(x**2),
+    x**-2,
+    1 / x,
+    (x + y) ** 2,
+    (x + y) ** -2,
+    1 / (x + y),
+    (x * y) ** 2,
+    held(Pow, -x, 2),
+    held(Pow, -x, 3),
+    held(Pow, x**2, 3),
+    p**x,
+    p**-x,
+    p ** (q**x),
+    held(Pow, p**x, y),
+    2**x,
+    2**-x,
+    3 ** (x + 1),
+    Rational(2, 3) ** x,
+    Integer(-2) ** n,
+    held(Pow, 2, 64),
+    held(Pow, -2, 2) * x,
+    held(Pow, -2, 3) * x,
+    kept(held(Pow, 2, -65)) * x,
+    p ** Rational(1, 3),
+    p ** Rational(-1, 3),
+    p ** Rational(5, 3),
+    x ** kept(Integer(2)),
+    kept(x**2) ** 3,
+    kept(-x) ** 2,
+    kept(x + y) ** 2,
+    kept(Rational(1, 2)) ** 2 * x,
+    kept(Integer(-2)) ** 2 * x,
+]
+ROOTS = [
+    sqrt(p),
+    1 / sqrt(p),
+    p ** Rational(3, 2),
+    p ** Rational(-3, 2),
+    p ** Rational(3, 2) / q ** Rational(5, 2),
+    sqrt(2) * x,
+    x / sqrt(2),
+    sqrt(pi) * x,
+    sqrt(p * q),
+    sqrt(p / q),
+    x * sqrt(p) / sqrt(q),
+    sqrt(p) * sqrt(q),
+    sqrt(p + q),
+    -sqrt(p),
+    sqrt(kept(p) / q),
+    sqrt(kept(p * q)),
+    sqrt(x**2 + y**2),
+    sqrt(x**2 + 4 * y**2),
+    sqrt(x**2 + y**4),
+    sqrt(x**2 + 1),
+    sqrt(x**2 + 2),
+    sqrt(x**2 + y**2 + z**2),
+    sqrt((x - y) ** 2 + 9 * z**2),
+    sqrt(p**2 + q),
+    sqrt(1 - t**2),
+    sqrt(9 * p**2 - t**2),
+    (x**2 + y**2) ** Rational(3, 2),
+    1 / sqrt(x**2 + y**2),
+]
+FUNCTIONS = [
+    Abs(x),
+    Abs(x * y) - x,
+    sign(y) * x,
+    asinh(x),
+    atan(x / y),
+    atan2(y, x),
+    atan2(-y, x - z),
+    sin(x) * cos(y),
+    tan(x),
+    log(p / q),
+    log(Abs(x)),
+    Max(x, y),
+    Max(x, y, z),
+    Max(0, x),
+    Min(x, y, 1),
+    Min(1, x) * Max(y, -3),
+]
+CHOICES = [
+    Piecewise((x, x > 0), (y, True)),
+    Piecewise((x, x > 0), (y, y > 0), (z, True)),
+    Piecewise((x, (x > 0) & (y > 0)), (y, (x < 0) | (z > 3)), (z, True)),
+    Piecewise((x, x >= Rational(3, 4)), (y, x <= -1), (0, True)),
+    Piecewise((-kept(x + y), x > y), (x - kept(y + z), True)),
+    1 - 2 * Piecewise((x, x > y), (y, True)),
+    Piecewise((1, x > 0), (0, True)),
+]
+NODES = [*SUMS, *PRODUCTS, *POWERS, *ROOTS, *FUNCTIONS, *CHOICES]
+
+VARYING = [(), (x,), (y, p), tuple(POINTS)]
+"""Which symbols are arrays is told to the printer; it must not change what is computed."""
+
+# The printer may learn these; until then it refuses them.
+NUMBERS = [E, exp(2), 1 / E, EulerGamma, GoldenRatio, Catalan, TribonacciConstant, -oo]
+OTHER_FUNCTIONS = [
+    exp(x),
+    asin(t),
+    acos(t),
+    atanh(t),
+    acosh(p + 1),
+    sinh(x),
+    cosh(x),
+    tanh(x),
+    sec(x),
+    floor(x),
+    ceiling(x),
+    Mod(x, y),
+    Heaviside(x),
+    ITE(x > 0, y > 1, z > 2),
+    Implies(x > 0, y > 0),
+]
+
+UNKNOWN: list[Basic] = [
+    I,
+    nan,
+    zoo,
+    zeta(p),
+    Function("g")(x),
+    Function("sinc_of_mine")(x),
+    conjugate(Symbol("k")),
+    re(Symbol("k")),
+    Derivative(Function("g")(x), x),
+    Integral(x**x, x),
+    Sum(x**n, (n, 0, 3)),
+    Product(x + n, (n, 1, 3)),
+    Limit(sin(x) / x, x, 0),
+    Matrix([[x]]),
+    Tuple(x, y),
+    FiniteSet(x, y),
+    Interval(0, 1),
+    Piecewise((x, x > 0)),
+    Piecewise((x, x > 0), (y, y > 0)),
+]
+
+
+def computed(expr: Expr, varying: tuple[Symbol, ...], arrays: bool) -> list[float]:
+    """The printed text, evaluated at all points: in one go, or point by point."""
+    text = NumPyPrinter(varying).doprint(expr)
+    names = {"np": np} | vars(_arrays)
+    columns = {str(s): np.array(values) for s, values in POINTS.items()}
+    if arrays:
+        value = eval(text, names, columns)  # noqa: S307
+        return [float(v) for v in np.broadcast_to(value, 3)]
+    rows = ({name: v[i] for name, v in columns.items()} for i in range(3))
+    return [float(eval(text, names, row)) for row in rows]  # noqa: S307
+
+
+def meant(expr: Expr) -> list[mpmath.mpf]:
+    """The expression at all points, in mpmath at 30 digits."""
+    function = lambdify(list(POINTS), expr, modules="mpmath")
+    with mpmath.workdps(30):
+        return [mpmath.mpf(function(*map(mpmath.mpf, row))) for row in zip(*POINTS.values())]  # noqa: B905
+
+
+def agrees(got: float, wanted: mpmath.mpf) -> bool:
+    return bool(got == wanted or abs(got - wanted) <= TOLERANCE * abs(wanted))
+
+
+@pytest.mark.parametrize("expr", NODES, ids=str)
+def test_text_evaluates_to_the_expression(expr: Expr) -> None:
+    wanted = meant(expr)
+    for varying, arrays in product(VARYING, (False, True)):
+        got = computed(expr, varying, arrays)
+        assert all(map(agrees, got, wanted)), (NumPyPrinter(varying).doprint(expr), got, wanted)
+
+
+@pytest.mark.parametrize("value", [0.1, 1 / 3, 2 / 3, 1e-300, 123456.789])
+def test_a_float_keeps_all_its_digits_or_is_refused(value: float) -> None:
+    try:
+        text = NumPyPrinter().doprint(Float(value))
+    except CannotPrint:
+        return
+    assert float(eval(text)) == value  # noqa: S307
+
+
+@pytest.mark.parametrize(
+    ("left", "right"), list(product((x, Rational(3, 4), x + y), repeat=2)), ids=str
+)
+def test_conditions_evaluate_to_themselves(left: Expr, right: Expr) -> None:
+    for relation in (left > right, left >= right, left < right, left <= right):
+        expr = Piecewise((1, relation), (0, True))
+        assert computed(expr, (), True) == [float(v) for v in meant(expr)]
+
+
+def test_conditions_in_words_are_joined() -> None:
+    for condition in (
+        (x > 0) & (y > 0) & (z > 0),
+        (x > 2) | (y > 2),
+        (x > 0) & ((y > 0) | (z > 0)),
+    ):
+        expr = Piecewise((1, condition), (0, True))
+        assert computed(expr, (), True) == [float(v) for v in meant(expr)]
+
+
+def test_infinity_is_numpy_s() -> None:
+    assert eval(NumPyPrinter().doprint(oo), {"np": np}) == np.inf  # noqa: S307
+
+
+def test_symbols_are_local_variables() -> None:
+    assert NumPyPrinter().doprint(Symbol("E_star", positive=True)) == "E_star"
+
+
+@pytest.mark.parametrize("expr", [*NUMBERS, *OTHER_FUNCTIONS], ids=str)
+def test_what_may_be_learnt_is_right_or_refused(expr: Expr) -> None:
+    try:
+        got = computed(expr, (), False)
+    except CannotPrint:
+        return
+    assert all(map(agrees, got, meant(expr)))
+
+
+@pytest.mark.parametrize("expr", UNKNOWN, ids=lambda expr: f"{type(expr).__name__}: {expr}")
+def test_what_is_unknown_is_refused(expr: Basic) -> None:
+    with pytest.raises(CannotPrint):
+        NumPyPrinter().doprint(expr)
+
+
+@pytest.mark.parametrize("unknown", [zeta(p), Function("g")(x), I], ids=str)
+def test_what_is_unknown_is_refused_anywhere(unknown: Expr) -> None:
+    places = (
+        held(Add, x, unknown),
+        held(Mul, x, unknown),
+        held(Mul, x, held(Pow, unknown, -1)),
+        held(Pow, p, unknown),
+        held(Pow, unknown, 2),
+        held(Pow, unknown, S.Half),
+        held(Pow, unknown, -S.Half),
+        held(sin, unknown),
+        kept(unknown),
+        Piecewise((held(Mul, x, unknown), x > 0), (y, True)),
+    )
+    for expr in places:
+        with pytest.raises(CannotPrint):
+            NumPyPrinter().doprint(expr)
+
+
+def test_a_refusal_says_what_is_unknown() -> None:
+    with pytest.raises(CannotPrint, match=r"zeta.*zeta\(x \+ 1\)"):
+        NumPyPrinter().doprint(2 * zeta(x + 1))
+    with pytest.raises(CannotPrint, match=r"x > 0"):
+        NumPyPrinter().doprint(Piecewise((x, x > 0)))
+
+
+def test_a_text_does_not_depend_on_what_was_printed_before() -> None:
+    printer = NumPyPrinter((x,))
+    first = [printer.doprint(expr) for expr in NODES]
+    assert [printer.doprint(expr) for expr in NODES[::-1]] == first[::-1]
+    assert printer.doprint(S.Zero) == "0"

@@ -1,0 +1,351 @@
+"""A package is replaced whole or not at all, and nothing but a package of ours is replaced."""
+
+import errno
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from derive.codegen.module import MARK
+from derive.codegen.publish import (
+    Difference,
+    demand_replaceable,
+    differences,
+    modules_in,
+    package_files,
+    publish,
+)
+from derive.errors import BadOutput
+from derive.pipeline import GENERATED
+
+OLD = package_files({"cylinder": f"{MARK}\nold = 1\n", "wedge": f"{MARK}\nwedge = 1\n"})
+NEW = package_files({"cylinder": f"{MARK}\nnew = 2\n", "punch": f"{MARK}\npunch = 2\n"})
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Every file below a folder, by its relative path."""
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def as_bytes(files: dict[str, str]) -> dict[str, bytes]:
+    return {name: text.encode() for name, text in files.items()}
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """A published package."""
+    publish(OLD, tmp_path / "package")
+    return tmp_path / "package"
+
+
+# ------------------------------------------------------------------ what a package holds
+
+
+def test_a_package_holds_its_modules_and_what_they_need() -> None:
+    files = package_files({"cylinder": "text"})
+    assert {"__init__.py", "py.typed", "cylinder.py", "_arrays.py", "_types.py"} <= files.keys()
+    assert files["cylinder.py"] == "text"
+    assert all(text.startswith(MARK) for name, text in files.items() if name.startswith("_"))
+
+
+def test_modules_of_a_package_are_read_back(package: Path) -> None:
+    assert modules_in(package) == {
+        "cylinder": OLD["cylinder.py"],
+        "wedge": OLD["wedge.py"],
+    }
+    assert modules_in(package / "nowhere") == {}
+
+
+def test_the_committed_package_may_be_replaced() -> None:
+    demand_replaceable(GENERATED)
+
+
+# ------------------------------------------------------------------ accepted
+
+
+def test_a_directory_that_is_absent_is_made(tmp_path: Path) -> None:
+    publish(NEW, tmp_path / "some" / "where" / "package")
+    assert contents(tmp_path / "some" / "where" / "package") == as_bytes(NEW)
+    assert [p.name for p in (tmp_path / "some" / "where").iterdir()] == ["package"]
+
+
+def test_an_empty_directory_is_filled(tmp_path: Path) -> None:
+    (tmp_path / "package").mkdir()
+    publish(NEW, tmp_path / "package")
+    assert contents(tmp_path / "package") == as_bytes(NEW)
+
+
+def test_a_package_is_replaced_whole(package: Path) -> None:
+    """A module that is no longer wanted goes."""
+    publish(NEW, package)
+    assert contents(package) == as_bytes(NEW)
+    assert "wedge.py" not in contents(package)
+    assert [p.name for p in package.parent.iterdir()] == ["package"]
+
+
+def test_bytecode_of_an_old_package_is_no_hindrance(package: Path) -> None:
+    (package / "__pycache__").mkdir()
+    (package / "__pycache__" / "wedge.cpython-311.pyc").write_bytes(b"old")
+    publish(NEW, package)
+    assert contents(package) == as_bytes(NEW)
+
+
+def test_publishing_again_changes_nothing(package: Path) -> None:
+    publish(OLD, package)
+    assert contents(package) == as_bytes(OLD)
+
+
+def test_neighbours_are_left_alone(package: Path) -> None:
+    (package.parent / "notes.txt").write_text("mine")
+    publish(NEW, package)
+    assert (package.parent / "notes.txt").read_text() == "mine"
+
+
+def test_texts_are_written_byte_by_byte(tmp_path: Path) -> None:
+    files = package_files({"cylinder": f"{MARK}\n# α ≤ φ\r\n"})
+    publish(files, tmp_path / "package")
+    assert contents(tmp_path / "package") == as_bytes(files)
+
+
+# ------------------------------------------------------------------ refused and untouched
+
+
+def add_notes(folder: Path) -> None:
+    (folder / "notes.txt").write_text("mine")
+
+
+def add_module(folder: Path) -> None:
+    (folder / "mine.py").write_text('"""Mine."""\n')
+
+
+def add_folder(folder: Path) -> None:
+    (folder / "data").mkdir()
+
+
+def add_hidden(folder: Path) -> None:
+    (folder / ".git").mkdir()
+
+
+def add_package_inside(folder: Path) -> None:
+    publish(OLD, folder / "inner.py")
+
+
+def take_the_mark_off(folder: Path) -> None:
+    for path in folder.glob("*.py"):
+        path.write_text("# mine now\n" + path.read_text())
+    (folder / "cylinder.py").write_text("mine = 1\n")
+
+
+FOREIGN = (add_notes, add_module, add_folder, add_hidden, add_package_inside, take_the_mark_off)
+
+
+@pytest.mark.parametrize("add", FOREIGN)
+@pytest.mark.parametrize("filled", [True, False], ids=["in a package", "in an empty directory"])
+def test_a_directory_that_holds_anything_else_is_untouched(
+    tmp_path: Path, add: Callable[[Path], None], filled: bool
+) -> None:
+    folder = tmp_path / "package"
+    folder.mkdir()
+    if filled:
+        publish(OLD, folder)
+    add(folder)
+    before, names = contents(tmp_path), sorted(tmp_path.rglob("*"))
+    with pytest.raises(BadOutput) as caught:
+        publish(NEW, folder)
+    assert str(folder) in caught.value.message
+    assert contents(tmp_path) == before
+    assert sorted(tmp_path.rglob("*")) == names
+
+
+def test_the_foreign_thing_is_named(package: Path) -> None:
+    add_notes(package)
+    with pytest.raises(BadOutput, match=r"notes\.txt"):
+        demand_replaceable(package)
+
+
+def test_a_file_is_no_package(tmp_path: Path) -> None:
+    path = tmp_path / "package"
+    path.write_text("mine")
+    with pytest.raises(BadOutput):
+        publish(NEW, path)
+    assert path.read_text() == "mine"
+
+
+def test_a_directory_below_a_file_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(BadOutput):
+        publish(NEW, tmp_path / "file" / "package")
+    assert contents(tmp_path) == {"file": b"mine"}
+
+
+@pytest.mark.parametrize("target", ["elsewhere", "nowhere"])
+def test_a_link_is_not_replaced(tmp_path: Path, target: str) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    link = tmp_path / "package"
+    link.symlink_to(tmp_path / target)
+    with pytest.raises(BadOutput):
+        publish(NEW, link)
+    assert link.is_symlink()
+    assert contents(tmp_path) == {}
+
+
+# ------------------------------------------------------------------ a failure in the middle
+
+
+class Failure:
+    """A method of Path that fails from its `after`-th call on, as often as `times`."""
+
+    def __init__(self, method: str, error: BaseException, after: int, times: int = 1) -> None:
+        self.real, self.error = getattr(Path, method), error
+        self.calls, self.window = 0, range(after, after + times)
+
+    def __get__(self, path: Path, _: type | None = None) -> Callable[..., object]:
+        return lambda *args, **kwargs: self(path, *args, **kwargs)
+
+    def __call__(self, path: Path, *args: object, **kwargs: object) -> object:
+        self.calls += 1
+        if self.calls in self.window:
+            raise self.error
+        return self.real(path, *args, **kwargs)
+
+
+FULL = OSError(errno.ENOSPC, "No space left on device")
+
+
+def failing(
+    monkeypatch: pytest.MonkeyPatch, method: str, error: BaseException, after: int, times: int = 1
+) -> None:
+    monkeypatch.setattr(Path, method, Failure(method, error, after, times))
+
+
+@pytest.mark.parametrize(
+    ("method", "after"),
+    [("write_bytes", 1), ("write_bytes", 3), ("replace", 1), ("replace", 2), ("mkdir", 2)],
+)
+def test_a_failure_in_the_middle_leaves_the_old_package(
+    package: Path, monkeypatch: pytest.MonkeyPatch, method: str, after: int
+) -> None:
+    with monkeypatch.context() as patch:
+        failing(patch, method, FULL, after)
+        with pytest.raises(BadOutput, match="No space left on device"):
+            publish(NEW, package)
+    assert contents(package.parent) == {f"package/{n}": b for n, b in as_bytes(OLD).items()}
+    assert [p.name for p in package.parent.iterdir()] == ["package"]
+
+
+@pytest.mark.parametrize(("method", "after"), [("write_bytes", 2), ("replace", 1), ("replace", 2)])
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), MemoryError()], ids=["ctrl-c", "memory"])
+def test_an_interruption_leaves_the_old_package(
+    package: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    method: str,
+    after: int,
+    error: BaseException,
+) -> None:
+    with monkeypatch.context() as patch:
+        failing(patch, method, error, after)
+        with pytest.raises(type(error)):
+            publish(NEW, package)
+    assert contents(package.parent) == {f"package/{n}": b for n, b in as_bytes(OLD).items()}
+
+
+def test_an_old_package_that_cannot_be_put_back_is_not_deleted(
+    package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The new package cannot be moved in, nor the old one back: it must be somewhere still."""
+    with monkeypatch.context() as patch:
+        failing(patch, "replace", FULL, after=2, times=2)
+        with pytest.raises(BadOutput):
+            publish(NEW, package)
+    held = [path.read_bytes() for path in package.parent.rglob("cylinder.py")]
+    assert as_bytes(OLD)["cylinder.py"] in held
+
+
+@pytest.mark.parametrize(("method", "after"), [("write_bytes", 2), ("replace", 1)])
+def test_a_failure_where_nothing_was_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, method: str, after: int
+) -> None:
+    with monkeypatch.context() as patch:
+        failing(patch, method, FULL, after)
+        with pytest.raises(BadOutput):
+            publish(NEW, tmp_path / "package")
+    assert list(tmp_path.iterdir()) == []
+
+
+# ------------------------------------------------------------------ differences
+
+
+def test_a_package_as_generated_does_not_differ(package: Path) -> None:
+    assert differences(OLD, package) == []
+
+
+def test_bytecode_is_no_difference(package: Path) -> None:
+    (package / "__pycache__").mkdir()
+    assert differences(OLD, package) == []
+
+
+def test_every_file_that_differs_is_named(package: Path) -> None:
+    (package / "notes.txt").write_text("mine")
+    (package / "py.typed").unlink()
+    found = {d.name: d.what for d in differences(NEW, package)}
+    assert found == {
+        "cylinder.py": "changed",
+        "notes.txt": "not generated",
+        "punch.py": "missing",
+        "py.typed": "missing",
+        "wedge.py": "not generated",
+    }
+
+
+def test_differences_come_by_name(package: Path) -> None:
+    names = [d.name for d in differences(NEW, package)]
+    assert names == sorted(names)
+
+
+def test_in_an_absent_directory_everything_is_missing(tmp_path: Path) -> None:
+    found = differences(NEW, tmp_path / "nowhere")
+    assert {d.name for d in found} == set(NEW)
+    assert {d.what for d in found} == {"missing"}
+
+
+@pytest.mark.parametrize("place", [0, 40, -1])
+def test_one_byte_is_a_difference(package: Path, place: int) -> None:
+    path = package / "_arrays.py"
+    text = bytearray(path.read_bytes())
+    text[place] ^= 1
+    path.write_bytes(text)
+    (found,) = differences(OLD, package)
+    assert (found.name, found.what) == ("_arrays.py", "changed")
+
+
+@pytest.mark.parametrize("end", [b"\r\n", b"\n\n"], ids=["carriage return", "empty line"])
+def test_line_ends_are_bytes_too(package: Path, end: bytes) -> None:
+    path = package / "cylinder.py"
+    path.write_bytes(path.read_bytes().replace(b"\n", end))
+    assert [d.name for d in differences(OLD, package)] == ["cylinder.py"]
+
+
+def test_a_change_is_shown_line_by_line(package: Path) -> None:
+    (found,) = [d for d in differences(NEW, package) if d.name == "cylinder.py"]
+    assert {"-old = 1", "+new = 2"} <= set(found.diff.splitlines())
+
+
+def test_what_is_no_text_is_a_difference_all_the_same(package: Path) -> None:
+    (package / "cylinder.py").write_bytes(b"\xff\xfe\x00")
+    assert [d.name for d in differences(OLD, package)] == ["cylinder.py"]
+
+
+def test_a_folder_in_the_place_of_a_file_is_a_difference(package: Path) -> None:
+    (package / "cylinder.py").unlink()
+    (package / "cylinder.py").mkdir()
+    assert [d.name for d in differences(OLD, package)] == ["cylinder.py"]
+
+
+def test_a_difference_is_a_value() -> None:
+    assert Difference("a.py", "missing") == Difference("a.py", "missing", "")
+
+
+def test_looking_for_differences_writes_nothing(package: Path) -> None:
+    before = contents(package)
+    differences(NEW, package)
+    assert contents(package) == before

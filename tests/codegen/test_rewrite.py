@@ -1,0 +1,381 @@
+"""Rewritten formulas: equal to what they were made from, and keeping their digits in float64.
+
+Reference values at the edges, at the apex and under extreme loads are hand-derived closed forms,
+worked out at as many digits as they need; the closed forms themselves are compared with quadrature.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from functools import cache
+
+import mpmath
+import numpy as np
+import pytest
+from mpmath import mpf
+from sympy import Expr, Piecewise, Rational, Symbol, lambdify, nan
+
+from derive.codegen.contract import CONTRACT, Function
+from derive.codegen.program import Program
+from derive.codegen.rewrite import prove_equal, stable_program
+from derive.proof.points import contacts, loads
+from derive.proof.verdict import Proof, Verdict
+from derive.symbols import P, a, c
+from generated import hertz, wedge
+from tests.derive import integrals
+from tests.derive.bodies import BODIES, VALUES, sheet
+
+WORKING = 50
+DIGITS = 30
+ULPS = 4
+
+REWRITTEN = ("hertz", "wedge", "unequal_wedge", "flat_rounded", "wedge_on_parabola")
+
+
+# ------------------------------------------------------------------ equal to the source
+
+
+@cache
+def states(body: str) -> list[dict[str, mpf]]:
+    """Contacts of a body with their loads and tilts by quadrature, five places in each."""
+    with mpmath.workdps(WORKING):
+        return list(_states(body))
+
+
+def _states(body: str) -> Iterator[dict[str, mpf]]:
+    for left, right in BODIES[body].contacts[:3]:
+        slope, kinks = BODIES[body].slope, BODIES[body].kinks
+        edges = mpf(left), mpf(right)
+        state = {name: mpf(value) for name, value in VALUES.items()}
+        state |= {"a": edges[0], "c": edges[1], "dQ": mpf("0.375"), "dsigma": mpf("-0.25")}
+        state["alpha"] = integrals.tilt(slope, *edges, kinks)
+        state["P"] = integrals.load(slope, *edges, kinks, state["E_star"])
+        state["M"] = integrals.moment(slope, *edges, kinks, state["E_star"])
+        state["e"] = state["M"] / state["P"]
+        for share in ("0.0625", "0.3125", "0.4375", "0.71875", "0.984375"):
+            yield state | {"x": mpf(share) * (edges[0] + edges[1]) - edges[0]}
+
+
+def named(body: str, name: str) -> Function:
+    return next(function for function in functions(body) if function.name == name)
+
+
+def functions(body: str) -> list[Function]:
+    return [function for function in CONTRACT if function.available(sheet(body))]
+
+
+def source(body: str, function: Function) -> dict[str, Expr]:
+    """The formulas of a function, with every symbol of the frame written out."""
+    of = sheet(body)
+    return {name: of.frame.flat(expr) for name, expr in function.outputs(of).items()}
+
+
+@cache
+def rewritten(body: str, name: str) -> Program:
+    """The program of one function, rewritten once."""
+    return rewritten_anew(body, name)
+
+
+def rewritten_anew(body: str, name: str) -> Program:
+    of, function = sheet(body), named(body, name)
+    symbols = {s for f in of.values() for s in of.flat(f.name).free_symbols | set(f.arguments)}
+    state = states(body)[0]
+    example = {symbol: state[str(symbol)] for symbol in symbols if str(symbol) in state}
+    return stable_program(of, function.outputs(of), example)
+
+
+def number(expr: Expr, values: Mapping[str, mpf]) -> mpf:
+    held = sorted(expr.free_symbols, key=str)
+    return mpf(lambdify(held, expr, modules="mpmath")(*(values[str(s)] for s in held)))
+
+
+def run(program: Program, state: Mapping[str, mpf]) -> dict[str, mpf]:
+    """The program step by step, as its text would be: a step knows only names before it."""
+    values = {name: value for name, value in state.items() if name != "e"}
+    for step in program.steps:
+        values[str(step.symbol)] = number(step.expr, values)
+    return {name: number(expr, values) for name, expr in program.outputs.items()}
+
+
+@pytest.mark.parametrize("body", REWRITTEN)
+def test_a_rewritten_program_equals_its_source_to_30_digits(body: str) -> None:
+    with mpmath.workdps(WORKING):
+        points = states(body)
+        for function in functions(body):
+            formulas = source(body, function)
+            program = rewritten(body, function.name)
+            for state in points:
+                got = run(program, state)
+                assert got.keys() == formulas.keys()
+                for name, formula in formulas.items():
+                    wanted = number(formula, state)
+                    scale = max(abs(wanted), mpf(10) ** -15)  # a tilt of zero is a difference
+                    assert abs(got[name] - wanted) <= scale * mpf(10) ** -DIGITS, (
+                        f"{function.name} {name} at {state}: {got[name]} for {wanted}"
+                    )
+
+
+@pytest.mark.parametrize("body", REWRITTEN)
+def test_a_rewritten_program_is_not_refuted(body: str) -> None:
+    for function in functions(body):
+        proof = compared(body, function, rewritten(body, function.name))
+        assert proof.holds, proof
+
+
+@pytest.mark.parametrize("body", ["hertz", "wedge"])
+def test_rewriting_again_changes_nothing(body: str) -> None:
+    for function in functions(body):
+        assert rewritten_anew(body, function.name) == rewritten(body, function.name)
+
+
+# ------------------------------------------------------------------ what is false is refuted
+
+
+def compared(body: str, function: Function, program: Program) -> Proof:
+    """The program against its source at the points that generation uses."""
+    of = sheet(body)
+    if P not in function.arguments:
+        return prove_equal(program, source(body, function), contacts(of))
+    formula = next(of[name] for _, name in function.fields if isinstance(name, str))
+    return prove_equal(program, source(body, function), loads(of, formula))
+
+
+def falsified(program: Program, field: str, change: Callable[[Expr], Expr]) -> Program:
+    return replace(program, outputs={**program.outputs, field: change(program.outputs[field])})
+
+
+FALSE: dict[str, Callable[[Expr], Expr]] = {
+    "another sign": lambda expr: -expr,
+    "twice as large": lambda expr: 2 * expr,
+    "wrong in the 25th digit": lambda expr: expr * (1 + Rational(1, 10**25)),
+    "wrong for a > c only": lambda expr: Piecewise((2 * expr, a > c), (expr, True)),
+    "wrong for a < c only": lambda expr: Piecewise((2 * expr, a < c), (expr, True)),
+    "zero": lambda expr: 0 * expr,
+    "not a number": lambda expr: expr + nan,
+}
+
+
+@pytest.mark.parametrize("words", FALSE)
+@pytest.mark.parametrize(
+    ("body", "name", "field"),
+    [
+        ("hertz", "load", ""),
+        ("hertz", "K_N", "right"),
+        ("wedge", "tilt", ""),
+        ("wedge", "pressure", ""),
+        ("wedge", "L_N", "left"),
+        ("flat_rounded", "moment", ""),
+        ("flat_rounded", "pressure", ""),
+    ],
+)
+def test_a_falsified_program_is_refuted(body: str, name: str, field: str, words: str) -> None:
+    function = named(body, name)
+    true = Program(source(body, function))
+    assert compared(body, function, true).verdict == Verdict.NUMERICAL
+    false = falsified(true, field, FALSE[words])
+    assert compared(body, function, false).verdict == Verdict.REFUTED
+
+
+@pytest.mark.parametrize("field", ["a", "c", "alpha"])
+def test_a_falsified_inverse_is_refuted(field: str) -> None:
+    function = named("wedge", "contact")
+    program = Program(source("wedge", function))
+    for words in ("another sign", "wrong in the 25th digit", "zero"):
+        false = falsified(program, field, FALSE[words])
+        assert compared("wedge", function, false).verdict == Verdict.REFUTED
+
+
+def test_a_falsified_step_is_refuted() -> None:
+    function = named("wedge", "pressure")
+    program = rewritten("wedge", "pressure")
+    assert program.steps
+    for place, step in enumerate(program.steps):
+        steps = list(program.steps)
+        steps[place] = replace(step, expr=step.expr * (1 + Rational(1, 10**20)))
+        false = replace(program, steps=tuple(steps))
+        assert compared("wedge", function, false).verdict == Verdict.REFUTED
+
+
+def test_a_difference_beyond_all_digits_is_none() -> None:
+    function = named("hertz", "load")
+    near = falsified(
+        Program(source("hertz", function)), "", lambda v: v * (1 + Rational(1, 10**40))
+    )
+    assert compared("hertz", function, near).holds
+
+
+def test_without_points_nothing_is_proven() -> None:
+    program = Program(source("hertz", named("hertz", "load")))
+    proof = prove_equal(program, dict(program.outputs), [])
+    assert proof.verdict == Verdict.UNKNOWN
+    assert not proof.holds
+
+
+def test_the_refutation_names_the_point() -> None:
+    function = named("hertz", "load")
+    false = falsified(Program(source("hertz", function)), "", lambda v: 3 * v)
+    proof = compared("hertz", function, false)
+    assert all(f"{symbol} = " in proof.example for symbol in ("a", "c", "E_star", "R"))
+
+
+# ------------------------------------------------------------------ names
+
+
+@pytest.mark.parametrize("body", ["hertz", "wedge"])
+@pytest.mark.parametrize("function", [f.name for f in CONTRACT])
+def test_no_step_bears_an_argument_s_name(body: str, function: str) -> None:
+    asked = named(body, function)
+    program = rewritten(body, function)
+    given = {str(s) for s in (*asked.arguments, *asked.keywords(sheet(body)))}
+    steps = [str(step.symbol) for step in program.steps]
+    assert len(steps) == len(set(steps))
+    assert given.isdisjoint(steps)
+    assert all(isinstance(step.symbol, Symbol) for step in program.steps)
+
+
+# ------------------------------------------------------------------ digits
+
+
+def ulps(got: float, exact: mpf) -> float:
+    """Error in units in the last place of the exact value."""
+    with mpmath.workdps(60):
+        return float(abs(mpf(float(got)) - exact) / mpf(float(np.spacing(abs(float(exact))))))
+
+
+def wedge_pressure(x: float, left: float, right: float, E_star: float, phi: float) -> mpf:
+    """p = (2 E* phi/pi) atanh k, k^2 = a (c - x)/(c (a + x)) right of the apex, else its inverse.
+
+    By p = (E*/2 pi) w(x) int (g'(s) - g'(x))/((s - x) w(s)) ds: for x > 0 the numerator is -2 phi
+    on (-a, 0) and 0 elsewhere; t = sqrt((c - s)/(a + s)) turns the integral into
+    2 phi/w(x) log((1 + k)/(1 - k)), the logarithm being 2 atanh k.
+    """
+    x, left, right = mpf(x), mpf(left), mpf(right)
+    k2 = left * (right - x) / (right * (left + x))
+    return 2 * mpf(E_star) * phi / mpmath.pi * mpmath.atanh(mpmath.sqrt(k2 if x > 0 else 1 / k2))
+
+
+def wedge_contact(load: float, moment: float, E_star: float, phi: float) -> tuple[mpf, mpf, mpf]:
+    """P = E* phi sqrt(a c) and M = P (a - c)/4 solved; tan(pi alpha/2 phi) = (a - c)/(2 sqrt(a c)).
+
+    With B = P/(E* phi) and D = 2 M/P: a c = B^2 and a - c = 2 D, so a = D + sqrt(D^2 + B^2).
+    """
+    base, lean = mpf(load) / (mpf(E_star) * phi), 2 * mpf(moment) / load
+    root = mpmath.sqrt(lean**2 + base**2)
+    return root + lean, root - lean, 2 * mpf(phi) / mpmath.pi * mpmath.atan(lean / base)
+
+
+def wedge_contact_at_tilt(load: float, tilt: float, E_star: float, phi: float) -> tuple[mpf, mpf]:
+    """a, c = B (sec t +- tan t), t = pi alpha/(2 phi), from (a - c)/(2 B) = tan t and a c = B^2."""
+    base, t = mpf(load) / (mpf(E_star) * phi), mpmath.pi * tilt / (2 * mpf(phi))
+    return base * (mpmath.sec(t) + mpmath.tan(t)), base * (mpmath.sec(t) - mpmath.tan(t))
+
+
+def hertz_pressure(x: float, left: float, right: float, E_star: float, R: float) -> mpf:
+    """p = E*/(2 R) sqrt((a + x)(c - x)), the Hertz half-ellipse."""
+    return mpf(E_star) / (2 * mpf(R)) * mpmath.sqrt((mpf(left) + x) * (mpf(right) - x))
+
+
+@pytest.mark.parametrize(("left", "right"), [(2.0, 1.0), (0.75, 3.0), (1.5, 1.5)])
+def test_the_closed_forms_agree_with_quadrature(left: float, right: float) -> None:
+    slope, kinks = BODIES["wedge"].slope, BODIES["wedge"].kinks
+    E_star, phi = VALUES["E_star"], VALUES["phi"]
+    with mpmath.workdps(30):
+        edges = mpf(left), mpf(right)
+        tilt = integrals.tilt(slope, *edges, kinks)
+        load = integrals.load(slope, *edges, kinks, mpf(E_star))
+        moment = integrals.moment(slope, *edges, kinks, mpf(E_star))
+        pairs = list(zip((*edges, tilt), wedge_contact(load, moment, E_star, phi), strict=True))
+        pairs += zip(edges, wedge_contact_at_tilt(load, tilt, E_star, phi), strict=True)
+        for x in (mpf(-left) / 4, mpf(right) / 8):
+            here = integrals.pressure(slope, x, *edges, kinks, mpf(E_star))
+            pairs.append((here, wedge_pressure(x, left, right, E_star, phi)))
+        assert all(abs(one - other) < mpf(10) ** -22 for one, other in pairs)
+
+
+WEDGES = [(1.0, 1.0, 8.0, 0.125), (0.3, 7.1, 2.3e11, 0.07), (4.7e-4, 1.3e-4, 1.15e11, 0.0123)]
+"""a, c, E_star, phi; most of them not exact in binary."""
+CYLINDERS = [(1.0, 1.0, 8.0, 0.125), (0.3, 7.1, 2.3e11, 70.0), (4.7e-4, -1.3e-4, 1.15e11, 0.37)]
+"""a, c, E_star, R."""
+
+
+def next_to_edges(left: float, right: float) -> list[float]:
+    """Places as close to both edges as float64 has them, and a little less close."""
+    shares = (2e-16, 1e-15, 1e-12, 1e-6, 1e-3, 0.1)
+    places = [float(np.nextafter(-left, np.inf)), float(np.nextafter(right, -np.inf))]
+    places += [p for s in shares for p in (right - s * abs(right), -left + s * abs(left))]
+    return [p for p in places if -left < p < right]
+
+
+@pytest.mark.parametrize(("left", "right", "E_star", "phi"), WEDGES)
+def test_the_wedge_s_pressure_keeps_its_digits_next_to_an_edge(
+    left: float, right: float, E_star: float, phi: float
+) -> None:
+    for x in next_to_edges(left, right):
+        with mpmath.workdps(60):
+            exact = wedge_pressure(x, left, right, E_star, phi)
+        got = wedge.pressure(x, left, right, E_star=E_star, phi=phi)
+        assert ulps(got, exact) <= ULPS, (x, got)
+
+
+@pytest.mark.parametrize(("left", "right", "E_star", "phi"), WEDGES)
+@pytest.mark.parametrize("near", [1e-300, 2.0**-1074, 1e-200, 1e-100, 1e-30, 1e-15, 1e-6])
+def test_the_wedge_s_pressure_keeps_its_digits_at_the_apex(
+    left: float, right: float, E_star: float, phi: float, near: float
+) -> None:
+    for x in (near, -near):
+        with mpmath.workdps(800):  # k is 1 to more than 300 digits
+            exact = wedge_pressure(x, left, right, E_star, phi)
+        got = wedge.pressure(x, left, right, E_star=E_star, phi=phi)
+        assert ulps(got, exact) <= ULPS, (x, got)
+
+
+@pytest.mark.parametrize(("left", "right", "E_star", "R"), CYLINDERS)
+def test_the_cylinder_s_pressure_keeps_its_digits_next_to_an_edge(
+    left: float, right: float, E_star: float, R: float
+) -> None:
+    for x in next_to_edges(left, right):
+        with mpmath.workdps(60):
+            exact = hertz_pressure(x, left, right, E_star, R)
+        got = hertz.pressure(x, left, right, E_star=E_star, R=R)
+        assert ulps(got, exact) <= ULPS, (x, got)
+
+
+@pytest.mark.parametrize("load", [1e-12, 3.7e-5, 1.0, 2.3e4, 1e12])
+@pytest.mark.parametrize("lean", [0.0, 1e-8, 0.3, -0.3, 41.0, 1e8, -1e8])
+def test_the_wedge_s_contact_keeps_its_digits_under_extreme_loads(load: float, lean: float) -> None:
+    E_star, phi = 1.7e3, 0.0123
+    moment = lean * load**2 / (E_star * phi)
+    with mpmath.workdps(100):
+        exact = wedge_contact(load, moment, E_star, phi)
+    got = wedge.contact(load, moment, E_star=E_star, phi=phi)
+    assert got.alpha == 0 if lean == 0 else ulps(got.alpha, exact[2]) <= ULPS
+    assert max(ulps(got.a, exact[0]), ulps(got.c, exact[1])) <= ULPS
+
+
+@pytest.mark.parametrize("share", [0.0, 1e-9, 0.2, 0.5, 0.9, 1 - 1e-6, 1 - 1e-12])
+@pytest.mark.parametrize("load", [1e-12, 1.0, 1e12])
+def test_the_wedge_s_contact_keeps_its_digits_up_to_the_largest_tilt(
+    load: float, share: float
+) -> None:
+    E_star, phi = 1.7e3, 0.0123
+    for tilt in (share * phi, -share * phi):
+        with mpmath.workdps(60):
+            exact = wedge_contact_at_tilt(load, tilt, E_star, phi)
+        got = wedge.contact_at_tilt(load, tilt, E_star=E_star, phi=phi)
+        assert max(ulps(got.a, exact[0]), ulps(got.c, exact[1])) <= ULPS, tilt
+
+
+@pytest.mark.parametrize("load", [1e-12, 3.7e-5, 1.0, 2.3e4, 1e12])
+@pytest.mark.parametrize("lean", [0.0, 1e-8, 0.3, -0.3])
+def test_the_cylinder_s_contact_keeps_its_digits_under_extreme_loads(
+    load: float, lean: float
+) -> None:
+    """Half-width r = 2 sqrt(P R/(pi E*)), the load acts M/P left of the origin."""
+    E_star, R = 1.7e3, 0.37
+    with mpmath.workdps(60):
+        half = 2 * mpmath.sqrt(mpf(load) * R / (mpmath.pi * E_star))
+        moment = float(lean * load * half)
+        arm = mpf(moment) / load
+        exact = half + arm, half - arm, arm / R
+    got = hertz.contact(load, moment, E_star=E_star, R=R)
+    assert got.alpha == 0 if lean == 0 else ulps(got.alpha, exact[2]) <= ULPS
+    assert max(ulps(got.a, exact[0]), ulps(got.c, exact[1])) <= ULPS
