@@ -108,7 +108,7 @@ def new(
     with _console(stderr=True).status("reading g(x)"):
         made = draft(wanted)
     write_new(path, made.text)
-    shown = _shown(path)
+    shown = click.format_filename(_shown(path))
     click.echo(f"Wrote {shown}: g(x) = {made.geometry.g}")
     for parameter in made.geometry.parameters:
         click.echo(f"  {parameter.name} [{parameter.unit}]  {parameter.meaning}")

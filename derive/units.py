@@ -89,7 +89,7 @@ def parse_unit(text: str) -> Dimension:
         return NUMBER
     try:
         tree = ast.parse(text, mode="eval").body
-    except SyntaxError:
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise BadUnit(text, "is not a product of powers") from None
     return _unit(tree, text)
 

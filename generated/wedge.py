@@ -91,8 +91,10 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     """
     scale = P / (E_star * phi)
     # half the smaller angle of the corner [-]
-    angle = (np.pi / 4) * select(
-        np.abs(alpha) < phi / 2, 1 - np.abs(alpha) / phi, (phi - np.abs(alpha)) / phi
+    angle = select(
+        np.abs(alpha) < phi / 2,
+        np.pi / 4 - (np.pi / 4) * (np.abs(alpha) / phi),
+        (np.pi / 4) * ((phi - np.abs(alpha)) / phi),
     )
     tangent = np.tan(angle)
     far = scale / tangent  # to the farther edge [m]
@@ -275,7 +277,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     h = a + c  # contact width [m]
     scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
     exists = (a > 0) & (c > 0) & (h < np.inf)
-    return Edges(*only_where(exists, c * scale * (1 / h + 2 / a), a * scale * (1 / h + 2 / c)))
+    return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 
 @elementwise

@@ -45,10 +45,9 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     bodies = "\n\n".join(_FunctionText(sheet, f, source).text for f in functions)
     helpers = ", ".join(name for name in ("elementwise", "only_where", "select") if name in bodies)
     names = sorted([f.name for f in functions] + kinds, key=_order_of_names)
+    heading = f"{sheet.geometry.title}\n\ng(x) = {text_of(sheet.geometry.g)}, from {source}."
     text = f'''{MARK}
-"""{sheet.geometry.title}
-
-g(x) = {text_of(sheet.geometry.g)}, from {source}.
+"""{_inside_quotes(heading)}
 """
 
 import numpy as np
@@ -64,6 +63,11 @@ __all__ = {names}
     return formatted(text)
 
 
+def _inside_quotes(text: str) -> str:
+    """`text` as it stands between triple quotes, which it cannot close."""
+    return text.replace("\\", "\\\\").replace('"""', r"\"\"\"")
+
+
 def _order_of_names(name: str) -> tuple[bool, bool, str]:
     """K_N before Contact before load: as the linter sorts `__all__`."""
     return not name.isupper(), name.islower(), name
@@ -72,7 +76,9 @@ def _order_of_names(name: str) -> tuple[bool, bool, str]:
 def formatted(text: str) -> str:
     """`text` in the project's format, whatever configuration lies around."""
     command = [find_ruff_bin(), "format", "--isolated", f"--line-length={LINE}", "-"]
-    done = subprocess.run(command, input=text, text=True, capture_output=True, check=True)
+    done = subprocess.run(
+        command, input=text, text=True, encoding="utf-8", capture_output=True, check=True
+    )
     return done.stdout
 
 
@@ -193,7 +199,7 @@ class _FunctionText:
         quantities = self.sheet.geometry.quantities
         given = [quantities[str(s)] for s in (*self.function.arguments, *self.keywords)]
         width = max(len(q.name) for q in given)
-        lines = [f'"""{self.function.summary}', ""]
+        lines = [self.function.summary, ""]
         for equation in self._equations:
             lines += textwrap.wrap(
                 equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
@@ -208,8 +214,8 @@ class _FunctionText:
             )
         lines += ["", *textwrap.wrap(f"Returns {self._returns}.", LINE - 4)]
         lines += textwrap.wrap(f"NaN unless {self._existence}.", LINE - 4)
-        lines += ["", *self._proofs, "", *self._doctest, '"""']
-        return "\n".join(lines)
+        lines += ["", *self._proofs, "", *self._doctest]
+        return f'"""{_inside_quotes(chr(10).join(lines))}\n"""'
 
     @property
     def _sources(self) -> list[str]:

@@ -12,7 +12,6 @@ from sympy import Add, Basic, Expr, Mul, Pow, Rational, S, Symbol, UnevaluatedEx
 from sympy.printing.precedence import PRECEDENCE, precedence_traditional
 from sympy.printing.str import StrPrinter
 
-
 _MUL = PRECEDENCE["Mul"]
 
 

@@ -221,7 +221,7 @@ def _on_side(lean: Expr, steps: list[Step]) -> Expr:
 
 
 def _shares_taken_off(product: Expr) -> Expr:
-    """k (p - q)/p -> k (1 - q/p) while q is small against p: one rounding less."""
+    """k (p - q)/p -> k - k q/p while q is small against p: one rounding less."""
     product = _signs_inside(product)
     for total in (f for f in Mul.make_args(product) if isinstance(f, Add)):
         outer = product / total
@@ -229,7 +229,7 @@ def _shares_taken_off(product: Expr) -> Expr:
             q = p - total
             if outer.subs(p, 1 / p) != outer and p.is_positive and not (outer * p).has(p):
                 k = outer * p
-                return k * Piecewise((1 - q / p, Abs(q) < p / 2), (total / p, True))
+                return Piecewise((k - k * Kept(q / p), Abs(q) < p / 2), (k * Kept(total / p), True))
     return product
 
 
@@ -381,20 +381,20 @@ def lengths_of_one_sign(program: Program, sheet: FormulaSheet) -> Program:
 
 
 def sums_term_by_term(program: Program) -> Program:
-    """(p a + q c)/(a h) -> sum of p'/a and q'/h where all terms are positive and fewer."""
+    """c (p a + q c)/(a h) -> sum of p' c/a and q' c/h where all terms are positive and fewer."""
     return replace(program, outputs={n: _term_by_term(v) for n, v in program.outputs.items()})
 
 
 def _term_by_term(product: Expr) -> Expr:
     sums = (f for f in Mul.make_args(product) if isinstance(f, Add))
     for total in (f for f in sums if f.free_symbols <= {a, c}):
-        below = fraction(product / total)[1]
-        over = Mul(*(s for s in (a, c, _h) if s in below.as_powers_dict()))
+        powers = (product / total).as_powers_dict()
+        edges = Mul(*(s ** sign(powers[s]) for s in (a, c, _h) if abs(powers[s]) >= 1))
         for edge, other in ((a, c), (c, a)):
-            terms = expand(total.subs(edge, _h - other) / over)
+            terms = expand(total.subs(edge, _h - other) * edges)
             positive = all(not t.could_extract_minus_sign() for t in Add.make_args(terms))
-            if positive and count_ops(terms) < count_ops(total / over):
-                return product / total * over * terms
+            if positive and count_ops(terms) < count_ops(total * edges):
+                return product / (total * edges) * terms
     return product
 
 

@@ -13,11 +13,14 @@ def place(name: str, out: Path | None) -> Path:
     Raises BadTarget where no new file can be.
     """
     folder = out if out is not None else Path()
-    path = folder if folder.suffix == ".py" and not folder.is_dir() else folder / f"{name}.py"
-    if os.path.lexists(path):
-        raise BadTarget(str(path), "is there already")
-    if not path.parent.is_dir():
-        raise BadTarget(str(path.parent), "is no directory")
+    try:
+        path = folder if folder.suffix == ".py" and not folder.is_dir() else folder / f"{name}.py"
+        if os.path.lexists(path):
+            raise BadTarget(str(path), "is there already")
+        if not path.parent.is_dir():
+            raise BadTarget(str(path.parent), "is no directory")
+    except OSError as error:
+        raise _unwritable(folder, error) from error
     return path
 
 
@@ -36,8 +39,7 @@ def write_new(path: Path, text: str) -> None:
     except FileExistsError as error:
         raise BadTarget(str(path), "is there already") from error
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise BadTarget(str(path), f"cannot be written ({reason})") from error
+        raise _unwritable(path, error) from error
 
 
 def _write(path: Path, text: str) -> None:
@@ -60,3 +62,8 @@ def _publish(workpiece: Path, path: Path) -> None:
         except OSError:
             path.unlink()
             raise
+
+
+def _unwritable(path: Path, error: Exception) -> BadTarget:
+    reason = error.strerror if isinstance(error, OSError) else error
+    return BadTarget(str(path), f"cannot be written ({reason})")

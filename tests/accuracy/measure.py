@@ -45,12 +45,12 @@ def ulps(value: float, reference: mpmath.mpf) -> float:
         return float(abs(mpmath.mpf(value) - reference) / mpmath.mpf(np.spacing(abs(nearest))))
 
 
-def worst_of(body: str, count: int) -> Iterator[Worst]:
-    """Every function of one body over all its regions."""
+def worst_of(body: str, count: int, only: str = "") -> Iterator[Worst]:
+    """Every function of one body, or one of them, over all its regions."""
     module, sheet = importlib.import_module(f"generated.{body}"), sheet_of(body)
     regions = Regions(sheet, module, count)
     for function in CONTRACT:
-        if function.available(sheet):
+        if function.available(sheet) and only in ("", function.name):
             for region, sample in regions.of(function.name):
                 yield from _worst_in(body, module, function, region, sample)
 

@@ -208,7 +208,14 @@ def test_a_profile_without_parameters_imports_no_more_than_it_needs() -> None:
 
 def test_the_file_passes_the_linter() -> None:
     text = draft(Wanted("mixed", "max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4")).text
-    command = [find_ruff_bin(), "check", "--isolated", "--select=E,F,I,D1,RUF", "-"]
+    command = [
+        find_ruff_bin(),
+        "check",
+        "--isolated",
+        "--line-length=100",
+        "--select=E,F,I,D1,RUF",
+        "-",
+    ]
     done = subprocess.run(command, input=text, text=True, capture_output=True)
     assert done.returncode == 0, done.stdout
 

@@ -1,0 +1,424 @@
+"""Modules as text: only of what is proven, the same every time, clean, standalone and right."""
+
+import ast
+import doctest
+import importlib
+import os
+import re
+import subprocess
+import sys
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from mpmath import mpf
+from ruff import find_ruff_bin
+from sympy import Abs, Expr, Symbol
+
+import derive.codegen.module
+from derive import Geometry, parameter, x
+from derive.codegen.module import module_text
+from derive.codegen.publish import package_files, publish
+from derive.derivation import derive_sheet
+from derive.errors import BadName
+from derive.library import library, load_geometry
+from derive.notation import text_of
+from derive.pipeline import GENERATED
+from derive.proof.verdict import NotProven, Proof, Verdict
+from derive.sheet import FormulaSheet
+from derive.symbols import RESERVED
+from tests.codegen.test_program import at_most
+from tests.derive import integrals
+from tests.derive.bodies import BODIES, VALUES, sheet
+
+ROOT = Path(__file__).parents[2]
+SEEDS = ("0", "1", "2024")
+FILES = sorted(GENERATED.glob("*.py"))
+OTHERS = ("unequal_wedge", "two_radii", "flat_rounded")
+"""Bodies that are not in the library, of which modules are made here."""
+
+
+def assumed(of: FormulaSheet, verdict: Verdict = Verdict.PROVED) -> FormulaSheet:
+    """The sheet as if every formula had this verdict: for tests of what comes after the proof."""
+    proof = Proof(verdict, "assumed by a test")
+    return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})
+
+
+@cache
+def text(body: str) -> str:
+    return module_text(assumed(sheet(body)), f"{body}.py")
+
+
+def text_of_body(g: Expr, title: str = "A body.") -> str:
+    geometry = Geometry("body", g=g).described(title)
+    return module_text(assumed(derive_sheet(geometry)), "body.py")
+
+
+def words(text: str) -> str:
+    """A text without its line breaks."""
+    return " ".join(text.split())
+
+
+@pytest.fixture
+def imported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable]:
+    """Makes a module of a text, in a package of its own."""
+    package = f"package_of_{tmp_path.name}"
+
+    def make(text: str) -> ModuleType:
+        publish(package_files({"body": text}), tmp_path / package)
+        return importlib.import_module(f"{package}.body")
+
+    monkeypatch.syspath_prepend(str(tmp_path))
+    yield make
+    for name in [name for name in sys.modules if name.partition(".")[0] == package]:
+        del sys.modules[name]
+
+
+# ------------------------------------------------------------------ only what is proven
+
+
+def test_a_sheet_without_proofs_is_refused() -> None:
+    with pytest.raises(NotProven):
+        module_text(sheet("hertz"), "hertz.py")
+
+
+@pytest.mark.parametrize("name", sheet("hertz"))
+@pytest.mark.parametrize("proof", [None, *(Proof(v, "by a test") for v in list(Verdict)[2:])])
+def test_one_formula_that_is_not_proven_stops_the_module(name: str, proof: Proof | None) -> None:
+    of = assumed(sheet("hertz"))
+    of = replace(of, formulas={**of.formulas, name: replace(of[name], proof=proof)})
+    with pytest.raises(NotProven, match=rf"{name} of 'hertz'"):
+        module_text(of, "hertz.py")
+
+
+def test_a_numerical_proof_is_enough() -> None:
+    of = assumed(sheet("hertz"), Verdict.NUMERICAL)
+    assert "numerical: assumed by a test" in module_text(of, "hertz.py")
+
+
+def test_a_rewritten_form_that_is_false_stops_the_module(monkeypatch: pytest.MonkeyPatch) -> None:
+    true = derive.codegen.module.stable_program
+
+    def falsified(of: FormulaSheet, outputs: dict[str, Expr], *rest: object) -> object:
+        program = true(of, outputs, *rest)
+        return replace(program, outputs={n: 2 * v for n, v in program.outputs.items()})
+
+    monkeypatch.setattr(derive.codegen.module, "stable_program", falsified)
+    with pytest.raises(NotProven, match=r"of 'hertz'.*refuted"):
+        module_text(assumed(sheet("hertz")), "hertz.py")
+
+
+# ------------------------------------------------------------------ the same every time
+
+BUILT = "import sys; from derive.pipeline import build; sys.stdout.write(build('wedge').text)"
+
+
+def test_the_text_does_not_depend_on_the_hash_seed() -> None:
+    """From g(x) to the text in fresh interpreters; each orders its sets in its own way."""
+    runs = [
+        subprocess.Popen(
+            [sys.executable, "-c", BUILT],
+            env=os.environ | {"PYTHONHASHSEED": seed},
+            cwd=ROOT,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for seed in SEEDS
+    ]
+    texts = [run.communicate()[0] for run in runs]
+    assert [run.returncode for run in runs] == [0, 0, 0]
+    assert texts[0].count("def ") >= 9
+    assert len(set(texts)) == 1
+
+
+@pytest.mark.parametrize("body", ["hertz", "wedge"])
+def test_the_text_is_the_same_a_second_time(body: str) -> None:
+    assert module_text(assumed(sheet(body)), f"{body}.py") == text(body)
+
+
+def test_the_text_does_not_depend_on_the_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A formatter's configuration that lies around must not change a byte."""
+    (tmp_path / "ruff.toml").write_text('line-length = 40\n[format]\nquote-style = "single"\n')
+    monkeypatch.chdir(tmp_path)
+    assert module_text(assumed(sheet("hertz")), "hertz.py") == text("hertz")
+
+
+# ------------------------------------------------------------------ clean
+
+
+def complaints(text: str) -> str:
+    """What the linter and the formatter say of a text."""
+    isolated = ["--isolated", "--line-length=100", "-"]
+    said = ""
+    for command in (["check", "--select=E,F,W,I"], ["format", "--check"]):
+        run = subprocess.run(
+            [find_ruff_bin(), *command, *isolated], input=text, text=True, capture_output=True
+        )
+        said += "" if run.returncode == 0 else run.stdout + run.stderr
+    return said
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_a_generated_file_is_clean(path: Path) -> None:
+    assert complaints(path.read_text()) == ""
+
+
+@pytest.mark.parametrize("body", OTHERS)
+def test_a_module_of_another_body_is_clean(body: str) -> None:
+    assert complaints(text(body)) == ""
+
+
+# ------------------------------------------------------------------ standalone
+
+
+def imports(tree: ast.Module) -> set[str]:
+    """Packages that a module imports anywhere; '.' for its own."""
+    found: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found |= {alias.name.partition(".")[0] for alias in node.names}
+        if isinstance(node, ast.ImportFrom):
+            found.add("." * node.level or str(node.module).partition(".")[0])
+    return found
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_a_generated_file_stands_alone(path: Path) -> None:
+    found = imports(ast.parse(path.read_text()))
+    allowed = {"numpy", "scipy", "."}
+    if path.name.startswith("_"):
+        allowed |= sys.stdlib_module_names
+    assert found <= allowed
+
+
+@pytest.mark.parametrize("body", OTHERS)
+def test_a_module_of_another_body_stands_alone(body: str) -> None:
+    assert imports(ast.parse(text(body))) <= {"numpy", "scipy", "."}
+
+
+# ------------------------------------------------------------------ header and docstrings
+
+PATHS = re.compile(r"(?<![\w.`])/(\w+/|home|work|tmp|root)|\b[A-Z]:\\")
+DATES = re.compile(r"\b(19|20)\d\d[-/]\d|\d\d:\d\d|\b\d{1,2}\.\d{1,2}\.(19|20)\d\d")
+
+
+@pytest.mark.parametrize("body", library())
+def test_the_header_names_the_profile_and_its_file(body: str) -> None:
+    lines = (GENERATED / f"{body}.py").read_text().splitlines()
+    geometry = load_geometry(body)
+    assert lines[0].startswith("# Generated")
+    header = words(str(ast.get_docstring(ast.parse("\n".join(lines)))))
+    assert header.startswith(words(geometry.title))
+    assert f"g(x) = {text_of(geometry.g)}" in header
+    assert f"derive/geometries/{body}.py" in header
+
+
+def test_the_header_names_the_file_that_it_is_given() -> None:
+    text = module_text(assumed(sheet("hertz")), "my own file.py")
+    assert "my own file.py" in text
+    assert "geometries" not in text
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_nothing_of_the_machine_or_the_day_is_in_a_file(path: Path) -> None:
+    text = path.read_text()
+    assert not PATHS.search(text)
+    assert not DATES.search(text)
+    assert str(ROOT) not in text
+
+
+@pytest.mark.parametrize(
+    "title",
+    [
+        "A body.",
+        "Balls & springs: α ≤ φ, 100 %",
+        'He called it "round"',
+        'A "body',
+        r"Profile with \alpha, \nu and \x in it",
+        "Ends in a backslash\\",
+        "Three quotes " + '"""' + " and three " + "'''",
+        "{braces} and {0} and %s",
+        "A title that goes on and on " * 6,
+    ],
+)
+def test_any_title_is_kept_word_by_word(title: str) -> None:
+    text = text_of_body(x**2 / (2 * parameter("R", "radius")), title)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tree = ast.parse(text)
+    assert words(str(ast.get_docstring(tree))).startswith(words(title))
+    assert complaints(text) == ""
+
+
+@pytest.mark.parametrize(
+    "meaning",
+    [
+        r"radius \rho, \nu or \x",
+        'the "radius"',
+        "three quotes " + '"""',
+        "radius\nof curvature",
+        "a meaning that goes on and on " * 6,
+    ],
+)
+def test_any_meaning_of_a_parameter_is_kept_word_by_word(meaning: str) -> None:
+    text = text_of_body(x**2 / (2 * parameter("R", meaning)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tree = ast.parse(text)
+    (load,) = (n for n in tree.body if isinstance(n, ast.FunctionDef) and n.name == "load")
+    assert words(meaning) in words(str(ast.get_docstring(load)))
+    assert complaints(text) == ""
+
+
+@pytest.mark.parametrize("body", library())
+def test_every_function_is_documented_and_exported(body: str) -> None:
+    module = importlib.import_module(f"generated.{body}")
+    tree = ast.parse((GENERATED / f"{body}.py").read_text())
+    defined = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
+    assert {node.name for node in defined} <= set(module.__all__)
+    assert all(hasattr(module, name) for name in module.__all__)
+    assert all(len(str(ast.get_docstring(node))) > 100 for node in defined)
+
+
+@pytest.mark.parametrize("body", library())
+def test_examples_in_docstrings_are_right(body: str) -> None:
+    done = doctest.testmod(importlib.import_module(f"generated.{body}"))
+    assert done.attempted >= 9
+    assert done.failed == 0
+
+
+# ------------------------------------------------------------------ names
+
+
+def names_in(body: str) -> set[str]:
+    """Every name that a generated module binds, and that a parameter may bear."""
+    tree = ast.parse((GENERATED / f"{body}.py").read_text())
+    stored = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and n.id.isidentifier()}
+    bound = {a.asname or a.name for n in ast.walk(tree) if isinstance(n, ast.alias) for a in (n,)}
+    own = {q.name for q in load_geometry(body).parameters}
+    return {name for name in stored | bound if not name.startswith("_")} - RESERVED - own
+
+
+def may_be_a_parameter(name: str) -> bool:
+    try:
+        parameter(name, "anything")
+    except BadName:
+        return False
+    return True
+
+
+@pytest.mark.parametrize(
+    ("body", "argument"), [("hertz", "R"), ("wedge", "phi")], ids=["hertz", "wedge"]
+)
+def test_parameters_may_bear_the_names_of_local_variables(
+    body: str, argument: str, imported: Callable
+) -> None:
+    """The same body with R or phi as a product of parameters of every such name."""
+    names = sorted(filter(may_be_a_parameter, names_in(body)))
+    first, *others = (
+        parameter(name, "a factor", unit="m" if body == "hertz" and i == 0 else "-")
+        for i, name in enumerate(names)
+    )
+    product: Expr = first
+    for other in others:
+        product *= other
+    with at_most(30):
+        module = imported(
+            text_of_body(x**2 / (2 * product) if body == "hertz" else product * Abs(x))
+        )
+    library_s = importlib.import_module(f"generated.{body}")
+    factors = dict.fromkeys(names, 1.0) | {names[0]: 0.5}
+    for function, given in (
+        ("contact", (2.0, 0.25)),
+        ("contact_at_tilt", (2.0, 0.125)),
+        ("pressure", (0.25, 2.0, 1.0)),
+        ("load", (2.0, 1.0)),
+        ("K_N", (2.0, 1.0)),
+        ("L_N", (2.0, 1.0)),
+    ):
+        got = getattr(module, function)(*given, E_star=1.25, **factors)
+        wanted = getattr(library_s, function)(*given, E_star=1.25, **{argument: 0.5})
+        assert np.allclose(got, wanted, rtol=1e-14, atol=0), function
+
+
+@pytest.mark.parametrize("name", ["half", "base", "root", "scale", "angle", "rest", "tangent"])
+@pytest.mark.parametrize("unit", ["m", "rad"], ids=["cylinder", "wedge"])
+def test_a_parameter_may_bear_an_everyday_name(name: str, unit: str) -> None:
+    own = parameter(name, "an everyday word", unit=unit)
+    with at_most(30):
+        text = text_of_body(x**2 / (2 * own) if unit == "m" else own * Abs(x))
+    assert f"{name}: Array" in text
+
+
+# ------------------------------------------------------------------ right
+
+
+def state(body: str, left: float, right: float) -> dict[str, float]:
+    """A contact with its tilt, load and moment by quadrature."""
+    slope, kinks, E_star = BODIES[body].slope, BODIES[body].kinks, mpf(VALUES["E_star"])
+    edges = mpf(left), mpf(right)
+    return {
+        "tilt": float(integrals.tilt(slope, *edges, kinks)),
+        "load": float(integrals.load(slope, *edges, kinks, E_star)),
+        "moment": float(integrals.moment(slope, *edges, kinks, E_star)),
+    }
+
+
+@pytest.mark.parametrize("body", OTHERS)
+def test_a_module_of_another_body_computes_what_quadrature_says(
+    body: str, imported: Callable
+) -> None:
+    module, of = imported(text(body)), BODIES[body]
+    own = {q.name: VALUES[q.name] for q in sheet(body).geometry.parameters}
+    for left, right in of.contacts:
+        wanted = state(body, left, right)
+        assert np.isclose(module.tilt(left, right, **own), wanted["tilt"], rtol=1e-13, atol=1e-15)
+        own |= {"E_star": VALUES["E_star"]}
+        for name in ("load", "moment"):
+            got = getattr(module, name)(left, right, **own)
+            assert np.isclose(got, wanted[name], rtol=1e-13, atol=1e-15), (name, left, right)
+        for share in (0.125, 0.4375, 0.8125):
+            place = share * (left + right) - left
+            got = module.pressure(place, left, right, **own)
+            edges = mpf(left), mpf(right)
+            p = integrals.pressure(of.slope, mpf(place), *edges, of.kinks, mpf(VALUES["E_star"]))
+            assert np.isclose(got, float(p), rtol=1e-13, atol=0), (place, left, right)
+        del own["E_star"]
+
+
+def test_a_constant_of_mathematics_is_a_number_in_the_module(imported: Callable) -> None:
+    """What the printer does not know stops the module; it never becomes a name nobody defined."""
+    from sympy import Catalan, EulerGamma, GoldenRatio
+
+    for constant in (GoldenRatio, EulerGamma, Catalan):
+        try:
+            text = text_of_body(constant * x**2 / parameter("R", "radius"))
+        except Exception as error:
+            assert type(error).__name__ == "CannotPrint"
+            continue
+        got = imported(text).load(2.0, 1.0, E_star=1.25, R=0.5)
+        # P = pi E* h^2/(16 rho) with 1/(2 rho) = constant/R
+        assert np.isclose(got, np.pi * 1.25 * 9 * 2 * float(constant) / (16 * 0.5), rtol=1e-14)
+
+
+def test_a_function_that_is_not_available_is_not_exported() -> None:
+    """Two radii: the contact does not follow from the load in closed form."""
+    tree = ast.parse(text("two_radii"))
+    defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    assert {"tilt", "load", "moment", "pressure", "K_N", "L_N", "K_T"} <= defined
+    closed = {f"{name}_a" in sheet("two_radii") for name in ("contact", "contact_at_tilt")}
+    assert closed == {False}
+    assert defined.isdisjoint({"contact", "contact_at_tilt"})
+
+
+def test_symbols_of_the_theory_stay_reserved() -> None:
+    assert not any(map(may_be_a_parameter, ["E_star", "np", "exists", "contact", "h"]))
+    assert may_be_a_parameter("half")
+    assert Symbol("R") != parameter("R", "radius")
