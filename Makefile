@@ -2,13 +2,14 @@
 # make test   lint, types, tests: the drift check of generated/ included
 # make bench  speed, as ratios measured in one run
 # make accuracy  worst error of every generated function, in units in the last place
+# make picture   draws the README's picture
 
 PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test bench accuracy clean
+.PHONY: all test bench accuracy picture clean
 
 all: $(STAMP)
 	$(BIN)/derive generate
@@ -24,6 +25,10 @@ bench: $(STAMP)
 
 accuracy: $(STAMP)
 	$(BIN)/python -m tests.accuracy.report
+
+picture: $(STAMP)
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[notebooks]'
+	$(BIN)/python -m notebooks.picture
 
 $(STAMP): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; make PYTHON=python3.12, say")'

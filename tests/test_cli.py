@@ -1,0 +1,563 @@
+"""The commands: what they print, what they write, and with which status they leave."""
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+import derive.pipeline
+import derive.proof.prove
+from derive.cli import main
+from derive.codegen.module import MARK
+from derive.derivation import derive_sheet
+from derive.library import library, load_geometry
+from derive.pipeline import GENERATED, Body
+from derive.proof.verdict import Proof, Verdict
+from derive.sheet import FormulaSheet
+from tests.derive.bodies import proven, sheet
+
+ROOT = Path(__file__).parents[1]
+
+CYLINDER = '''"""A cylinder of one's own."""
+from derive import Geometry, parameter, x
+
+radius = parameter("radius", "radius", unit="m")
+geometry = Geometry("cylinder", g=x**2 / (2 * radius))
+'''
+HEAD = """from sympy import I, Piecewise, Symbol, cosh, zeta
+from derive import Geometry, parameter, x
+R = parameter("R", "radius", unit="m")
+"""
+FILES = {
+    "cylinder.py": CYLINDER,
+    "twin.py": CYLINDER.replace("2 * radius", "3 * radius"),
+    "clash.py": CYLINDER.replace('"cylinder"', '"hertz"'),
+    "syntax.py": "geometry = (",
+    "raises.py": 'raise ValueError("no such body")',
+    "lines.py": 'raise ValueError("one\\ntwo\\nthree")',
+    "divides.py": "geometry = 1 / 0",
+    "imports.py": "import no_such_module_anywhere",
+    "recursion.py": "def f(): f()\nf()",
+    "quits.py": "import sys\nsys.exit(0)",
+    "without.py": '"""Nothing here."""\n',
+    "number.py": "geometry = 3",
+    "unit.py": HEAD + 'b = parameter("b", "width", unit="furlong")\n',
+    "concave.py": HEAD + 'geometry = Geometry("body", g=-x**2 / R)\n',
+    "straight.py": HEAD + 'geometry = Geometry("body", g=x)\n',
+    "jumps.py": HEAD + 'geometry = Geometry("body", g=Piecewise((0, x < 0), (R, True)))\n',
+    "cosh.py": HEAD + 'geometry = Geometry("body", g=R * cosh(x / R))\n',
+    "complex.py": HEAD + 'geometry = Geometry("body", g=I * x**2 / R)\n',
+    "stray.py": HEAD + 'geometry = Geometry("body", g=x**2 / Symbol("r"))\n',
+    "dimension.py": HEAD + 'geometry = Geometry("body", g=x**2)\n',
+    "astext.py": HEAD + 'geometry = Geometry("body", g="x**2/R")\n',
+    "spaces.py": HEAD + 'geometry = Geometry("two words", g=x**2 / R)\n',
+    "keyword.py": HEAD + 'geometry = Geometry("class", g=x**2 / R)\n',
+    "taken.py": HEAD + 'E_star = parameter("E_star", "modulus")\n',
+    "markup.py": HEAD + 'geometry = Geometry("[red]:bug:[/]", g=x**2 / R)\n',
+    "body.txt": CYLINDER,
+    "notes.txt": "mine",
+}
+
+# Arguments, and a word of the message.
+BAD = [
+    (("show", "sphere"), "sphere"),
+    (("show", ":bug:"), ":bug:"),
+    (("show", "[red]x[/]"), "[red]x[/]"),
+    (("show", "nowhere.py"), "no such file"),
+    (("show", "."), "no such file"),
+    (("show", ""), ""),
+    (("show", "a" * 300), "a" * 300),
+    (("show", "body.txt"), "no Python file"),
+    (("show", "folder.py"), "no such file"),
+    (("show", "bytes.py"), "bytes.py"),
+    (("show", "syntax.py"), "SyntaxError"),
+    (("show", "raises.py"), "ValueError: no such body"),
+    (("show", "lines.py"), "ValueError"),
+    (("show", "divides.py"), "ZeroDivisionError"),
+    (("show", "imports.py"), "no_such_module_anywhere"),
+    (("show", "recursion.py"), "RecursionError"),
+    (("show", "quits.py"), "quits.py"),
+    (("show", "without.py"), "defines no `geometry`"),
+    (("show", "number.py"), "defines no `geometry`"),
+    (("show", "unit.py"), "furlong"),
+    (("show", "concave.py"), "not convex"),
+    (("show", "straight.py"), "straight"),
+    (("show", "jumps.py"), "jumps"),
+    (("show", "cosh.py"), "cosh"),
+    (("show", "complex.py"), "not real"),
+    (("show", "stray.py"), "'r'"),
+    (("show", "dimension.py"), "dimension"),
+    (("show", "astext.py"), "no expression"),
+    (("show", "spaces.py"), "two words"),
+    (("show", "keyword.py"), "class"),
+    (("show", "taken.py"), "E_star"),
+    (("show", "markup.py"), "[red]:bug:[/]"),
+    (("show", "concave.py", "--latex"), "not convex"),
+    (("generate", "sphere"), "sphere"),
+    (("generate", "hertz", "sphere"), "sphere"),
+    (("generate", "nowhere.py"), "no such file"),
+    (("generate", "cylinder.py"), "--out"),
+    (("generate", "cylinder.py", "--check"), "--out"),
+    (("generate", "concave.py", "--out", "new"), "not convex"),
+    (("generate", "quits.py", "--out", "new"), "quits.py"),
+    (("generate", "cylinder.py", "--out", "notes.txt"), "is no directory"),
+    (("generate", "cylinder.py", "--out", "notes.txt/new"), "new"),
+    (("generate", "cylinder.py", "--out", "foreign"), "notes.txt"),
+    (("generate", "cylinder.py", "--out", "foreign", "--check"), "notes.txt"),
+    (("generate", "hertz", "--out", "."), "which was not generated"),
+    (("generate", "cylinder.py", "twin.py", "--out", "new"), "two geometries are named 'cylinder'"),
+    (("generate", "hertz", "clash.py", "--out", "new"), "two geometries are named 'hertz'"),
+    (("generate", "cylinder.py", "twin.py", "--out", "new", "--check"), "two geometries"),
+]
+MISUSED = [
+    (("--nope",), "--nope"),
+    (("nope",), "nope"),
+    (("show",), "NAME"),
+    (("show", "hertz", "wedge"), "wedge"),
+    (("show", "hertz", "--nope"), "--nope"),
+    (("list", "hertz"), "hertz"),
+    (("generate", "--out"), "--out"),
+    (("generate", "--check=yes"), "--check"),
+]
+
+
+def assumed(of: FormulaSheet) -> FormulaSheet:
+    """The sheet as if every formula were proven, for tests of what comes after the proof."""
+    proof = Proof(Verdict.PROVED, "assumed by a test")
+    return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})
+
+
+def written(folder: Path) -> Path:
+    """All files of the cases, good and bad."""
+    for name, text in FILES.items():
+        (folder / name).write_text(text)
+    (folder / "bytes.py").write_bytes(b"\xff\xfe\x00geometry")
+    (folder / "folder.py").mkdir()
+    (folder / "foreign").mkdir()
+    (folder / "foreign" / "notes.txt").write_text("mine")
+    return folder
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    files = (p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
+    return {str(p.relative_to(folder)): p.read_bytes() for p in files}
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty current directory."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def committed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the package `generated` in its place."""
+    copy = tmp_path_factory.mktemp("copy") / "generated"
+    shutil.copytree(GENERATED, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(derive.pipeline, "GENERATED", copy)
+    return copy
+
+
+@pytest.fixture
+def unproven(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The pipeline without the seconds that its proofs take."""
+    monkeypatch.setattr(derive.pipeline, "prove_sheet", assumed)
+
+
+@pytest.fixture
+def built(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The pipeline with modules of the library as they are committed."""
+    texts = {name: (GENERATED / f"{name}.py").read_text() for name in library()}
+
+    def build(source: str, report: Callable[[str, str], None]) -> Body:
+        for stage in derive.pipeline.STAGES:
+            report(source, stage)
+        body = assumed(derive_sheet(load_geometry(source)))
+        return Body(body, texts.get(source, f"{MARK}\n# {body.geometry.g}\n"), 0.0)
+
+    monkeypatch.setattr(derive.pipeline, "build", build)
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, arguments)
+
+
+def done(*arguments: str) -> str:
+    """What a command prints that succeeds."""
+    result = run(*arguments)
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+def real(*arguments: str, cwd: Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    """The command in an interpreter of its own."""
+    environment = os.environ | {"PYTHONPATH": str(ROOT)} | environment
+    command = [sys.executable, "-m", "derive", *arguments]
+    return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
+
+
+def lines(text: str) -> list[str]:
+    return [line for line in text.splitlines() if line.strip()]
+
+
+# ------------------------------------------------------------------ list, show, help
+
+
+def test_list_names_every_geometry_and_its_profile() -> None:
+    printed = done("list")
+    for name in library():
+        assert name in printed
+    assert "x**2/(2*R)" in printed
+    assert "phi*Abs(x)" in printed
+    assert "closed form" in printed
+    assert "numerical" in printed
+
+
+@pytest.fixture
+def proven_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(derive.proof.prove, "prove_sheet", lambda of: proven(of.geometry.name))
+
+
+def test_show_prints_every_formula_with_its_proof(proven_once: None) -> None:
+    printed = done("show", "hertz")
+    assert all(name in printed for name in sheet("hertz"))
+    assert "P(a, c) = pi*E_star*(a + c)**2/(16*R)" in printed
+    assert "g(x) = x**2/(2*R)" in printed
+    assert printed.count("proved: ") + printed.count("numerical: ") == len(sheet("hertz"))
+
+
+def test_show_latex_prints_one_display(proven_once: None) -> None:
+    printed = done("show", "hertz", "--latex")
+    assert printed.startswith("\\begin{aligned}\n")
+    assert printed.endswith("\\end{aligned}\n")
+    assert printed.count("{") == printed.count("}")
+    assert printed.count("&=") == len(sheet("hertz")) + 1
+    assert printed.strip() == proven("hertz").latex
+
+
+def test_show_takes_a_file(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    written(here)
+    monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
+    assert "cylinder: g(x) = x**2/(2*radius)" in done("show", "cylinder.py")
+    assert "cylinder: g(x) = x**2/(2*radius)" in done("show", str(here / "cylinder.py"))
+
+
+def test_a_formula_is_never_broken_where_no_terminal_is(proven_once: None) -> None:
+    """What a program reads stands on one line."""
+    printed = done("show", "wedge")
+    for name in sheet("wedge"):
+        assert sheet("wedge").equation(name) in printed
+
+
+@pytest.mark.parametrize("command", [(), ("list",), ("show",), ("generate",)])
+@pytest.mark.parametrize("option", ["--help", "-h"])
+def test_help_is_given(command: tuple[str, ...], option: str) -> None:
+    printed = done(*command, option)
+    assert printed.startswith("Usage:")
+    assert "Traceback" not in printed
+
+
+def test_help_lists_the_commands() -> None:
+    printed = done("--help")
+    assert all(f"  {name} " in printed for name in ("list", "show", "generate"))
+
+
+def test_the_version_is_told() -> None:
+    assert done("--version").startswith("derive, version ")
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["generate", "--help"]])
+def test_help_does_not_wait_for_sympy(arguments: list[str]) -> None:
+    code = (
+        "import sys\nfrom derive.cli import main\n"
+        f"try:\n    main({arguments!r})\nexcept SystemExit as end:\n    assert not end.code\n"
+        "late = {'sympy', 'mpmath', 'numpy', 'scipy', 'derive.pipeline'} & set(sys.modules)\n"
+        "assert not late, late\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT, capture_output=True)
+
+
+# ------------------------------------------------------------------ bad input
+
+
+@pytest.mark.usefixtures("built")
+@pytest.mark.parametrize(("arguments", "word"), BAD, ids=lambda given: " ".join(given)[:40])
+def test_bad_input_is_answered_in_one_line(
+    here: Path, arguments: tuple[str, ...], word: str
+) -> None:
+    written(here)
+    before = contents(here)
+    result = run(*arguments)
+    assert result.exit_code == 2, result.output
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    message = lines(result.stderr)
+    assert message[0].startswith("Error: ")
+    assert word in message[0]
+    assert len(message) == 1
+    assert contents(here) == before
+    assert not (here / "new").exists()
+
+
+@pytest.mark.parametrize(("arguments", "word"), MISUSED, ids=lambda given: " ".join(given)[:40])
+def test_a_misused_command_is_answered_with_its_usage(
+    here: Path, arguments: tuple[str, ...], word: str
+) -> None:
+    result = run(*arguments)
+    assert result.exit_code == 2
+    assert isinstance(result.exception, SystemExit)
+    assert [line.startswith("Error: ") for line in lines(result.stderr)].count(True) == 1
+    assert word in lines(result.stderr)[-1]
+    assert contents(here) == {}
+
+
+def test_a_long_path_does_not_break_the_message(here: Path) -> None:
+    folder = here / ("deep" * 20) / ("deeper" * 20)
+    folder.mkdir(parents=True)
+    (folder / "body.py").write_text("geometry = (")
+    result = run("show", str(folder / "body.py"))
+    assert result.exit_code == 2
+    assert len(lines(result.stderr)) == 1
+    assert str(folder / "body.py") in result.stderr
+
+
+def test_a_profile_that_cannot_be_printed_is_bad_input(here: Path, unproven: None) -> None:
+    """g(x) is convex and derived, but NumPy has no zeta function."""
+    (here / "zeta.py").write_text(HEAD + 'geometry = Geometry("body", g=zeta(3) * x**2 / R)\n')
+    result = run("generate", "zeta.py", "--out", "new")
+    assert isinstance(result.exception, SystemExit), result.exception
+    assert result.exit_code == 2
+    assert len(lines(result.stderr)) == 1
+    assert "zeta" in result.stderr
+    assert not (here / "new").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (("show", "sphere"), "sphere"),
+        (("show", "syntax.py"), "SyntaxError"),
+        (("show", "quits.py"), "quits.py"),
+        (("generate", "cylinder.py"), "--out"),
+        (("show",), "NAME"),
+    ],
+    ids=lambda given: " ".join(given),
+)
+def test_the_real_command_leaves_with_status_2_and_no_traceback(
+    tmp_path: Path, arguments: tuple[str, ...], word: str
+) -> None:
+    before = contents(written(tmp_path))
+    ended = real(*arguments, cwd=tmp_path)
+    assert ended.returncode == 2, ended.stderr
+    assert ended.stdout == ""
+    assert "Traceback" not in ended.stderr
+    assert word in lines(ended.stderr)[-1]
+    assert contents(tmp_path) == before
+
+
+# ------------------------------------------------------------------ a check that falls short
+
+
+def without_proof(of: FormulaSheet) -> FormulaSheet:
+    proof = Proof(Verdict.UNKNOWN, "no point drawn")
+    return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})
+
+
+def test_what_is_not_proven_is_not_generated(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(derive.pipeline, "prove_sheet", without_proof)
+    result = run("generate", "hertz", "--out", "new")
+    assert result.exit_code == 1
+    assert isinstance(result.exception, SystemExit)
+    assert "tilt of 'hertz'" in result.stderr
+    assert "no point drawn" in result.stderr
+    assert contents(here) == {}
+
+
+def test_what_is_not_proven_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(derive.proof.prove, "prove_sheet", without_proof)
+    result = run("show", "hertz")
+    assert isinstance(result.exception, SystemExit), result.exception
+    assert result.exit_code == 1
+    assert "tilt of 'hertz'" in result.stderr
+    assert "P(a, c)" not in result.stdout
+
+
+# ------------------------------------------------------------------ generate
+
+
+def test_the_committed_package_is_as_generated() -> None:
+    """The whole path once more, in an interpreter of its own."""
+    ended = real("generate", "--check", cwd=ROOT)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "is as generated" in ended.stdout
+
+
+LONELY = """
+import sys
+for name in ("sympy", "mpmath", "derive", "generated", "click", "rich", "ruff"):
+    sys.modules[name] = None
+from mine import cylinder
+print(repr(float(cylinder.load(1.0, 1.0, E_star=4.0, radius=0.5))))
+print(repr(float(cylinder.contact(2.0, 1.0, E_star=4.0, radius=0.5).alpha)))
+"""
+
+
+def test_a_file_becomes_a_package_that_stands_alone(tmp_path: Path) -> None:
+    """P = pi E* h^2/(16 R) = pi 4 4/8; alpha = M/(P R) = 1/(2/2)."""
+    (tmp_path / "cylinder.py").write_text(CYLINDER)
+    ended = real("generate", "cylinder.py", "--out", "mine", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert "Wrote mine" in ended.stdout
+    assert "Traceback" not in ended.stderr
+    held = contents(tmp_path / "mine")
+    assert {"__init__.py", "cylinder.py", "py.typed"} < held.keys()
+    assert not any(str(tmp_path).encode() in text for text in held.values())
+    (tmp_path / "cylinder.py").unlink()
+    lonely = subprocess.run(
+        [sys.executable, "-W", "error", "-c", LONELY],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    load, tilt = map(float, lonely.stdout.split())
+    assert abs(load - 6.283185307179586) < 1e-14
+    assert tilt == 1.0
+
+
+@pytest.mark.usefixtures("built")
+class TestGenerate:
+    """`derive generate` around the pipeline."""
+
+    def test_without_arguments_it_makes_the_package(self, committed: Path) -> None:
+        before = contents(committed)
+        shutil.rmtree(committed)
+        printed = done("generate")
+        assert "Wrote" in printed
+        assert all(name in printed for name in library())
+        assert contents(committed) == before
+
+    def test_what_has_not_changed_is_not_written(self, committed: Path) -> None:
+        before = {p: p.stat().st_mtime_ns for p in [committed, *committed.iterdir()]}
+        assert "Nothing to change" in done("generate")
+        assert {p: p.stat().st_mtime_ns for p in before} == before
+
+    def test_a_module_that_is_not_wanted_any_more_goes(self, committed: Path) -> None:
+        before = contents(committed)
+        (committed / "old.py").write_text(f"{MARK}\nold = 1\n")
+        done("generate")
+        assert contents(committed) == before
+
+    def test_one_name_leaves_the_other_modules_alone(self, committed: Path) -> None:
+        before = contents(committed)
+        (committed / "hertz.py").write_text(f"{MARK}\nold = 1\n")
+        done("generate", "hertz")
+        assert contents(committed) == before
+
+    def test_a_name_given_twice_is_made_once(self, here: Path) -> None:
+        done("generate", "hertz", "hertz", "--out", "new")
+        assert "hertz.py" in contents(here / "new")
+
+    def test_out_holds_what_was_asked_for_and_no_more(self, here: Path) -> None:
+        done("generate", "hertz", "--out", "new")
+        own = {name for name in contents(here / "new") if not name.startswith("_")}
+        assert own == {"hertz.py", "py.typed"}
+
+    def test_out_replaces_a_package_made_before(self, here: Path) -> None:
+        done("generate", "hertz", "--out", "new")
+        done("generate", "wedge", "--out", "new")
+        assert "wedge.py" in contents(here / "new")
+        assert "hertz.py" not in contents(here / "new")
+
+    def test_files_and_names_go_into_one_package(self, here: Path) -> None:
+        written(here)
+        done("generate", "cylinder.py", "hertz", "--out", "new")
+        assert {"cylinder.py", "hertz.py"} < contents(here / "new").keys()
+
+    def test_out_may_be_the_current_directory_if_empty(self, here: Path) -> None:
+        done("generate", "hertz", "--out", ".")
+        assert "hertz.py" in contents(here)
+        assert Path.cwd() == here
+
+    def test_out_may_be_a_link_to_a_directory(self, here: Path) -> None:
+        (here / "there").mkdir()
+        (here / "link").symlink_to(here / "there")
+        done("generate", "hertz", "--out", "link")
+        assert (here / "link").is_symlink()
+        assert "hertz.py" in contents(here / "there")
+
+    def test_the_library_is_not_needed_in_the_current_directory(self, here: Path) -> None:
+        (here / "hertz").mkdir()
+        (here / "hertz.py").write_text("geometry = (")
+        done("generate", "hertz", "--out", "new")
+
+
+@pytest.mark.usefixtures("built")
+class TestCheck:
+    """`derive generate --check`."""
+
+    def test_it_passes_on_what_was_generated(self, committed: Path) -> None:
+        assert "is as generated" in done("generate", "--check")
+
+    @pytest.mark.parametrize("name", sorted(p.name for p in GENERATED.iterdir() if p.is_file()))
+    def test_it_fails_and_names_a_file_of_which_a_byte_is_changed(
+        self, committed: Path, name: str
+    ) -> None:
+        path = committed / name
+        text = bytearray(path.read_bytes() or b"  ")
+        text[len(text) // 2] ^= 1
+        path.write_bytes(text)
+        self.falls_short(committed, name)
+
+    def test_it_fails_and_names_a_file_that_is_missing(self, committed: Path) -> None:
+        (committed / "wedge.py").unlink()
+        self.falls_short(committed, "wedge.py")
+
+    @pytest.mark.parametrize("name", ["old.py", "notes.txt", "_extra.py"])
+    def test_it_fails_and_names_a_file_that_is_not_generated(
+        self, committed: Path, name: str
+    ) -> None:
+        (committed / name).write_text(f"{MARK}\n")
+        self.falls_short(committed, name)
+
+    def falls_short(self, committed: Path, name: str) -> None:
+        before = contents(committed)
+        result = run("generate", "--check")
+        assert result.exit_code == 1
+        assert isinstance(result.exception, SystemExit)
+        assert name in result.stdout
+        others = {p.name for p in committed.glob("*.py")} - {name}
+        assert not any(f"{other}: " in result.stdout for other in others)
+        assert "derive generate" in result.stdout
+        assert contents(committed) == before
+
+    def test_it_shows_what_changed(self, committed: Path) -> None:
+        path = committed / "hertz.py"
+        path.write_text(path.read_text() + "mine = 1\n")
+        assert "-mine = 1" in run("generate", "--check").stdout
+
+    def test_one_name_is_checked_against_the_whole_package(self, committed: Path) -> None:
+        assert run("generate", "hertz", "--check").exit_code == 0
+        (committed / "hertz.py").write_text(f"{MARK}\n")
+        assert run("generate", "hertz", "--check").exit_code == 1
+
+    def test_a_directory_of_one_s_own_is_checked(self, here: Path) -> None:
+        done("generate", "hertz", "--out", "new")
+        assert run("generate", "hertz", "--out", "new", "--check").exit_code == 0
+        (here / "new" / "hertz.py").write_text(f"{MARK}\n")
+        result = run("generate", "hertz", "--out", "new", "--check")
+        assert result.exit_code == 1
+        assert "hertz.py" in result.stdout
+        assert "derive generate hertz --out new" in result.stdout
+
+    def test_an_absent_directory_falls_short_and_stays_absent(self, here: Path) -> None:
+        result = run("generate", "hertz", "--out", "new", "--check")
+        assert result.exit_code == 1
+        assert "hertz.py" in result.stdout
+        assert contents(here) == {}
