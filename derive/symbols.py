@@ -79,7 +79,8 @@ _USED_BESIDES = (
     # by SymPy
     *("E", "I", "N", "O", "S", "oo", "nan", "inf"),
     # by the generated modules
-    *("np", "scipy", "elementwise", "Array", "exists", "first", "second", "order"),
+    *("np", "scipy", "TINY", "elementwise", "only_where", "select"),
+    *("Array", "exists", "first", "second", "order"),
     *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure"),
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),
     *("Contact", "Edges", "StickZone", "Threshold", "Regime"),

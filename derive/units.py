@@ -139,7 +139,7 @@ def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimensio
     Raises DimensionMismatch where terms of a sum differ, or where a function or an exponent takes
     what is no number.
     """
-    expr = sympify(expr)
+    expr = sympify(expr, strict=True)
     if expr == 0:
         return None
     if isinstance(expr, Symbol):

@@ -19,6 +19,9 @@ Shape = tuple[int, ...]
 BLOCK = 16_384
 """Elements evaluated at once: a few arrays of this length stay in a core's own cache."""
 
+TINY = 5e-324
+"""The smallest positive number."""
+
 _FLOAT64 = np.dtype(np.float64)
 _NAN = np.float64(np.nan)
 
@@ -27,14 +30,15 @@ def elementwise(function: Function) -> Function:
     """Let `function` take anything that broadcasts, and compute large arrays in blocks.
 
     Numbers and NumPy arrays of any real type become float64; arrays of other libraries are passed
-    through as they are.  Keyword-only arguments are material and geometry: NaN unless positive.
-    No floating-point warning leaves the call: what does not exist is NaN.
+    through as they are.  Keyword-only arguments are material and geometry: NaN unless positive and
+    finite.  No floating-point warning leaves the call: what does not exist is NaN.
 
     Raises TypeError for what is no real number, ValueError for shapes that do not broadcast.
     """
     parameters = signature(function).parameters
-    names = tuple(parameters)
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
+    names = tuple(n for n in parameters if n not in constants)
+    defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
     quiet = np.errstate(all="ignore")(function)
 
     @wraps(function)
@@ -42,6 +46,8 @@ def elementwise(function: Function) -> Function:
         given = dict(zip(names, args, strict=False)) | kwargs
         if len(given) < len(args) + len(kwargs):
             return function(*args, **kwargs)  # too many, or one twice: Python's own message
+        if len(given) < len(parameters):
+            given = defaults | given
         shape: Shape = ()
         alike, foreign, size = True, False, 1
         for name, value in given.items():
@@ -56,7 +62,10 @@ def elementwise(function: Function) -> Function:
                 foreign = True
         if foreign or (alike and size <= BLOCK):
             return quiet(**given)
-        return _in_blocks(quiet, given, shape if alike else _broadcast(given))
+        shape = _broadcast(given)
+        if 0 in shape:
+            return quiet(**{name: np.broadcast_to(v, shape) for name, v in given.items()})
+        return _in_blocks(quiet, given, shape)
 
     return call  # type: ignore[return-value]
 
@@ -85,27 +94,30 @@ def select(condition: Any, first: Any, second: Any) -> Any:
 
 
 def _positive(value: Any) -> Any:
-    """A constant of the material or the geometry, NaN unless it is positive."""
+    """A constant of the material or the geometry, NaN unless it is positive and finite."""
     if type(value) is np.float64:
-        return value if value > 0 else _NAN
-    return only_where(value > 0, value)
+        return value if 0 < value < np.inf else _NAN
+    return only_where((value > 0) & (value < np.inf), value)
 
 
 def _float64(value: Any, label: str) -> Any:
-    """A number as np.float64, anything else as an array; masked elements are NaN."""
+    """A real number as np.float64, anything else as an array; masked elements are NaN."""
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.ndim:
         return value
-    if isinstance(value, float | int) and not isinstance(value, bool):
+    if type(value) is float:
         return np.float64(value)
-    if isinstance(value, np.ma.MaskedArray):
-        return np.ma.filled(value.astype(np.float64), np.nan)
     if hasattr(value, "__array_function__") and not isinstance(value, np.ndarray | np.generic):
         return value
     try:
-        return np.asarray(value).astype(np.float64, casting="same_kind")[()]
+        array = np.asanyarray(value)
+        if array.dtype.kind not in "iuf":
+            raise TypeError
+        with np.errstate(all="ignore"):
+            numbers = array.astype(np.float64)
     except (TypeError, ValueError):
         found = f"{type(value).__name__} {value!r:.60}"
         raise TypeError(f"{label} must be a real number or an array of such; got {found}") from None
+    return np.asarray(np.ma.filled(numbers, np.nan))[()]
 
 
 def _broadcast(given: Mapping[str, Any]) -> Shape:

@@ -251,7 +251,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     ['-0.158114', '-0.158114']
     """
     h = a + c  # contact width [m]
-    scale = -(E_star / (4 * R)) / np.sqrt(h)
+    scale = -((E_star / (4 * R)) / np.sqrt(h))
     exists = (h > 0) & (h < np.inf)
     return Edges(*only_where(exists, scale, scale.copy()))
 

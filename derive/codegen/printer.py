@@ -8,7 +8,28 @@ first, so that an array is passed over once.
 import ast
 from collections.abc import Iterable
 
-from sympy import Add, Basic, Expr, Mul, Pow, Rational, S, Symbol, UnevaluatedExpr
+from sympy import (
+    Add,
+    And,
+    Basic,
+    Expr,
+    Float,
+    Function,
+    Max,
+    Min,
+    Mul,
+    Or,
+    Piecewise,
+    Pow,
+    Rational,
+    S,
+    Symbol,
+    UnevaluatedExpr,
+    oo,
+    pi,
+)
+from sympy.core.relational import Relational
+from sympy.logic.boolalg import BooleanFalse, BooleanTrue
 from sympy.printing.precedence import PRECEDENCE, precedence_traditional
 from sympy.printing.str import StrPrinter
 
@@ -25,11 +46,19 @@ _FUNCTIONS = {
     "atan": "np.arctan",
     "atan2": "np.arctan2",
     "cos": "np.cos",
+    "fmax": "np.fmax",
     "log": "np.log",
     "sign": "np.sign",
     "sin": "np.sin",
     "tan": "np.tan",
 }
+_NAMED = ("Max", "Min", "Piecewise")
+
+
+_KNOWN = (
+    *(Add, Mul, Pow, Symbol, Rational, type(pi), type(oo), type(-oo), UnevaluatedExpr),
+    *(Function, Max, Min, Piecewise, Relational, And, Or, BooleanTrue, BooleanFalse),
+)
 
 
 class NumPyPrinter(StrPrinter):
@@ -39,9 +68,12 @@ class NumPyPrinter(StrPrinter):
         super().__init__()
         self.varying = frozenset(varying)
 
-    def emptyPrinter(self, expr: Basic) -> str:
-        """Refuse."""
-        raise CannotPrint(f"no NumPy code is known for {type(expr).__name__}: {expr}")
+    def _print(self, expr: Basic, **kwargs: object) -> str:
+        name = type(expr).__name__
+        unknown = isinstance(expr, Function) and name not in (*_FUNCTIONS, *_NAMED)
+        if unknown or not isinstance(expr, _KNOWN) or isinstance(expr, Float):
+            raise CannotPrint(f"no NumPy code is known for {type(expr).__name__}: {expr}")
+        return str(super()._print(expr, **kwargs))
 
     def parenthesize(self, item: Basic, level: int, strict: bool = False) -> str:
         """Like SymPy's, but a root is a call and needs no parentheses."""
@@ -72,6 +104,9 @@ class NumPyPrinter(StrPrinter):
     def _print_Infinity(self, expr: Basic) -> str:
         return "np.inf"
 
+    def _print_NegativeInfinity(self, expr: Basic) -> str:
+        return "-np.inf"
+
     def _print_Add(self, expr: Add, order: object = None) -> str:
         """Positive terms first: phi - alpha, not -alpha + phi."""
         terms = sorted(expr.as_ordered_terms(), key=lambda t: t.could_extract_minus_sign())
@@ -84,7 +119,7 @@ class NumPyPrinter(StrPrinter):
 
     def _print_Mul(self, expr: Mul) -> str:
         if expr.could_extract_minus_sign():
-            return f"-{self._print(-expr)}"
+            return f"-{self.parenthesize(-expr, _MUL)}"
         factors = list(Mul.make_args(expr))
         fixed = [f for f in factors if not (f.free_symbols & self.varying or _is_root(f))]
         moving = [f for f in factors if f not in fixed]

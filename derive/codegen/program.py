@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Expr, Symbol, UnevaluatedExpr
+from sympy import Expr, Function, Max, Rational, Symbol, UnevaluatedExpr
 
 
 class Kept(UnevaluatedExpr):
@@ -14,6 +14,16 @@ class Kept(UnevaluatedExpr):
 
     def _eval_is_extended_positive(self) -> bool | None:
         return self.args[0].is_extended_positive
+
+
+TINY = Symbol("TINY", positive=True)
+"""The smallest positive number of float64, as a distance."""
+
+
+class fmax(Function):
+    """The larger of two; unlike Max the other one where one of them is not a number."""
+
+    nargs = 2
 
 
 @dataclass(frozen=True)
@@ -64,24 +74,33 @@ class Program:
         return replace(self, steps=tuple(done.values()))
 
     def renamed(self, taken: Iterable[str]) -> "Program":
-        """The program without a step that bears one of the names `taken`."""
-        names = set(taken)
-        table = {
-            s.symbol: Symbol(f"{s.symbol}_", **s.symbol.assumptions0)
-            for s in self.steps
-            if str(s.symbol) in names
-        }
+        """The program with a name of its own for every step, none of them among `taken`."""
+        steps = {s.symbol for s in self.steps}
+        held = set().union(*(e.free_symbols for e in (*self.outputs.values(), *self._right)))
+        used = {*taken, *(symbol.name for symbol in held - steps)}
+        table = {}
+        for step in self.steps:
+            name = step.symbol.name
+            while name in used:
+                name += "_"
+            used.add(name)
+            table[step.symbol] = Symbol(name, **step.symbol.assumptions0)
         program = self.mapped(lambda expr: expr.xreplace(table))
-        steps = (replace(s, symbol=table.get(s.symbol, s.symbol)) for s in program.steps)
-        return replace(program, steps=tuple(steps))
+        return replace(
+            program, steps=tuple(replace(s, symbol=table[s.symbol]) for s in program.steps)
+        )
+
+    @property
+    def _right(self) -> list[Expr]:
+        return [step.expr for step in self.steps]
 
     def flat(self) -> dict[str, Expr]:
-        """The outputs with every step written in."""
-        table = {s.symbol: s.expr for s in self.steps}
+        """The outputs with every step written in, as mathematics."""
+        table = {s.symbol: s.expr for s in self.steps} | {TINY: Rational(1, 2**1074)}
 
         def written_in(expr: Expr) -> Expr:
             while held := expr.free_symbols & table.keys():
                 expr = expr.xreplace({symbol: table[symbol] for symbol in held})
-            return expr
+            return expr.replace(fmax, Max)
 
         return {name: written_in(expr) for name, expr in self.outputs.items()}

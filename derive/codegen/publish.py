@@ -50,7 +50,9 @@ def differences(files: Files, folder: Path) -> list[Difference]:
     found = [Difference(name, "missing") for name in files if name not in held]
     found += [Difference(name, "not generated") for name in held if name not in files]
     for name, path in held.items():
-        if name in files and path.read_bytes() != files[name].encode():
+        if name in files and not path.is_file():
+            found.append(Difference(name, "no file"))
+        elif name in files and path.read_bytes() != files[name].encode():
             found.append(Difference(name, "changed", _diff(name, path, files[name])))
     return sorted(found, key=lambda difference: difference.name)
 
@@ -77,23 +79,33 @@ def publish(files: Files, folder: Path) -> None:
         workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     except OSError as error:
         raise BadOutput(str(folder), f"can't be written ({error.strerror})") from error
+    fresh, old = workshop / "fresh", workshop / "old"
     try:
-        fresh, old = workshop / "fresh", workshop / "old"
         fresh.mkdir()
         for name, text in files.items():
             (fresh / name).write_bytes(text.encode())
         if folder.exists():
             folder.replace(old)
-        try:
-            fresh.replace(folder)
-        except OSError:
-            if old.exists():
-                old.replace(folder)
-            raise
+        fresh.replace(folder)
     except OSError as error:
-        raise BadOutput(str(folder), f"can't be replaced ({error.strerror})") from error
+        why = f"can't be replaced ({error.strerror}){_put_back(old, folder)}"
+        raise BadOutput(str(folder), why) from error
+    except BaseException:
+        _put_back(old, folder)
+        raise
     finally:
-        shutil.rmtree(workshop, ignore_errors=True)
+        if folder.exists() or not old.exists():
+            shutil.rmtree(workshop, ignore_errors=True)
+
+
+def _put_back(old: Path, folder: Path) -> str:
+    """The old package in its place again; in words where it lies if even that fails."""
+    if old.exists() and not folder.exists():
+        try:
+            old.replace(folder)
+        except OSError:
+            return f", the old package lies in {old}"
+    return ""
 
 
 def demand_replaceable(folder: Path) -> None:

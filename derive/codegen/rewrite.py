@@ -13,6 +13,7 @@ import mpmath
 from sympy import (
     Abs,
     Add,
+    Dummy,
     Expr,
     Max,
     Min,
@@ -30,7 +31,6 @@ from sympy import (
     expand,
     factor,
     fraction,
-    log,
     pi,
     powsimp,
     sign,
@@ -40,7 +40,7 @@ from sympy import (
     together,
 )
 
-from derive.codegen.program import Kept, Program, Step
+from derive.codegen.program import TINY, Kept, Program, Step, fmax
 from derive.proof.points import Point, named, numeric
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet import FormulaSheet
@@ -50,19 +50,19 @@ from derive.theory.frame import KinkFrame
 _POWER, _SQUARE = (Kept(Pow(2, n, evaluate=False)) for n in (32, -64))
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
-_half = Symbol("half", positive=True)
-_base = Symbol("base", positive=True)
-_root = Symbol("root", positive=True)
-_scale = Symbol("scale", positive=True)
-_angle = Symbol("angle", positive=True)
-_rest = Symbol("rest", positive=True)
-_t = Symbol("tangent", positive=True)
-_near = Symbol("near", positive=True)
-_far = Symbol("far", positive=True)
-_leaning = Symbol("leaning", real=True)
-_lean = Symbol("lean", real=True)
-_reach = Symbol("reach", nonnegative=True)
-_quotient = Symbol("quotient", nonnegative=True)
+_half = Dummy("half", positive=True)
+_base = Dummy("base", positive=True)
+_root = Dummy("root", positive=True)
+_scale = Dummy("scale", positive=True)
+_angle = Dummy("angle", positive=True)
+_rest = Dummy("rest", positive=True)
+_t = Dummy("tangent", positive=True)
+_near = Dummy("near", positive=True)
+_far = Dummy("far", positive=True)
+_leaning = Dummy("leaning", real=True)
+_lean = Dummy("lean", real=True)
+_reach = Dummy("reach", nonnegative=True)
+_quotient = Dummy("quotient", nonnegative=True)
 
 
 def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point) -> Program:
@@ -73,7 +73,7 @@ def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point
     """
     program = Program(outputs, tuple(_frame_steps(sheet)))
     program = angles_about_the_right_angle(program, sheet)
-    program = logarithms_to_asinh(program)
+    program = logarithms_to_asinh(program, sheet)
     program = conjugate_roots(program)
     program = roots_under_the_edges(program)
     program = program.with_steps(
@@ -248,46 +248,38 @@ def _signs_inside(product: Expr) -> Expr:
 # ------------------------------------------------------------------ logarithms and roots
 
 
-def logarithms_to_asinh(program: Program) -> Program:
-    """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> asinh( sqrt min(u, v) / sqrt |u - v| ).
+def logarithms_to_asinh(program: Program, sheet: FormulaSheet) -> Program:
+    """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> asinh sqrt( min(u, v)/(h |x - x_j|) ).
 
-    The difference u - v is factored, so that it is a product of exact differences.  At an edge
-    min(u, v) vanishes instead of a logarithm of one; outside it is clipped.  A power of two,
-    exact in floating point, keeps the quotient finite next to a kink.
+    From u - v = h (x - x_j), a product of exact differences.  At an edge min(u, v) vanishes instead
+    of a logarithm of one; outside it is clipped.  A power of two, exact in floating point, keeps
+    the quotient finite next to a kink.
+
+    At x = x_j the pressure of a corner is infinite, where the contact spans it, else zero: fmax
+    takes the zero instead of 0/0.  Where the jump vanishes at the kink so does its product with
+    L_j, if only L_j is finite: the distance is at least the smallest number.
     """
-
-    smaller: list[Step] = []
-
-    def change(expr: Expr) -> Expr:
-        return expr.replace(log, lambda argument: _asinh(argument, smaller) or log(argument))
-
-    program = program.mapped(change)
-    return replace(program, steps=(*program.steps, *smaller))
-
-
-def _asinh(argument: Expr, smaller: list[Step]) -> Expr | None:
-    quotient = argument.args[0] if isinstance(argument, Abs) else argument
-    top, bottom = quotient.as_numer_denom()
-    if not (isinstance(top, Add) and len(top.args) == 2):
-        return None
-    first, second = top.args
-    if simplify(bottom - (first - second)) != 0 and simplify(bottom + (first - second)) != 0:
-        return None
-    if not all(isinstance(r, Pow) and r.exp == S.Half for r in (first, second)):
-        return None
-    u, v = first.base, second.base
-    gap = [f for f in Mul.make_args(factor(u - v)) if f != -1]
-    vanishing = [f for f in gap if f.has(x)]
-    steady = Mul(*(f for f in gap if not f.has(x)))
-    least = Symbol(f"smaller_{len(smaller) + 1}", real=True)
-    smaller.append(Step(least, Min(_per(steady, u), _per(steady, v)), "vanishes at both edges"))
-    return 2 * asinh(_POWER * Kept(sqrt(Max(0, least) / Mul(*map(Abs, vanishing)))))
-
-
-def _per(steady: Expr, product: Expr) -> Expr:
-    """2**-64 product/steady, the factors that do not hold x first."""
-    fixed = Mul(*(f for f in Mul.make_args(product) if not f.has(x)))
-    return Kept(fixed * _SQUARE / steady) * (product / fixed)
+    symbols = {k.L: k for k in sheet.frame.kinks}
+    steps: list[Step] = []
+    for step in program.steps:
+        if (k := symbols.get(step.symbol)) is None:
+            steps.append(step)
+            continue
+        smaller = Dummy(f"smaller_{k.kink.number}", real=True)
+        near_left = Kept(k.clip(k.right) * _SQUARE / h) * (a + x)
+        near_right = Kept(k.clip(k.left) * _SQUARE / h) * (c - x)
+        distance = Abs(x - k.kink.position)
+        if k.kink.is_corner and k.clipped:
+            quotient = fmax(smaller / distance, S.Zero)
+        elif k.kink.is_corner:
+            quotient = Max(0, smaller) / distance
+        else:
+            quotient = Max(0, smaller) / Max(distance, TINY)
+        steps += [
+            Step(smaller, Min(near_left, near_right), "vanishes at both edges"),
+            replace(step, expr=asinh(_POWER * Kept(sqrt(quotient)))),
+        ]
+    return replace(program, steps=tuple(steps))
 
 
 def conjugate_roots(program: Program) -> Program:

@@ -54,29 +54,30 @@ class KinkFrame:
         """Distance from the kink to the right edge, c - x_j."""
         return c - self.kink.position
 
-    def _clip(self, distance: Expr) -> Expr:
+    def clip(self, distance: Expr) -> Expr:
+        """A distance to the kink, zero once the contact has left it."""
         return Max(0, distance) if self.clipped else distance
 
     @property
     def angle(self) -> Expr:
         """The definition of theta_j."""
         near, far = (self.right, self.left) if self.kink.side > 0 else (self.left, self.right)
-        return 2 * atan2(sqrt(self._clip(near)), sqrt(self._clip(far)))
+        return 2 * atan2(sqrt(self.clip(near)), sqrt(self.clip(far)))
 
     @property
     def root(self) -> Expr:
         """The definition of w_j."""
-        return sqrt(self._clip(self.left) * self._clip(self.right))
+        return sqrt(self.clip(self.left) * self.clip(self.right))
 
     @property
     def u(self) -> Expr:
         """Vanishes at the left edge."""
-        return self._clip(self.right) * (a + x)
+        return self.clip(self.right) * (a + x)
 
     @property
     def v(self) -> Expr:
         """Vanishes at the right edge."""
-        return self._clip(self.left) * (c - x)
+        return self.clip(self.left) * (c - x)
 
     @property
     def logarithm(self) -> Expr:
