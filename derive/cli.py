@@ -15,12 +15,12 @@ import click
 from rich.console import Console, RenderableType
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from derive.errors import UserError
+from derive.errors import NotProven, UserError
 
 if TYPE_CHECKING:
     from derive.pipeline import Body, Order
 
-_WIDE = 180
+_WIDE = 10_000
 """Columns where the output is no terminal, so that nothing is broken that a program reads."""
 
 FELL_SHORT, BAD_INPUT = 1, 2
@@ -33,8 +33,11 @@ class _Commands(click.Group):
         try:
             return super().invoke(ctx)
         except UserError as error:
-            _console(stderr=True).print(f"[bold red]Error:[/] {_plain(error.message)}")
+            _complain("Error", error.message)
             ctx.exit(BAD_INPUT)
+        except NotProven as error:
+            _complain("Not proven", str(error))
+            ctx.exit(FELL_SHORT)
 
 
 class _WithFormula(click.Command):
@@ -138,14 +141,9 @@ def generate(sources: tuple[str, ...], out: Path | None, check: bool) -> None:
 def _built(order: "Order") -> "list[Body]":
     """Every body of an order, under a progress bar."""
     from derive.pipeline import STAGES, build
-    from derive.proof.verdict import NotProven
 
-    try:
-        with _progress(len(order.names) * len(STAGES)) as step:
-            return [build(name, step) for name in order.names]
-    except NotProven as error:
-        _console(stderr=True).print(f"[bold red]Not proven:[/] {_plain(str(error))}")
-        sys.exit(FELL_SHORT)
+    with _progress(len(order.names) * len(STAGES)) as step:
+        return [build(name, step) for name in order.names]
 
 
 def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:
@@ -181,17 +179,15 @@ def _progress(total: int) -> Iterator[Callable[[str, str], None]]:
 def _console(stderr: bool = False) -> Console:
     stream = sys.stderr if stderr else sys.stdout
     width = None if stream.isatty() else _WIDE
-    return Console(stderr=stderr, width=width, highlight=False)
+    return Console(stderr=stderr, width=width, highlight=False, markup=False, emoji=False)
 
 
 def _print(what: RenderableType) -> None:
     _console().print(what)
 
 
-def _plain(text: str) -> str:
-    from rich.markup import escape
-
-    return escape(text)
+def _complain(what: str, message: str) -> None:
+    click.echo(f"{click.style(f'{what}:', fg='red', bold=True)} {message}", err=True)
 
 
 def _shown(path: Path) -> str:

@@ -7,6 +7,10 @@ message alone and leaves with status 2.
 from dataclasses import dataclass
 
 
+class NotProven(Exception):
+    """A formula, or a rewritten form of one, whose proof is missing or falls short."""
+
+
 class UserError(Exception):
     """A mistake in what the user gave; never a fault of the program."""
 

@@ -32,13 +32,20 @@ def load_geometry(name_or_path: str | Path) -> Geometry:
     if is_in_library(given):
         return _execute(FOLDER / f"{given}.py")
     path = Path(given)
-    if path.suffix == ".py" or path.exists():
+    if path.suffix == ".py" or _exists(path):
         return _execute(path)
     raise UnknownGeometry(given, library())
 
 
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):  # no name that a file could have
+        return False
+
+
 def _execute(path: Path) -> Geometry:
-    if not path.is_file():
+    if not (_exists(path) and path.is_file()):
         raise BadGeometryFile(str(path), "there is no such file")
     spec = importlib.util.spec_from_file_location(f"_geometry_{path.stem}", path)
     if spec is None or spec.loader is None:
@@ -49,8 +56,9 @@ def _execute(path: Path) -> Geometry:
         spec.loader.exec_module(module)
     except UserError:
         raise
-    except Exception as error:
-        raise BadGeometryFile(str(path), f"{type(error).__name__}: {error}") from error
+    except (Exception, SystemExit) as error:
+        why = f"{type(error).__name__}: {error}".splitlines()[0]
+        raise BadGeometryFile(str(path), why) from error
     finally:
         sys.dont_write_bytecode = keep
     geometry = getattr(module, "geometry", None)

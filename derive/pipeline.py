@@ -19,6 +19,7 @@ from pathlib import Path
 from time import perf_counter
 
 from derive.codegen.module import module_text
+from derive.codegen.printer import CannotPrint
 from derive.codegen.publish import (
     Difference,
     demand_replaceable,
@@ -28,7 +29,7 @@ from derive.codegen.publish import (
     publish,
 )
 from derive.derivation import derive_sheet
-from derive.errors import NeedsOutput, TwoOfOneName
+from derive.errors import BadProfile, NeedsOutput, TwoOfOneName
 from derive.library import is_in_library, library, load_geometry
 from derive.proof.prove import prove_sheet
 from derive.sheet import FormulaSheet
@@ -69,7 +70,11 @@ def build(source: str, report: Report = lambda body, stage: None) -> Body:
     report(source, STAGES[2])
     sheet = prove_sheet(sheet)
     report(source, STAGES[3])
-    text = module_text(sheet, _origin(source))
+    try:
+        text = module_text(sheet, _origin(source))
+    except CannotPrint as error:
+        remedy = "write it with numbers and functions that NumPy has"
+        raise BadProfile(geometry.name, f"cannot become code ({error})", remedy) from error
     return Body(sheet, text, perf_counter() - began)
 
 

@@ -12,9 +12,10 @@ from functools import cached_property
 from sympy import Expr, Gt, Or, Symbol, oo
 from sympy.logic.boolalg import Boolean
 
+from derive.errors import NotProven
 from derive.geometry import Geometry
 from derive.notation import latex_of, text_of
-from derive.proof.verdict import NotProven, Proof
+from derive.proof.verdict import Proof
 from derive.symbols import P, a, alpha, c, h
 from derive.theory.frame import Frame
 from derive.units import Dimension, check, parse_unit

@@ -7,7 +7,6 @@ Out: renderables of rich.
 from collections.abc import Iterable
 
 from rich.console import Group, RenderableType
-from rich.syntax import Syntax
 from rich.table import Table
 from rich.text import Text
 
@@ -99,5 +98,8 @@ def drift(found: Iterable[Difference]) -> Group:
     for difference in found:
         parts.append(Text(f"{difference.name}: {difference.what}", style="bold red"))
         if difference.diff:
-            parts.append(Syntax(difference.diff, "diff", background_color="default"))
+            parts += [Text(line, style=_DIFF.get(line[:1], "")) for line in difference.lines]
     return Group(*parts)
+
+
+_DIFF = {"+": "green", "-": "red", "@": "cyan"}

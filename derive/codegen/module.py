@@ -19,9 +19,9 @@ from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import TINY, fmax
 from derive.codegen.rewrite import prove_equal, stable_program
+from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
-from derive.proof.verdict import NotProven
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, h, x
 from derive.units import Dimension, dimension_of, parse_unit

@@ -29,6 +29,11 @@ class Difference:
     what: str
     diff: str = ""
 
+    @property
+    def lines(self) -> list[str]:
+        """The diff line by line."""
+        return self.diff.splitlines()
+
 
 def package_files(modules: Files) -> dict[str, str]:
     """All files of a package that holds `modules`, texts by module name."""
@@ -117,6 +122,8 @@ def demand_replaceable(folder: Path) -> None:
     for path in _entries(folder):
         if not _is_ours(path):
             raise BadOutput(str(folder), f"holds {path.name!r}, which was not generated")
+    if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
+        raise BadOutput(str(folder), "is where this command runs")
 
 
 def _entries(folder: Path) -> list[Path]:

@@ -21,10 +21,6 @@ WORKING = 50
 """Digits that the comparison works with."""
 
 
-class NotProven(Exception):
-    """A formula, or a rewritten form of one, whose proof is missing or falls short."""
-
-
 class Verdict(StrEnum):
     """What is known of a formula."""
 

@@ -119,7 +119,7 @@ def test_renaming_evades_a_new_name_that_is_taken_as_well() -> None:
     """Two parameters s and s_ leave neither name to a step."""
     s_ = Symbol("s_", positive=True)
     program = Program({"": s * s_}, (Step(s, x**2, ""),))
-    with at_most(5):
+    with at_most(20):
         renamed = program.renamed(["s", "s_"])
         assert {str(step.symbol) for step in renamed.steps}.isdisjoint({"s", "s_"})
         assert renamed.flat() == {"": x**2 * s_}
@@ -128,7 +128,7 @@ def test_renaming_evades_a_new_name_that_is_taken_as_well() -> None:
 def test_renaming_evades_the_other_steps() -> None:
     s_ = Symbol("s_", positive=True)
     program = Program({"": s * s_}, (Step(s, x**2, ""), Step(s_, y**2, "")))
-    with at_most(5):
+    with at_most(20):
         renamed = program.renamed(["s"])
         assert len({step.symbol for step in renamed.steps}) == 2
         assert renamed.flat() == {"": x**2 * y**2}

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 from sympy import Integer, Or, Symbol
 
-from derive.errors import DimensionMismatch
-from derive.proof.verdict import NotProven, Proof, Verdict
+from derive.errors import DimensionMismatch, NotProven
+from derive.proof.verdict import Proof, Verdict
 from derive.sheet import (
     Formula,
     FormulaSheet,

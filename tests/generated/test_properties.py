@@ -1,0 +1,467 @@
+"""What mechanics demands of any body: mirrors, scales, round trips, growth, and p carrying P and M.
+
+Nothing here knows a formula of any body; the geometry is asked only whether it is symmetric, where
+its kinks are, and which of its parameters are lengths.
+"""
+
+import importlib
+import pkgutil
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.optimize import brentq
+from sympy import simplify
+
+import generated
+from derive.geometry import Geometry
+from derive.library import load_geometry
+from derive.symbols import x
+from derive.units import parse_unit
+
+BODIES = [found.name for found in pkgutil.iter_modules(generated.__path__) if found.name[0] != "_"]
+
+MANY = settings(max_examples=100, deadline=None)
+FEW = settings(max_examples=20, deadline=None)
+
+
+def module(body: str) -> ModuleType:
+    return importlib.import_module(f"generated.{body}")
+
+
+@cache
+def geometry(body: str) -> Geometry:
+    return load_geometry(body)
+
+
+def is_symmetric(body: str) -> bool:
+    g = geometry(body).g
+    return bool(simplify(g.subs(x, -x) - g) == 0)
+
+
+@cache
+def goes_anywhere(body: str) -> bool:
+    """Whether the contact may leave the origin."""
+    own = dict.fromkeys(lengths(body), 0.01) | dict.fromkeys(numbers(body), 0.1)
+    return bool(np.isfinite(module(body).load(-1.0, 3.0, E_star=1.0, **own)))
+
+
+def length_power(unit: str) -> int:
+    """n of a parameter in m**n."""
+    dimension = parse_unit(unit)
+    assert dimension.pressure == 0
+    return int(dimension.length)
+
+
+def lengths(body: str) -> list[str]:
+    return [q.name for q in geometry(body).parameters if length_power(q.unit) != 0]
+
+
+def numbers(body: str) -> list[str]:
+    return [q.name for q in geometry(body).parameters if length_power(q.unit) == 0]
+
+
+def kinks(body: str, own: Mapping[str, float]) -> list[float]:
+    """Places where g' changes its polynomial."""
+    values = {q.symbol: own[q.name] for q in geometry(body).parameters}
+    return [float(kink.position.subs(values)) for kink in geometry(body).slope.kinks]
+
+
+EVERY_BODY = pytest.mark.parametrize("body", BODIES)
+SYMMETRIC = pytest.mark.parametrize("body", [b for b in BODIES if is_symmetric(b)])
+WITH_CONTACT = pytest.mark.parametrize("body", [b for b in BODIES if hasattr(module(b), "contact")])
+AT_TILT = pytest.mark.parametrize(
+    "body", [b for b in BODIES if hasattr(module(b), "contact_at_tilt")]
+)
+
+
+@dataclass(frozen=True)
+class State:
+    """A contact [-a, c] of a body, and its material."""
+
+    body: str
+    a: float
+    c: float
+    own: dict[str, float]
+    E_star: float
+
+    @property
+    def h(self) -> float:
+        return self.a + self.c
+
+    @property
+    def material(self) -> dict[str, float]:
+        return {"E_star": self.E_star, **self.own}
+
+    def of(self, function: str, *before: float) -> Any:
+        """A function of (a, c), or of (x, a, c)."""
+        constants = self.own if function == "tilt" else self.material
+        return getattr(module(self.body), function)(*before, self.a, self.c, **constants)
+
+    def pressure(self, place: Any) -> Any:
+        return self.of("pressure", place)
+
+
+def between(low: float, high: float) -> st.SearchStrategy[float]:
+    return st.floats(low, high, allow_subnormal=False)
+
+
+@st.composite
+def states(draw: st.DrawFn, body: str) -> State:
+    """Contacts of all sizes; lengths of the body are smaller than either side of the contact."""
+    size = 10 ** draw(between(-6, 3))
+    reach = 3.0 if goes_anywhere(body) else 0.45
+    offset = draw(between(-reach, reach))
+    a, c = size * (0.5 + offset), size * (0.5 - offset)
+    shortest = min(abs(a), abs(c)) or size
+    own = {}
+    for q in geometry(body).parameters:
+        power = length_power(q.unit)
+        share = draw(between(0.05, 0.5))
+        own[q.name] = share if power == 0 else (share * shortest) ** power
+    state = State(body, a, c, own, 10 ** draw(between(-2, 12)))
+    assume(np.isfinite(state.of("load")))
+    return state
+
+
+def close(got: Any, wanted: Any, ulps: int) -> bool:
+    """Whether all fields agree to so many units in the last place."""
+    pairs = zip(np.atleast_1d(got), np.atleast_1d(wanted), strict=True)
+    return all(
+        one == other or abs(one - other) <= ulps * np.spacing(abs(other)) for one, other in pairs
+    )
+
+
+# ------------------------------------------------------------------ mirrors
+
+
+@SYMMETRIC
+@MANY
+@given(data=st.data())
+def test_the_mirror_image_of_a_contact(body: str, data: st.DataObject) -> None:
+    here = data.draw(states(body))
+    there = State(body, here.c, here.a, here.own, here.E_star)
+    assert close(there.of("tilt"), -here.of("tilt"), 1)
+    assert close(there.of("load"), here.of("load"), 1)
+    assert close(there.of("moment"), -here.of("moment"), 1)
+    for name in ("K_N", "L_N"):
+        assert close(there.of(name)[::-1], here.of(name), 1)
+    place = here.h * data.draw(between(0.001, 0.999)) - here.a
+    assert close(there.pressure(-place), here.pressure(place), 1)
+
+
+@SYMMETRIC
+@MANY
+@given(data=st.data(), shear=between(0, 10), tension=between(-10, 10))
+def test_the_mirror_image_of_full_stick(
+    body: str, data: st.DataObject, shear: float, tension: float
+) -> None:
+    state = data.draw(states(body))
+    K_T = module(body).K_T
+    mirrored = K_T(state.c, state.a, shear, -tension)
+    assert close(mirrored[::-1], K_T(state.a, state.c, shear, tension), 1)
+
+
+@pytest.mark.parametrize("body", [b for b in BODIES if is_symmetric(b)])
+@pytest.mark.parametrize("function", ["contact", "contact_at_tilt"])
+@MANY
+@given(data=st.data())
+def test_the_mirror_image_of_a_load(body: str, function: str, data: st.DataObject) -> None:
+    if not hasattr(module(body), function):
+        return
+    state = data.draw(states(body))
+    load = state.of("load")
+    lean = state.of("moment") if function == "contact" else state.of("tilt")
+    here = getattr(module(body), function)(load, lean, **state.material)
+    there = getattr(module(body), function)(load, -lean, **state.material)
+    assert close([there.c, there.a, -there.alpha], here, 1)
+
+
+@SYMMETRIC
+@MANY
+@given(data=st.data())
+def test_a_contact_without_tilt_is_symmetric(body: str, data: st.DataObject) -> None:
+    state = data.draw(states(body))
+    half = state.h / 2
+    assume(all(abs(place) < half for place in kinks(body, state.own)))
+    level = State(body, half, half, state.own, state.E_star)
+    assert level.of("tilt") == 0
+    assert level.of("moment") == 0
+
+
+# ------------------------------------------------------------------ scales
+
+FORWARD = ("load", "moment", "pressure", "K_N", "L_N")
+
+
+@EVERY_BODY
+@MANY
+@given(data=st.data(), power=st.integers(-30, 30))
+def test_pressures_are_proportional_to_the_modulus(
+    body: str, data: st.DataObject, power: int
+) -> None:
+    state = data.draw(states(body))
+    stiffer = State(body, state.a, state.c, state.own, state.E_star * 2.0**power)
+    for name in FORWARD:
+        place = (state.h * 0.3 - state.a,) if name == "pressure" else ()
+        factor = np.float64(2.0**power)
+        assert close(stiffer.of(name, *place), factor * np.array(state.of(name, *place)), 0)
+
+
+@EVERY_BODY
+@MANY
+@given(data=st.data(), factor=between(0.01, 100))
+def test_pressures_are_proportional_to_the_modulus_by_any_factor(
+    body: str, data: st.DataObject, factor: float
+) -> None:
+    state = data.draw(states(body))
+    stiffer = State(body, state.a, state.c, state.own, state.E_star * factor)
+    for name in ("load", "moment", "K_N", "L_N"):
+        assert np.allclose(stiffer.of(name), factor * np.array(state.of(name)), rtol=1e-14, atol=0)
+
+
+@EVERY_BODY
+@MANY
+@given(data=st.data(), power=st.integers(-80, 80))
+def test_all_lengths_by_a_power_of_four(body: str, data: st.DataObject, power: int) -> None:
+    """P goes with a length, M with its square, p and tilt with none; K_N = p/sqrt(s) and so on."""
+    state = data.draw(states(body))
+    k = 4.0**power
+    units = {q.name: length_power(q.unit) for q in geometry(body).parameters}
+    own = {name: value * k ** units[name] for name, value in state.own.items()}
+    larger = State(body, state.a * k, state.c * k, own, state.E_star)
+    place = state.h * 0.3 - state.a
+    assert close(larger.of("tilt"), state.of("tilt"), 1)
+    assert close(larger.of("load"), k * state.of("load"), 1)
+    assert close(larger.of("moment"), k**2 * state.of("moment"), 1)
+    assert close(larger.pressure(place * k), state.pressure(place), 1)
+    assert close(larger.of("K_N"), np.array(state.of("K_N")) / k**0.5, 1)
+    assert close(larger.of("L_N"), np.array(state.of("L_N")) / k**1.5, 1)
+    K_T = module(body).K_T
+    shear, tension = 0.7, -0.3
+    here = np.array(K_T(state.a, state.c, shear, tension))
+    assert close(K_T(larger.a, larger.c, shear * k, tension), here * k**0.5, 1)
+
+
+@WITH_CONTACT
+@MANY
+@given(data=st.data(), power=st.integers(-30, 30))
+def test_loads_and_modulus_together_change_no_contact(
+    body: str, data: st.DataObject, power: int
+) -> None:
+    state = data.draw(states(body))
+    k, contact = 2.0**power, module(body).contact
+    load, moment = state.of("load"), state.of("moment")
+    here = contact(load, moment, **state.material)
+    stiffer = state.material | {"E_star": state.E_star * k}
+    assert close(contact(load * k, moment * k, **stiffer), here, 1)
+
+
+@EVERY_BODY
+@MANY
+@given(data=st.data(), shear=between(0, 10), tension=between(-10, 10))
+def test_full_stick_is_linear(body: str, data: st.DataObject, shear: float, tension: float) -> None:
+    state = data.draw(states(body))
+    K_T = module(body).K_T
+    parts = np.array(K_T(state.a, state.c, shear, 0.0)) + K_T(state.a, state.c, 0.0, tension)
+    largest = np.max(np.abs(K_T(state.a, state.c, shear, abs(tension))))
+    assert np.allclose(K_T(state.a, state.c, shear, tension), parts, rtol=0, atol=1e-15 * largest)
+
+
+# ------------------------------------------------------------------ there and back
+
+
+def agrees(state: State, contact: Any) -> bool:
+    """Whether a contact is that of the state, to 1e-13 of its width and of a large tilt."""
+    large = abs(State(state.body, 0.9 * state.h, 0.1 * state.h, state.own, 1.0).of("tilt"))
+    tilt = state.of("tilt")
+    reach = max(abs(state.a), abs(state.c), state.h)
+    return bool(
+        abs(contact.a - state.a) <= 1e-13 * reach
+        and abs(contact.c - state.c) <= 1e-13 * reach
+        and abs(contact.alpha - tilt) <= 1e-13 * max(large, abs(tilt))
+    )
+
+
+@WITH_CONTACT
+@MANY
+@given(data=st.data())
+def test_the_contact_under_a_contact_s_load_and_moment(body: str, data: st.DataObject) -> None:
+    state = data.draw(states(body))
+    found = module(body).contact(state.of("load"), state.of("moment"), **state.material)
+    assert agrees(state, found)
+
+
+@AT_TILT
+@MANY
+@given(data=st.data())
+def test_the_contact_under_a_contact_s_load_at_its_tilt(body: str, data: st.DataObject) -> None:
+    state = data.draw(states(body))
+    found = module(body).contact_at_tilt(state.of("load"), state.of("tilt"), **state.material)
+    assert agrees(state, found)
+    assert found.alpha == state.of("tilt")
+
+
+@WITH_CONTACT
+@MANY
+@given(data=st.data())
+def test_the_load_and_moment_of_a_load_s_contact(body: str, data: st.DataObject) -> None:
+    """From loads that are no contact's yet."""
+    state = data.draw(states(body))
+    load = state.of("load") * data.draw(between(0.5, 2))
+    moment = state.of("moment") * data.draw(between(0.5, 2))
+    found = module(body).contact(load, moment, **state.material)
+    assume(np.isfinite(found.a))
+    back = State(body, float(found.a), float(found.c), state.own, state.E_star)
+    assert abs(back.of("load") - load) <= 1e-13 * load
+    assert abs(back.of("moment") - moment) <= 1e-13 * max(abs(moment), load * back.h)
+    tilt = back.of("tilt")
+    large = abs(State(body, 0.9 * back.h, 0.1 * back.h, state.own, 1.0).of("tilt"))
+    assert abs(tilt - found.alpha) <= 1e-13 * max(large, abs(tilt))
+
+
+# ------------------------------------------------------------------ growth
+
+
+def grown(state: State, factor: float) -> State:
+    """The contact whose right edge reaches further at the same tilt, by bisection of tilt(a, c)."""
+    tilt = float(state.of("tilt"))
+    edge = state.a + state.h * (factor - 1)
+    right = state.c + state.h * (factor - 1)
+
+    def gap(left: float) -> float:
+        there = State(state.body, left, right, state.own, state.E_star).of("tilt")
+        return float(there) - tilt
+
+    wide = state.h * factor
+    low = max(state.a - 0.5 * wide, 1e-3 * state.a) if state.a > 0 else state.a - 0.5 * wide
+    while not gap(edge) > 0:
+        edge += wide
+    left = brentq(gap, low, edge, xtol=1e-14 * wide, rtol=1e-14)
+    return State(state.body, left, right, state.own, state.E_star)
+
+
+@EVERY_BODY
+@FEW
+@given(data=st.data(), growth=between(1.01, 2))
+def test_the_load_grows_with_the_contact_at_fixed_tilt(
+    body: str, data: st.DataObject, growth: float
+) -> None:
+    state = data.draw(states(body))
+    larger = grown(state, growth)
+    assert larger.a > state.a
+    assert larger.of("load") > state.of("load")
+
+
+@AT_TILT
+@MANY
+@given(data=st.data(), growth=between(1.001, 1000))
+def test_the_contact_grows_with_the_load_at_fixed_tilt(
+    body: str, data: st.DataObject, growth: float
+) -> None:
+    state = data.draw(states(body))
+    load, tilt = state.of("load"), state.of("tilt")
+    here = module(body).contact_at_tilt(load, tilt, **state.material)
+    there = module(body).contact_at_tilt(load * growth, tilt, **state.material)
+    assert there.a > here.a
+    assert there.c > here.c
+
+
+@WITH_CONTACT
+@MANY
+@given(data=st.data(), growth=between(1.001, 3))
+def test_the_body_tilts_with_the_moment(body: str, data: st.DataObject, growth: float) -> None:
+    state = data.draw(states(body))
+    load, moment = state.of("load"), state.of("moment")
+    assume(abs(moment) > 1e-6 * load * state.h)
+    here = module(body).contact(load, moment, **state.material)
+    there = module(body).contact(load, moment * growth, **state.material)
+    assert (there.alpha - here.alpha) * moment > 0
+
+
+# ------------------------------------------------------------------ pressure
+
+
+@EVERY_BODY
+@MANY
+@given(data=st.data())
+def test_pressure_is_positive_inside_and_zero_outside(body: str, data: st.DataObject) -> None:
+    state = data.draw(states(body))
+    shares = np.array(data.draw(st.lists(between(1e-9, 1 - 1e-9), min_size=1, max_size=20)))
+    places = state.h * shares - state.a
+    places = places[(places > -state.a) & (places < state.c)]
+    assert np.all(state.pressure(places) > 0)
+    outside = np.array([-state.a - state.h * 1e-9, -state.a, state.c, state.c + state.h * 1e-9])
+    assert np.array_equal(state.pressure(outside), np.zeros(4))
+
+
+def integral(state: State, weight: Any) -> float:
+    """int p weight ds, by s = mid + (h/2) cos(t), cut at the kinks."""
+    middle, half = (state.c - state.a) / 2, state.h / 2
+    inside = [place for place in kinks(state.body, state.own) if -state.a < place < state.c]
+    angles = sorted({0.0, np.pi, *(float(np.arccos((p - middle) / half)) for p in inside)})
+
+    def integrand(t: float) -> float:
+        place = middle + half * np.cos(t)
+        return float(state.pressure(place) * weight(place) * half * np.sin(t))
+
+    scale = state.E_star * state.h * max(abs(weight(-state.a)), abs(weight(state.c)), half)
+    accuracy = {"epsabs": 1e-13 * scale, "epsrel": 1e-11}
+    return sum(quad(integrand, *piece, **accuracy)[0] for piece in pairwise(angles))
+
+
+@EVERY_BODY
+@FEW
+@given(data=st.data())
+def test_pressure_carries_the_load(body: str, data: st.DataObject) -> None:
+    state = data.draw(states(body))
+    load = state.of("load")
+    assert abs(integral(state, lambda place: 1.0) - load) <= 1e-9 * load
+
+
+@EVERY_BODY
+@FEW
+@given(data=st.data())
+def test_pressure_carries_the_moment(body: str, data: st.DataObject) -> None:
+    state = data.draw(states(body))
+    arm = max(abs(state.a), abs(state.c))
+    found = -integral(state, lambda place: place)
+    assert abs(found - state.of("moment")) <= 1e-9 * state.of("load") * arm
+
+
+@EVERY_BODY
+@MANY
+@given(data=st.data())
+def test_pressure_next_to_an_edge_is_its_series(body: str, data: st.DataObject) -> None:
+    """p = K_N sqrt(s) + L_N s**(3/2) + ..., the rest of the order of (s/h)**2 of the first."""
+    state = data.draw(states(body))
+    places = -state.a + state.h * 2.0**-17, state.c - state.h * 2.0**-17
+    distances = places[0] + state.a, state.c - places[1]
+    for place, s, K, L in zip(places, distances, state.of("K_N"), state.of("L_N"), strict=True):
+        assert abs(state.pressure(place) - np.sqrt(s) * (K + L * s)) <= 1e-7 * np.sqrt(s) * K
+        assert abs(L * s) <= 1e-3 * K
+
+
+@EVERY_BODY
+@MANY
+@given(data=st.data(), shear=between(0.1, 10), tension=between(-10, 10))
+def test_full_stick_next_to_an_edge_is_singular(
+    body: str, data: st.DataObject, shear: float, tension: float
+) -> None:
+    """dq = [dQ/pi - (dsigma/4)(x - mid)]/sqrt((a + x)(c - x)) ~ K_T/sqrt(s)."""
+    state = data.draw(states(body))
+    shear *= state.h
+    K_T = module(body).K_T(state.a, state.c, shear, tension)
+    s = state.h * 2.0**-40
+    largest = max(map(abs, K_T))
+    for from_middle, K in ((-state.h / 2 + s, K_T.left), (state.h / 2 - s, K_T.right)):
+        change = (shear / np.pi - tension / 4 * from_middle) / np.sqrt(s * (state.h - s))
+        assert abs(change * np.sqrt(s) - K) <= 1e-10 * largest
