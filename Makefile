@@ -1,5 +1,6 @@
 # make        derives and proves every geometry, regenerates generated/, ends with the table
 # make test   lint, types, tests: the drift check of generated/ included
+# make quick  the tests that take no long
 # make bench  speed, as ratios measured in one run
 # make accuracy  worst error of every generated function, in units in the last place
 # make picture   draws the README's picture
@@ -9,7 +10,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test bench accuracy picture clean
+.PHONY: all test quick bench accuracy picture clean
 
 all: $(STAMP)
 	$(BIN)/derive generate
@@ -19,6 +20,9 @@ test: $(STAMP)
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -n auto
+
+quick: $(STAMP)
+	$(BIN)/python -m pytest -n auto -m "not slow"
 
 bench: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.speed

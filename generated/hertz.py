@@ -6,7 +6,7 @@ g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 
 import numpy as np
 
-from ._arrays import elementwise, only_where
+from ._arrays import LEAST, MOST, elementwise, only_where
 from ._types import Array, Contact, Edges
 
 __all__ = [
@@ -40,7 +40,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
         R       relative radius of curvature [m]
 
     Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and R > 0.
+    NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     a proved: put back symbolically; put back into load(a, c), moment(a, c); 49 digits at 24 points.
     c proved: put back symbolically; put back into load(a, c), moment(a, c); 49 digits at 24 points.
@@ -55,7 +55,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     a = e + half
     c = half - e
     h = a + c  # contact width [m]
-    exists = (P > 0) & (h > 0) & (h < np.inf)
+    exists = (P > 0) & (h > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, e / R))
 
 
@@ -73,7 +73,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
         R       relative radius of curvature [m]
 
     Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and E_star > 0 and R > 0.
+    NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     a numerical: put back into load(a, c), tilt(a, c); 49 digits at 24 points.
     c numerical: put back into load(a, c), tilt(a, c); 49 digits at 24 points.
@@ -86,7 +86,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     a = alpha * R + half
     c = half - alpha * R
     h = a + c  # contact width [m]
-    exists = (P > 0) & (h > 0) & (h < np.inf)
+    exists = (P > 0) & (h > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
@@ -102,7 +102,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
         R  relative radius of curvature [m]
 
     Returns alpha [rad].
-    NaN unless a + c > 0 and R > 0 and a + c < inf.
+    NaN unless a + c > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 50 digits at 24 points.
@@ -112,7 +112,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     '0.25'
     """
     h = a + c  # contact width [m]
-    exists = (h > 0) & (h < np.inf)
+    exists = (h > LEAST) & (h < MOST)
     return only_where(exists, (a - c) / (2 * R))
 
 
@@ -129,7 +129,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         R       relative radius of curvature [m]
 
     Returns P [N/m].
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and a + c < inf.
+    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/hertz.py.
@@ -138,7 +138,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     '1.22718'
     """
     h = a + c  # contact width [m]
-    exists = (h > 0) & (h < np.inf)
+    exists = (h > LEAST) & (h < MOST)
     return only_where(exists, (np.pi * E_star / (16 * R)) * h**2)
 
 
@@ -155,7 +155,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         R       relative radius of curvature [m]
 
     Returns M [N].
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and a + c < inf.
+    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
         at 24 points.
@@ -165,7 +165,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     '0.306796'
     """
     h = a + c  # contact width [m]
-    exists = (h > 0) & (h < np.inf)
+    exists = (h > LEAST) & (h < MOST)
     return only_where(exists, (np.pi * E_star / (32 * R)) * h**2 * (a - c))
 
 
@@ -183,7 +183,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         R       relative radius of curvature [m]
 
     Returns p [Pa].
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and a + c < inf.
+    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 50 digits at 24 points.
@@ -194,7 +194,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
     h = a + c  # contact width [m]
-    exists = (h > 0) & (h < np.inf)
+    exists = (h > LEAST) & (h < MOST)
     return only_where(exists, (E_star / (2 * R)) * w)
 
 
@@ -212,7 +212,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         R       relative radius of curvature [m]
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and a + c < inf.
+    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -223,7 +223,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (E_star / (2 * R)) * np.sqrt(h)
-    exists = (h > 0) & (h < np.inf)
+    exists = (h > LEAST) & (h < MOST)
     return Edges(*only_where(exists, scale, scale.copy()))
 
 
@@ -241,7 +241,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         R       relative radius of curvature [m]
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and a + c < inf.
+    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     L_N_left numerical: p - K_N sqrt(s) close to the edge; 48 digits at 24 points.
     L_N_right numerical: p - K_N sqrt(s) close to the edge; 48 digits at 24 points.
@@ -252,7 +252,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = -((E_star / (4 * R)) / np.sqrt(h))
-    exists = (h > 0) & (h < np.inf)
+    exists = (h > LEAST) & (h < MOST)
     return Edges(*only_where(exists, scale, scale.copy()))
 
 
@@ -270,7 +270,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
         dsigma  change of the differential bulk tension over the same half-cycle [Pa]
 
     Returns Edges(left [Pa*sqrt(m)], right [Pa*sqrt(m)]).
-    NaN unless a + c > 0 and a + c < inf.
+    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     K_T_left proved: limit of the full-stick change at the edge.
     K_T_right proved: limit of the full-stick change at the edge.
@@ -281,7 +281,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     root = np.sqrt(h)
-    exists = (h > 0) & (h < np.inf)
+    exists = (h > LEAST) & (h < MOST)
     return Edges(
         *only_where(
             exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root

@@ -6,7 +6,7 @@ g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 
 import numpy as np
 
-from ._arrays import elementwise, only_where, select
+from ._arrays import LEAST, MOST, elementwise, only_where, select
 from ._types import Array, Contact, Edges
 
 __all__ = [
@@ -40,7 +40,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
         phi     slope of the flanks [rad]
 
     Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and phi > 0.
+    NaN unless P > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     a proved: put back symbolically; put back into load(a, c), moment(a, c); 45 digits at 24 points.
     c proved: put back symbolically; put back into load(a, c), moment(a, c); 44 digits at 24 points.
@@ -62,7 +62,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (h > 0) & (h < np.inf)
+    exists = (P > 0) & (a > LEAST) & (c > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, (2 * phi / np.pi) * np.arctan(lean / base)))
 
 
@@ -80,7 +80,8 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
         phi     slope of the flanks [rad]
 
     Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and alpha > -phi and alpha < phi and E_star > 0 and phi > 0.
+    NaN unless P > 0 and alpha > -phi and alpha < phi and E_star > 0 and phi > 0; nor where lengths
+    leave 1e-75 to 1e75 m.
 
     a numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.
     c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.
@@ -103,7 +104,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (h > 0) & (h < np.inf)
+    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (a > LEAST) & (c > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
@@ -120,7 +121,7 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
         phi  slope of the flanks [rad]
 
     Returns alpha [rad].
-    NaN unless a > 0 and c > 0 and phi > 0 and a + c < inf.
+    NaN unless a > 0 and c > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -130,7 +131,7 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     '0.0160236'
     """
     h = a + c  # contact width [m]
-    exists = (a > 0) & (c > 0) & (h < np.inf)
+    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
     return only_where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))))
 
 
@@ -147,7 +148,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
         phi     slope of the flanks [rad]
 
     Returns P [N/m].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0 and a + c < inf.
+    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/wedge.py.
@@ -156,7 +157,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.153093'
     """
     h = a + c  # contact width [m]
-    exists = (a > 0) & (c > 0) & (h < np.inf)
+    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
     return only_where(exists, (E_star * phi) * np.sqrt(a * c))
 
 
@@ -173,7 +174,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
         phi     slope of the flanks [rad]
 
     Returns M [N].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0 and a + c < inf.
+    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
         at 24 points.
@@ -183,7 +184,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.0191366'
     """
     h = a + c  # contact width [m]
-    exists = (a > 0) & (c > 0) & (h < np.inf)
+    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
     return only_where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c))
 
 
@@ -204,7 +205,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
         phi     slope of the flanks [rad]
 
     Returns p [Pa].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0 and a + c < inf.
+    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -218,7 +219,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     smaller_1 = np.minimum((a + x) * (c * 2.0**-64 / h), (c - x) * (a * 2.0**-64 / h))
     # logarithm of the kink x = 0 [-]
     L_1 = np.arcsinh(2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.abs(x)))
-    exists = (a > 0) & (c > 0) & (h < np.inf)
+    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
     return only_where(exists, (2 * E_star * phi / np.pi) * L_1)
 
 
@@ -236,7 +237,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
         phi     slope of the flanks [rad]
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0 and a + c < inf.
+    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -247,7 +248,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (2 * E_star * phi / np.pi) / np.sqrt(a * c * h)
-    exists = (a > 0) & (c > 0) & (h < np.inf)
+    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
     return Edges(*only_where(exists, c * scale, a * scale))
 
 
@@ -265,7 +266,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
         phi     slope of the flanks [rad]
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0 and a + c < inf.
+    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     L_N_left numerical: p - K_N sqrt(s) close to the edge; 47 digits at 24 points.
     L_N_right numerical: p - K_N sqrt(s) close to the edge; 45 digits at 24 points.
@@ -276,7 +277,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
-    exists = (a > 0) & (c > 0) & (h < np.inf)
+    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 
@@ -294,7 +295,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
         dsigma  change of the differential bulk tension over the same half-cycle [Pa]
 
     Returns Edges(left [Pa*sqrt(m)], right [Pa*sqrt(m)]).
-    NaN unless a + c > 0 and a + c < inf.
+    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     K_T_left proved: limit of the full-stick change at the edge.
     K_T_right proved: limit of the full-stick change at the edge.
@@ -305,7 +306,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     root = np.sqrt(h)
-    exists = (h > 0) & (h < np.inf)
+    exists = (h > LEAST) & (h < MOST)
     return Edges(
         *only_where(
             exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root

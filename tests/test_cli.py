@@ -416,6 +416,7 @@ def test_what_is_not_proven_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> Non
 # ------------------------------------------------------------------ generate
 
 
+@pytest.mark.slow
 def test_the_committed_package_is_as_generated() -> None:
     """The whole path once more, in an interpreter of its own."""
     ended = real("generate", "--check", cwd=ROOT)
@@ -433,6 +434,7 @@ print(repr(float(cylinder.contact(2.0, 1.0, E_star=4.0, radius=0.5).alpha)))
 """
 
 
+@pytest.mark.slow
 def test_a_file_becomes_a_package_that_stands_alone(tmp_path: Path) -> None:
     """P = pi E* h^2/(16 R) = pi 4 4/8; alpha = M/(P R) = 1/(2/2)."""
     (tmp_path / "cylinder.py").write_text(CYLINDER)

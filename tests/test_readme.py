@@ -19,6 +19,7 @@ def test_the_examples_give_what_they_show() -> None:
     assert result.failed == 0
 
 
+@pytest.mark.slow
 def test_the_commands_for_a_body_of_your_own_work(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -20,6 +20,10 @@ TINY = Symbol("TINY", positive=True)
 """The smallest positive number of float64, as a distance."""
 
 
+LEAST, MOST = Symbol("LEAST", positive=True), Symbol("MOST", positive=True)
+"""The shortest and the longest length whose products stay well inside float64."""
+
+
 class fmax(Function):
     """The larger of two; unlike Max the other one where one of them is not a number."""
 

@@ -118,6 +118,7 @@ def test_a_rewritten_form_that_is_false_stops_the_module(monkeypatch: pytest.Mon
 BUILT = "import sys; from derive.pipeline import build; sys.stdout.write(build('wedge').text)"
 
 
+@pytest.mark.slow
 def test_the_text_does_not_depend_on_the_hash_seed() -> None:
     """From g(x) to the text in fresh interpreters; each orders its sets in its own way."""
     runs = [
@@ -192,6 +193,7 @@ def test_a_generated_file_stands_alone(path: Path) -> None:
     assert found <= allowed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", OTHERS)
 def test_a_module_of_another_body_is_clean_and_stands_alone(body: str) -> None:
     assert complaints(text(body)) == ""
@@ -309,6 +311,7 @@ def may_be_a_parameter(name: str) -> bool:
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "argument"), [("hertz", "R"), ("wedge", "phi")], ids=["hertz", "wedge"]
 )
@@ -343,6 +346,7 @@ def test_parameters_may_bear_the_names_of_local_variables(
         assert np.allclose(got, wanted, rtol=1e-14, atol=0), function
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "unit"),
     [("half", "m"), ("scale", "m"), ("base", "rad"), ("root", "rad"), ("scale", "rad")],

@@ -605,6 +605,7 @@ def test_the_caret_stands_under_its_character_in_a_terminal_too(
     assert lines[2] == "         ^"
 
 
+@pytest.mark.slow
 def test_what_was_written_is_shown_and_generated(
     run: Callable[..., Result], tmp_path: Path
 ) -> None:

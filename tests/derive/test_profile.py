@@ -224,6 +224,7 @@ def test_a_zero_of_the_curvature_of_high_order_is_still_convex(power: int) -> No
 _coefficient = st.fractions(min_value=Fraction(1, 8), max_value=4, max_denominator=8)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(
     st.lists(

@@ -21,6 +21,9 @@ BLOCK = 16_384
 TINY = 5e-324
 """The smallest positive number."""
 
+LEAST, MOST = 1e-75, 1e75
+"""The shortest and the longest length, in metres, whose products stay well inside float64."""
+
 _FLOAT64 = np.dtype(np.float64)
 _NAN = np.float64(np.nan)
 
