@@ -6,7 +6,7 @@ Out: FormulaSheet without proofs.
 
 from collections.abc import Iterator
 
-from sympy import Symbol, pi
+from sympy import Symbol, pi, sqrt
 from sympy.logic.boolalg import Boolean
 
 from derive.geometry import Geometry
@@ -18,8 +18,9 @@ from derive.sheet import (
     load_conditions,
     tilt_conditions,
 )
-from derive.symbols import M, P, a, alpha, c, dQ, dsigma, x
+from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, h, mid, x
 from derive.theory import contact_law, equilibrium, stick
+from derive.theory.algebra import tidy
 from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
 from derive.theory.frame import Frame
 from derive.theory.pressure import pressure
@@ -37,7 +38,7 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
     E_star*phi*sqrt(a*c)
     """
     sheet = FormulaSheet(geometry, Frame(geometry.slope))
-    for stage in (_equilibrium, _pressure, _contact_law, _edges, _stick, _inverses):
+    for stage in (_equilibrium, _pressure, _contact_law, _edges, _rates, _stick, _inverses):
         for formula in stage(sheet):
             sheet = sheet.plus(formula)
     return sheet
@@ -97,6 +98,29 @@ def _edges(sheet: FormulaSheet) -> Iterator[Formula]:
                 f"{meaning} at the {side} edge",
                 unit,
                 f"expansion of p(x); cf. eqs. (eqn:Knc), (eqn:Kna), {_PAPER}",
+                conditions,
+            )
+
+
+def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
+    """How loads and tilt change with the edges: by flat punches, for every body alike."""
+    conditions = contact_conditions(sheet.frame)
+    source = "an edge that moves adds sqrt((a + x)/(c - x)), or its mirror image, to the pressure"
+    for edge, symbol, sense in ((Edge.LEFT, a, -1), (Edge.RIGHT, c, 1)):
+        force = pi * sqrt(h) / 4 * sheet[f"K_N_{edge.name.lower()}"].expr
+        for of, meaning, unit, expr in (
+            ("load", "load", "Pa", force),
+            ("moment", "moment", "N/m", -force * (mid + sense * h / 4)),
+            ("tilt", "tilt", "1/m", -sense * 4 * force / (pi * E_star * h)),
+        ):
+            yield Formula(
+                f"{of}_by_{symbol}",
+                Symbol(f"{sheet[of].symbol}_{symbol}"),
+                (a, c),
+                tidy(expr, sheet.frame),
+                f"rate of the {meaning} as {symbol} alone grows",
+                unit,
+                source,
                 conditions,
             )
 

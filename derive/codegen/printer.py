@@ -146,6 +146,8 @@ class NumPyPrinter(StrPrinter):
             return f"{base}.0**{exponent}"
         if exponent.is_negative or _is_odd_half(exponent):
             return self._quotient([expr])
+        if isinstance(base, Symbol) and exponent.is_Integer:
+            return _product(self._print(base), int(exponent))
         below, above = (self.parenthesize(part, PRECEDENCE["Pow"]) for part in (base, exponent))
         return f"{below}**{above}"
 
@@ -194,6 +196,15 @@ def _is_call(text: str) -> bool:
         return isinstance(ast.parse(text, mode="eval").body, ast.Call | ast.Name)
     except SyntaxError:
         return False
+
+
+def _product(name: str, power: int) -> str:
+    """A whole power by squares, which NumPy computes many times faster than others."""
+    if power <= 2:
+        return f"{name}**{power}"
+    if power % 2:
+        return f"({name} * {_product(name, power - 1)})"
+    return f"({_product(name, power // 2)})**2"
 
 
 def _ordered(expr: Basic) -> list[Basic]:

@@ -17,6 +17,9 @@ from derive.errors import BadOutput
 _SUPPORT = Path(__file__).parent / "support"
 _TITLE = '"""Contact laws as NumPy functions, one module a body; every formula is proven."""\n'
 
+_ALWAYS = ("_arrays", "_types")
+"""Modules of support/ that every package has; the others come with a module that imports them."""
+
 Files = Mapping[str, str]
 """Name of each file of a package, and its text."""
 
@@ -38,9 +41,11 @@ class Difference:
 def package_files(modules: Files) -> dict[str, str]:
     """All files of a package that holds `modules`, texts by module name."""
     files = {"__init__.py": f"{MARK}\n{_TITLE}", "py.typed": ""}
+    made = {f"{name}.py": text for name, text in sorted(modules.items())}
     for path in sorted(_SUPPORT.glob("_[a-z]*.py")):
-        files[path.name] = f"{MARK}\n{path.read_text(encoding='utf-8')}"
-    return files | {f"{name}.py": text for name, text in sorted(modules.items())}
+        if path.stem in _ALWAYS or any(f"from .{path.stem} import" in t for t in made.values()):
+            files[path.name] = f"{MARK}\n{path.read_text(encoding='utf-8')}"
+    return files | made
 
 
 def modules_in(folder: Path) -> dict[str, str]:

@@ -425,9 +425,9 @@ def common_factor_once(program: Program) -> Program:
     common = _common_factor(list(products.values()))
     if any(_roots(v / common) for v in products.values()):
         common = Mul(*(f for f in Mul.make_args(common) if not _roots(f)))
-    if common == 1 or common.is_Symbol:
-        return program
     above, below = fraction(common)
+    if common == 1 or common.is_Symbol or (above == 1 and below.is_Symbol):
+        return program
     symbol, once = (_root, below) if above == 1 else (_scale, common)
     held = symbol if above != 1 else 1 / symbol
     outputs = {n: v / common * held if n in products else v for n, v in program.outputs.items()}

@@ -146,6 +146,10 @@ def _put_back(sheet: FormulaSheet, name: str) -> str | None:
     return "put back symbolically"
 
 
+def _differentiated(of: str, edge: Symbol) -> Route:
+    return _equal_to(lambda sheet: sheet.frame.diff(sheet[of].expr, edge), f"{of} differentiated")
+
+
 _ROUTES: dict[str, Route] = {
     "tilt": _equal_to(_tilt, "I_0 by antiderivatives that differentiate back"),
     "load": _equal_to(_load, "by parts, P = (E*/2) int g'' w ds"),
@@ -158,6 +162,11 @@ _ROUTES: dict[str, Route] = {
         lambda s: 2 / pi * s["load_rate"].expr / sqrt(h) / s["edge_ratio"].expr, _RATE
     ),
     "K_N_right": _equal_to(lambda s: 2 / pi * s["load_rate"].expr / sqrt(h), _RATE),
+    **{
+        f"{of}_by_{edge}": _differentiated(of, edge)
+        for of in ("load", "moment", "tilt")
+        for edge in (a, c)
+    },
     "K_T_left": _stick,
     "K_T_right": _stick,
     "contact_a": _put_back,

@@ -1,0 +1,301 @@
+"""The text of one generated function: signature, docstring with its equations and proofs, code.
+
+In:  a proven FormulaSheet and a Function of the contract.
+Out: Python source, not formatted yet.
+"""
+
+import textwrap
+from collections.abc import Iterable, Iterator
+from itertools import product
+
+import mpmath
+from mpmath import mpf
+from sympy import Expr, Gt, Lt, Symbol
+from sympy.logic.boolalg import Boolean
+
+from derive.codegen.contract import Function
+from derive.codegen.printer import NumPyPrinter
+from derive.codegen.program import LEAST, MOST, TINY, Program, fmax
+from derive.codegen.rewrite import prove_equal, stable_program
+from derive.errors import NotProven
+from derive.notation import text_of
+from derive.proof.points import Point, contacts, holds, loads, numeric
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, h, x
+from derive.units import Dimension, dimension_of, parse_unit
+
+LINE = 100
+
+_width = Symbol("h")
+"""Contact width by its name, where code is checked for it."""
+
+
+def inside_quotes(text: str) -> str:
+    """`text` as it stands between triple quotes, which it cannot close."""
+    return text.replace("\\", "\\\\").replace('"""', r"\"\"\"")
+
+
+class FunctionText:
+    """The text of one function of one body."""
+
+    width = LINE - 4
+
+    def __init__(self, sheet: FormulaSheet, function: Function, source: str) -> None:
+        self.sheet, self.function, self.source = sheet, function, source
+        self.keywords = function.keywords(sheet)
+        self.outputs = self._expressions()
+        self.conditions = self._conditions()
+        self.example = _example(sheet, self.conditions)
+        self.program = self._made()
+        self._demand_equal()
+
+    def _expressions(self) -> dict[str, Expr]:
+        return self.function.outputs(self.sheet)
+
+    def _conditions(self) -> tuple[Boolean, ...]:
+        return self.function.conditions(self.sheet)
+
+    def _made(self) -> Program:
+        return stable_program(self.sheet, self.outputs, self.example)
+
+    def _demand_equal(self) -> None:
+        source = {name: self.sheet.frame.flat(expr) for name, expr in self.outputs.items()}
+        proof = prove_equal(self.program, source, self._points())
+        if not proof.holds:
+            raise NotProven(f"{self.function.name} of {self.sheet.geometry.name!r}: {proof}")
+
+    def _points(self) -> Iterator[Point]:
+        if P not in self.function.arguments:
+            yield from contacts(self.sheet)
+        else:
+            first = next(s for _, s in self.function.fields if isinstance(s, str))
+            yield from loads(self.sheet, self.sheet[first])
+
+    @property
+    def text(self) -> str:
+        """The whole function."""
+        return "\n".join(
+            [
+                *self._decorators,
+                self._signature,
+                textwrap.indent(self._docstring, " " * 4),
+                *self._code,
+            ]
+        )
+
+    @property
+    def _decorators(self) -> Iterator[str]:
+        yield "@elementwise"
+
+    @property
+    def _signature(self) -> str:
+        defaults = dict(self.function.defaults)
+        arguments = [
+            f"{s}: Array" + (f" = {defaults[s]}" if s in defaults else "")
+            for s in self.function.arguments
+        ]
+        if self.keywords:
+            arguments += ["*", *(f"{s}: Array" for s in self.keywords)]
+        return (
+            f"def {self.function.name}({', '.join(arguments)}) -> {self.function.kind or 'Array'}:"
+        )
+
+    # ------------------------------------------------------------------ code
+
+    @property
+    def _code(self) -> Iterator[str]:
+        arguments = {*self.function.arguments}
+        varying = {x} if x in arguments else arguments
+        for step in self.program.steps:
+            if step.expr.free_symbols & varying:
+                varying.add(step.symbol)
+        printer = NumPyPrinter(varying)
+        units = self._units()
+        for step in self.program.steps:
+            note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
+            yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
+        values = {name: printer.doprint(expr) for name, expr in self.program.outputs.items()}
+        values = {name: v + ".copy()" * self._is_held(name) for name, v in values.items()}
+        if self.function.kind == "Contact":
+            yield f"    a = {values['a']}"
+            yield f"    c = {values['c']}"
+            values |= {"a": "a", "c": "c"}
+        yield from self._ending(values)
+
+    def _ending(self, values: dict[str, str]) -> Iterator[str]:
+        """Where the state exists, and the result that is NaN elsewhere."""
+        printer = NumPyPrinter()
+        if "h" not in (str(step.symbol) for step in self.program.steps):
+            yield "    h = a + c  # contact width [m]"
+        checks = [printer.doprint(condition) for condition in self._checked]
+        if any(step.expr.has(fmax) for step in self.program.steps):
+            checks.append("x == x")  # fmax would hide that it is not a number
+        yield f"    exists = {' & '.join(f'({check})' for check in checks)}"
+        yield f"    return {self._returned(values)}"
+
+    def _returned(self, values: dict[str, str]) -> str:
+        found = f"only_where(exists, {', '.join(values.values())})"
+        return f"{self.function.kind}(*{found})" if self.function.kind else found
+
+    def _is_held(self, name: str) -> bool:
+        """Whether an argument or an earlier field of the result is the same array."""
+        expr, earlier = self.program.outputs[name], [*self.program.outputs]
+        others = [self.program.outputs[n] for n in earlier[: earlier.index(name)]]
+        return expr in self.function.arguments or (expr.is_Symbol and expr in others)
+
+    @property
+    def _checked(self) -> list[Boolean]:
+        """The conditions that the code checks; `elementwise` checks the constants.
+
+        Lengths end where their products would leave float64; a contact that is returned meets the
+        conditions of one that is given.
+        """
+        positive = {Gt(symbol, 0, evaluate=False) for symbol in self.keywords}
+        found = [cond for cond in self.conditions if cond not in positive]
+        if self.function.kind == "Contact":
+            found += self.sheet["tilt"].conditions
+        least = {cond: Gt(cond.lhs, LEAST) for cond in (a > 0, c > 0, h > 0)}
+        checks = [least.get(cond, cond) for cond in _without_width(found)]
+        return [cond.xreplace({h: _width}) for cond in [*checks, Lt(h, MOST)]]
+
+    def _units(self) -> dict[Symbol, str]:
+        known: dict[Symbol, Dimension] = {**self.sheet.dimensions, TINY: parse_unit("m")}
+        units = {}
+        for step in self.program.steps:
+            found = dimension_of(step.expr, known) or Dimension()
+            known[step.symbol] = found
+            units[step.symbol] = "-" if str(found) == "1" else str(found)
+        return units
+
+    # ------------------------------------------------------------------ docstring
+
+    @property
+    def _docstring(self) -> str:
+        quantities = self.sheet.geometry.quantities
+        given = [quantities[str(s)] for s in (*self.function.arguments, *self.keywords)]
+        width = max(len(q.name) for q in given)
+        lines = [self.function.summary, ""]
+        for equation in self._equations:
+            lines += textwrap.wrap(
+                equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
+            )
+        lines += ["", "Arguments broadcast; results are float64 of the broadcast shape."]
+        for q in given:
+            lines += textwrap.wrap(
+                f"{q.name:{width}}  {q.meaning} [{q.unit}]",
+                LINE - 4,
+                initial_indent="    ",
+                subsequent_indent=" " * (width + 6),
+            )
+        lines += ["", *textwrap.wrap(f"Returns {self._returns}.", LINE - 4)]
+        lines += textwrap.wrap(f"NaN unless {self._existence}.", LINE - 4)
+        lines += ["", *self._proofs, "", *self._doctest]
+        return f'"""{inside_quotes(chr(10).join(lines))}\n"""'
+
+    @property
+    def _sources(self) -> list[str]:
+        return [source for _, source in self.function.fields if isinstance(source, str)]
+
+    @property
+    def _equations(self) -> Iterator[str]:
+        held: set[Symbol] = set()
+        for name in self._sources:
+            formula, shown = self.sheet[name], self.sheet.shown(name)
+            held |= shown.free_symbols
+            yield f"{formula.symbol} = {text_of(shown)}"
+        for symbol, definition in self.sheet.defined_in(*self._sources).items():
+            yield f"{symbol} = {text_of(definition)}"
+        if any(str(symbol) == "e" for symbol in held):
+            yield "e = M/P"
+
+    @property
+    def _returns(self) -> str:
+        fields = []
+        for field, source in self.function.fields:
+            if isinstance(source, str):
+                fields.append(f"{field or self.sheet[source].symbol} [{self.sheet[source].unit}]")
+            else:
+                fields.append(f"{field} as given")
+        return f"{self.function.kind}({', '.join(fields)})" if self.function.kind else fields[0]
+
+    @property
+    def _existence(self) -> str:
+        needed = " and ".join(map(str, _without_width(self.conditions)))
+        return f"{needed}; nor where lengths leave 1e-75 to 1e75 m"
+
+    @property
+    def _proofs(self) -> Iterator[str]:
+        for name in self._sources:
+            yield from textwrap.wrap(
+                f"{self.sheet[name].symbol} {self.sheet[name].proof}.",
+                LINE - 4,
+                subsequent_indent="    ",
+            )
+        yield f"Derived from {self.source}."
+
+    @property
+    def _doctest(self) -> Iterator[str]:
+        call = ", ".join(
+            [_number(self.example[s]) for s in self.function.arguments]
+            + [f"{s}={_number(self.example[s])}" for s in self.keywords]
+        )
+        values = [
+            mpmath.nstr(numeric(self.sheet.frame.flat(expr))(self.example), 17)
+            for expr in self.outputs.values()
+        ]
+        shown = [f"{float(value):.6g}" for value in values]
+        if self.function.kind:
+            yield f'>>> [f"{{v:.6g}}" for v in {self.function.name}({call})]'
+            yield str(shown)
+        else:
+            yield f'>>> f"{{{self.function.name}({call}):.6g}}"'
+            yield repr(shown[0])
+
+
+def _without_width(conditions: Iterable[Boolean]) -> list[Boolean]:
+    """The conditions without h > 0, where a > 0 and c > 0 already say it."""
+    held = list(conditions)
+    spanning = {a > 0, c > 0} <= {*held}
+    return [cond for cond in held if not (spanning and cond == (h > 0))]
+
+
+def _noted(line: str, note: str) -> Iterator[str]:
+    """A line with its note behind it, or above it where it would be too long."""
+    if len(line + note) <= LINE:
+        yield line + note
+    else:
+        yield "    " + note.strip()
+        yield line
+
+
+def _number(value: mpf) -> str:
+    return repr(float(value))
+
+
+def _off_all_kinks(sheet: FormulaSheet, point: Point) -> bool:
+    """Whether no kink lies at x or at an edge, where some formulas have no value."""
+    places = [numeric(kink.position)(point) for kink in sheet.geometry.slope.kinks]
+    return not {*places} & {point[x], -point[a], point[c]}
+
+
+def _example(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
+    """Plain numbers that meet the function's assumptions, for its docstring."""
+    parameters = {
+        q.symbol: mpf("0.125") if q.unit == "rad" else mpf(1) for q in sheet.geometry.parameters
+    }
+    for size, lean in product((1, 2, 4, 8), (1, -1)):
+        point: Point = {
+            **parameters,
+            E_star: mpf(1),
+            x: mpf("0.5"),
+            a: mpf("1.5") * size,
+            c: mpf(1) * size,
+            P: mpf(size),
+            M: mpf("0.25") * size * lean,
+            alpha: mpf("0.03125") * lean,
+            dQ: mpf("0.25"),
+            dsigma: mpf("0.125"),
+        }
+        if holds(conditions, point) and _off_all_kinks(sheet, point):
+            return point
+    raise NotProven(f"no example found for {sheet.geometry.name!r}")
