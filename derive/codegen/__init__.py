@@ -4,6 +4,8 @@ program   named steps, then outputs: what a function computes, before it is text
 rewrite   rules that keep digits in floating point; the result is compared with its source
 printer   SymPy -> NumPy source
 contract  which functions a module has
+function  the text of one function
+solved    the text of the inverses that have no closed formula
 module    the one template of a generated module
 publish   compares a whole package with what is on disk, or replaces it
 support/  what generated modules need besides NumPy; copied beside them
