@@ -18,6 +18,7 @@ from tests.derive.bodies import BODIES, VALUES, close, evaluated, mirrored, shee
 
 FORWARD = ("tilt", "load", "moment", "pressure", "edge_ratio", "load_rate", "punch")
 EDGES = ("K_N_left", "K_N_right", "L_N_left", "L_N_right")
+RATES = tuple(f"{of}_by_{edge}" for edge in "ac" for of in ("load", "moment", "tilt"))
 STICK = ("full_stick_change", "K_T_left", "K_T_right")
 
 R, C, phi, psi, b = (Symbol(name, positive=True) for name in ("R", "C", "phi", "psi", "b"))
@@ -94,11 +95,11 @@ def test_the_symmetric_quartic() -> None:
 
 
 def test_a_sheet_lists_its_formulas_in_the_order_of_derivation() -> None:
-    assert tuple(sheet("quartic")) == (*FORWARD, *EDGES, *STICK)
+    assert tuple(sheet("quartic")) == (*FORWARD, *EDGES, *RATES, *STICK)
     inverses = ["contact_a", "contact_c", "contact_alpha"]
     inverses += ["contact_at_tilt_a", "contact_at_tilt_c", "contact_at_tilt_M"]
     for name in ("hertz", "wedge"):
-        assert list(sheet(name)) == [*FORWARD, *EDGES, *STICK, *inverses]
+        assert list(sheet(name)) == [*FORWARD, *EDGES, *RATES, *STICK, *inverses]
 
 
 @pytest.mark.parametrize("name", BODIES)
