@@ -16,7 +16,7 @@ import numpy as np
 Function = TypeVar("Function", bound=Callable[..., Any])
 Shape = tuple[int, ...]
 
-BLOCK = 16_384
+BLOCK = 32_768
 """Elements evaluated at once: a few arrays of this length stay in a core's own cache."""
 
 TINY = 5e-324
