@@ -1,4 +1,5 @@
-# make        derives and proves every geometry, regenerates generated/, ends with the table
+# make        derives and proves every geometry, regenerates generated/, ends with the table;
+#             nothing is taken from an earlier run, so that every proof and time is of this one
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that take no long
 # make bench  speed, as ratios measured in one run
@@ -13,7 +14,7 @@ STAMP  := $(VENV)/.installed
 .PHONY: all test quick bench accuracy picture clean
 
 all: $(STAMP)
-	$(BIN)/derive generate
+	$(BIN)/derive generate --fresh
 
 test: $(STAMP)
 	$(BIN)/ruff check .

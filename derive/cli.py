@@ -18,7 +18,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from derive.errors import NotProven, UserError
 
 if TYPE_CHECKING:
-    from derive.pipeline import Body, Order
+    from derive.body import Body
+    from derive.pipeline import Order
 
 _WIDE = 10_000
 """Columns where the output is no terminal, so that nothing is broken that a program reads."""
@@ -123,13 +124,26 @@ def new(
 @click.argument("sources", nargs=-1, metavar="[NAME|FILE]...")
 @click.option("--out", type=click.Path(path_type=Path), help="Write an importable package here.")
 @click.option("--check", is_flag=True, help="Write nothing; fail if anything would change.")
-def generate(sources: tuple[str, ...], out: Path | None, check: bool) -> None:
-    """Derive, prove and write NumPy modules: the whole library, or the geometries named."""
+@click.option("--fresh", is_flag=True, help="Derive everything again; --check always does.")
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Bodies derived at once; as many as there are cores if not given.",
+)
+def generate(
+    sources: tuple[str, ...], out: Path | None, check: bool, fresh: bool, jobs: int | None
+) -> None:
+    """Derive, prove and write NumPy modules: the whole library, or the geometries named.
+
+    A body whose geometry file and program are as in an earlier run is kept from there, in the
+    directory DERIVE_CACHE or the user's cache; if DERIVE_CACHE is empty, nothing is kept.
+    """
     from derive import view
     from derive.pipeline import Order
 
     order = Order(sources, out.resolve() if out else None)
-    bodies = _built(order)
+    bodies = _built(order, jobs, fresh or check)
     if check:
         _report_drift(order, bodies)
         return
@@ -138,12 +152,13 @@ def generate(sources: tuple[str, ...], out: Path | None, check: bool) -> None:
     _print(f"{'Wrote' if changed else 'Nothing to change in'} {_shown(order.target)}")
 
 
-def _built(order: "Order") -> "list[Body]":
+def _built(order: "Order", jobs: int | None, fresh: bool) -> "list[Body]":
     """Every body of an order, under a progress bar."""
-    from derive.pipeline import STAGES, build
+    from derive.parallel import cores
+    from derive.pipeline import STAGES, build_all
 
-    with _progress(len(order.names) * len(STAGES)) as step:
-        return [build(name, step) for name in order.names]
+    with _progress(len(order.names), STAGES) as step:
+        return build_all(order.names, step, jobs or cores(), fresh)
 
 
 def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:
@@ -160,18 +175,25 @@ def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:
 
 
 @contextmanager
-def _progress(total: int) -> Iterator[Callable[[str, str], None]]:
-    """A bar that is told each body and the stage that it enters."""
+def _progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str], None]]:
+    """A bar that is told each body and the stage that it enters; no stage means that it is done."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
     console = _console(stderr=True)
-    with Progress(*columns, TimeElapsedColumn(), console=console, transient=True) as bar:
-        task = bar.add_task("", total=total)
-        entered = 0
+    with Progress(
+        *columns,
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+    ) as bar:
+        task = bar.add_task("", total=bodies * len(stages))
+        passed: dict[str, int] = {}
 
         def step(body: str, stage: str) -> None:
-            nonlocal entered
-            bar.update(task, description=f"{body}: {stage}", completed=entered)
-            entered += 1
+            passed[body] = stages.index(stage) if stage in stages else len(stages)
+            others = sum(n < len(stages) for name, n in passed.items() if name != body)
+            told = f"{body}: {stage}" + (f", {others} more at work" if others else "")
+            bar.update(task, description=told, completed=sum(passed.values()))
 
         yield step
 

@@ -4,7 +4,7 @@ Every message says what was given, what is allowed and what to do.  The command 
 message alone and leaves with status 2.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 
 class NotProven(Exception):
@@ -17,10 +17,38 @@ class UserError(Exception):
     def __str__(self) -> str:
         return self.message
 
+    def __reduce__(self) -> tuple[type, tuple[object, ...]]:
+        """Its facts, so that another process can be told of the mistake."""
+        return type(self), tuple(_portable(getattr(self, f.name)) for f in fields(self))  # type: ignore[arg-type]
+
     @property
     def message(self) -> str:
         """One line: what was given, what is allowed, what to do."""
         raise AssertionError("each mistake writes its own message")
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """What another process could not rebuild, by how it is shown."""
+
+    as_text: str
+    as_repr: str
+
+    def __str__(self) -> str:
+        return self.as_text
+
+    def __repr__(self) -> str:
+        return self.as_repr
+
+
+def _portable(fact: object) -> object:
+    """Texts and numbers as they are, in tuples, too; of all else what a message shows of it."""
+    if type(fact) is tuple:
+        return tuple(map(_portable, fact))
+    return fact if type(fact) in _PLAIN else _Shown(str(fact), repr(fact))
+
+
+_PLAIN = (str, int, float, bool, type(None), _Shown)
 
 
 @dataclass
@@ -176,6 +204,21 @@ class TwoOfOneName(UserError):
     def message(self) -> str:
         """Which name occurs twice."""
         return f"two geometries are named {self.name!r}, one module each is needed: rename one"
+
+
+@dataclass
+class LostProcess(UserError):
+    """One of several processes that ended before its work was done."""
+
+    jobs: int
+
+    @property
+    def message(self) -> str:
+        """What may have happened, and what to try."""
+        return (
+            f"one of {self.jobs} processes ended before its body was done, as when memory runs "
+            f"out: build fewer at once, as by --jobs {self.jobs // 2}"
+        )
 
 
 @dataclass

@@ -1,11 +1,17 @@
-"""Finds and loads geometry files: those of the library by name, a user's by path."""
+"""Finds and loads geometry files: those of the library by name, a user's by path.
+
+SymPy is imported when a file is loaded, not when it is found.
+"""
 
 import importlib.util
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from derive.errors import BadGeometryFile, UnknownGeometry, UserError
-from derive.geometry import Geometry
+
+if TYPE_CHECKING:
+    from derive.geometry import Geometry
 
 FOLDER = Path(__file__).parent / "geometries"
 
@@ -20,7 +26,7 @@ def is_in_library(name: str) -> bool:
     return name in library()
 
 
-def load_geometry(name_or_path: str | Path) -> Geometry:
+def load_geometry(name_or_path: str | Path) -> "Geometry":
     """The geometry of a library name or of a file's path.
 
     Raises UnknownGeometry or BadGeometryFile; what is wrong with g(x) itself is raised by Geometry.
@@ -44,7 +50,9 @@ def _exists(path: Path) -> bool:
         return False
 
 
-def _execute(path: Path) -> Geometry:
+def _execute(path: Path) -> "Geometry":
+    from derive.geometry import Geometry
+
     if not (_exists(path) and path.is_file()):
         raise BadGeometryFile(str(path), "there is no such file")
     spec = importlib.util.spec_from_file_location(f"_geometry_{path.stem}", path)

@@ -10,16 +10,21 @@
     publish        files, a directory         the directory replaced whole, or
     differences    files, a directory         what would change
 
-What is not proven stops the build at module_text: nothing is written.
+    build          a name or a file           Body: the first four stages, as plain data
+    build_all      names and files            a Body of each, several built at once (parallel.py)
+                                              or kept from an earlier run (cache.py)
+
+What is not proven stops the build at module_text: nothing is written.  `build` imports its stages
+when it is called: what is kept does without them.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from derive.codegen.module import module_text
-from derive.codegen.printer import CannotPrint
+from derive.body import Body, by_form
+from derive.cache import key_of, program_as_loaded, program_digest, users_cache
 from derive.codegen.publish import (
     Difference,
     demand_replaceable,
@@ -28,40 +33,32 @@ from derive.codegen.publish import (
     package_files,
     publish,
 )
-from derive.derivation import derive_sheet
 from derive.errors import BadProfile, NeedsOutput, TwoOfOneName
-from derive.library import is_in_library, library, load_geometry
-from derive.proof.prove import prove_sheet
-from derive.sheet import FormulaSheet
+from derive.library import FOLDER, is_in_library, library, load_geometry
+from derive.parallel import Report, in_processes
 
 GENERATED = Path(__file__).parent.parent / "generated"
 """The package that is committed."""
 
 STAGES = ("reading g(x)", "deriving", "proving", "generating")
-
-Report = Callable[[str, str], None]
-"""Told the body and the stage that it enters."""
-
-
-@dataclass(frozen=True)
-class Body:
-    """One body at the end of the pipeline."""
-
-    sheet: FormulaSheet
-    text: str
-    seconds: float
-
-    @property
-    def name(self) -> str:
-        """The body's name, and its module's."""
-        return self.sheet.geometry.name
+DONE, KEPT = "done", "kept"
+"""What a report is told of a body behind its last stage, or of one that enters none."""
 
 
-def build(source: str, report: Report = lambda body, stage: None) -> Body:
+def _silent(body: str, stage: str) -> None:
+    """A report that tells nobody."""
+
+
+def build(source: str, report: Report = _silent) -> Body:
     """One body, from its name or file to the text of its module.
 
     Raises UserError for what is wrong with the source, NotProven for a proof that falls short.
     """
+    from derive.codegen.module import module_text
+    from derive.codegen.printer import CannotPrint
+    from derive.derivation import derive_sheet
+    from derive.proof.prove import prove_sheet
+
     began = perf_counter()
     report(source, STAGES[0])
     geometry = load_geometry(source)
@@ -75,7 +72,57 @@ def build(source: str, report: Report = lambda body, stage: None) -> Body:
     except CannotPrint as error:
         remedy = "write it with numbers and functions that NumPy has"
         raise BadProfile(geometry.name, f"cannot become code ({error})", remedy) from error
-    return Body(sheet, text, perf_counter() - began)
+    closed, numerical = by_form(sheet)
+    verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
+    return Body(geometry.name, text, perf_counter() - began, closed, numerical, verdicts)
+
+
+def build_all(
+    sources: Sequence[str], report: Report = _silent, jobs: int = 1, fresh: bool = False
+) -> list[Body]:
+    """A body of every source, in their order; `jobs` processes build what is not kept.
+
+    fresh: build all, and read nothing of what is kept.
+
+    Raises what `build` raises for the first source that fails, and ends the others; LostProcess.
+    """
+    keys = _keys(sources)
+    bodies = {} if fresh else _kept(keys)
+    for source in bodies:
+        report(source, KEPT)
+    missing = [(source, key) for source, key in keys.items() if source not in bodies]
+    made = in_processes(_build_and_keep, missing, report, jobs)
+    bodies |= {source: body for (source, _), body in zip(missing, made, strict=True)}
+    return [bodies[source] for source in sources]
+
+
+def _keys(sources: Iterable[str]) -> dict[str, str | None]:
+    """Every source once, with the key of its body; None if that is not kept."""
+    if users_cache().folder is None:
+        return dict.fromkeys(sources)
+    program = program_as_loaded()
+    return {source: key_of(_path(source), _origin(source), program) for source in sources}
+
+
+def _kept(keys: Mapping[str, str | None]) -> dict[str, Body]:
+    """Bodies of an earlier run, by source."""
+    found = {source: users_cache().get(key) for source, key in keys.items()}
+    return {source: body for source, body in found.items() if body}
+
+
+def _build_and_keep(asked: tuple[str, str | None], report: Report) -> Body:
+    """One body; kept under its key, unless a file that it follows from has changed meanwhile."""
+    source, key = asked
+    body = build(source, report)
+    if key is not None and key == key_of(_path(source), _origin(source), program_digest()):
+        users_cache().put(key, body)
+    report(source, DONE)
+    return body
+
+
+def _path(source: str) -> Path:
+    """The file that holds g(x)."""
+    return FOLDER / f"{source}.py" if is_in_library(source) else Path(source)
 
 
 def _origin(source: str) -> str:

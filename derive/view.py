@@ -2,31 +2,37 @@
 
 In:  sheets, bodies, differences.
 Out: renderables of rich.
+
+SymPy is imported by what shows formulas, not by what shows bodies.
 """
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from derive.codegen.publish import Difference
-from derive.notation import text_of
-from derive.pipeline import Body
+from derive.body import Body, by_form
 from derive.proof.verdict import Verdict
-from derive.sheet import FormulaSheet
+
+if TYPE_CHECKING:
+    from derive.codegen.publish import Difference
+    from derive.sheet import FormulaSheet
 
 
-def listing(sheets: Iterable[FormulaSheet]) -> Table:
+def listing(sheets: "Iterable[FormulaSheet]") -> Table:
     """Every geometry, its g(x), what is closed form and what is numerical."""
+    from derive.notation import text_of
+
     table = Table("geometry", "g(x)", "closed form", "numerical", "body")
     for sheet in sheets:
-        closed, numerical = _by_form(sheet)
+        closed, numerical = by_form(sheet)
         table.add_row(
             Text(sheet.geometry.name, style="bold cyan"),
             text_of(sheet.geometry.g),
-            closed,
-            numerical,
+            _row(closed),
+            _row(numerical),
             sheet.geometry.title,
         )
     return table
@@ -38,44 +44,33 @@ def summary(bodies: Iterable[Body]) -> Table:
         "geometry", "closed form", "numerical", "proved", "agrees to 30 digits or more", "time"
     )
     for body in bodies:
-        closed, numerical = _by_form(body.sheet)
         table.add_row(
             Text(body.name, style="bold cyan"),
-            closed,
-            numerical,
-            Text(_proven(body.sheet, Verdict.PROVED), style="green"),
-            Text(_proven(body.sheet, Verdict.NUMERICAL), style="yellow"),
-            f"{body.seconds:.1f} s",
+            _row(body.closed),
+            _row(body.numerical),
+            Text(_row(map(_stem, body.formulas(Verdict.PROVED))), style="green"),
+            Text(_row(map(_stem, body.formulas(Verdict.NUMERICAL))), style="yellow"),
+            "kept" if body.kept else f"{body.seconds:.1f} s",
         )
     return table
 
 
-def _by_form(sheet: FormulaSheet) -> tuple[str, str]:
-    """Which parts of a body's contact law are closed formulas, and which are not."""
-    parts = {
-        "forward": "load" in sheet,
-        "from (P, M)": "contact_a" in sheet,
-        "from (P, alpha)": "contact_at_tilt_a" in sheet,
-    }
-    closed = [words for words, there in parts.items() if there]
-    numerical = [words for words, there in parts.items() if not there]
-    return ", ".join(closed) or "-", ", ".join(numerical) or "-"
-
-
-def _proven(sheet: FormulaSheet, verdict: Verdict) -> str:
-    """Names of the formulas with this verdict, both edges as one."""
-    names = [name for name, f in sheet.items() if f.proof and f.proof.verdict == verdict]
-    return ", ".join(dict.fromkeys(_stem(name) for name in names)) or "-"
+def _row(words: Iterable[str]) -> str:
+    """Every word once, in a row."""
+    return ", ".join(dict.fromkeys(words)) or "-"
 
 
 def _stem(name: str) -> str:
+    """A formula's name, of both edges the same."""
     for side in ("_left", "_right"):
         name = name.removesuffix(side)
     return name
 
 
-def formulas(sheet: FormulaSheet) -> Group:
+def formulas(sheet: "FormulaSheet") -> Group:
     """A formula sheet for a terminal."""
+    from derive.notation import text_of
+
     table = Table.grid(padding=(0, 2, 1, 0))
     for name, formula in sheet.items():
         table.add_row(
@@ -92,7 +87,7 @@ def formulas(sheet: FormulaSheet) -> Group:
     return Group(Text(sheet.title, style="bold"), "", table)
 
 
-def drift(found: Iterable[Difference]) -> Group:
+def drift(found: "Iterable[Difference]") -> Group:
     """Which files differ from what is generated, and how."""
     parts: list[RenderableType] = []
     for difference in found:

@@ -2,24 +2,32 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
+import derive.cache
+import derive.cli
+import derive.parallel
 import derive.pipeline
 import derive.proof.prove
+from derive.body import Body, by_form
+from derive.cache import VARIABLE, key_of, program_digest, users_cache
 from derive.cli import main
 from derive.codegen.module import MARK
 from derive.derivation import derive_sheet
-from derive.library import library, load_geometry
-from derive.pipeline import GENERATED, Body
+from derive.library import FOLDER, library, load_geometry
+from derive.pipeline import DONE, GENERATED, KEPT, STAGES
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
+from derive.view import summary
 from tests.derive.bodies import sheet
 
 ROOT = Path(__file__).parents[1]
@@ -131,6 +139,10 @@ MISUSED = [
     (("list", "hertz"), "hertz"),
     (("generate", "--out"), "--out"),
     (("generate", "--check=yes"), "--check"),
+    (("generate", "--fresh=yes"), "--fresh"),
+    (("generate", "--jobs"), "--jobs"),
+    (("generate", "--jobs", "0"), "--jobs"),
+    (("generate", "--jobs", "many"), "--jobs"),
 ]
 
 
@@ -180,21 +192,34 @@ def committed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Monk
 @pytest.fixture
 def unproven(monkeypatch: pytest.MonkeyPatch) -> None:
     """The pipeline without the seconds that its proofs take."""
-    monkeypatch.setattr(derive.pipeline, "prove_sheet", assumed)
+    monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
+
+
+def body_of(sheet: FormulaSheet, text: str) -> Body:
+    """A body without the seconds that its text takes."""
+    verdicts = tuple((name, Verdict.PROVED) for name in sheet)
+    return Body(sheet.geometry.name, text, 0.0, *by_form(sheet), verdicts)
 
 
 @pytest.fixture
-def built(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The pipeline with modules of the library as they are committed."""
+def built(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The pipeline with modules of the library as they are committed; what it was asked to build.
+
+    In one process: another one would build in earnest.
+    """
     texts = {name: (GENERATED / f"{name}.py").read_text() for name in library()}
+    asked = []
 
     def build(source: str, report: Callable[[str, str], None]) -> Body:
-        for stage in derive.pipeline.STAGES:
+        asked.append(source)
+        for stage in STAGES:
             report(source, stage)
-        body = assumed(derive_sheet(load_geometry(source)))
-        return Body(body, texts.get(source, f"{MARK}\n# {body.geometry.g}\n"), 0.0)
+        made = derive_sheet(load_geometry(source))
+        return body_of(made, texts.get(source, f"{MARK}\n# {made.geometry.g}\n"))
 
     monkeypatch.setattr(derive.pipeline, "build", build)
+    monkeypatch.setattr(derive.parallel, "cores", lambda: 1)
+    return asked
 
 
 def run(*arguments: str) -> Result:
@@ -395,7 +420,7 @@ def without_proof(of: FormulaSheet) -> FormulaSheet:
 
 
 def test_what_is_not_proven_is_not_generated(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derive.pipeline, "prove_sheet", without_proof)
+    monkeypatch.setattr(derive.proof.prove, "prove_sheet", without_proof)
     result = run("generate", "hertz", "--out", "new")
     assert result.exit_code == 1
     assert isinstance(result.exception, SystemExit)
@@ -594,3 +619,283 @@ class TestCheck:
         assert result.exit_code == 1
         assert "hertz.py" in result.stdout
         assert contents(here) == {}
+
+
+# ------------------------------------------------------------------ what an earlier run built
+
+
+def keep(name: str, text: str) -> None:
+    """Put a text where the next run finds it for a body of the library."""
+    key = key_of(FOLDER / f"{name}.py", f"derive/geometries/{name}.py", program_digest())
+    assert key is not None
+    users_cache().put(key, body_of(sheet(name), text))
+
+
+def keep_the_library() -> None:
+    for name in library():
+        keep(name, (GENERATED / f"{name}.py").read_text())
+
+
+WRONG = f"{MARK}\nwrong = 1\n"
+
+
+class TestKept:
+    """`derive generate` a second time."""
+
+    def test_nothing_is_built_again(self, committed: Path, built: list[str]) -> None:
+        assert "kept" not in done("generate")
+        assert built == [*library()]
+        printed = done("generate")
+        assert built == [*library()]
+        assert printed.count("kept") == len(library())
+        assert "Nothing to change" in printed
+
+    def test_what_was_lost_is_written_again(self, committed: Path, built: list[str]) -> None:
+        before = contents(committed)
+        done("generate")
+        shutil.rmtree(committed)
+        assert "Wrote" in done("generate")
+        assert contents(committed) == before
+        assert built == [*library()]
+
+    def test_only_what_changed_is_built_again(self, here: Path, built: list[str]) -> None:
+        written(here)
+        sources = ("hertz", "cylinder.py", "wedge")
+        done("generate", *sources, "--out", "new")
+        (here / "cylinder.py").write_text(FILES["twin.py"])
+        printed = done("generate", *sources, "--out", "new")
+        assert built == [*sources, "cylinder.py"]
+        assert printed.count("kept") == 2
+        assert "3*radius" in (here / "new" / "cylinder.py").read_text()
+
+    def test_fresh_builds_everything(self, committed: Path, built: list[str]) -> None:
+        keep("hertz", WRONG)
+        assert "kept" not in done("generate", "--fresh")
+        assert built == [*library()]
+        assert "kept" in done("generate")  # what was built is kept in its place
+        assert run("generate", "--check").exit_code == 0
+
+    def test_without_a_cache_everything_is_built(
+        self, committed: Path, built: list[str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setenv(VARIABLE, "")
+        done("generate")
+        done("generate")
+        assert built == [*library()] * 2
+
+    @pytest.mark.parametrize("name", ["file", "file/below"])
+    def test_a_cache_that_cannot_be_written_is_no_error(
+        self, here: Path, built: list[str], monkeypatch: pytest.MonkeyPatch, name: str
+    ) -> None:
+        (here / "file").write_text("mine")
+        monkeypatch.setenv(VARIABLE, str(here / name))
+        done("generate", "hertz", "--out", "new")
+        done("generate", "hertz", "--out", "new")
+        assert built == ["hertz"] * 2
+
+    def test_a_file_that_imports_another_is_always_built(
+        self, here: Path, built: list[str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.syspath_prepend(here)
+        (here / "shared_by_bodies.py").write_text("factor = 2\n")
+        text = CYLINDER.replace("(2 *", "(factor *") + "\n"
+        (here / "own.py").write_text(f"from shared_by_bodies import factor\n{text}")
+        done("generate", "own.py", "--out", "new")
+        monkeypatch.delitem(sys.modules, "shared_by_bodies")
+        (here / "shared_by_bodies.py").write_text("factor = 12\n")
+        done("generate", "own.py", "--out", "new")
+        assert built == ["own.py"] * 2
+        assert "12*radius" in (here / "new" / "cylinder.py").read_text()
+
+    def test_bad_input_is_told_again(self, here: Path, built: list[str]) -> None:
+        written(here)
+        first = run("generate", "concave.py", "--out", "new")
+        again = run("generate", "concave.py", "--out", "new")
+        assert (first.exit_code, again.exit_code) == (2, 2)
+        assert first.stderr == again.stderr
+
+    def test_a_name_that_is_taken_by_what_is_kept_is_refused(
+        self, here: Path, built: list[str]
+    ) -> None:
+        written(here)
+        done("generate", "cylinder.py", "--out", "new")
+        done("generate", "twin.py", "--out", "new")
+        result = run("generate", "cylinder.py", "twin.py", "--out", "new")
+        assert result.exit_code == 2
+        assert "two geometries are named 'cylinder'" in result.stderr
+
+
+class TestPoisoned:
+    """A cache that holds what was never built: `generate` cannot know, `--check` does not ask."""
+
+    def test_generate_takes_it(self, committed: Path, built: list[str]) -> None:
+        keep("hertz", WRONG)
+        done("generate")
+        assert (committed / "hertz.py").read_text() == WRONG
+
+    def test_check_reports_what_came_of_it(self, committed: Path, built: list[str]) -> None:
+        keep("hertz", WRONG)
+        done("generate")
+        result = run("generate", "--check")
+        assert result.exit_code == 1
+        assert "hertz.py: changed" in result.stdout
+        assert "-wrong = 1" in result.stdout
+        assert "wedge.py" not in result.stdout
+
+    def test_check_passes_on_what_is_right(self, committed: Path, built: list[str]) -> None:
+        keep("hertz", WRONG)
+        assert "is as generated" in done("generate", "--check")
+        assert built == [*library()]
+
+    def test_generate_is_right_after_a_check(self, committed: Path, built: list[str]) -> None:
+        """As the check says: update with derive generate."""
+        before = contents(committed)
+        keep("hertz", WRONG)
+        done("generate")
+        run("generate", "--check")
+        done("generate")
+        assert contents(committed) == before
+
+    def test_check_never_opens_it(
+        self, committed: Path, built: list[str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        def refuse(*_: object) -> None:
+            raise AssertionError("the cache was read")
+
+        monkeypatch.setattr(derive.cache.Cache, "get", refuse)
+        assert "is as generated" in done("generate", "--check")
+
+
+def test_nothing_changed_takes_less_than_three_seconds(tmp_path: Path) -> None:
+    """The real command with the whole library."""
+    keep_the_library()
+    assert real("generate", "--out", "package", cwd=tmp_path).returncode == 0
+    began = time.perf_counter()
+    ended = real("generate", "--out", "package", cwd=tmp_path)
+    seconds = time.perf_counter() - began
+    assert "Nothing to change in package" in ended.stdout
+    assert ended.stdout.count("kept") == len(library())
+    assert seconds < 3
+
+
+def test_the_table_says_what_was_built_when() -> None:
+    fresh = body_of(sheet("hertz"), "")
+    shown = [list(summary([body]).columns[-1].cells) for body in (fresh, replace(fresh, kept=True))]
+    assert shown == [["0.0 s"], ["kept"]]
+
+
+# ------------------------------------------------------------------ several processes
+
+UNPROVEN = """
+import derive.proof.numerical
+from derive.errors import NotProven
+
+def refuse(*_):
+    raise NotProven("tilt of 'cylinder': refused by a test")
+
+derive.proof.numerical.NumericalRoutes.__init__ = refuse
+"""
+WAITS = f"""import os, time
+from pathlib import Path
+Path("waits", str(os.getpid())).touch()
+time.sleep(600)
+{CYLINDER}"""
+
+
+@pytest.mark.parametrize("bad", ["concave.py", "syntax.py", "unit.py", "nowhere.py", "zeta"])
+def test_bad_input_is_told_by_several_processes_as_by_one(here: Path, bad: str) -> None:
+    """The other body is not waited for."""
+    written(here)
+    (here / "waits").mkdir()
+    (here / "waits.py").write_text(WAITS)
+    before = contents(here)
+    one = run("generate", bad, "hertz", "--out", "new", "--jobs", "1")
+    began = time.perf_counter()
+    two = run("generate", "waits.py", bad, "wedge", "--out", "new", "--jobs", "2")
+    assert time.perf_counter() - began < 60
+    assert (one.exit_code, two.exit_code) == (2, 2), two.output
+    assert one.stderr == two.stderr
+    assert len(lines(two.stderr)) == 1
+    assert {k: v for k, v in contents(here).items() if not k.startswith("waits/")} == before
+
+
+def test_what_is_not_proven_in_a_process_is_not_generated(here: Path) -> None:
+    (here / "waits").mkdir()
+    (here / "waits.py").write_text(WAITS)
+    (here / "refused.py").write_text(UNPROVEN + CYLINDER)
+    result = run("generate", "waits.py", "refused.py", "--out", "new", "--jobs", "2")
+    assert result.exit_code == 1
+    assert isinstance(result.exception, SystemExit)
+    assert result.stderr == "Not proven: tilt of 'cylinder': refused by a test\n"
+    assert not (here / "new").exists()
+
+
+def test_a_process_that_is_lost_is_told_in_one_line(here: Path) -> None:
+    (here / "lost.py").write_text("import os\nos._exit(1)\n")
+    (here / "cylinder.py").write_text(CYLINDER)
+    result = run("generate", "lost.py", "cylinder.py", "--out", "new", "--jobs", "2")
+    assert result.exit_code == 2
+    assert "--jobs 1" in result.stderr
+    assert len(lines(result.stderr)) == 1
+    assert not (here / "new").exists()
+
+
+INTERRUPTIBLE = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)  # even where the tests run in background
+from derive.cli import main
+main(["generate", "waits.py", "waits_too.py", "hertz", "--out", "new", "--jobs", "2"])
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="Ctrl-C is sent to a group of processes")
+def test_ctrl_c_ends_every_process_and_writes_nothing(here: Path) -> None:
+    """Both processes are in the middle of their bodies."""
+    (here / "waits").mkdir()
+    for name in ("waits.py", "waits_too.py"):
+        (here / name).write_text(WAITS)
+    before = sorted(p.name for p in here.iterdir())
+    started = subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTIBLE],
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    until = time.monotonic() + 60
+    while len([*(here / "waits").iterdir()]) < 2 and time.monotonic() < until:
+        time.sleep(0.05)
+    os.killpg(started.pid, signal.SIGINT)
+    stdout, stderr = started.communicate(timeout=60)
+    assert started.returncode == 1
+    assert stdout == ""
+    assert stderr.split() == ["Aborted!"]
+    assert sorted(p.name for p in here.iterdir()) == before
+    for pid in (here / "waits").iterdir():
+        with pytest.raises(ProcessLookupError):
+            os.kill(int(pid.name), 0)
+
+
+# ------------------------------------------------------------------ the bar
+
+
+def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[Mapping[str, object]] = []
+    monkeypatch.setattr("rich.progress.Progress.update", lambda bar, task, **now: told.append(now))
+    with derive.cli._progress(3, STAGES) as step:
+        for body, stage in [
+            ("a", KEPT),
+            ("b", STAGES[0]),
+            ("c", STAGES[0]),
+            ("b", STAGES[2]),
+            ("c", DONE),
+            ("b", DONE),
+        ]:
+            step(body, stage)
+    assert [now["completed"] for now in told] == [4, 4, 4, 6, 10, 12]
+    assert [now["description"] for now in told][1:4] == [
+        "b: reading g(x)",
+        "c: reading g(x), 1 more at work",
+        "b: proving, 1 more at work",
+    ]

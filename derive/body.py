@@ -1,0 +1,52 @@
+"""One body at the end of the pipeline, as plain data.
+
+It crosses from process to process and is kept in files, so it holds no expressions.
+"""
+
+from collections.abc import Container
+from dataclasses import dataclass, field
+
+from derive.proof.verdict import Verdict
+
+_PARTS = {
+    "forward": "load",
+    "from (P, M)": "contact_a",
+    "from (P, alpha)": "contact_at_tilt_a",
+}
+"""Parts of a contact law, and the formula that is there if the part is a closed form."""
+
+
+@dataclass(frozen=True)
+class Body:
+    """What was built of one body.
+
+    name       the body's name, and its module's
+    text       the module
+    seconds    from reading g(x) to the text
+    closed     parts of its contact law that are closed formulas
+    numerical  parts that are not
+    verdicts   every formula with what is known of it
+    kept       whether an earlier run built it
+    """
+
+    name: str
+    text: str
+    seconds: float = field(compare=False)
+    closed: tuple[str, ...]
+    numerical: tuple[str, ...]
+    verdicts: tuple[tuple[str, Verdict], ...]
+    kept: bool = field(default=False, compare=False)
+
+    def formulas(self, verdict: Verdict) -> tuple[str, ...]:
+        """Names of the formulas with this verdict."""
+        return tuple(name for name, found in self.verdicts if found == verdict)
+
+
+def by_form(formulas: Container[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Which parts of a contact law are closed formulas, and which are not.
+
+    >>> by_form({"load", "contact_a"})
+    (('forward', 'from (P, M)'), ('from (P, alpha)',))
+    """
+    closed = tuple(part for part, formula in _PARTS.items() if formula in formulas)
+    return closed, tuple(part for part in _PARTS if part not in closed)

@@ -1,0 +1,78 @@
+"""What the tests let other processes do; those find it here by its name."""
+
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from derive.body import Body
+from derive.cache import Cache
+from derive.codegen.printer import CannotPrint
+from derive.errors import BadUnit, NotProven, UnknownGeometry
+from derive.parallel import Report
+
+KEY = "0" * 64
+
+
+def process(item: object, report: Report) -> int:
+    """Who does it."""
+    return os.getpid()
+
+
+def meeting(item: tuple[str, int], report: Report) -> int:
+    """Who does it, when as many processes as said have come to a folder."""
+    folder, expected = Path(item[0]), item[1]
+    (folder / str(os.getpid())).touch()
+    until = time.monotonic() + 60
+    while len([*folder.iterdir()]) < expected and time.monotonic() < until:
+        time.sleep(0.02)
+    return os.getpid()
+
+
+def late(item: tuple[int, float], report: Report) -> int:
+    """The first number, after as many seconds as the second."""
+    number, seconds = item
+    report(str(number), "begun")
+    time.sleep(seconds)
+    report(str(number), "ended")
+    return number
+
+
+class Strange(Exception):
+    """An exception that cannot be made again from its message."""
+
+    def __init__(self, first: int, second: int) -> None:
+        super().__init__(f"{first} and {second}")
+
+
+ERRORS: dict[str, Callable[[], BaseException]] = {
+    "user": lambda: UnknownGeometry(given="sphere", known=("hertz", "wedge")),
+    "object": lambda: BadUnit(lambda: 3, "is no text"),
+    "proof": lambda: NotProven("tilt of 'body': unknown: no point drawn"),
+    "print": lambda: CannotPrint("no NumPy code is known for zeta: zeta(3)"),
+    "strange": lambda: Strange(1, 2),
+    "fault": lambda: AssertionError("a fault of the program"),
+    "end": lambda: EOFError("of a file"),
+}
+
+
+def fails(item: str, report: Report) -> str:
+    """Raises the error of that name, ends its process, waits for ever, or is done."""
+    report(item, "begun")
+    if item in ERRORS:
+        raise ERRORS[item]()
+    if item == "exit":
+        os._exit(3)
+    if item == "wait":
+        time.sleep(600)
+    return item
+
+
+def write_often(item: tuple[str, Body], report: Report) -> int:
+    """Keep a body many times under one key; how often what was then there was whole."""
+    folder, body = item
+    cache, whole = Cache(Path(folder)), 0
+    for _ in range(200):
+        cache.put(KEY, body)
+        whole += cache.get(KEY) is not None
+    return whole

@@ -1,0 +1,72 @@
+"""A mistake is told in another process as it was told in its own."""
+
+import dataclasses
+import pickle
+
+import pytest
+
+from derive import errors
+from derive.errors import BadGeometryFile, BadUnit, NotProven, UnknownGeometry, UserError
+
+FACTS = {
+    "str": "some 'text', α",
+    "int": 3,
+    "tuple[str, ...]": ("hertz", "wedge"),
+    "object": object(),
+}
+
+
+def example(kind: type[UserError]) -> UserError:
+    """One mistake, made by the names of its facts."""
+    return kind(**{fact.name: FACTS[annotation(fact)] for fact in dataclasses.fields(kind)})
+
+
+def annotation(fact: "dataclasses.Field[object]") -> str:
+    return fact.type.__name__ if fact.type in (str, int, object) else str(fact.type)
+
+
+MISTAKES = [
+    example(kind)
+    for kind in vars(errors).values()
+    if dataclasses.is_dataclass(kind) and issubclass(kind, UserError)
+]
+
+
+def there_and_back(error: UserError) -> UserError:
+    return pickle.loads(pickle.dumps(error))
+
+
+def test_every_mistake_is_found() -> None:
+    assert {BadUnit, BadGeometryFile} < {type(mistake) for mistake in MISTAKES}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: type(mistake).__name__)
+def test_a_mistake_travels_with_its_message(mistake: UserError) -> None:
+    arrived = there_and_back(mistake)
+    assert type(arrived) is type(mistake)
+    assert arrived.message == str(arrived) == mistake.message
+    assert there_and_back(arrived).message == mistake.message
+
+
+def test_its_facts_travel() -> None:
+    mistake = UnknownGeometry("sphere", ("hertz", "wedge"))
+    assert there_and_back(mistake) == mistake
+
+
+@pytest.mark.parametrize("given", [None, 3, 2.5, True, "furlong", ("m", 1), b"m", {"m": 1}])
+def test_a_unit_that_is_no_text_is_told_alike(given: object) -> None:
+    assert (
+        there_and_back(BadUnit(given, "is no text")).message == BadUnit(given, "is no text").message
+    )
+
+
+def test_what_cannot_travel_is_told_by_how_it_is_shown() -> None:
+    """A function without a name in a module that nobody can import."""
+    mistake = BadUnit(lambda: 3, "is no text")
+    assert there_and_back(mistake).message == mistake.message
+
+
+def test_what_is_not_proven_travels() -> None:
+    arrived = pickle.loads(pickle.dumps(NotProven("tilt of 'hertz': unknown")))
+    assert type(arrived) is NotProven
+    assert str(arrived) == "tilt of 'hertz': unknown"

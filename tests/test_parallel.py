@@ -1,0 +1,169 @@
+"""Results in the order of the items; one failure ends all, and is told as in one process."""
+
+import os
+import subprocess
+import sys
+import time
+from multiprocessing import active_children
+from pathlib import Path
+
+import pytest
+
+from derive.errors import BadUnit, LostProcess, NotProven, UnknownGeometry
+from derive.parallel import cores, in_processes
+from tests.tasks import ERRORS, fails, late, meeting, process
+
+ROOT = Path(__file__).parents[1]
+
+
+def silent(what: str, stage: str) -> None:
+    """Tells nobody."""
+
+
+def test_results_come_in_the_order_of_the_items() -> None:
+    items = [(1, 0.5), (2, 0.0), (3, 0.2), (4, 0.0)]
+    assert in_processes(late, items, silent, 3) == [1, 2, 3, 4]
+
+
+def test_the_work_is_done_by_as_many_processes_as_asked_for(tmp_path: Path) -> None:
+    found = in_processes(meeting, [(str(tmp_path), 2)] * 6, silent, 2)
+    assert len(set(found)) == 2
+    assert os.getpid() not in found
+    assert active_children() == []
+
+
+@pytest.mark.parametrize(("items", "jobs"), [((1,), 4), ((1, 2), 1), ((), 4)])
+def test_where_one_process_is_enough_it_is_this_one(items: tuple[int, ...], jobs: int) -> None:
+    assert set(in_processes(process, items, silent, jobs)) <= {os.getpid()}
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_every_report_arrives_in_its_order(jobs: int) -> None:
+    heard: list[tuple[str, str]] = []
+    in_processes(late, [(1, 0.2), (2, 0.0)], lambda *told: heard.append(told), jobs)
+    assert [stage for number, stage in heard if number == "1"] == ["begun", "ended"]
+    assert [stage for number, stage in heard if number == "2"] == ["begun", "ended"]
+
+
+def test_reports_arrive_while_the_work_is_done() -> None:
+    heard: list[float] = []
+    in_processes(late, [(1, 1.0), (2, 1.0)], lambda *_: heard.append(time.monotonic()), 2)
+    assert heard[-1] - heard[0] > 0.5
+
+
+# ------------------------------------------------------------------ failures
+
+
+@pytest.mark.parametrize("name", ["user", "object", "proof", "print", "fault", "end"])
+def test_what_is_raised_in_a_process_is_raised_here(name: str) -> None:
+    here = ERRORS[name]()
+    with pytest.raises(type(here)) as caught:
+        in_processes(fails, [name, "done"], silent, 2)
+    assert type(caught.value) is type(here)
+    if name != "object":  # its repr is an address
+        assert str(caught.value) == str(here)
+
+
+def test_its_facts_arrive_too() -> None:
+    with pytest.raises(UnknownGeometry) as caught:
+        in_processes(fails, ["user", "done"], silent, 2)
+    assert caught.value == UnknownGeometry("sphere", ("hertz", "wedge"))
+    with pytest.raises(BadUnit, match=r"unit <function .*> at .*: is no text"):
+        in_processes(fails, ["object", "done"], silent, 2)
+
+
+def test_a_fault_of_the_program_tells_where_it_was() -> None:
+    with pytest.raises(AssertionError) as caught:
+        in_processes(fails, ["fault", "done"], silent, 2)
+    assert "in fails" in "".join(caught.value.__notes__)
+
+
+def test_an_error_that_cannot_travel_is_told_by_its_text() -> None:
+    with pytest.raises(RuntimeError, match="Strange: 1 and 2"):
+        in_processes(fails, ["strange", "done"], silent, 2)
+
+
+def test_the_first_of_two_failures_is_told() -> None:
+    """The first by its place, of those that are there at the time."""
+    with pytest.raises((NotProven, UnknownGeometry)):
+        in_processes(fails, ["proof", "user"], silent, 2)
+
+
+@pytest.mark.parametrize("name", ["proof", "exit"])
+def test_a_failure_does_not_wait_for_the_others(name: str) -> None:
+    began = time.monotonic()
+    with pytest.raises((NotProven, LostProcess)):
+        in_processes(fails, ["wait", name, "wait", "wait"], silent, 2)
+    assert time.monotonic() - began < 60  # far less than one of them waits
+    assert active_children() == []
+
+
+def test_what_a_report_raises_ends_all() -> None:
+    """So does Ctrl-C, which is raised wherever the first process is."""
+
+    def interrupt(what: str, stage: str) -> None:
+        raise KeyboardInterrupt
+
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        in_processes(fails, ["wait", "wait", "wait"], interrupt, 2)
+    assert time.monotonic() - began < 60
+    assert active_children() == []
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_a_process_that_is_lost_is_told_with_what_to_do(place: int) -> None:
+    items = ["wait", "wait"]
+    items.insert(place, "exit")
+    with pytest.raises(LostProcess, match=r"one of 3 processes ended .* --jobs 1"):
+        in_processes(fails, items, silent, 3)
+
+
+ORPHANS = """
+import os, sys
+from derive.parallel import in_processes
+from tests.tasks import fails
+
+def tell(what, stage):
+    print(what, flush=True)
+
+in_processes(fails, ["wait", "wait"], tell, 2)
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="looks for processes in /proc")
+def test_no_process_outlives_one_that_was_killed() -> None:
+    killed = subprocess.Popen(
+        [sys.executable, "-c", ORPHANS], cwd=ROOT, stdout=subprocess.PIPE, text=True
+    )
+    assert killed.stdout is not None
+    assert [killed.stdout.readline() for _ in range(2)] == ["wait\n", "wait\n"]
+    children = offspring(killed.pid)
+    assert len(children) >= 2
+    killed.kill()
+    killed.communicate()
+    until = time.monotonic() + 30
+    while any(map(alive, children)) and time.monotonic() < until:
+        time.sleep(0.1)
+    assert not any(map(alive, children))
+
+
+def status(pid: int) -> list[str]:
+    """State and parent of a process; none if it is gone."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[:2]
+    except OSError:
+        return []
+
+
+def offspring(pid: int) -> list[int]:
+    numbers = [int(p.name) for p in Path("/proc").iterdir() if p.name.isdigit()]
+    return [number for number in numbers if status(number)[1:] == [str(pid)]]
+
+
+def alive(pid: int) -> bool:
+    return status(pid)[:1] not in ([], ["Z"])
+
+
+def test_there_is_a_core() -> None:
+    assert 1 <= cores() <= 100_000

@@ -1,0 +1,233 @@
+"""Many bodies at once: the same as one by one, and nothing twice that did not change."""
+
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import derive.cache
+import derive.pipeline
+from derive.body import Body
+from derive.cache import VARIABLE, users_cache
+from derive.errors import BadProfile, UnknownGeometry
+from derive.library import FOLDER, library
+from derive.parallel import Report
+from derive.pipeline import DONE, KEPT, STAGES, build, build_all
+from derive.proof.verdict import Verdict
+
+ROOT = Path(__file__).parents[1]
+
+VERDICTS = (("tilt", Verdict.PROVED),)
+CONCAVE = """from derive import Geometry, parameter, x
+geometry = Geometry("body", g=-x**2 / parameter("R", "radius", unit="m"))
+"""
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The sources that a `build` without any work was asked for."""
+    sources = []
+
+    def build(source: str, report: Report) -> Body:
+        sources.append(source)
+        for stage in STAGES:
+            report(source, stage)
+        path = FOLDER / f"{source}.py" if source in library() else Path(source)
+        return Body(Path(source).stem, path.read_text(), 0.5, ("forward",), (), VERDICTS)
+
+    monkeypatch.setattr(derive.pipeline, "build", build)
+    return sources
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> list[str]:
+    """Geometry files of one's own."""
+    paths = [tmp_path / name for name in ("b.py", "a.py", "c.py")]
+    for path in paths:
+        path.write_text(f"{FOLDER.joinpath('hertz.py').read_text()}# {path.name}\n")
+    return [str(path) for path in paths]
+
+
+# ------------------------------------------------------------------ in earnest
+
+
+@pytest.mark.slow
+def test_several_processes_build_what_one_builds() -> None:
+    """Byte for byte; the second time in the opposite order."""
+    names = library()[:4]
+    alone = [build(name) for name in names]
+    together = build_all(names[::-1], jobs=2, fresh=True)[::-1]
+    assert [body.text.encode() for body in together] == [body.text.encode() for body in alone]
+    assert together == alone
+    assert all(body.seconds > 0 and not body.kept for body in together)
+    again = build_all(names, jobs=2)
+    assert again == alone
+    assert all(body.kept for body in again)
+
+
+def test_every_formula_comes_with_its_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The record of a body, without the seconds that its proofs take."""
+    from tests.derive.bodies import sheet
+    from tests.test_cli import assumed
+
+    monkeypatch.setattr("derive.proof.prove.prove_sheet", assumed)
+    body = build("hertz")
+    assert body.name == "hertz"
+    assert body.formulas(Verdict.PROVED) == tuple(sheet("hertz"))
+    assert body.formulas(Verdict.NUMERICAL) == ()
+    assert body.closed == ("forward", "from (P, M)", "from (P, alpha)")
+    assert body.numerical == ()
+    assert "def load(" in body.text
+
+
+def test_a_source_that_fails_ends_all(tmp_path: Path) -> None:
+    (tmp_path / "concave.py").write_text(CONCAVE)
+    with pytest.raises(BadProfile, match="not convex"):
+        build_all(["hertz", str(tmp_path / "concave.py"), "wedge"], jobs=2)
+
+
+def test_a_source_that_is_unknown_is_told(asked: list[str]) -> None:
+    with pytest.raises(UnknownGeometry):
+        build_all(["sphere", "circle"], jobs=2)
+
+
+WITHOUT_SYMPY = """
+import sys
+from derive import body, cache, library, parallel
+for name in library.library():
+    assert cache.key_of(library.FOLDER / f"{name}.py", name, cache.program_as_loaded())
+cache.users_cache().get("0" * 64)
+late = {"sympy", "numpy", "scipy"} & set(sys.modules)
+assert not late, late
+"""
+
+
+def test_to_find_what_is_kept_does_not_wait_for_sympy() -> None:
+    subprocess.run([sys.executable, "-c", WITHOUT_SYMPY], check=True, cwd=ROOT)
+
+
+# ------------------------------------------------------------------ kept
+
+
+def test_nothing_is_built_twice(asked: list[str], files: list[str]) -> None:
+    first = build_all(files)
+    second = build_all(files)
+    assert asked == files
+    assert second == first
+    assert [body.kept for body in (*first, *second)] == [False] * 3 + [True] * 3
+    assert [body.seconds for body in second] == [0.5] * 3
+
+
+def test_bodies_come_in_the_order_of_their_sources(asked: list[str], files: list[str]) -> None:
+    build_all(files[1:2])
+    assert [body.name for body in build_all(files)] == ["b", "a", "c"]
+    assert [body.name for body in build_all(files[::-1])] == ["c", "a", "b"]
+    assert len(asked) == 3
+
+
+def test_a_source_given_twice_is_built_once(asked: list[str], files: list[str]) -> None:
+    assert [body.name for body in build_all([files[0], files[1], files[0]])] == ["b", "a", "b"]
+    assert asked == files[:2]
+
+
+def test_only_what_changed_is_built_again(asked: list[str], files: list[str]) -> None:
+    build_all(files)
+    with Path(files[1]).open("a") as file:
+        file.write("# more\n")
+    found = build_all(files)
+    assert asked == [*files, files[1]]
+    assert [body.kept for body in found] == [True, False, True]
+    assert found[1].text.endswith("# more\n")
+
+
+def test_a_change_taken_back_is_found_again(asked: list[str], files: list[str]) -> None:
+    text = Path(files[0]).read_text()
+    for new in (text, text + "\n", text):
+        Path(files[0]).write_text(new)
+        assert build_all(files[:1])[0].text == new
+    assert asked == files[:1] * 2
+
+
+def test_a_copy_of_a_body_of_the_library_is_another_body(asked: list[str], tmp_path: Path) -> None:
+    """Its module names another origin."""
+    build_all(["hertz"])
+    shutil.copy(FOLDER / "hertz.py", tmp_path)
+    build_all([str(tmp_path / "hertz.py")])
+    assert len(asked) == 2
+
+
+def test_a_change_of_the_program_builds_everything_again(
+    asked: list[str], files: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    build_all(files)
+    for name in ("program_as_loaded", "program_digest"):
+        monkeypatch.setattr(derive.pipeline, name, lambda: "another program")
+    build_all(files)
+    assert asked == files * 2
+
+
+def test_fresh_reads_nothing(
+    asked: list[str], files: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    build_all(files)
+    monkeypatch.delattr(derive.cache.Cache, "get")
+    assert not any(body.kept for body in build_all(files, fresh=True))
+    assert asked == files * 2
+
+
+def test_without_a_directory_nothing_is_kept(
+    asked: list[str], files: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(VARIABLE, "")
+    build_all(files)
+    build_all(files)
+    assert asked == files * 2
+
+
+def changed_file(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path.write_text(path.read_text() + "# changed\n")
+
+
+def changed_program(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(derive.pipeline, "program_digest", lambda: "another program")
+
+
+@pytest.mark.parametrize("change", [changed_file, changed_program])
+def test_what_changes_while_it_is_built_is_not_kept(
+    asked: list[str],
+    files: list[str],
+    monkeypatch: pytest.MonkeyPatch,
+    change: Callable[[Path, pytest.MonkeyPatch], None],
+) -> None:
+    """Nobody knows whether it follows from the old or from the new."""
+
+    def report(source: str, stage: str) -> None:
+        if stage == STAGES[2]:
+            change(Path(source), monkeypatch)
+
+    build_all(files[:1], report)
+    folder = users_cache().folder
+    assert folder is not None
+    assert not folder.exists()
+
+
+def test_what_was_built_before_a_failure_is_kept(asked: list[str], files: list[str]) -> None:
+    """So the next run, after the repair, does not begin anew."""
+    broken = Path(files[2])
+    text = broken.read_text()
+    broken.unlink()
+    with pytest.raises(FileNotFoundError):
+        build_all(files)
+    broken.write_text(text)
+    assert [body.kept for body in build_all(files)] == [True, True, False]
+
+
+def test_every_body_is_reported_to_its_end(asked: list[str], files: list[str]) -> None:
+    heard: list[tuple[str, str]] = []
+    build_all(files[:1])
+    build_all(files[:2], lambda *told: heard.append(told))
+    assert heard[0] == (files[0], KEPT)
+    assert heard[1:] == [(files[1], stage) for stage in (*STAGES, DONE)]
