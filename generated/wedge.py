@@ -62,7 +62,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (a > LEAST) & (c > LEAST) & (h < MOST)
+    exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, (2 * phi / np.pi) * np.arctan(lean / base)))
 
 
@@ -104,7 +104,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (a > LEAST) & (c > LEAST) & (h < MOST)
+    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
@@ -131,7 +131,7 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     '0.0160236'
     """
     h = a + c  # contact width [m]
-    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))))
 
 
@@ -157,7 +157,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.153093'
     """
     h = a + c  # contact width [m]
-    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * phi) * np.sqrt(a * c))
 
 
@@ -184,7 +184,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.0191366'
     """
     h = a + c  # contact width [m]
-    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c))
 
 
@@ -219,7 +219,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     smaller_1 = np.minimum((a + x) * (c * 2.0**-64 / h), (c - x) * (a * 2.0**-64 / h))
     # logarithm of the kink x = 0 [-]
     L_1 = np.arcsinh(2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.abs(x)))
-    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (2 * E_star * phi / np.pi) * L_1)
 
 
@@ -248,7 +248,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (2 * E_star * phi / np.pi) / np.sqrt(a * c * h)
-    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(*only_where(exists, c * scale, a * scale))
 
 
@@ -277,7 +277,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
-    exists = (a > LEAST) & (c > LEAST) & (h < MOST)
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 

@@ -10,7 +10,7 @@ from itertools import product
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Gt, Lt, Symbol
+from sympy import Expr, Gt, Lt, Min, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
@@ -127,7 +127,7 @@ class FunctionText:
         printer = NumPyPrinter()
         if "h" not in (str(step.symbol) for step in self.program.steps):
             yield "    h = a + c  # contact width [m]"
-        checks = [printer.doprint(condition) for condition in self._checked]
+        checks = [printer.doprint(condition) for condition in _one_check(self._checked)]
         if any(step.expr.has(fmax) for step in self.program.steps):
             checks.append("x == x")  # fmax would hide that it is not a number
         yield f"    exists = {' & '.join(f'({check})' for check in checks)}"
@@ -257,6 +257,15 @@ def _without_width(conditions: Iterable[Boolean]) -> list[Boolean]:
     held = list(conditions)
     spanning = {a > 0, c > 0} <= {*held}
     return [cond for cond in held if not (spanning and cond == (h > 0))]
+
+
+def _one_check(conditions: list[Boolean]) -> list[Boolean]:
+    """The conditions with both edges held against LEAST at once: one operation less on arrays."""
+    pair = [a > LEAST, c > LEAST]
+    if not {*pair} <= {*conditions}:
+        return conditions
+    others = [cond for cond in conditions if cond not in pair]
+    return [*others[:-1], Min(a, c) > LEAST, others[-1]]
 
 
 def _noted(line: str, note: str) -> Iterator[str]:
