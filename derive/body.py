@@ -3,7 +3,7 @@
 It crosses from process to process and is kept in files, so it holds no expressions.
 """
 
-from collections.abc import Container
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from derive.proof.verdict import Verdict
@@ -42,11 +42,13 @@ class Body:
         return tuple(name for name, found in self.verdicts if found == verdict)
 
 
-def by_form(formulas: Container[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def by_form(is_closed: Callable[[str], bool]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Which parts of a contact law are closed formulas, and which are not.
 
-    >>> by_form({"load", "contact_a"})
+    is_closed: whether the formula of this name is one.
+
+    >>> by_form({"load", "contact_a"}.__contains__)
     (('forward', 'from (P, M)'), ('from (P, alpha)',))
     """
-    closed = tuple(part for part, formula in _PARTS.items() if formula in formulas)
+    closed = tuple(part for part, formula in _PARTS.items() if is_closed(formula))
     return closed, tuple(part for part in _PARTS if part not in closed)

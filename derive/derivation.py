@@ -6,7 +6,7 @@ Out: FormulaSheet without proofs.
 
 from collections.abc import Iterator
 
-from sympy import Symbol, pi, sqrt
+from sympy import Expr, Symbol, pi, sqrt
 from sympy.logic.boolalg import Boolean
 
 from derive.geometry import Geometry
@@ -19,7 +19,7 @@ from derive.sheet import (
     tilt_conditions,
 )
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, h, mid, x
-from derive.theory import contact_law, equilibrium, stick
+from derive.theory import contact_law, equilibrium, stick, superposition
 from derive.theory.algebra import tidy
 from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
 from derive.theory.frame import Frame
@@ -38,10 +38,30 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
     E_star*phi*sqrt(a*c)
     """
     sheet = FormulaSheet(geometry, Frame(geometry.slope))
-    for stage in (_equilibrium, _pressure, _contact_law, _edges, _rates, _stick, _inverses):
+    stages = _CLOSED if geometry.slope.is_polynomial else _SUPERPOSED
+    for stage in stages:
         for formula in stage(sheet):
             sheet = sheet.plus(formula)
     return sheet
+
+
+def _superposed(sheet: FormulaSheet) -> Iterator[Formula]:
+    """What a body of any shape carries, as integrals of its curvature."""
+    frame, conditions = sheet.frame, contact_conditions(sheet.frame)
+    source = f"superposition of wedges; {_CLASSIC}"
+    for name, symbol, derive, meaning, unit in (
+        ("tilt", alpha, superposition.tilt, "tilt that this contact takes", "rad"),
+        ("load", P, superposition.load, "normal load", "N/m"),
+        ("moment", M, superposition.moment, "moment", "N"),
+    ):
+        yield Formula(name, symbol, (a, c), derive(frame), meaning, unit, source, conditions)
+    inside = inside_contact(frame, x)
+    p, symbol = superposition.pressure(frame), Symbol("p")
+    yield Formula("pressure", symbol, (x, a, c), p, "contact pressure", "Pa", source, inside)
+    for name, at_edge, unit, meaning in _EDGE_COEFFICIENTS:
+        for edge in Edge:
+            expr = at_edge(frame, edge)
+            yield _edge_formula(name, edge, expr, unit, meaning, source, conditions)
 
 
 def _equilibrium(sheet: FormulaSheet) -> Iterator[Formula]:
@@ -84,22 +104,31 @@ def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
 def _edges(sheet: FormulaSheet) -> Iterator[Formula]:
     conditions = contact_conditions(sheet.frame)
     series = {edge: pressure_series(sheet.frame, edge, 2) for edge in Edge}
-    for order, name, unit, meaning in (
-        (0, "K_N", "Pa/sqrt(m)", "coefficient of sqrt(s) in p"),
-        (1, "L_N", "Pa/m**(3/2)", "coefficient of s**(3/2) in p"),
-    ):
+    source = f"expansion of p(x); cf. eqs. (eqn:Knc), (eqn:Kna), {_PAPER}"
+    for order, (name, _, unit, meaning) in enumerate(_EDGE_COEFFICIENTS):
         for edge in Edge:
-            side = edge.name.lower()
-            yield Formula(
-                f"{name}_{side}",
-                Symbol(f"{name}_{side}"),
-                (a, c),
-                series[edge][order],
-                f"{meaning} at the {side} edge",
-                unit,
-                f"expansion of p(x); cf. eqs. (eqn:Knc), (eqn:Kna), {_PAPER}",
-                conditions,
-            )
+            expr = series[edge][order]
+            yield _edge_formula(name, edge, expr, unit, meaning, source, conditions)
+
+
+_EDGE_COEFFICIENTS = (
+    ("K_N", superposition.edge_coefficient, "Pa/sqrt(m)", "coefficient of sqrt(s) in p"),
+    ("L_N", superposition.second_coefficient, "Pa/m**(3/2)", "coefficient of s**(3/2) in p"),
+)
+
+
+def _edge_formula(
+    name: str,
+    edge: Edge,
+    expr: Expr,
+    unit: str,
+    meaning: str,
+    source: str,
+    conditions: tuple[Boolean, ...],
+) -> Formula:
+    side = edge.name.lower()
+    symbol, words = Symbol(f"{name}_{side}"), f"{meaning} at the {side} edge"
+    return Formula(f"{name}_{side}", symbol, (a, c), expr, words, unit, source, conditions)
 
 
 def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
@@ -158,7 +187,7 @@ def _inverses(sheet: FormulaSheet) -> Iterator[Formula]:
     tilt, load, moment = (sheet[name].expr for name in ("tilt", "load", "moment"))
     at_moment = contact_law.contact_from_moment(sheet.frame, tilt, load, moment)
     if at_moment is not None:
-        yield from _inverse("contact", (P, M), at_moment, load_conditions())
+        yield from _inverse("contact", (P, M), at_moment, load_conditions(sheet.frame))
     at_tilt = contact_law.contact_from_tilt(sheet.frame, tilt, load, moment)
     if at_tilt is not None:
         yield from _inverse("contact_at_tilt", (P, alpha), at_tilt, tilt_conditions(sheet.frame))
@@ -188,3 +217,10 @@ def _inverse(
                 "load(a, c), moment(a, c) and tilt(a, c) solved",
                 conditions,
             )
+
+
+_CLOSED = (_equilibrium, _pressure, _contact_law, _edges, _rates, _stick, _inverses)
+"""Stages for a body whose integrals are elementary."""
+
+_SUPERPOSED = (_superposed, _stick)
+"""Stages for any other body."""

@@ -72,7 +72,7 @@ def build(source: str, report: Report = _silent) -> Body:
     except CannotPrint as error:
         remedy = "write it with numbers and functions that NumPy has"
         raise BadProfile(geometry.name, f"cannot become code ({error})", remedy) from error
-    closed, numerical = by_form(sheet)
+    closed, numerical = by_form(sheet.is_closed)
     verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
     return Body(geometry.name, text, perf_counter() - began, closed, numerical, verdicts)
 

@@ -2,37 +2,55 @@
 
 In:  a SymPy expression of x and positive parameters, with Abs, sign, Max, Min, Heaviside and
      Piecewise in any nesting.
-Out: a `Slope`, g'(x) as the polynomial of one reference piece plus a polynomial jump at each kink.
+Out: a `Slope`, g'(x) as that of one reference piece plus a jump at each kink; where it is real, and
+     which parameters make it convex.
 """
 
 import random
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import islice, pairwise
 
+import mpmath
+from mpmath import mpf
 from sympy import (
     Abs,
+    AccumBounds,
     And,
+    Dummy,
     Expr,
+    Gt,
     Heaviside,
     Integer,
+    Limit,
     Max,
     Min,
+    Mul,
     Not,
     Or,
     Piecewise,
     Poly,
+    Pow,
     Rational,
     S,
     Symbol,
+    atan,
     cancel,
     diff,
     expand,
+    factor,
+    fraction,
+    lambdify,
     limit,
+    log,
+    nan,
     oo,
+    re,
     roots,
     sign,
     simplify,
+    together,
 )
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
@@ -58,29 +76,35 @@ class Piece:
         """g'(x) of this piece."""
         return diff(self.profile, x)
 
-    @property
+    @cached_property
+    def curvature(self) -> Expr:
+        """g''(x) of this piece."""
+        return diff(self.profile, x, 2)
+
+    @cached_property
     def straight(self) -> bool:
         """Whether the piece is a straight line, on which nothing presses by itself."""
-        return bool(simplify(diff(self.profile, x, 2)) == 0)
+        return bool(simplify(self.curvature) == 0)
 
 
 @dataclass(frozen=True)
 class Kink:
-    """A point where g' changes its polynomial.
+    """A point where g' changes its formula.
 
     side = +1: `jump` is added to the slope for x > position, the kink lies right of the reference
-    piece; side = -1: it is added for x < position.
+    piece; side = -1: it is added for x < position.  `step` is by how much g' itself rises there.
     """
 
     number: int
     position: Expr
     side: int
     jump: Expr
+    step: Expr
 
     @property
     def is_corner(self) -> bool:
         """Whether g' itself jumps here (an apex), not only a derivative of it."""
-        return bool(simplify(self.jump.subs(x, self.position)) != 0)
+        return bool(self.step != 0)
 
 
 @dataclass(frozen=True)
@@ -90,6 +114,13 @@ class Slope:
     pieces: tuple[Piece, ...]
     base: Expr
     kinks: tuple[Kink, ...]
+    domain: tuple[Expr, Expr] = (-oo, oo)
+    demands: tuple[Boolean, ...] = ()
+
+    @cached_property
+    def is_polynomial(self) -> bool:
+        """Whether g' is a polynomial on every piece: then every integral is elementary."""
+        return all(piece.slope.is_polynomial(x) for piece in self.pieces)
 
     @property
     def straight_pieces(self) -> tuple[Piece, ...]:
@@ -98,25 +129,32 @@ class Slope:
 
     @cached_property
     def limits(self) -> tuple[Expr, Expr]:
-        """g' at minus and plus infinity: the tilts -g' there bound what the body can take."""
-        return limit(self.pieces[0].slope, x, -oo), limit(self.pieces[-1].slope, x, oo)
+        """g' at both ends of the domain: the tilts -g' there bound what the body can take."""
+        if self.is_polynomial:
+            return limit(self.pieces[0].slope, x, -oo), limit(self.pieces[-1].slope, x, oo)
+        (low, high), (first, last) = self.domain, (self.pieces[0], self.pieces[-1])
+        return self._limit(first, low, "+", -oo), self._limit(last, high, "-", oo)
+
+    def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
+        """Limit of g' at an end; `otherwise`, which bounds nothing, where SymPy finds none."""
+        try:
+            found = limit(_with_surpluses(piece.slope, _surpluses(self.demands)), x, end, side)
+        except (NotImplementedError, ValueError, TypeError, RecursionError, AttributeError):
+            return otherwise
+        known = found in (oo, -oo) or not (found.atoms(Dummy) or found.has(Limit, AccumBounds))
+        return found if known else otherwise
 
 
 def read_slope(name: str, g: Expr) -> Slope:
     """Read the profile of the body `name`.
 
-    Raises BadProfile when g is no polynomial on its pieces, not continuous, not convex or straight.
+    Raises BadProfile when g is not real, not continuous, not convex or straight.
     """
     pieces = _merged(_resolved(name, g, -oo, oo))
-    for piece in pieces:
-        if not piece.slope.is_polynomial(x):
-            raise BadProfile(
-                name,
-                f"has the piece {piece.profile}, whose slope is no polynomial in x",
-                "write it with polynomials in x on pieces (Abs, Piecewise, Max, ...)",
-            )
     _demand_continuous(name, pieces)
-    _demand_convex(name, pieces)
+    demands = _demands(name, pieces)
+    domain = _domain(name, pieces)
+    _demand_convex(name, pieces, domain, demands)
     reference = next(
         i for i, piece in enumerate(pieces) if piece.upper == 0 or _is_positive(name, piece.upper)
     )
@@ -126,10 +164,11 @@ def read_slope(name: str, g: Expr) -> Slope:
             position=right.lower,
             side=1 if i > reference else -1,
             jump=expand((right.slope - left.slope) * (1 if i > reference else -1)),
+            step=_step(left, right, demands),
         )
         for i, (left, right) in enumerate(pairwise(pieces), start=1)
     ]
-    return Slope(tuple(pieces), expand(pieces[reference].slope), tuple(kinks))
+    return Slope(tuple(pieces), expand(pieces[reference].slope), tuple(kinks), domain, demands)
 
 
 def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
@@ -293,15 +332,221 @@ def _demand_continuous(name: str, pieces: list[Piece]) -> None:
             )
 
 
-def _demand_convex(name: str, pieces: list[Piece]) -> None:
-    """Refuse a slope that falls anywhere, by its exact sign at many rational samples."""
+def _surpluses(demands: tuple[Boolean, ...]) -> dict[Symbol, tuple[Expr, Symbol]]:
+    """Parameters that must lie above a number: that number, and a positive symbol for the rest."""
+    return {d.gts: (d.lts, Dummy("above", positive=True)) for d in demands if d.gts.is_Symbol}
+
+
+def _with_surpluses(expr: Expr, surpluses: dict[Symbol, tuple[Expr, Symbol]]) -> Expr:
+    return expr.subs({p: least + above for p, (least, above) in surpluses.items()})
+
+
+def _step(left: Piece, right: Piece, demands: tuple[Boolean, ...] = ()) -> Expr:
+    """By how much g' rises where two pieces meet."""
+    surpluses = _surpluses(demands)
+    before, beyond = (
+        _beside(
+            _with_surpluses(piece.slope, surpluses), _with_surpluses(right.lower, surpluses), sense
+        )
+        for piece, sense in ((left, -1), (right, 1))
+    )
+    return simplify((beyond - before).subs({up: p - least for p, (least, up) in surpluses.items()}))
+
+
+def _beside(expr: Expr, place: Expr, sense: int) -> Expr:
+    """The value of `expr` next to a place, on its right (+1) or left (-1)."""
+    distance = Dummy("t", positive=True)
+    near = simplify(expr.subs(x, place + sense * distance))
+    value = near.subs(distance, 0)
+    return value if value.is_finite is not False and value is not nan else limit(near, distance, 0)
+
+
+def _demands(name: str, pieces: list[Piece]) -> tuple[Boolean, ...]:
+    """What the parameters must meet, that the body be convex: factors whose sign is open.
+
+    A corner's jump and the factors of a curvature that do not hold x are positive, or the body is
+    convex for no or for some parameters only, such as k > 1 for Abs(x)**k.
+    """
+    found: dict[Boolean, None] = {}
+
+    def demand(expr: Expr) -> None:
+        for part in Mul.make_args(factor(simplify(expr))):
+            if part.free_symbols and not part.has(x) and part.is_extended_nonnegative is None:
+                found[_above(part)] = None
+
+    for piece in pieces:
+        demand(piece.curvature)
+    for left, right in pairwise(pieces):
+        demand(_step(left, right, tuple(found)))
+    return tuple(found)
+
+
+def _above(expr: Expr) -> Boolean:
+    """expr > 0, with a symbol alone on its side if it has one."""
+    for symbol in sorted(expr.free_symbols, key=str):
+        rate = diff(expr, symbol)
+        if rate.is_number and rate.is_positive:
+            return Gt(symbol, expand(symbol - expr / rate))
+    return Gt(expr, 0)
+
+
+def _domain(name: str, pieces: list[Piece]) -> tuple[Expr, Expr]:
+    """Where the outermost pieces stay real: up to the nearest root under a fractional power."""
+    low, high = -oo, oo
+    for point in _branch_points(pieces[0].profile):
+        if point.is_real and _is_positive(name, _reach(pieces[0], upper=True) - point):
+            low = point if low == -oo or _is_positive(name, point - low) else low
+    for point in _branch_points(pieces[-1].profile):
+        if point.is_real and _is_positive(name, point - _reach(pieces[-1], upper=False)):
+            high = point if high == oo or _is_positive(name, high - point) else high
+    return low, high
+
+
+def _reach(piece: Piece, upper: bool) -> Expr:
+    """The inner end of an outermost piece, the origin where it has none."""
+    end = piece.upper if upper else piece.lower
+    return end if end.is_finite else Integer(0)
+
+
+def _branch_points(profile: Expr) -> list[Expr]:
+    """Where a power that is no natural number, or a logarithm, has base zero; complex ones, too."""
+    bases = {p.base for p in profile.atoms(Pow) if p.base.has(x) and not _is_natural(p.exp)}
+    bases |= {p.args[0] for p in profile.atoms(log) if p.args[0].has(x)}
+    bases |= {1 + p.args[0] ** 2 for p in profile.atoms(atan) if p.args[0].has(x)}
+    found: dict[Expr, None] = {}
+    for base in sorted(bases, key=str):
+        numerator = fraction(together(base))[0]
+        if numerator.is_polynomial(x):
+            found |= dict.fromkeys(simplify(root) for root in roots(Poly(numerator, x)))
+    return list(found)
+
+
+def _is_natural(exponent: Expr) -> bool:
+    return bool(exponent.is_Integer and exponent.is_nonnegative)
+
+
+def breaks_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
+    """Where quadrature must cut the body, and the pieces between.
+
+    Kinks, and the real parts of singularities that lie beside the axis; a smooth body is cut at the
+    origin.
+    """
+    pieces: list[Piece] = []
+    for piece in slope.pieces:
+        beside = {simplify(re(point)) for point in _branch_points(piece.profile)}
+        inner = sorted((p for p in beside if _lies_in(p, piece, slope.domain)), key=str)
+        ends = [piece.lower, *inner[:1], piece.upper]
+        pieces += [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
+    if len(pieces) == 1:
+        (piece,) = pieces
+        pieces = [Piece(-oo, Integer(0), piece.profile), Piece(Integer(0), oo, piece.profile)]
+    return tuple(piece.upper for piece in pieces[:-1]), tuple(pieces)
+
+
+def _lies_in(point: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
+    """Whether a place is known to lie inside a piece and inside the domain, not at an end."""
+    ends = ((piece.lower, 1), (domain[0], 1), (piece.upper, -1), (domain[1], -1))
+    return all(
+        end in (oo, -oo) or bool(simplify(sense * (point - end)).is_positive) for end, sense in ends
+    )
+
+
+def _demand_convex(
+    name: str,
+    pieces: list[Piece],
+    domain: tuple[Expr, Expr],
+    demands: tuple[Boolean, ...],
+) -> None:
+    """Refuse a slope that falls anywhere.
+
+    Polynomials by their exact sign, other functions at many places, both at many sets of
+    parameters.
+    """
     if all(piece.straight for piece in pieces) and len(pieces) == 1:
         raise BadProfile(name, "is straight", "a body must be convex somewhere, or nothing presses")
     symbols = sorted(set().union(*(p.profile.free_symbols for p in pieces)) - {x}, key=str)
+    polynomial = all(piece.slope.is_polynomial(x) for piece in pieces)
+    tested = 0
+    for values in islice(_samples(symbols), 40 * _SAMPLES):
+        if not all(bool(demand.subs(values)) for demand in demands):
+            continue
+        at = [_at(piece, values) for piece in pieces]
+        _demand_steps(name, at, values)
+        if polynomial:
+            _demand_rising(name, at, values)
+        else:
+            _demand_curved(name, at, [end.subs(values) for end in domain], values)
+        tested += 1
+        if tested == _SAMPLES:
+            return
+    if tested < _SAMPLES:
+        needed = " and ".join(map(str, demands))
+        raise BadProfile(
+            name,
+            f"is convex only if {needed}, which no parameters were found to meet",
+            "make it convex for all parameters, or for all above a number",
+        )
+
+
+def _samples(symbols: list[Symbol]) -> Iterator[dict[Symbol, Rational]]:
     rng = random.Random(1)
-    for _ in range(_SAMPLES):
-        values = {p: Rational(rng.randint(10, 99), 10) ** rng.choice((1, -1)) for p in symbols}
-        _demand_rising(name, [_at(piece, values) for piece in pieces], values)
+    while True:
+        yield {p: Rational(rng.randint(10, 99), 10) ** rng.choice((1, -1)) for p in symbols}
+
+
+def _needs(values: dict[Symbol, Rational]) -> str:
+    given = ", ".join(f"{k} = {v}" for k, v in values.items())
+    return f"the contact could break into several patches (seen with {given}); make it convex"
+
+
+def _demand_steps(name: str, pieces: list[Piece], values: dict[Symbol, Rational]) -> None:
+    for left, right in pairwise(pieces):
+        if _step(left, right) < 0:
+            raise BadProfile(
+                name, f"is not convex: its slope falls at x = {right.lower}", _needs(values)
+            )
+
+
+def _demand_curved(
+    name: str, pieces: list[Piece], domain: list[Expr], values: dict[Symbol, Rational]
+) -> None:
+    """Refuse a curvature that is negative or not real at any of many places."""
+    lower, upper = (mpf(end) if end.is_finite else end for end in domain)
+    for piece in pieces:
+        curvature = lambdify(x, piece.curvature, modules="mpmath")
+        for place in _places(piece):
+            if not lower < place < upper:
+                continue
+            try:
+                value = curvature(place)
+            except (ZeroDivisionError, OverflowError):
+                continue
+            if mpmath.im(value) != 0:
+                raise BadProfile(
+                    name,
+                    f"is not real near x = {float(place):.3g}",
+                    "write it so that it is real wherever the body can touch",
+                )
+            if mpmath.re(value) < 0:
+                raise BadProfile(
+                    name,
+                    f"is not convex: its curvature is negative near x = {float(place):.3g}",
+                    _needs(values),
+                )
+
+
+def _places(piece: Piece) -> Iterator[mpf]:
+    """Places in a piece, near to its ends and far from them."""
+    distances = [mpf(10) ** (mpf(k) / 3) for k in range(-12, 7)]
+    lower = mpf(piece.lower) if piece.lower.is_finite else None
+    upper = mpf(piece.upper) if piece.upper.is_finite else None
+    for distance in distances:
+        if lower is None and upper is None:
+            yield from (-distance, distance)
+        if lower is not None and (upper is None or lower + distance < upper):
+            yield lower + distance
+        if upper is not None and (lower is None or upper - distance > lower):
+            yield upper - distance
 
 
 def _at(piece: Piece, values: dict[Symbol, Rational]) -> Piece:
@@ -309,13 +554,8 @@ def _at(piece: Piece, values: dict[Symbol, Rational]) -> Piece:
 
 
 def _demand_rising(name: str, pieces: list[Piece], values: dict[Symbol, Rational]) -> None:
-    given = ", ".join(f"{k} = {v}" for k, v in values.items())
-    remedy = f"the contact could break into several patches (seen with {given}); make it convex"
-    for left, right in pairwise(pieces):
-        if (right.slope - left.slope).subs(x, right.lower) < 0:
-            raise BadProfile(name, f"is not convex: its slope falls at x = {right.lower}", remedy)
     for piece in pieces:
-        curvature = Poly(diff(piece.profile, x, 2), x)
+        curvature = Poly(piece.curvature, x)
         lower = piece.lower if piece.lower != -oo else None
         upper = piece.upper if piece.upper != oo else None
         for at in _probes(curvature, lower, upper):
@@ -323,7 +563,7 @@ def _demand_rising(name: str, pieces: list[Piece], values: dict[Symbol, Rational
                 raise BadProfile(
                     name,
                     f"is not convex: its curvature is negative near x = {float(at):.3g}",
-                    remedy,
+                    _needs(values),
                 )
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from sympy import Expr, Gt, Or, Symbol, oo
+from sympy import Expr, Gt, Integral, Or, Symbol, oo
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import NotProven
@@ -133,10 +133,9 @@ class FormulaSheet(Mapping[str, Formula]):
             definitions |= k.logarithm_in_words if k.L in held else {}
         return definitions
 
-    @property
-    def is_closed(self) -> bool:
-        """Whether the contact follows from the loads in closed form, too."""
-        return "contact_a" in self and "contact_at_tilt_a" in self
+    def is_closed(self, name: str) -> bool:
+        """Whether a formula is here, and is no integral that is left to quadrature."""
+        return name in self and not self[name].expr.has(Integral)
 
     @property
     def latex(self) -> str:
@@ -199,13 +198,16 @@ def contact_conditions(frame: Frame) -> tuple[Boolean, ...]:
             conditions.append(left)
         else:
             conditions.append(Or(left, right))
+    low, high = frame.slope.domain
+    conditions += [a < -low] * low.is_finite + [c < high] * high.is_finite
+    conditions += frame.slope.demands
     spans = {str(condition): condition for condition in conditions}
     return (h > 0, *(spans[name] for name in sorted(spans)))
 
 
-def load_conditions() -> tuple[Boolean, ...]:
+def load_conditions(frame: Frame) -> tuple[Boolean, ...]:
     """A contact carries a positive load, and any moment that its flanks can take."""
-    return (POSITIVE_LOAD,)
+    return (POSITIVE_LOAD, *frame.slope.demands)
 
 
 def tilt_conditions(frame: Frame) -> tuple[Boolean, ...]:
@@ -216,7 +218,7 @@ def tilt_conditions(frame: Frame) -> tuple[Boolean, ...]:
         bounds.append(alpha > -high)
     if low != -oo:
         bounds.append(alpha < -low)
-    return (POSITIVE_LOAD, *bounds)
+    return (POSITIVE_LOAD, *bounds, *frame.slope.demands)
 
 
 def inside_contact(frame: Frame, place: Symbol) -> tuple[Boolean, ...]:

@@ -17,6 +17,7 @@ from sympy import (
     Function,
     Heaviside,
     Integer,
+    Integral,
     Max,
     Min,
     Mul,
@@ -165,6 +166,11 @@ def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimensio
             for relation in condition.atoms(Relational):
                 _common((relation.lhs, relation.rhs), relation, dimensions)
         return _common([value for value, _ in expr.args], expr, dimensions)
+    if isinstance(expr, Integral):
+        integrand, (variable, *ends) = expr.function, expr.limits[0]
+        along = _common(ends, expr, dimensions) or NUMBER
+        inside = dimension_of(integrand, {**dimensions, variable: along}) or NUMBER
+        return inside * along
     if isinstance(expr, Function):
         for argument in expr.args:
             _demand(argument, NUMBER, f"the argument {argument} of {expr.func}", dimensions)

@@ -27,7 +27,7 @@ def listing(sheets: "Iterable[FormulaSheet]") -> Table:
 
     table = Table("geometry", "g(x)", "closed form", "numerical", "body")
     for sheet in sheets:
-        closed, numerical = by_form(sheet)
+        closed, numerical = by_form(sheet.is_closed)
         table.add_row(
             Text(sheet.geometry.name, style="bold cyan"),
             text_of(sheet.geometry.g),

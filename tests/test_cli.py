@@ -21,7 +21,7 @@ import derive.proof.prove
 from derive.body import Body, by_form
 from derive.cache import VARIABLE, key_of, program_digest, users_cache
 from derive.cli import main
-from derive.codegen.module import MARK
+from derive.codegen.mark import MARK
 from derive.derivation import derive_sheet
 from derive.library import FOLDER, library, load_geometry
 from derive.pipeline import DONE, GENERATED, KEPT, STAGES
@@ -198,7 +198,7 @@ def unproven(monkeypatch: pytest.MonkeyPatch) -> None:
 def body_of(sheet: FormulaSheet, text: str) -> Body:
     """A body without the seconds that its text takes."""
     verdicts = tuple((name, Verdict.PROVED) for name in sheet)
-    return Body(sheet.geometry.name, text, 0.0, *by_form(sheet), verdicts)
+    return Body(sheet.geometry.name, text, 0.0, *by_form(sheet.is_closed), verdicts)
 
 
 @pytest.fixture

@@ -32,9 +32,14 @@ class Function:
     material: bool = True
     geometric: bool = True
 
+    @property
+    def formulas(self) -> tuple[str, ...]:
+        """Names of the formulas that it is made of."""
+        return tuple(source for _, source in self.fields if isinstance(source, str))
+
     def available(self, sheet: FormulaSheet) -> bool:
         """Whether the sheet has every formula that the function needs."""
-        return all(source in sheet for _, source in self.fields if isinstance(source, str))
+        return all(name in sheet for name in self.formulas)
 
     def keywords(self, sheet: FormulaSheet) -> tuple[Symbol, ...]:
         """Its keyword-only arguments: material, then geometry."""
@@ -52,9 +57,8 @@ class Function:
         """Assumptions under which the state exists; outside the contact the pressure is zero."""
         held = dict.fromkeys(
             condition
-            for _, source in self.fields
-            if isinstance(source, str)
-            for condition in sheet[source].conditions
+            for name in self.formulas
+            for condition in sheet[name].conditions
             if not condition.has(x)
         )
         positive = (Gt(symbol, 0, evaluate=False) for symbol in self.keywords(sheet))

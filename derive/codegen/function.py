@@ -68,8 +68,7 @@ class FunctionText:
         if P not in self.function.arguments:
             yield from contacts(self.sheet)
         else:
-            first = next(s for _, s in self.function.fields if isinstance(s, str))
-            yield from loads(self.sheet, self.sheet[first])
+            yield from loads(self.sheet, self.sheet[self.function.formulas[0]])
 
     @property
     def text(self) -> str:
@@ -128,10 +127,14 @@ class FunctionText:
         if "h" not in (str(step.symbol) for step in self.program.steps):
             yield "    h = a + c  # contact width [m]"
         checks = [printer.doprint(condition) for condition in _one_check(self._checked)]
-        if any(step.expr.has(fmax) for step in self.program.steps):
-            checks.append("x == x")  # fmax would hide that it is not a number
+        checks += self._further_checks
         yield f"    exists = {' & '.join(f'({check})' for check in checks)}"
         yield f"    return {self._returned(values)}"
+
+    @property
+    def _further_checks(self) -> Iterator[str]:
+        if any(step.expr.has(fmax) for step in self.program.steps):
+            yield "x == x"  # fmax would hide that it is not a number
 
     def _returned(self, values: dict[str, str]) -> str:
         found = f"only_where(exists, {', '.join(values.values())})"
@@ -155,7 +158,7 @@ class FunctionText:
         if self.function.kind == "Contact":
             found += self.sheet["tilt"].conditions
         least = {cond: Gt(cond.lhs, LEAST) for cond in (a > 0, c > 0, h > 0)}
-        checks = [least.get(cond, cond) for cond in _without_width(found)]
+        checks = [least.get(cond, cond) for cond in dict.fromkeys(_without_width(found))]
         return [cond.xreplace({h: _width}) for cond in [*checks, Lt(h, MOST)]]
 
     def _units(self) -> dict[Symbol, str]:
@@ -193,8 +196,8 @@ class FunctionText:
         return f'"""{inside_quotes(chr(10).join(lines))}\n"""'
 
     @property
-    def _sources(self) -> list[str]:
-        return [source for _, source in self.function.fields if isinstance(source, str)]
+    def _sources(self) -> tuple[str, ...]:
+        return self.function.formulas
 
     @property
     def _equations(self) -> Iterator[str]:
@@ -289,10 +292,12 @@ def _off_all_kinks(sheet: FormulaSheet, point: Point) -> bool:
 
 def _example(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
     """Plain numbers that meet the function's assumptions, for its docstring."""
+    least = {d.gts: d.lts for d in sheet.geometry.slope.demands if d.lts.is_number}
     parameters = {
-        q.symbol: mpf("0.125") if q.unit == "rad" else mpf(1) for q in sheet.geometry.parameters
+        q.symbol: mpf(least.get(q.symbol, 0)) + (mpf("0.125") if q.unit == "rad" else mpf(1))
+        for q in sheet.geometry.parameters
     }
-    for size, lean in product((1, 2, 4, 8), (1, -1)):
+    for size, lean in product((1, 2, 4, 8, mpf("0.5"), mpf("0.25"), mpf("0.125")), (1, -1)):
         point: Point = {
             **parameters,
             E_star: mpf(1),

@@ -46,11 +46,15 @@ _FUNCTIONS = {
     "atan": "np.arctan",
     "atan2": "np.arctan2",
     "cos": "np.cos",
+    "cosh": "np.cosh",
+    "exp": "np.exp",
     "fmax": "np.fmax",
     "log": "np.log",
     "sign": "np.sign",
     "sin": "np.sin",
+    "sinh": "np.sinh",
     "tan": "np.tan",
+    "tanh": "np.tanh",
 }
 _NAMED = ("Max", "Min", "Piecewise")
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from difflib import unified_diff
 from pathlib import Path
 
-from derive.codegen.module import MARK
+from derive.codegen.mark import MARK
 from derive.errors import BadOutput
 
 _SUPPORT = Path(__file__).parent / "support"
@@ -42,10 +42,19 @@ def package_files(modules: Files) -> dict[str, str]:
     """All files of a package that holds `modules`, texts by module name."""
     files = {"__init__.py": f"{MARK}\n{_TITLE}", "py.typed": ""}
     made = {f"{name}.py": text for name, text in sorted(modules.items())}
-    for path in sorted(_SUPPORT.glob("_[a-z]*.py")):
-        if path.stem in _ALWAYS or any(f"from .{path.stem} import" in t for t in made.values()):
-            files[path.name] = f"{MARK}\n{path.read_text(encoding='utf-8')}"
-    return files | made
+    return files | _support(made) | made
+
+
+def _support(made: Files) -> dict[str, str]:
+    """The modules of support/ that the modules made need, and those that these need."""
+    texts = {p.stem: p.read_text(encoding="utf-8") for p in _SUPPORT.glob("_[a-z]*.py")}
+    needed, open_ = set(_ALWAYS), [*made.values(), *(texts[name] for name in _ALWAYS)]
+    while open_:
+        text = open_.pop()
+        found = {name for name in texts if f"from .{name} import" in text} - needed
+        needed |= found
+        open_ += [texts[name] for name in found]
+    return {f"{name}.py": f"{MARK}\n{texts[name]}" for name in sorted(needed)}
 
 
 def modules_in(folder: Path) -> dict[str, str]:

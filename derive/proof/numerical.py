@@ -51,6 +51,8 @@ class NumericalRoutes:
 
     @cached_property
     def _routes(self) -> dict[str, tuple[str, Route]]:
+        if not self.sheet.geometry.slope.is_polynomial:
+            return self._routes_of_integrals
         return {
             "tilt": (_QUADRATURE, self._tilt),
             "load": ("int p dx by quadrature", self._load),
@@ -60,6 +62,40 @@ class NumericalRoutes:
             "L_N_right": ("p - K_N sqrt(s) close to the edge", self._second_right),
             "full_stick_change": ("its force and its strain by quadrature", self._full_stick),
         }
+
+    @cached_property
+    def _routes_of_integrals(self) -> dict[str, tuple[str, Route]]:
+        """Superposed wedges against the singular integral equation of g' as it was given."""
+        return {
+            "tilt": (_QUADRATURE, self._tilt),
+            "load": ("(E*/2) I_1 of g(x) by quadrature", self._first_moment),
+            "moment": ("-(E*/2) (I_2 - mid I_1) of g(x) by quadrature", self._second_moment),
+            "pressure": (_QUADRATURE, self._pressure),
+            **{
+                f"K_N_{side}": (f"{_QUADRATURE}, next to the {side} edge", self._edge(side, 0))
+                for side in ("left", "right")
+            },
+            **{
+                f"L_N_{side}": (f"{_QUADRATURE}, next to the {side} edge", self._edge(side, 1))
+                for side in ("left", "right")
+            },
+            "full_stick_change": ("its force and its strain by quadrature", self._full_stick),
+        }
+
+    def _first_moment(self, point: Point, contact: Contact) -> Pairs:
+        yield self._at("load", point), contact.load
+
+    def _second_moment(self, point: Point, contact: Contact) -> Pairs:
+        yield self._at("moment", point), contact.moment
+
+    def _edge(self, side: str, order: int) -> Route:
+        """p/sqrt(s) at three places so close to the edge that a parabola through them is exact."""
+
+        def route(point: Point, contact: Contact) -> Pairs:
+            name = f"{'KL'[order]}_N_{side}"
+            yield self._at(name, point), contact.edge_series(side)[order]
+
+        return route
 
     @cached_property
     def _contacts(self) -> list[tuple[Point, Contact]]:

@@ -12,9 +12,10 @@ from typing import TypeVar
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Symbol, lambdify
+from sympy import Dummy, Expr, Integral, Pow, Symbol, diff, lambdify
 from sympy.logic.boolalg import Boolean
 
+from derive.proof.rule import integral
 from derive.proof.verdict import POINTS
 from derive.sheet import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, e, x
@@ -75,17 +76,80 @@ def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
 
 
 def _parameters(sheet: FormulaSheet, rng: random.Random) -> Point:
+    """Parameters above what the body demands of them."""
     made = [E_star, *(q.symbol for q in sheet.geometry.parameters)]
-    return {symbol: mpf(2) ** rng.uniform(-1.5, 1.5) for symbol in made}
+    least = {d.gts: d.lts for d in sheet.geometry.slope.demands if d.lts.is_number}
+    return {symbol: mpf(2) ** rng.uniform(-1.5, 1.5) + mpf(least.get(symbol, 0)) for symbol in made}
 
 
 @cache
 def numeric(expr: Expr) -> Callable[[Point], mpf]:
-    """`expr` as a function of a point, in mpmath."""
+    """`expr` as a function of a point, in mpmath; integrals over the contact by quadrature."""
     expr = expr.subs(e, M / P)
     held = sorted(expr.free_symbols, key=str)
-    function = lambdify(held, expr, modules="mpmath")
-    return lambda point: mpf(function(*(point[symbol] for symbol in held)))
+    integrals = {found: Dummy("I") for found in sorted(expr.atoms(Integral), key=str)}
+    values = [over_contact(found) for found in integrals]
+    symbols = [*held, *integrals.values()]
+    function = lambdify(symbols, expr.xreplace(integrals), modules="mpmath")
+
+    def at(point: Point) -> mpf:
+        given = [point[symbol] for symbol in held]
+        return mpf(function(*given, *(value(point) for value in values)))
+
+    return at
+
+
+def over_contact(over: Integral) -> Callable[[Point], mpf]:
+    """An integral over a part of the contact as a function of a point.
+
+    Along the angle of the half circle, so that roots that vanish at the edges do no harm.  Nodes
+    crowd at the ends of the part; where a power is infinite there, once more by
+    t**3/(t**3 + (1 - t)**3).  The integrand is evaluated to so many digits that its differences
+    next to an end keep theirs.
+    """
+    variable, low, high = over.limits[0]
+    held = sorted(over.free_symbols, key=str)
+    integrand = lambdify([variable, *held], over.function, modules="mpmath")
+    power = 3 if _is_infinite(over.function, variable) else 1
+    ends = lambdify(held, [low, high], modules="mpmath")
+    known: dict[tuple[mpf, ...], mpf] = {}
+
+    def at(point: Point) -> mpf:
+        given = tuple(point[symbol] for symbol in held)
+        if given not in known:
+            start, end = ends(*given)
+            known[given] = integrated(point[a], point[c], start, end, given)
+        return known[given]
+
+    def integrated(left: mpf, right: mpf, start: mpf, end: mpf, given: tuple[mpf, ...]) -> mpf:
+        if end <= start:
+            return mpf(0)
+        with mpmath.workdps(_INSIDE):
+            half, middle = (left + right) / 2, (right - left) / 2
+            angles = [mpmath.acos(max(-1, min(1, (p - middle) / half))) for p in (end, start)]
+
+        def along(t: mpf) -> mpf:
+            with mpmath.workdps(_INSIDE):
+                near, far = t**power, (1 - t) ** power
+                theta = (angles[0] * far + angles[1] * near) / (near + far)
+                rate = (t * (1 - t)) ** (power - 1) / (near + far) ** 2
+                value = integrand(middle + half * mpmath.cos(theta), *given)
+                return value * half * mpmath.sin(theta) * rate
+
+        with mpmath.workdps(_OUTSIDE):
+            return power * (angles[1] - angles[0]) * integral(along, [mpf(0), mpf(1)])
+
+    return at
+
+
+def _is_infinite(integrand: Expr, variable: Symbol) -> bool:
+    """Whether a power in it is infinite, or bends sharply, where its base vanishes."""
+    powers = [p for p in integrand.atoms(Pow) if p.base.has(variable) and not p.base.has(a, c)]
+    return any(not p.exp.is_Integer and diff(p.base, variable, 2) == 0 for p in powers)
+
+
+_INSIDE, _OUTSIDE = 160, 40
+"""Digits of an integrand, and of the integral."""
 
 
 def holds(conditions: Iterable[Boolean], point: Point) -> bool:

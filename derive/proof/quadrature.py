@@ -6,7 +6,7 @@ Out: the integrals of theory.equilibrium and theory.pressure, evaluated with
      to the ends of its piece.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,9 +15,8 @@ from mpmath import mpf
 from sympy import Expr, Piecewise, Symbol, diff, lambdify
 
 from derive.geometry import Geometry
+from derive.proof.rule import Function, integral
 from derive.symbols import x
-
-Function = Callable[[mpf], mpf]
 
 
 @dataclass(frozen=True)
@@ -62,8 +61,9 @@ class Contact:
     def integral(self, integrand: Function, *also: mpf, singular: bool = False) -> mpf:
         """int_{-a}^{c} integrand(s)/w(s) ds, cut at the kinks and at the places named `also`."""
         cuts = sorted({mpf(0), mpmath.pi, *(self.angle(p) for p in (*self.kinks, *also))})
-        method = "tanh-sinh" if singular else "gauss-legendre"
-        return mpmath.quad(lambda theta: integrand(self.at(theta)), cuts, method=method)
+        gentle = self.geometry.slope.is_polynomial and not singular
+        method = "gauss-legendre" if gentle else "tanh-sinh"
+        return integral(lambda theta: integrand(self.at(theta)), cuts, method)
 
     @cached_property
     def tilt(self) -> mpf:
@@ -81,13 +81,31 @@ class Contact:
         arm = self.integral(lambda s: s * (s - self.mid) * (self.slope(s) + self.tilt))
         return -self.E_star / 2 * arm
 
-    def pressure(self, place: mpf) -> mpf:
-        """p(x) from its principal value, the singularity taken off."""
+    def pressure(self, place: mpf, at_edge: bool = False) -> mpf:
+        """p(x) from its principal value, the singularity taken off; cut at x unless at an edge."""
         here = self.slope(place)
         root = mpmath.sqrt((self.a + place) * (self.c - place))
-        cuts = [place, *self._around(place)]
+        cuts = [] if at_edge else [place, *self._around(place)]
         principal = self.integral(lambda s: (self.slope(s) - here) / (s - place), *cuts)
         return self.E_star / (2 * mpmath.pi) * root * principal
+
+    def edge_series(self, side: str) -> tuple[mpf, mpf]:
+        """K_N and L_N: p/sqrt(s) at three places so close to the edge that a parabola is exact."""
+        if side not in self._series:
+            with mpmath.workdps(mpmath.mp.dps + 30):
+                s = self.h * mpf(10) ** -20
+                places = [n * s - self.a if side == "left" else self.c - n * s for n in (1, 2, 3)]
+                first, second, third = (
+                    self.pressure(place, at_edge=True) / mpmath.sqrt(n * s)
+                    for n, place in enumerate(places, start=1)
+                )
+                rate = (-5 * first + 8 * second - 3 * third) / 2
+                self._series[side] = 3 * first - 3 * second + third, rate / s
+        return self._series[side]
+
+    @cached_property
+    def _series(self) -> dict[str, tuple[mpf, mpf]]:
+        return {}
 
     def _around(self, place: mpf) -> Iterator[mpf]:
         """Cuts about a kink next to `place`, ever wider, for the kernel 1/(s - place)."""
@@ -101,10 +119,7 @@ class Contact:
         """int weight(s) p(s) ds of a given p; p may be infinite, as a logarithm, at a kink."""
 
         def integrand(s: mpf) -> mpf:
-            try:
-                return weight(s) * pressure(s) * mpmath.sqrt((self.a + s) * (self.c - s))
-            except ZeroDivisionError:  # a node that rounds to the kink itself has no weight
-                return mpf(0)
+            return weight(s) * pressure(s) * mpmath.sqrt((self.a + s) * (self.c - s))
 
         return self.integral(integrand, singular=True)
 

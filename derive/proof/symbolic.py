@@ -40,6 +40,8 @@ _SHORT = 60
 def symbolic_proof(sheet: FormulaSheet, name: str) -> Proof | None:
     """The proof of one formula by its symbolic route, if there is one and it succeeds."""
     route = _ROUTES.get(name)
+    if not sheet.geometry.slope.is_polynomial and route is not _stick:
+        return None
     words = route and route(sheet, name)
     return Proof(Verdict.PROVED, words) if words else None
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from derive.codegen.module import MARK
+from derive.codegen.mark import MARK
 from derive.codegen.publish import (
     Difference,
     demand_replaceable,

@@ -1,0 +1,162 @@
+"""Functions of a body whose integrals have no closed form: its curve, and quadrature of it.
+
+In:  a proven FormulaSheet.
+Out: the text of the body's `Profile`, piece by piece, and of the functions that integrate it.  The
+     method is support/_quadrature.py.
+"""
+
+from collections.abc import Iterator
+
+from sympy import Expr, Pow, S, Symbol, cse, diff, factor, numbered_symbols, simplify
+
+from derive.codegen.function import FunctionText
+from derive.codegen.printer import NumPyPrinter
+from derive.codegen.program import Program
+from derive.profile import Piece, Slope, breaks_of
+from derive.sheet import FormulaSheet
+from derive.symbols import x
+
+_t = Symbol("t", positive=True)
+"""Distance from a break."""
+
+_NEAR, _FAR = 4, 6
+"""How far the quadrature rule goes: to 1e-37 of a piece, to 1e-275 where g'' is infinite."""
+
+_RETURNED = {
+    "tilt": "now.tilt",
+    "load": "E_star * now.load",
+    "moment": "E_star * now.moment",
+    "K_N": "E_star * now.left, E_star * now.right",
+    "L_N": "E_star * left, E_star * right",
+    "pressure": "E_star * p",
+}
+"""What each function returns of what the quadrature found."""
+
+
+class IntegratedText(FunctionText):
+    """The text of one function that is integrated."""
+
+    def _made(self) -> Program:
+        return Program({})
+
+    def _demand_equal(self) -> None:
+        """Nothing was rewritten; the module is tried as a whole."""
+
+    @property
+    def _code(self) -> Iterator[str]:
+        given = "".join(f", {q.name}={q.name}" for q in self.sheet.geometry.parameters)
+        match self.function.name:
+            case "pressure":
+                yield f"    p = pressure_at(_BODY, x, a, c{given})"
+            case "L_N":
+                yield f"    left, right = second_of(_BODY, a, c{given})"
+            case _:
+                yield f"    now = state_of(_BODY, a, c{given})"
+        yield from self._ending({"": _RETURNED[self.function.name]})
+
+    @property
+    def _further_checks(self) -> Iterator[str]:
+        if self.function.name == "pressure":
+            yield "x == x"
+        elif self.function.name != "L_N":
+            yield "now.load < np.inf"
+
+
+def curve_text(sheet: FormulaSheet) -> str:
+    """The body's breaks, corners and pieces, and `_BODY` that holds them."""
+    slope = sheet.geometry.slope
+    places, pieces = breaks_of(slope)
+    own = "".join(f", {q.name}: Array" for q in sheet.geometry.parameters)
+    signature = f"(*{own})" if own else "()"
+    printer = NumPyPrinter()
+    steps = {kink.position: kink.step for kink in slope.kinks}
+    corners = [steps.get(place, S.Zero) for place in places]
+    lines = [
+        *_tuple_of("_breaks", "Where the curve is cut.", places, signature, printer),
+        *_tuple_of("_corners", "By how much g' rises at the breaks.", corners, signature, printer),
+    ]
+    held = []
+    for i, piece in enumerate(pieces):
+        names = []
+        for side, place in (("left", piece.lower), ("right", piece.upper)):
+            name = f"_piece_{i}_from_{side}" if place.is_finite else "None"
+            names.append(name)
+            if place.is_finite:
+                sense = 1 if side == "left" else -1
+                signature = f"(t: Array{', *' + own if own else ''})"
+                lines += _branch(name, piece, place, sense, signature)
+        held.append(f"Piece({', '.join(names)})")
+    reach = _FAR if _is_infinite_at_a_break(slope) else _NEAR
+    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach})")
+    return "\n".join(lines)
+
+
+def _tuple_of(
+    name: str,
+    words: str,
+    values: tuple[Expr, ...] | list[Expr],
+    signature: str,
+    printer: NumPyPrinter,
+) -> Iterator[str]:
+    yield f"def {name}{signature} -> tuple[Array, ...]:"
+    yield f'    """{words}"""'
+    yield f"    return ({' '.join(f'{printer.doprint(value)},' for value in values)})"
+    yield ""
+
+
+def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) -> Iterator[str]:
+    """g', g'' and g''' at t beside a break."""
+    slope = simplify(piece.slope.subs(x, place + sense * _t))
+    curvature = _positive_form(sense * diff(slope, _t))
+    change = simplify(sense * diff(curvature, _t))
+    steps, values = cse([slope, curvature, change], symbols=numbered_symbols("s_"))
+    printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
+    side = "right" if sense > 0 else "left"
+    yield f"def {name}{signature} -> Curve:"
+    yield f"    \"\"\"g', g'' and g''' at t on the {side} of a break.\"\"\""
+    for symbol, value in steps:
+        yield f"    {symbol} = {printer.doprint(value)}"
+    yield f"    return Curve({', '.join(printer.doprint(value) for value in values)})"
+    yield ""
+
+
+def _positive_form(curvature: Expr) -> Expr:
+    """A form of g'' without a difference, if there is one."""
+    return factor(simplify(curvature))
+
+
+def _is_infinite_at_a_break(slope: Slope) -> bool:
+    """Whether some g'' is infinite, or not smooth, at the end of its piece."""
+    powers = (p for piece in slope.pieces for p in piece.profile.atoms(Pow) if p.base.has(x))
+    return any(not p.exp.is_Integer and diff(p.base, x, 2) == 0 for p in powers)
+
+
+def carried_text(sheet: FormulaSheet) -> str:
+    """`_state`: what a contact carries."""
+    own, given = _own(sheet)
+    return "\n".join(
+        [
+            f"def _state(a: Array, c: Array{own}) -> State:",
+            '    """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""',
+            f"    return state_of(_BODY, a, c{given})",
+        ]
+    )
+
+
+def level_text(sheet: FormulaSheet) -> str:
+    """`_slope`: the body's slope and curvature at a place."""
+    own, given = _own(sheet)
+    return "\n".join(
+        [
+            f"def _slope(x: Array{own}) -> tuple[Array, Array]:",
+            '    """g\'(x) and g\'\'(x)."""',
+            f"    return slope_of(_BODY, x{given})",
+        ]
+    )
+
+
+def _own(sheet: FormulaSheet) -> tuple[str, str]:
+    """The body's parameters as a function takes them and hands them on."""
+    names = [q.name for q in sheet.geometry.parameters]
+    taken = "".join(f", {name}: Array" for name in names)
+    return (f", *{taken}" if names else ""), "".join(f", {name}={name}" for name in names)

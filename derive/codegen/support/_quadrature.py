@@ -1,0 +1,402 @@
+"""What a contact carries, by quadrature of the body's curvature.
+
+Each element ds of the contact adds the pressure (1/pi) g''(s) L(x, s) ds for E* = 1, with
+
+    L(x, s) = asinh sqrt(min(u, v)/(h |x - s|)),   u = (c - s)(a + x),   v = (a + s)(c - x),
+
+and a corner adds the jump of g' there in place of g'' ds.  Load and edge coefficients follow,
+
+    P = (1/2) int g'' w ds,   K_left = (1/(pi sqrt(h))) int g'' w/(a + s) ds,   K_right alike.
+
+On a convex body nothing in them is ever subtracted, so no digit is lost, wherever the contact lies.
+
+The contact is cut at the body's breaks.  A break is a corner, a change of formula, or the real part
+of a singularity beside the real axis.  On each part the nodes of the double exponential rule crowd
+towards both ends, and every distance to an end is a product, not a difference.  The step is halved
+until two sums agree; elements that agree take no part in the next halving.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ._solve import State
+
+Array = Any
+
+COARSEST, FINEST = 1, 9
+"""Steps of the rule are 2**-COARSEST at first and 2**-FINEST at last."""
+
+AGREED = 1e-10
+"""Two sums that agree to this are followed by one that is exact to rounding."""
+
+TOGETHER = 8_192
+"""Nodes and elements that are evaluated in one piece."""
+
+_TINY = 5e-324
+
+
+class Curve(NamedTuple):
+    """g', g'' and g''' at one place."""
+
+    slope: Array
+    curvature: Array
+    change: Array
+
+
+Branch = Callable[..., Curve]
+"""The curve at a distance t from a break, from t and the body's parameters."""
+
+
+class Piece(NamedTuple):
+    """The curve between two neighbouring breaks.
+
+    from_left: at t right of the left break; None where the piece has no left end.
+    from_right: at t left of the right break; None where it has no right end.
+    """
+
+    from_left: Branch | None
+    from_right: Branch | None
+
+
+class Profile(NamedTuple):
+    """A body by its curve.
+
+    breaks: places of the breaks from left to right, from the parameters.
+    corners: jumps of g' at the breaks, from the parameters; zero where there is none.
+    pieces: one more than breaks.
+    reach: how far the rule goes; farther where g'' is infinite at a break.
+    """
+
+    breaks: Callable[..., tuple[Array, ...]]
+    corners: Callable[..., tuple[Array, ...]]
+    pieces: tuple[Piece, ...]
+    reach: int
+
+
+def state_of(body: Profile, a: Array, c: Array, **constants: Array) -> State:
+    """Load, moment, tilt and edge coefficients of the contact [-a, c] for E* = 1.
+
+    NaN where [-a, c] is no contact; a load without limit where it leaves the curve.
+    """
+    given = _Flat(a, c, constants)
+    a, c, constants = given.a, given.c, given.constants
+    h, mid = a + c, (c - a) / 2
+
+    def integrand(near: "_Nodes", _: Any) -> tuple[Array, ...]:
+        A, B = near.from_low, near.from_high
+        root = np.sqrt(A * B)
+        force = near.curve.curvature * root
+        return force, force / A, force / B, near.curve.slope / root, force * (A - B)
+
+    shared = _Contact(body, constants, -a, c, h, ())
+    force, left, right, level, arm = _integrals(shared, integrand, 5, positive=3)
+    for place, jump in shared.corners():
+        A, B = np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
+        root = np.where((A > 0) & (B > 0), np.sqrt(A * B), 0.0)
+        force, arm = force + jump * root, arm + jump * root * (A - B)
+        with_root = root > 0
+        left = left + np.where(with_root, jump * root / np.where(with_root, A, 1.0), 0.0)
+        right = right + np.where(with_root, jump * root / np.where(with_root, B, 1.0), 0.0)
+    load = np.where(np.isnan(force) & (h > 0), np.inf, force / 2)
+    load = np.where((h > 0) & (load > 0), load, np.nan)
+    root = np.pi * np.sqrt(h)
+    found = (load, -mid * load - arm / 8, -level / np.pi, left / root, right / root)
+    return State(*(given.shaped(v) for v in found))
+
+
+def pressure_at(body: Profile, x: Array, a: Array, c: Array, **constants: Array) -> Array:
+    """The pressure at x for E* = 1; zero outside the contact."""
+    given = _Flat(a, c, constants, x)
+    a, c, constants, x = given.a, given.c, given.constants, *given.also
+    h = a + c
+    inside = (x > -a) & (x < c)
+    x = np.where(inside, x, (c - a) / 2)
+    left, right = a + x, c - x
+
+    def on_the_left(near: "_Nodes", of: Any) -> tuple[Array, ...]:
+        u_or_v = near.from_low * of(right)
+        return (near.curve.curvature * np.arcsinh(np.sqrt(u_or_v / (of(h) * near.from_high))),)
+
+    def on_the_right(near: "_Nodes", of: Any) -> tuple[Array, ...]:
+        u_or_v = near.from_high * of(left)
+        return (near.curve.curvature * np.arcsinh(np.sqrt(u_or_v / (of(h) * near.from_low))),)
+
+    total = 0 * h
+    for low, high, width, kernel in ((-a, x, left, on_the_left), (x, c, right, on_the_right)):
+        shared = _Contact(body, constants, low, high, width, ())
+        (part,) = _integrals(shared, kernel, 1, positive=1)
+        total = total + part
+    for place, jump in shared.corners():
+        A, B = np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
+        ratio = np.minimum(B * left, A * right) / (h * np.abs(x - place))
+        total = total + np.where((A > 0) & (B > 0), jump * np.arcsinh(np.sqrt(ratio)), 0.0)
+    return given.shaped(np.where(inside, total / np.pi, 0.0 * total))
+
+
+def second_of(body: Profile, a: Array, c: Array, **constants: Array) -> tuple[Array, Array]:
+    """The coefficients of s**(3/2) in the pressure at the left and the right edge for E* = 1."""
+    given = _Flat(a, c, constants)
+    a, c, constants = given.a, given.c, given.constants
+    left = _second_right(mirrored(body), c, a, constants)
+    return given.shaped(left), given.shaped(_second_right(body, a, c, constants))
+
+
+def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]) -> Array:
+    r"""(1/pi) times the finite part of int g'' k ds, k = r (3 + 2 r**2)/(6 h**(3/2)).
+
+    r = sqrt((a + s)/(c - s)).  On the part that ends at the edge g'' is integrated by parts, with
+
+        int k ds = psi(r)/(3 sqrt(h)),   psi(r) = 2 r - (3/2) atan r - r/(2 (1 + r**2)),
+
+    whose finite part at the edge is -3 pi/4.
+    """
+    h = a + c
+    scale = 6 * h * np.sqrt(h)
+
+    def integrand(near: "_Nodes", of: Any) -> tuple[Array, ...]:
+        A, B, width = near.from_low, near.from_high, of(h)
+        ends, start = near.ends_high, near.start_low
+        r, r_0 = np.sqrt(A / B), np.sqrt(start / (width - start))
+        step = width * near.from_start / (B * (width - start)) / (r + r_0)
+        twist = (1 - r * r_0) / ((1 + r**2) * (1 + r_0**2))
+        rise = 2 * step - 1.5 * np.arctan2(step, 1 + r * r_0) - step * twist / 2
+        by_parts = -near.curve.change * rise * (2 * width)
+        plain = near.curve.curvature * r * (3 + 2 * r**2)
+        value = np.where(ends, by_parts, plain)
+        return np.abs(value), value
+
+    shared = _Contact(body, constants, -a, c, h, ())
+    _, total = _integrals(shared, integrand, 2, positive=1)
+    for piece in shared.pieces():
+        r_0 = np.sqrt(piece.start_low / np.maximum(h - piece.start_low, _TINY))
+        psi = 2 * r_0 - 1.5 * np.arctan(r_0) - r_0 / (2 * (1 + r_0**2))
+        edge = piece.at_high().curvature * (-0.75 * np.pi - psi) * (2 * h)
+        total = total + np.where(piece.ends_high & (piece.length > 0), edge, 0.0)
+    for place, jump in shared.corners():
+        A, B = np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
+        r = np.sqrt(A / np.where(B > 0, B, 1.0))
+        total = total + np.where(B > 0, jump * r * (3 + 2 * r**2), 0.0)
+    return total / (np.pi * scale)
+
+
+def mirrored(body: Profile) -> Profile:
+    """The body seen from behind the plane, x to the left."""
+
+    def turned(branch: Branch | None) -> Branch | None:
+        if branch is None:
+            return None
+
+        def of(t: Array, **constants: Array) -> Curve:
+            slope, curvature, change = branch(t, **constants)
+            return Curve(-slope, curvature, -change)
+
+        return of
+
+    def breaks(**constants: Array) -> tuple[Array, ...]:
+        return tuple(-place for place in reversed(body.breaks(**constants)))
+
+    def corners(**constants: Array) -> tuple[Array, ...]:
+        return tuple(reversed(body.corners(**constants)))
+
+    pieces = tuple(Piece(turned(p.from_right), turned(p.from_left)) for p in reversed(body.pieces))
+    return Profile(breaks, corners, pieces, body.reach)
+
+
+def slope_of(body: Profile, x: Array, **constants: Array) -> tuple[Array, Array]:
+    """g'(x) and g''(x); at a break, of the piece on its right."""
+    places = body.breaks(**constants)
+    found: tuple[Array, Array] = (np.nan, np.nan)
+    for i, piece in enumerate(body.pieces):
+        if piece.from_left is not None:
+            curve = piece.from_left(np.maximum(x - places[i - 1], _TINY), **constants)
+            here = x >= places[i - 1]
+        else:
+            curve = piece.from_right(np.maximum(places[0] - x, _TINY), **constants)  # type: ignore[misc]
+            here = True
+        found = np.where(here, curve[0], found[0]), np.where(here, curve[1], found[1])
+    return found
+
+
+# ---------------------------------------------------------------------- the rule
+
+
+class _Nodes(NamedTuple):
+    """Places of one part of the contact, and the curve there.
+
+    from_low, from_high: distances from the ends of the whole window.
+    from_start: distance from the part's own left end.
+    start_low: of that end from the window's low end.
+    ends_high: whether the part ends at the window's high end.
+    """
+
+    curve: Curve
+    from_low: Array
+    from_high: Array
+    from_start: Array
+    start_low: Array
+    ends_high: Array
+
+
+class _Part(NamedTuple):
+    """One piece inside the window [low, high], for some elements.
+
+    length: its length in the window; 0 where it is outside.
+    start_low, end_high: distances of its ends from the window's.
+    beyond_left, beyond_right: distances from the piece's breaks to its ends in the window.
+    """
+
+    piece: Piece
+    length: Array
+    start_low: Array
+    end_high: Array
+    beyond_left: Array
+    beyond_right: Array
+    constants: dict[str, Array]
+
+    @property
+    def ends_high(self) -> Array:
+        """Whether it ends at the window's high end."""
+        return self.end_high == 0
+
+    def at_high(self) -> Curve:
+        """The curve at its right end."""
+        if self.piece.from_left is not None:
+            return self.piece.from_left(self.beyond_left + self.length, **self.constants)
+        return self.piece.from_right(self.beyond_right, **self.constants)  # type: ignore[misc]
+
+    def at(self, near_left: bool, q: Array, rest: Array) -> _Nodes:
+        """Nodes at the fractions q from the left end, 1 - q = rest from the right."""
+        along, back = self.length * q, self.length * rest
+        from_left, from_right = self.piece
+        if from_left is not None and (near_left or from_right is None):
+            curve = from_left(np.maximum(self.beyond_left + along, _TINY), **self.constants)
+        else:
+            distance = np.maximum(self.beyond_right + back, _TINY)
+            curve = from_right(distance, **self.constants)  # type: ignore[misc]
+        low, high = self.start_low + along, self.end_high + back
+        return _Nodes(curve, low, high, along, self.start_low, self.ends_high)
+
+
+class _Contact(NamedTuple):
+    """A body and the windows [low, high] of its contact; `rows` are left to do."""
+
+    body: Profile
+    constants: dict[str, Array]
+    low: Array
+    high: Array
+    width: Array
+    rows: Any
+
+    def on(self, rows: Any) -> "_Contact":
+        """The same for some elements."""
+        constants = {n: v[rows] if np.ndim(v) else v for n, v in self.constants.items()}
+        return _Contact(
+            self.body, constants, self.low[rows], self.high[rows], self.width[rows], rows
+        )
+
+    def corners(self) -> Iterator[tuple[Array, Array]]:
+        """Places and jumps of g'."""
+        places, jumps = (of(**self.constants) for of in (self.body.breaks, self.body.corners))
+        for place, jump in zip(places, jumps, strict=True):
+            if np.ndim(jump) or jump != 0:
+                yield place, jump
+
+    def pieces(self) -> Iterator[_Part]:
+        """The pieces as they lie in the windows."""
+        places: Sequence[Any] = self.body.breaks(**self.constants)
+        everywhere = np.full_like(self.width, np.inf)
+        for i, piece in enumerate(self.body.pieces):
+            left = places[i - 1] if i else None
+            right = places[i] if i < len(places) else None
+            span = right - left if left is not None and right is not None else everywhere
+            from_low = everywhere if left is None else self.high - left
+            from_high = everywhere if right is None else right - self.low
+            start = 0 * self.width if left is None else np.clip(left - self.low, 0, self.width)
+            end = 0 * self.width if right is None else np.clip(self.high - right, 0, self.width)
+            length = np.minimum(np.minimum(from_low, from_high), np.minimum(span, self.width))
+            length = np.maximum(length, 0.0)
+            past_left = 0 if left is None else np.clip(self.low - left, 0, span)
+            past_right = 0 if right is None else np.clip(right - self.high, 0, span)
+            yield _Part(piece, length, start, end, past_left, past_right, self.constants)
+
+
+def _integrals(
+    contact: _Contact,
+    integrand: Callable[..., tuple[Array, ...]],
+    count: int,
+    positive: int,
+) -> list[Array]:
+    """Integrals over the windows, NaN where the sums do not agree; the first few are positive."""
+    sums = np.full((count, contact.width.size), np.nan)
+    rows = np.flatnonzero(contact.width > 0)
+    sums[:, contact.width == 0] = 0.0
+    before = np.zeros((count, rows.size))
+    for level in range(COARSEST, FINEST + 1):
+        if not rows.size:
+            break
+        here = contact.on(rows)
+        fresh = _level_sums(here, integrand, count, level)
+        now = before + fresh if level == COARSEST else before / 2 + fresh
+        off = np.abs(now[:positive] - before[:positive]) - AGREED * np.abs(now[:positive])
+        agreed = (np.all(off <= 0, axis=0) & (level > COARSEST)) | np.any(np.isnan(off), axis=0)
+        sums[:, rows[agreed]] = now[:, agreed]
+        rows, before = rows[~agreed], now[:, ~agreed]
+    return [*sums]
+
+
+def _level_sums(
+    contact: _Contact, integrand: Callable[..., tuple[Array, ...]], count: int, level: int
+) -> Array:
+    """Sums over the nodes that this level adds."""
+    total = np.zeros((count, contact.width.size))
+    many = max(1, TOGETHER // contact.width.size)
+
+    def of(value: Array) -> Array:
+        return value[contact.rows]
+
+    for part in contact.pieces():
+        if not np.any(part.length):
+            continue
+        nodes = _nodes(level, contact.body.reach)
+        for near_left in (True, False):
+            mine = nodes[:, (nodes[0] < 0.5) == near_left, None]
+            for start in range(0, mine.shape[1], many):
+                q, rest, weight = mine[:, start : start + many]
+                values = integrand(part.at(near_left, q, rest), of)
+                for i, value in enumerate(values):
+                    added = np.sum(weight * value, axis=0) * part.length
+                    total[i] += np.where(part.length > 0, added, 0.0)
+    return total
+
+
+@cache
+def _nodes(level: int, reach: int) -> Array:
+    """q, 1 - q and weights that `level` adds to the rule on (0, 1): q = 1/(1 + exp(-pi sinh t))."""
+    step = 2.0**-level
+    count = int(reach / step)
+    t = step * np.arange(-count, count + 1)
+    if level > COARSEST:
+        t = t[np.arange(-count, count + 1) % 2 == 1]
+    q, rest = (1 / (1 + np.exp(sign * np.pi * np.sinh(t))) for sign in (-1, 1))
+    return np.array([q, rest, step * np.pi * np.cosh(t) * q * rest])
+
+
+class _Flat:
+    """Arguments along one dimension, and the way back."""
+
+    def __init__(self, a: Array, c: Array, constants: dict[str, Array], *also: Array) -> None:
+        varying = [n for n in constants if np.ndim(constants[n])]
+        given = (a, c, *also, *(constants[n] for n in varying))
+        self.shape = np.broadcast_shapes(*map(np.shape, given))
+        flat = [np.broadcast_to(v, self.shape).ravel() for v in given]
+        own = flat[2 + len(also) :]
+        self.a, self.c = flat[:2]
+        self.also = flat[2 : 2 + len(also)]
+        self.constants = constants | dict(zip(varying, own, strict=True))
+
+    def shaped(self, value: Array) -> Array:
+        """A result in the shape of the arguments."""
+        return value.reshape(self.shape)[()]
