@@ -81,7 +81,17 @@ _USED_BESIDES = (
     # by the generated modules
     *("np", "scipy", "LEAST", "MOST", "TINY", "elementwise", "only_where", "select"),
     *("State", "level", "contact_under", "contact_at", "place"),
-    *("Curve", "Piece", "Profile", "state_of", "slope_of", "pressure_at", "second_of", "now"),
+    *(
+        "Curve",
+        "Piece",
+        "Profile",
+        "state_of",
+        "slope_of",
+        "pressure_at",
+        "second_of",
+        "mended",
+        "now",
+    ),
     *("Array", "exists", "first", "second", "order"),
     *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure"),
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),

@@ -129,15 +129,19 @@ class FunctionText:
         checks = [printer.doprint(condition) for condition in _one_check(self._checked)]
         checks += self._further_checks
         yield f"    exists = {' & '.join(f'({check})' for check in checks)}"
-        yield f"    return {self._returned(values)}"
+        yield from self._result(values)
 
     @property
     def _further_checks(self) -> Iterator[str]:
         if any(step.expr.has(fmax) for step in self.program.steps):
             yield "x == x"  # fmax would hide that it is not a number
 
-    def _returned(self, values: dict[str, str]) -> str:
+    def _result(self, values: dict[str, str]) -> Iterator[str]:
         found = f"only_where(exists, {', '.join(values.values())})"
+        yield f"    return {self._wrapped(found)}"
+
+    def _wrapped(self, found: str) -> str:
+        """A list of results as the named tuple, or the only one as it is."""
         return f"{self.function.kind}(*{found})" if self.function.kind else found
 
     def _is_held(self, name: str) -> bool:

@@ -14,7 +14,7 @@ from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
 from derive.profile import Piece, Slope, breaks_of
 from derive.sheet import FormulaSheet
-from derive.symbols import x
+from derive.symbols import E_star, x
 
 _t = Symbol("t", positive=True)
 """Distance from a break."""
@@ -62,6 +62,50 @@ class IntegratedText(FunctionText):
             yield "now.load < np.inf"
 
 
+_FIELDS = {
+    "tilt": ("tilt",),
+    "load": ("load",),
+    "moment": ("moment",),
+    "K_N": ("left", "right"),
+    "L_N": ("second_left", "second_right"),
+    "pressure": ("p",),
+}
+"""What the quadrature calls the results of each function."""
+
+
+class MendedText(FunctionText):
+    """The text of a closed function that is integrated where it would lose digits."""
+
+    def _result(self, values: dict[str, str]) -> Iterator[str]:
+        return mended_lines(self, values, _FIELDS[self.function.name])
+
+    @property
+    def _existence(self) -> str:
+        words = "where a kink lies close to an edge or to another kink, by quadrature of g''"
+        return f"{super()._existence}.  {words[0].upper()}{words[1:]}"
+
+
+def mended_lines(
+    made: FunctionText, values: dict[str, str], fields: tuple[str, ...]
+) -> Iterator[str]:
+    """The closed values, and the call that integrates them where they would lose digits."""
+    own = "".join(f", {q.name}={q.name}" for q in made.sheet.geometry.parameters)
+    scale = "E_star" if E_star in made.keywords else "1.0"
+    at = ", x=x" if x in made.function.arguments else ""
+    guarded = f"only_where(exists, {', '.join(values.values())})"
+    names = "".join(f"{name!r}, " for name in fields)
+    yield f"    found = {guarded if len(values) > 1 else f'[{guarded}]'}"
+    yield f"    found = mended(found, ({names}), {scale}, _BODY, a, c{at}{own})"
+    yield (
+        f"    return {made.function.kind}(*found)" if made.function.kind else "    return found[0]"
+    )
+
+
+def is_mended(sheet: FormulaSheet) -> bool:
+    """Whether closed formulas lose digits somewhere: where a contact can leave a kink."""
+    return sheet.geometry.slope.is_polynomial and any(k.clipped for k in sheet.frame.kinks)
+
+
 def curve_text(sheet: FormulaSheet) -> str:
     """The body's breaks, corners and pieces, and `_BODY` that holds them."""
     slope = sheet.geometry.slope
@@ -85,7 +129,7 @@ def curve_text(sheet: FormulaSheet) -> str:
                 sense = 1 if side == "left" else -1
                 signature = f"(t: Array{', *' + own if own else ''})"
                 lines += _branch(name, piece, place, sense, signature)
-        held.append(f"Piece({', '.join(names)})")
+        held.append(f"Piece({', '.join(names)}{', straight=True' * piece.straight})")
     reach = _FAR if _is_infinite_at_a_break(slope) else _NEAR
     lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach})")
     return "\n".join(lines)

@@ -11,9 +11,16 @@ from collections.abc import Iterator
 
 from ruff import find_ruff_bin
 
-from derive.codegen.contract import CONTRACT
+from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.function import LINE, FunctionText, inside_quotes
-from derive.codegen.integrated import IntegratedText, carried_text, curve_text, level_text
+from derive.codegen.integrated import (
+    IntegratedText,
+    MendedText,
+    carried_text,
+    curve_text,
+    is_mended,
+    level_text,
+)
 from derive.codegen.mark import MARK
 from derive.codegen.solved import SOLVED, SolvedText, StateText, slope_text
 from derive.notation import text_of
@@ -24,9 +31,10 @@ _HELPERS = {
     "_arrays": ("LEAST", "MOST", "TINY", "elementwise", "only_where", "select"),
     "_quadrature": (
         *("Curve", "Piece", "Profile"),
-        *("pressure_at", "second_of", "slope_of", "state_of"),
+        *("mended", "pressure_at", "second_of", "slope_of", "state_of"),
     ),
-    "_solve": ("State", "contact_at", "contact_under", "level"),
+    "_solve": ("contact_at", "contact_under", "level"),
+    "_state": ("State",),
 }
 """What the modules of support/ offer to those beside them."""
 
@@ -62,23 +70,27 @@ __all__ = {names}
 
 def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
     """The text of every function; what has no closed formula is solved, or integrated."""
-    closed = sheet.geometry.slope.is_polynomial
     solved = [f for f in CONTRACT if f.name in SOLVED and not f.available(sheet)]
-    if not closed:
+    closed, mended = sheet.geometry.slope.is_polynomial, is_mended(sheet)
+    if mended or not closed:
         yield curve_text(sheet)
-        yield from (carried_text(sheet), level_text(sheet))
-    elif solved:
-        yield StateText(sheet, source).text
-    if closed and any(alpha in f.arguments for f in solved):
-        yield slope_text(sheet)
+    if solved:
+        yield StateText(sheet, source).text if closed else carried_text(sheet)
+    if any(alpha in f.arguments for f in solved):
+        yield slope_text(sheet) if closed else level_text(sheet)
     for function in CONTRACT:
-        if function in solved:
-            made: type[FunctionText] = SolvedText
-        elif all(sheet.is_closed(name) for name in function.formulas):
-            made = FunctionText
-        else:
-            made = IntegratedText
-        yield made(sheet, function, source).text
+        yield _made(sheet, function, function in solved, mended)(sheet, function, source).text
+
+
+def _made(
+    sheet: FormulaSheet, function: Function, solved: bool, mended: bool
+) -> type[FunctionText]:
+    """How one function is written."""
+    if solved:
+        return SolvedText
+    if not all(sheet.is_closed(name) for name in function.formulas):
+        return IntegratedText
+    return MendedText if mended and function.geometric else FunctionText
 
 
 def _imports(code: str) -> str:

@@ -12,6 +12,7 @@ from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
 from derive.codegen.function import FunctionText
+from derive.codegen.integrated import is_mended, mended_lines
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
 from derive.proof.points import Point, contacts
@@ -55,9 +56,12 @@ class StateText(FunctionText):
     def _docstring(self) -> str:
         return f'"""{self.function.summary}"""'
 
-    def _returned(self, values: dict[str, str]) -> str:
+    def _result(self, values: dict[str, str]) -> Iterator[str]:
+        if is_mended(self.sheet):
+            yield from mended_lines(self, values, tuple(values))
+            return
         guarded = f"only_where(exists, {values.pop('load')})"
-        return f"State({', '.join([guarded, *values.values()])})"
+        yield f"    return State({', '.join([guarded, *values.values()])})"
 
 
 def slope_text(sheet: FormulaSheet) -> str:
@@ -152,14 +156,19 @@ class SolvedText(FunctionText):
         own = [q.name for q in self.sheet.geometry.parameters]
         constants = "".join(f", {name}={name}" for name in own)
         size = _length(self.sheet)
+        cut = not self.sheet.geometry.slope.is_polynomial or is_mended(self.sheet)
+        breaks = f"_breaks({constants.removeprefix(', ')})" if cut else "()"
         if M in self.function.arguments:
             yield (
                 f"    a, c, alpha = contact_under("
-                f"P / E_star, M / E_star, {size}, _state{constants})"
+                f"P / E_star, M / E_star, {size}, _state, {breaks}{constants})"
             )
         else:
             yield f"    place = level(_slope, alpha, {size}, {self._corners}{constants})"
-            yield f"    a, c, _ = contact_at(P / E_star, alpha, place, {size}, _state{constants})"
+            yield (
+                f"    a, c, _ = contact_at("
+                f"P / E_star, alpha, place, {size}, _state, {breaks}{constants})"
+            )
         held = "alpha" if M in self.function.arguments else "alpha.copy()"
         yield from self._ending({"a": "a", "c": "c", "alpha": held})
 

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from derive.codegen.support._solve import State, contact_at, contact_under, level
+from derive.codegen.support._solve import contact_at, contact_under, level
+from derive.codegen.support._state import State
 from generated import hertz, wedge
 
 R, PHI = 1.5, 0.375

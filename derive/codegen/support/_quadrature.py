@@ -6,9 +6,11 @@ Each element ds of the contact adds the pressure (1/pi) g''(s) L(x, s) ds for E*
 
 and a corner adds the jump of g' there in place of g'' ds.  Load and edge coefficients follow,
 
-    P = (1/2) int g'' w ds,   K_left = (1/(pi sqrt(h))) int g'' w/(a + s) ds,   K_right alike.
+    P = (1/2) int g'' w ds,   K_left = (1/(pi sqrt(h))) int g'' w/(a + s) ds,   K_right alike,
+    alpha = -(1/pi) int g'/w ds.
 
-On a convex body nothing in them is ever subtracted, so no digit is lost, wherever the contact lies.
+On a convex body nothing in the first three is ever subtracted: no digit is lost, wherever the
+contact lies.
 
 The contact is cut at the body's breaks.  A break is a corner, a change of formula, or the real part
 of a singularity beside the real axis.  On each part the nodes of the double exponential rule crowd
@@ -18,11 +20,12 @@ until two sums agree; elements that agree take no part in the next halving.
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._solve import State
+from ._state import State
 
 Array = Any
 
@@ -31,6 +34,9 @@ COARSEST, FINEST = 1, 9
 
 AGREED = 1e-10
 """Two sums that agree to this are followed by one that is exact to rounding."""
+
+CLOSE = 0.1
+"""Breaks closer than this, compared with the width, are left to quadrature."""
 
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
@@ -55,10 +61,12 @@ class Piece(NamedTuple):
 
     from_left: at t right of the left break; None where the piece has no left end.
     from_right: at t left of the right break; None where it has no right end.
+    straight: whether g'' is zero all over it.
     """
 
     from_left: Branch | None
     from_right: Branch | None
+    straight: bool = False
 
 
 class Profile(NamedTuple):
@@ -76,7 +84,7 @@ class Profile(NamedTuple):
     reach: int
 
 
-def state_of(body: Profile, a: Array, c: Array, **constants: Array) -> State:
+def state_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> State:
     """Load, moment, tilt and edge coefficients of the contact [-a, c] for E* = 1.
 
     NaN where [-a, c] is no contact; a load without limit where it leaves the curve.
@@ -92,22 +100,25 @@ def state_of(body: Profile, a: Array, c: Array, **constants: Array) -> State:
         return force, force / A, force / B, near.curve.slope / root, force * (A - B)
 
     shared = _Contact(body, constants, -a, c, h, ())
-    force, left, right, level, arm = _integrals(shared, integrand, 5, positive=3)
+    force, left, right, lean, arm = _integrals(shared, integrand, 5, positive=3)
+    for part in shared.pieces():
+        if part.piece.straight:
+            lean = lean + np.where(part.length > 0, part.at_high().slope * part.angle(), 0.0)
     for place, jump in shared.corners():
         A, B = np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
         root = np.where((A > 0) & (B > 0), np.sqrt(A * B), 0.0)
+        inside = root > 0
         force, arm = force + jump * root, arm + jump * root * (A - B)
-        with_root = root > 0
-        left = left + np.where(with_root, jump * root / np.where(with_root, A, 1.0), 0.0)
-        right = right + np.where(with_root, jump * root / np.where(with_root, B, 1.0), 0.0)
+        left = left + np.where(inside, jump * root / np.where(inside, A, 1.0), 0.0)
+        right = right + np.where(inside, jump * root / np.where(inside, B, 1.0), 0.0)
     load = np.where(np.isnan(force) & (h > 0), np.inf, force / 2)
     load = np.where((h > 0) & (load > 0), load, np.nan)
     root = np.pi * np.sqrt(h)
-    found = (load, -mid * load - arm / 8, -level / np.pi, left / root, right / root)
+    found = (load, -mid * load - arm / 8, -lean / np.pi, left / root, right / root)
     return State(*(given.shaped(v) for v in found))
 
 
-def pressure_at(body: Profile, x: Array, a: Array, c: Array, **constants: Array) -> Array:
+def pressure_at(body: Profile, x: Array, a: Array, c: Array, /, **constants: Array) -> Array:
     """The pressure at x for E* = 1; zero outside the contact."""
     given = _Flat(a, c, constants, x)
     a, c, constants, x = given.a, given.c, given.constants, *given.also
@@ -136,7 +147,7 @@ def pressure_at(body: Profile, x: Array, a: Array, c: Array, **constants: Array)
     return given.shaped(np.where(inside, total / np.pi, 0.0 * total))
 
 
-def second_of(body: Profile, a: Array, c: Array, **constants: Array) -> tuple[Array, Array]:
+def second_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> tuple[Array, Array]:
     """The coefficients of s**(3/2) in the pressure at the left and the right edge for E* = 1."""
     given = _Flat(a, c, constants)
     a, c, constants = given.a, given.c, given.constants
@@ -182,6 +193,60 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
     return total / (np.pi * scale)
 
 
+def mended(
+    values: Sequence[Array],
+    fields: Sequence[str],
+    scale: Array,
+    body: Profile,
+    a: Array,
+    c: Array,
+    /,
+    x: Array = 0.0,
+    **constants: Array,
+) -> list[Array]:
+    """Values of closed formulas, by quadrature instead where the formulas would lose digits.
+
+    fields: of a State; or "p", or "second_left" and "second_right".
+    scale: what the quadrature is multiplied by.
+    """
+    rough = is_delicate(body, a, c, **constants)
+    if not np.any(rough):
+        return [*values]
+    given = _Flat(a, c, constants, x, scale, rough, *values)
+    x, scale, rough, *values = given.also
+    rows = np.flatnonzero(rough)
+    held = {n: v[rows] if np.ndim(v) else v for n, v in given.constants.items()}
+    a, c = given.a[rows], given.c[rows]
+    if "p" in fields:
+        found: Any = (pressure_at(body, x[rows], a, c, **held),)
+    elif "second_left" in fields:
+        found = second_of(body, a, c, **held)
+    else:
+        now = state_of(body, a, c, **held)
+        found = [getattr(now, name) for name in fields]
+    mended_values = []
+    for value, fresh in zip(values, found, strict=True):
+        whole = value.copy()
+        whole[rows] = np.where(np.isnan(value[rows]), np.nan, scale[rows] * fresh)
+        mended_values.append(given.shaped(whole))
+    return mended_values
+
+
+def is_delicate(body: Profile, a: Array, c: Array, /, **constants: Array) -> Array:
+    """Whether a break lies close to an edge, or to the next one, compared with the width.
+
+    What the pieces carry is a small difference there, in closed formulas.
+    """
+    h, places = a + c, body.breaks(**constants)
+    rough = h < 0
+    for place in places:
+        near = np.minimum(a + place, c - place)
+        rough = rough | ((near > 0) & (near < CLOSE * h))
+    for left, right in pairwise(places):
+        rough = rough | ((right - left < CLOSE * h) & (left > -a) & (right < c))
+    return rough
+
+
 def mirrored(body: Profile) -> Profile:
     """The body seen from behind the plane, x to the left."""
 
@@ -201,11 +266,13 @@ def mirrored(body: Profile) -> Profile:
     def corners(**constants: Array) -> tuple[Array, ...]:
         return tuple(reversed(body.corners(**constants)))
 
-    pieces = tuple(Piece(turned(p.from_right), turned(p.from_left)) for p in reversed(body.pieces))
+    pieces = tuple(
+        Piece(turned(p.from_right), turned(p.from_left), p.straight) for p in reversed(body.pieces)
+    )
     return Profile(breaks, corners, pieces, body.reach)
 
 
-def slope_of(body: Profile, x: Array, **constants: Array) -> tuple[Array, Array]:
+def slope_of(body: Profile, x: Array, /, **constants: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x); at a break, of the piece on its right."""
     places = body.breaks(**constants)
     found: tuple[Array, Array] = (np.nan, np.nan)
@@ -267,10 +334,18 @@ class _Part(NamedTuple):
             return self.piece.from_left(self.beyond_left + self.length, **self.constants)
         return self.piece.from_right(self.beyond_right, **self.constants)  # type: ignore[misc]
 
+    def angle(self) -> Array:
+        """int ds/w over it."""
+        start, end = self.start_low, self.end_high
+        beyond, before = start + self.length, end + self.length
+        both = np.sqrt(before * beyond) + np.sqrt(end * start)
+        sine = (start + before) * self.length / both
+        return 2 * np.arctan2(sine, np.sqrt(before * end) + np.sqrt(beyond * start))
+
     def at(self, near_left: bool, q: Array, rest: Array) -> _Nodes:
         """Nodes at the fractions q from the left end, 1 - q = rest from the right."""
         along, back = self.length * q, self.length * rest
-        from_left, from_right = self.piece
+        from_left, from_right, _ = self.piece
         if from_left is not None and (near_left or from_right is None):
             curve = from_left(np.maximum(self.beyond_left + along, _TINY), **self.constants)
         else:
@@ -358,7 +433,7 @@ def _level_sums(
         return value[contact.rows]
 
     for part in contact.pieces():
-        if not np.any(part.length):
+        if part.piece.straight or not np.any(part.length):
             continue
         nodes = _nodes(level, contact.body.reach)
         for near_left in (True, False):

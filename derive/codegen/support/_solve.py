@@ -14,18 +14,15 @@ off, both distances are scaled alike; the load grows with them, however large or
 Elements that have converged take no part in the next step: a hard one costs its neighbours nothing.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-Array = Any
-Rows = Any
-"""Indices of the elements that are still worked on."""
-
-STEPS = 100
-"""Steps after which an element is given up, as NaN; five to ten are common."""
+from ._nested import edges
+from ._roots import STEPS, Array, Rows, around, increasing_root
+from ._state import State
 
 NEAR = 1.0
 """A load whose logarithm is off by less is met by Newton's step, any other by scaling."""
@@ -37,17 +34,13 @@ SMALL, SMALLEST = 1e-6, 1e-9
 """After a step below SMALLEST the next one, its square, is below rounding; one below SMALL that
 does not get smaller shows rounding itself."""
 
+ACCEPTED = 1e-9
+"""A contact whose load is off by more, and not for the rounding of its edges, is none."""
+
+ROUGHEST = 1e-4
+"""Where the rounding of the edges moves the load by more, no contact is given."""
+
 _EPS = 2.0**-52
-
-
-class State(NamedTuple):
-    """What a contact carries for E* = 1, NaN if it carries nothing, and its edge coefficients."""
-
-    load: Array
-    moment: Array
-    tilt: Array
-    left: Array
-    right: Array
 
 
 class Solution(NamedTuple):
@@ -62,21 +55,35 @@ StateOf = Callable[..., State]
 
 
 def contact_under(
-    load: Array, moment: Array, size: Array, state: StateOf, **constants: Array
+    load: Array,
+    moment: Array,
+    size: Array,
+    state: StateOf,
+    breaks: Sequence[Array] = (),
+    /,
+    **constants: Array,
 ) -> Solution:
     """The contact under loads and moments, for E* = 1.
 
     size: any length of the body's order, to start from.
     state: what a contact [-a, c] carries, from a, c and the constants.
+    breaks: places where the body's curve changes, from left to right.
     """
-    return _solved(load, -moment / load, size, state, constants, _ByMoment, ())
+    return _solved(load, -moment / load, size, state, breaks, constants, _ByMoment, ())
 
 
 def contact_at(
-    load: Array, tilt: Array, place: Array, size: Array, state: StateOf, **constants: Array
+    load: Array,
+    tilt: Array,
+    place: Array,
+    size: Array,
+    state: StateOf,
+    breaks: Sequence[Array] = (),
+    /,
+    **constants: Array,
 ) -> Solution:
     """The contact under loads at tilts; `place` is where the body so tilted is level."""
-    return _solved(load, place, size, state, constants, _ByTilt, (tilt,))
+    return _solved(load, place, size, state, breaks, constants, _ByTilt, (tilt,))
 
 
 @dataclass(frozen=True)
@@ -92,6 +99,13 @@ class _ByMoment:
     def off(self, now: State, h: Array, mid: Array, load: Array) -> Array:
         """How far the state is from it, comparable with a change of the load's logarithm."""
         return 4 * (-now.moment / now.load - self.place) / h
+
+    def beyond(self, now: State, h: Array, mid: Array) -> tuple[Array, Array, Array]:
+        """What grows with c and falls with a, and is zero if met; its rates with a and with c."""
+        rate = np.pi * np.sqrt(h) / 4
+        arms = mid - h / 4 - self.place, mid + h / 4 - self.place
+        turning = -now.moment - now.load * self.place
+        return turning, rate * now.left * arms[0], rate * now.right * arms[1]
 
     def odd(self, now: State, h: Array, mid: Array, need: Array) -> Array:
         """K_right dc - K_left da of the step that meets it."""
@@ -115,6 +129,10 @@ class _ByTilt:
         """How far the state is from it, comparable with a change of the load's logarithm."""
         return (self.tilt - now.tilt) * h / load
 
+    def beyond(self, now: State, h: Array, mid: Array) -> tuple[Array, Array, Array]:
+        """What grows with c and falls with a, and is zero if met; its rates with a and with c."""
+        return self.tilt - now.tilt, -now.left / np.sqrt(h), now.right / np.sqrt(h)
+
     def odd(self, now: State, h: Array, mid: Array, need: Array) -> Array:
         """K_right dc - K_left da of the step that meets it."""
         return np.sqrt(h) * (now.tilt - self.tilt)
@@ -125,6 +143,7 @@ def _solved(
     place: Array,
     size: Array,
     state: StateOf,
+    breaks: Sequence[Array],
     constants: dict[str, Array],
     condition: Any,
     also: tuple[Array, ...],
@@ -132,18 +151,39 @@ def _solved(
     """Broadcast, solve along one dimension, and give the result the broadcast shape."""
     fixed = {n: v for n, v in constants.items() if not np.ndim(v)}
     varying = [n for n in constants if n not in fixed]
-    given = (load, place, size, *also, *(constants[n] for n in varying))
+    given = (load, place, size, *also, *(constants[n] for n in varying), *breaks)
     shape = np.broadcast_shapes(*map(np.shape, given))
     load, place, size, *rest = (np.broadcast_to(v, shape).ravel() for v in given)
     goal = condition(place, *rest[: len(also)])
-    arrays = dict(zip(varying, rest[len(also) :], strict=True))
+    arrays = dict(zip(varying, rest[len(also) :], strict=False))
+    cuts = rest[len(also) + len(varying) :]
 
     def of(a: Array, c: Array, rows: Any) -> State:
         return state(a, c, **fixed, **{n: v[rows] for n, v in arrays.items()})
 
     a, c = _newton(load, goal, size, of)
-    alpha = of(a, c, slice(None)).tilt
-    return Solution(*(v.reshape(shape)[()] for v in (a, c, alpha)))
+    now = of(a, c, slice(None))
+    met = _is_met(load, goal, a, c, now)
+    lost = np.flatnonzero(~met & (load > 0) & (load < np.inf) & np.isfinite(goal.place))
+    if lost.size:
+        cuts = [v[lost] for v in cuts]
+        a[lost], c[lost] = edges(load[lost], goal.on(lost), size[lost], of, lost, cuts)
+        now = of(a, c, slice(None))
+        met = _is_met(load, goal, a, c, now)
+    return Solution(*(np.where(met, v, np.nan).reshape(shape)[()] for v in (a, c, now.tilt)))
+
+
+def _is_met(load: Array, goal: Any, a: Array, c: Array, now: State) -> Array:
+    """Whether a contact carries what is asked, as exactly as its edges can be numbers at all.
+
+    Edges that lie so close to a kink that their rounding moves the load by ROUGHEST are refused.
+    """
+    h, mid = a + c, (c - a) / 2
+    by_rounding = (np.pi / 4) * np.sqrt(h) * (now.left * np.abs(a) + now.right * np.abs(c)) * _EPS
+    allowed = ACCEPTED + 16 * by_rounding / load
+    rest = goal.off(now, h, mid, load)
+    met = (np.abs(np.log(load / now.load)) < allowed) & (np.abs(rest) < 16 * allowed)
+    return met & (allowed < ROUGHEST)
 
 
 def _newton(
@@ -160,6 +200,7 @@ def _newton(
     to_left = to_right = np.zeros(rows.size)
     part = np.ones(rows.size)
     narrow, wide = np.zeros(rows.size), np.full(rows.size, np.inf)
+    gap = np.full(rows.size, np.inf)
     best = last = np.full(rows.size, np.inf)
     for _ in range(STEPS):
         if not rows.size:
@@ -179,13 +220,15 @@ def _newton(
 
         touches = np.isfinite(length) & np.isfinite(miss)
         scaling = (best == np.inf) & ~(touches & (np.abs(need) < NEAR))
-        more = ~touches | (need > 0)
+        more = np.isnan(need) | (need > 0)
         narrow = np.where(scaling & more, np.maximum(narrow, h), narrow)
         wide = np.where(scaling & ~more, np.minimum(wide, h), wide)
         pull = now.left * tried_left + now.right * tried_right
         next_h = h * np.exp(np.clip(need * force / pull, -40, 40))
         between = np.where(wide < np.inf, np.sqrt(np.maximum(narrow, h / 64) * wide), 8 * h)
-        next_h = np.where((next_h > narrow) & (next_h < wide), next_h, between)
+        closer = np.log(wide / narrow)
+        inside = (next_h > narrow) & (next_h < wide) & ~(closer > gap / 2)
+        next_h, gap = np.where(inside, next_h, between), closer
         scale = np.log(next_h / h)
 
         better = ~scaling & (miss < best)
@@ -205,8 +248,9 @@ def _newton(
         a[ended] = (left * np.exp(step_left) - wanted.place)[done]
         c[ended] = (right * np.exp(step_right) + wanted.place)[done]
         last = np.where(better, length, last)
-        rows, left, right, to_left, to_right, part, narrow, wide, best, last = (
-            v[on] for v in (rows, left, right, to_left, to_right, part, narrow, wide, best, last)
+        rows, left, right, to_left, to_right, part, narrow, wide, gap, best, last = (
+            v[on]
+            for v in (rows, left, right, to_left, to_right, part, narrow, wide, gap, best, last)
         )
     return a, c
 
@@ -246,50 +290,6 @@ def level(
         value, rate = excess(side[picked] * r, picked)
         return side[picked] * value, rate
 
-    bracket = _around(excess_outward, size[open_])
-    found[open_] = side[open_] * _increasing_root(excess_outward, *bracket)
+    bracket = around(excess_outward, size[open_])
+    found[open_] = side[open_] * increasing_root(excess_outward, *bracket)
     return found.reshape(shape)[()]
-
-
-Excess = Callable[[Array, Rows], tuple[Array, Array]]
-"""Value and rate of an increasing function, at places of some rows."""
-
-
-def _around(excess: Excess, start: Array) -> tuple[Array, Array]:
-    """A bracket of each row's positive root, a factor of eight wide; NaN where there is none."""
-    high = start.copy()
-    for factor, sense in ((8.0, 1), (0.125, -1)):
-        rows = np.arange(start.size)
-        for _ in range(STEPS):
-            at = high[rows] if sense > 0 else high[rows] / 8
-            rows = rows[excess(at, rows)[0] * sense < 0]
-            if not rows.size:
-                break
-            high[rows] *= factor
-        high[rows] = np.nan
-    return high / 8, high
-
-
-def _increasing_root(excess: Excess, low: Array, high: Array) -> Array:
-    """The root of each row between low and high.
-
-    Newton's step is taken where it stays between and at most halves the step before, else the
-    middle.
-    """
-    found = np.full(low.shape, np.nan)
-    rows = np.flatnonzero(np.isfinite(low + high))
-    low, high = low[rows], high[rows]
-    x, before = (low + high) / 2, high - low
-    for _ in range(STEPS):
-        if not rows.size:
-            break
-        value, rate = excess(x, rows)
-        low, high = np.where(value < 0, x, low), np.where(value > 0, x, high)
-        step = -value / rate
-        good = (x + step > low) & (x + step < high) & (np.abs(step) < before / 2)
-        following = np.where(value == 0, x, np.where(good, x + step, (low + high) / 2))
-        before = np.abs(following - x)
-        done = (before <= 2 * _EPS * np.abs(x)) | (value == 0)
-        found[rows[done]], on = following[done], ~done
-        rows, x, before, low, high = rows[on], following[on], before[on], low[on], high[on]
-    return found
