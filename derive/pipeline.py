@@ -6,15 +6,16 @@
     derive_sheet   Geometry                   FormulaSheet: every formula, named and sourced
     prove_sheet    FormulaSheet               the same with a proof for every formula
     module_text    proven FormulaSheet        the text of a NumPy module
+    demand_right   sheet and text             nothing, or NotProven: the text run and compared
     package_files  texts of modules           the files of a package
     publish        files, a directory         the directory replaced whole, or
     differences    files, a directory         what would change
 
-    build          a name or a file           Body: the first four stages, as plain data
+    build          a name or a file           Body: the first five stages, as plain data
     build_all      names and files            a Body of each, several built at once (parallel.py)
                                               or kept from an earlier run (cache.py)
 
-What is not proven stops the build at module_text: nothing is written.  `build` imports its stages
+What is not proven stops the build at module_text or demand_right: nothing is written.  `build` imports its stages
 when it is called: what is kept does without them.
 """
 
@@ -40,7 +41,7 @@ from derive.parallel import Report, in_processes
 GENERATED = Path(__file__).parent.parent / "generated"
 """The package that is committed."""
 
-STAGES = ("reading g(x)", "deriving", "proving", "generating")
+STAGES = ("reading g(x)", "deriving", "proving", "generating", "trying")
 DONE, KEPT = "done", "kept"
 """What a report is told of a body behind its last stage, or of one that enters none."""
 
@@ -56,6 +57,7 @@ def build(source: str, report: Report = _silent) -> Body:
     """
     from derive.codegen.module import module_text
     from derive.codegen.printer import CannotPrint
+    from derive.codegen.trial import demand_right
     from derive.derivation import derive_sheet
     from derive.proof.prove import prove_sheet
 
@@ -69,6 +71,8 @@ def build(source: str, report: Report = _silent) -> Body:
     report(source, STAGES[3])
     try:
         text = module_text(sheet, _origin(source))
+        report(source, STAGES[4])
+        demand_right(sheet, text)
     except CannotPrint as error:
         remedy = "write it with numbers and functions that NumPy has"
         raise BadProfile(geometry.name, f"cannot become code ({error})", remedy) from error

@@ -46,7 +46,8 @@ def elementwise(function: Function) -> Function:
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
-    quiet, quiet_blocks = (np.errstate(all="ignore")(f) for f in (function, _in_blocks))
+    quiet = np.errstate(all="ignore")(function)
+    quiet_blocks = np.errstate(all="ignore")(_in_blocks)
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
@@ -149,9 +150,7 @@ def _in_blocks(function: Callable[..., Any], given: Mapping[str, Any], shape: Sh
     out: list[Any] = []
     whole_axes = all(v.shape == shape for v in varying.values())
     for index in _blocks(shape):
-        parts = {
-            name: v[index] if whole_axes else _part(v, index) for name, v in varying.items()
-        }
+        parts = {name: v[index] if whole_axes else _part(v, index) for name, v in varying.items()}
         result = function(**fixed, **parts)
         found = result if isinstance(result, tuple) else (result,)
         if not out:

@@ -41,7 +41,7 @@ CLOSE = 0.1
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
 
-_TINY = 5e-324
+_TINY, _HUGE = 5e-324, 1e300
 
 
 class Curve(NamedTuple):
@@ -174,7 +174,8 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         step = width * near.from_start / (B * (width - start)) / (r + r_0)
         twist = (1 - r * r_0) / ((1 + r**2) * (1 + r_0**2))
         rise = 2 * step - 1.5 * np.arctan2(step, 1 + r * r_0) - step * twist / 2
-        by_parts = -near.curve.change * rise * (2 * width)
+        change = np.clip(near.curve.change, -_HUGE, _HUGE)  # infinite beside some breaks
+        by_parts = -change * rise * (2 * width)
         plain = near.curve.curvature * r * (3 + 2 * r**2)
         value = np.where(ends, by_parts, plain)
         return np.abs(value), value

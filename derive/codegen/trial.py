@@ -1,0 +1,126 @@
+"""The module as it was printed, run and compared: the last proof before anything is written.
+
+In:  a proven FormulaSheet, and the text of its module.
+Out: nothing; NotProven if any function's result is not what the sheet says.
+
+The proofs end at expressions.  Here the text itself is imported, in a package of its own, and every
+function is called at the contacts of the proof, scalar by scalar and as arrays.
+"""
+
+import importlib
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import mpmath
+import numpy as np
+from mpmath import mpf
+
+from derive.codegen.contract import CONTRACT, Function
+from derive.codegen.publish import package_files
+from derive.errors import NotProven
+from derive.proof.points import Point, contacts, named, numeric
+from derive.sheet import FormulaSheet
+from derive.symbols import M, P, a, alpha, c
+
+TOLERANCE = 1e-10
+"""Largest error allowed, compared with the size of what is computed; a wrong text is far off."""
+
+_DIGITS = 30
+
+
+def demand_right(sheet: FormulaSheet, text: str) -> None:
+    """Run the module and compare.
+
+    Raises NotProven with the function, the point and both numbers.
+    """
+    name = sheet.geometry.name
+    with _imported(name, text) as module, mpmath.workdps(_DIGITS):
+        points = contacts(sheet)
+        for function in CONTRACT:
+            if P in function.arguments:
+                _demand_inverse(sheet, function, module, points)
+            else:
+                _demand_forward(sheet, function, module, points)
+
+
+def _demand_forward(
+    sheet: FormulaSheet, function: Function, module: ModuleType, points: list[Point]
+) -> None:
+    found = _called(module, function, sheet, points)
+    for (field, source), values in zip(function.fields, found, strict=True):
+        wanted = [numeric(sheet.flat(str(source)))(point) for point in points]
+        scale = max(abs(value) for value in wanted)
+        for point, value, right in zip(points, values, wanted, strict=True):
+            size = abs(right) + (0 if function.name == "pressure" else scale / 100)
+            _demand_close(sheet, f"{function.name} {field}".strip(), value, right, size, point)
+
+
+def _demand_inverse(
+    sheet: FormulaSheet, function: Function, module: ModuleType, points: list[Point]
+) -> None:
+    """Loads of known contacts lead back to them."""
+    forward = {P: "load", M: "moment", alpha: "tilt"}
+    given = [
+        {**point, **{s: numeric(sheet.flat(name))(point) for s, name in forward.items()}}
+        for point in points
+    ]
+    found = _called(module, function, sheet, given)
+    for field, values in zip((a, c, alpha), found, strict=True):
+        for point, value in zip(given, values, strict=True):
+            size = 100 * (point[a] + point[c]) if field != alpha else mpf(100)
+            label = f"{function.name} {field}"
+            _demand_close(sheet, label, value, point[field], size, point)
+
+
+def _demand_close(
+    sheet: FormulaSheet, label: str, value: float, right: mpf, size: mpf, point: Point
+) -> None:
+    if not abs(mpf(float(value)) - right) <= TOLERANCE * size:
+        raise NotProven(
+            f"{label} of {sheet.geometry.name!r} as generated: {value!r} instead of "
+            f"{mpmath.nstr(right, 17)} at {named(point)}"
+        )
+
+
+def _called(
+    module: ModuleType, function: Function, sheet: FormulaSheet, points: list[Point]
+) -> list[Any]:
+    """Every field of the result, at all points at once; one of them as plain numbers, too."""
+    call = getattr(module, function.name)
+    symbols = (*function.arguments, *function.keywords(sheet))
+    arrays = {str(s): np.array([float(point[s]) for point in points]) for s in symbols}
+    alone = call(**{name: float(values[0]) for name, values in arrays.items()})
+    together = call(**arrays)
+    fields = together if function.kind else (together,)
+    singles = alone if function.kind else (alone,)
+    for field, single in zip(fields, singles, strict=True):
+        if not np.allclose(field[0], single, rtol=1e-12, atol=0, equal_nan=True):
+            raise NotProven(
+                f"{function.name} of {sheet.geometry.name!r}: {single!r} alone, {field[0]!r} as "
+                f"one of many, at {named(points[0])}"
+            )
+    return list(fields)
+
+
+@contextmanager
+def _imported(name: str, text: str) -> Iterator[ModuleType]:
+    """The module in a package of its own, that is forgotten again."""
+    with tempfile.TemporaryDirectory() as folder:
+        package = f"_trial_of_{name}"
+        home = Path(folder) / package
+        home.mkdir()
+        for file, content in package_files({name: text}).items():
+            (home / file).write_text(content, encoding="utf-8")
+        sys.path.insert(0, folder)
+        importlib.invalidate_caches()
+        try:
+            yield importlib.import_module(f"{package}.{name}")
+        finally:
+            sys.path.remove(folder)
+            for held in [m for m in sys.modules if m.split(".")[0] == package]:
+                del sys.modules[held]
