@@ -90,8 +90,12 @@ def _pressure(sheet: FormulaSheet) -> Iterator[Formula]:
 
 def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
     frame, conditions = sheet.frame, contact_conditions(sheet.frame)
-    ratio = edge_ratio(frame, sheet["tilt"].expr)
-    rate = load_rate(frame, sheet["load"].expr, ratio)
+    if len(frame.kinks) > 1:  # from the edges' side: quotients of long sums would be longer still
+        right = sheet["K_N_right"].expr
+        ratio, rate = right / sheet["K_N_left"].expr, pi / 2 * sqrt(h) * right
+    else:
+        ratio = edge_ratio(frame, sheet["tilt"].expr)
+        rate = load_rate(frame, sheet["load"].expr, ratio)
     for name, symbol, expr, meaning, unit, source in (
         ("edge_ratio", "a_prime", ratio, "a'(c), left edge against right at fixed tilt", "-", ""),
         ("load_rate", "P_prime", rate, "P'(c), the contact law's slope at fixed tilt", "Pa", ""),
@@ -219,7 +223,7 @@ def _inverse(
             )
 
 
-_CLOSED = (_equilibrium, _pressure, _contact_law, _edges, _rates, _stick, _inverses)
+_CLOSED = (_equilibrium, _pressure, _edges, _contact_law, _rates, _stick, _inverses)
 """Stages for a body whose integrals are elementary."""
 
 _SUPERPOSED = (_superposed, _stick)

@@ -15,8 +15,8 @@
     build_all      names and files            a Body of each, several built at once (parallel.py)
                                               or kept from an earlier run (cache.py)
 
-What is not proven stops the build at module_text or demand_right: nothing is written.  `build` imports its stages
-when it is called: what is kept does without them.
+What is not proven stops the build at module_text or demand_right: nothing is written.  `build`
+imports its stages when it is called: what is kept does without them.
 """
 
 from collections.abc import Iterable, Mapping, Sequence

@@ -130,11 +130,11 @@ def pressure_at(body: Profile, x: Array, a: Array, c: Array, /, **constants: Arr
 
     def on_the_left(near: "_Nodes", of: Any) -> tuple[Array, ...]:
         u_or_v = near.from_low * of(right)
-        return (near.curve.curvature * np.arcsinh(np.sqrt(u_or_v / (of(h) * near.from_high))),)
+        return (near.curve.curvature * _asinh_root(u_or_v, of(h) * near.from_high),)
 
     def on_the_right(near: "_Nodes", of: Any) -> tuple[Array, ...]:
         u_or_v = near.from_high * of(left)
-        return (near.curve.curvature * np.arcsinh(np.sqrt(u_or_v / (of(h) * near.from_low))),)
+        return (near.curve.curvature * _asinh_root(u_or_v, of(h) * near.from_low),)
 
     total = 0 * h
     for low, high, width, kernel in ((-a, x, left, on_the_left), (x, c, right, on_the_right)):
@@ -146,6 +146,11 @@ def pressure_at(body: Profile, x: Array, a: Array, c: Array, /, **constants: Arr
         ratio = np.minimum(B * left, A * right) / (h * np.abs(x - place))
         total = total + np.where((A > 0) & (B > 0), jump * np.arcsinh(np.sqrt(ratio)), 0.0)
     return given.shaped(np.where(inside, total / np.pi, 0.0 * total))
+
+
+def _asinh_root(over: Array, under: Array) -> Array:
+    """asinh sqrt(over/under), finite even where `under` has underflown."""
+    return np.arcsinh(np.sqrt(over / np.maximum(under, 1 / _HUGE)))
 
 
 def second_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> tuple[Array, Array]:

@@ -89,19 +89,26 @@ def _state(a: Array, c: Array, *, R: Array, b: Array) -> State:
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     found = only_where(
         exists,
-        (theta_1 * h**2 + theta_2 * h**2 + 2 * w_1 * (a - 2 * b - c) - 2 * w_2 * (a + 2 * b - c))
-        / (16 * R),
-        (
-            3 * theta_1 * h**2 * (a - c)
-            + 3 * theta_2 * h**2 * (a - c)
-            + 2 * w_1 * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2)
-            - 2 * w_2 * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-        )
-        / (96 * R),
-        (theta_1 * (a - 2 * b - c) + theta_2 * (a + 2 * b - c) + 2 * w_1 - 2 * w_2)
-        / (2 * np.pi * R),
-        (theta_1 * h + theta_2 * h + 2 * w_1 - 2 * w_2) / (2 * np.pi * R * np.sqrt(h)),
-        (theta_1 * h + theta_2 * h + 2 * w_2 - 2 * w_1) / (2 * np.pi * R * np.sqrt(h)),
+        theta_1 * h**2 / (16 * R)
+        + theta_2 * h**2 / (16 * R)
+        + w_1 * (a - 2 * b - c) / (8 * R)
+        - w_2 * (a + 2 * b - c) / (8 * R),
+        theta_1 * h**2 * (a - c) / (32 * R)
+        + theta_2 * h**2 * (a - c) / (32 * R)
+        + w_1 * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2) / (48 * R)
+        - w_2 * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c) / (48 * R),
+        theta_1 * (a - 2 * b - c) / (2 * np.pi * R)
+        + theta_2 * (a + 2 * b - c) / (2 * np.pi * R)
+        + w_1 / (np.pi * R)
+        - w_2 / (np.pi * R),
+        theta_1 * np.sqrt(h) / (2 * np.pi * R)
+        + theta_2 * np.sqrt(h) / (2 * np.pi * R)
+        + w_1 / (np.pi * R * np.sqrt(h))
+        - w_2 / (np.pi * R * np.sqrt(h)),
+        theta_1 * np.sqrt(h) / (2 * np.pi * R)
+        + theta_2 * np.sqrt(h) / (2 * np.pi * R)
+        + w_2 / (np.pi * R * np.sqrt(h))
+        - w_1 / (np.pi * R * np.sqrt(h)),
     )
     found = mended(
         found,
@@ -200,7 +207,8 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b:
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = (theta_1*(a - 2*b - c) + theta_2*(a + 2*b - c) + 2*w_1 - 2*w_2)/(2*pi*R)
+        alpha = theta_1*(a - 2*b - c)/(2*pi*R) + theta_2*(a + 2*b - c)/(2*pi*R) + w_1/(pi*R) -
+            w_2/(pi*R)
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -234,8 +242,10 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     found = [
         only_where(
             exists,
-            (theta_1 * (a - 2 * b - c) + theta_2 * (a + 2 * b - c) + 2 * w_1 - 2 * w_2)
-            / (2 * np.pi * R),
+            theta_1 * (a - 2 * b - c) / (2 * np.pi * R)
+            + theta_2 * (a + 2 * b - c) / (2 * np.pi * R)
+            + w_1 / (np.pi * R)
+            - w_2 / (np.pi * R),
         )
     ]
     found = mended(found, ("tilt",), 1.0, _BODY, a, c, R=R, b=b)
@@ -246,8 +256,8 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*(theta_1*(a + c)**2 + theta_2*(a + c)**2 + 2*w_1*(a - 2*b - c) - 2*w_2*(a +
-            2*b - c))/(16*R)
+        P = E_star*theta_1*(a + c)**2/(16*R) + E_star*theta_2*(a + c)**2/(16*R) + E_star*w_1*(a
+            - 2*b - c)/(8*R) - E_star*w_2*(a + 2*b - c)/(8*R)
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -282,13 +292,10 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     found = [
         only_where(
             exists,
-            (E_star / (16 * R))
-            * (
-                theta_1 * h**2
-                + theta_2 * h**2
-                + 2 * w_1 * (a - 2 * b - c)
-                - 2 * w_2 * (a + 2 * b - c)
-            ),
+            (E_star / (16 * R)) * theta_1 * h**2
+            + (E_star / (16 * R)) * theta_2 * h**2
+            + (E_star / (8 * R)) * w_1 * (a - 2 * b - c)
+            - (E_star / (8 * R)) * w_2 * (a + 2 * b - c),
         )
     ]
     found = mended(found, ("load",), E_star, _BODY, a, c, R=R, b=b)
@@ -299,9 +306,9 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = E_star*(3*theta_1*(a - c)*(a + c)**2 + 3*theta_2*(a - c)*(a + c)**2 + 2*w_1*(3*a**2
-            - 2*a*b - 2*a*c - 4*b**2 + 2*b*c + 3*c**2) - 2*w_2*(3*a**2 + 2*a*b - 2*a*c - 4*b**2
-            - 2*b*c + 3*c**2))/(96*R)
+        M = E_star*theta_1*(a - c)*(a + c)**2/(32*R) + E_star*theta_2*(a - c)*(a + c)**2/(32*R)
+            + E_star*w_1*(3*a**2 - 2*a*b - 2*a*c - 4*b**2 + 2*b*c + 3*c**2)/(48*R) -
+            E_star*w_2*(3*a**2 + 2*a*b - 2*a*c - 4*b**2 - 2*b*c + 3*c**2)/(48*R)
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -319,7 +326,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of
     g''.
 
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
+    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
         at 24 points.
     Derived from derive/geometries/flat_rounded.py.
 
@@ -337,13 +344,14 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     found = [
         only_where(
             exists,
-            (E_star / (96 * R))
-            * (
-                3 * theta_1 * h**2 * (a - c)
-                + 3 * theta_2 * h**2 * (a - c)
-                + 2 * w_1 * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2)
-                - 2 * w_2 * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-            ),
+            (E_star / (32 * R)) * theta_1 * h**2 * (a - c)
+            + (E_star / (32 * R)) * theta_2 * h**2 * (a - c)
+            + (E_star / (48 * R))
+            * w_1
+            * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2)
+            - (E_star / (48 * R))
+            * w_2
+            * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c),
         )
     ]
     found = mended(found, ("moment",), E_star, _BODY, a, c, R=R, b=b)
@@ -425,10 +433,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*(theta_1*(a + c) + theta_2*(a + c) + 2*w_1 - 2*w_2)/(2*pi*R*sqrt(a +
-            c))
-        K_N_right = E_star*(theta_1*(a + c) + theta_2*(a + c) - 2*w_1 + 2*w_2)/(2*pi*R*sqrt(a +
-            c))
+        K_N_left = E_star*theta_1*sqrt(a + c)/(2*pi*R) + E_star*theta_2*sqrt(a + c)/(2*pi*R) +
+            E_star*w_1/(pi*R*sqrt(a + c)) - E_star*w_2/(pi*R*sqrt(a + c))
+        K_N_right = E_star*theta_1*sqrt(a + c)/(2*pi*R) + E_star*theta_2*sqrt(a + c)/(2*pi*R) -
+            E_star*w_1/(pi*R*sqrt(a + c)) + E_star*w_2/(pi*R*sqrt(a + c))
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -454,7 +462,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['0.88135', '0.753378']
     """
     h = a + c  # contact width [m]
-    scale = (E_star / (2 * np.pi * R)) / np.sqrt(h)
     # angle of the contact beyond the kink x = -b [-]
     theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
@@ -464,8 +471,14 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     found = only_where(
         exists,
-        scale * (theta_1 * h + theta_2 * h + 2 * w_1 - 2 * w_2),
-        scale * (theta_1 * h + theta_2 * h + 2 * w_2 - 2 * w_1),
+        (E_star / (2 * np.pi * R)) * theta_1 * np.sqrt(h)
+        + (E_star / (2 * np.pi * R)) * theta_2 * np.sqrt(h)
+        + (E_star / (np.pi * R)) * w_1 / np.sqrt(h)
+        - (E_star / (np.pi * R)) * w_2 / np.sqrt(h),
+        (E_star / (2 * np.pi * R)) * theta_1 * np.sqrt(h)
+        + (E_star / (2 * np.pi * R)) * theta_2 * np.sqrt(h)
+        + (E_star / (np.pi * R)) * w_2 / np.sqrt(h)
+        - (E_star / (np.pi * R)) * w_1 / np.sqrt(h),
     )
     found = mended(
         found,
@@ -487,14 +500,12 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = (-3*E_star*theta_1*(a - b)*(a + b)*(a + c)**(3/2) - 3*E_star*theta_2*(a -
-            b)*(a + b)*(a + c)**(3/2) - 2*E_star*w_1*(a + b)*sqrt(a + c)*(3*a + b + 4*c) +
-            2*E_star*w_2*(a - b)*sqrt(a + c)*(3*a - b + 4*c))/(12*pi*R*(a - b)*(a + b)*(a +
-            c)**2)
-        L_N_right = (-3*E_star*theta_1*(a + c)**(3/2)*(b - c)*(b + c) - 3*E_star*theta_2*(a +
-            c)**(3/2)*(b - c)*(b + c) + 2*E_star*w_1*sqrt(a + c)*(b - c)*(4*a - b + 3*c) +
-            2*E_star*w_2*sqrt(a + c)*(b + c)*(4*a + b + 3*c))/(12*pi*R*(a + c)**2*(b - c)*(b +
-            c))
+        L_N_left = -E_star*theta_1/(4*pi*R*sqrt(a + c)) - E_star*theta_2/(4*pi*R*sqrt(a + c)) -
+            E_star*w_1*(3*a + b + 4*c)/(6*pi*R*(a - b)*(a + c)**(3/2)) + E_star*w_2*(3*a - b +
+            4*c)/(6*pi*R*(a + b)*(a + c)**(3/2))
+        L_N_right = -E_star*theta_1/(4*pi*R*sqrt(a + c)) - E_star*theta_2/(4*pi*R*sqrt(a + c)) +
+            E_star*w_1*(4*a - b + 3*c)/(6*pi*R*(a + c)**(3/2)*(b + c)) + E_star*w_2*(4*a + b +
+            3*c)/(6*pi*R*(a + c)**(3/2)*(b - c))
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -520,7 +531,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['-0.148383', '-0.196186']
     """
     h = a + c  # contact width [m]
-    root = (12 * np.pi * R) * h**2
     # angle of the contact beyond the kink x = -b [-]
     theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
@@ -530,20 +540,14 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     found = only_where(
         exists,
-        (
-            (2 * E_star) * w_2 * (a - b) * (3 * a + 4 * c - b) * np.sqrt(h)
-            - (3 * E_star) * theta_1 * h * (a + b) * (a - b) * np.sqrt(h)
-            - (3 * E_star) * theta_2 * h * (a + b) * (a - b) * np.sqrt(h)
-            - (2 * E_star) * w_1 * (a + b) * (3 * a + b + 4 * c) * np.sqrt(h)
-        )
-        / (root * (a + b) * (a - b)),
-        (
-            (2 * E_star) * w_1 * (b - c) * (4 * a + 3 * c - b) * np.sqrt(h)
-            + (2 * E_star) * w_2 * (b + c) * (4 * a + b + 3 * c) * np.sqrt(h)
-            - (3 * E_star) * theta_1 * h * (b + c) * (b - c) * np.sqrt(h)
-            - (3 * E_star) * theta_2 * h * (b + c) * (b - c) * np.sqrt(h)
-        )
-        / (root * (b + c) * (b - c)),
+        (E_star / (6 * np.pi * R)) * w_2 * (3 * a + 4 * c - b) / (h * (a + b) * np.sqrt(h))
+        - (E_star / (4 * np.pi * R)) * theta_1 / np.sqrt(h)
+        - (E_star / (4 * np.pi * R)) * theta_2 / np.sqrt(h)
+        - (E_star / (6 * np.pi * R)) * w_1 * (3 * a + b + 4 * c) / (h * (a - b) * np.sqrt(h)),
+        (E_star / (6 * np.pi * R)) * w_1 * (4 * a + 3 * c - b) / (h * (b + c) * np.sqrt(h))
+        + (E_star / (6 * np.pi * R)) * w_2 * (4 * a + b + 3 * c) / (h * (b - c) * np.sqrt(h))
+        - (E_star / (4 * np.pi * R)) * theta_1 / np.sqrt(h)
+        - (E_star / (4 * np.pi * R)) * theta_2 / np.sqrt(h),
     )
     found = mended(
         found,

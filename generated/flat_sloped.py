@@ -87,11 +87,11 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (phi / 2) * (w_1 + w_2),
-        phi * (w_1 * (a + 2 * b - c) / 8 + w_2 * (a - 2 * b - c) / 8),
-        (phi / np.pi) * (theta_1 - theta_2),
-        (phi / np.pi) * (a * w_1 + a * w_2 + w_1 * b - w_2 * b) / ((a + b) * (a - b) * np.sqrt(h)),
-        (phi / np.pi) * (w_1 * b - w_2 * b - c * w_1 - c * w_2) / ((b + c) * (b - c) * np.sqrt(h)),
+        (phi / 2) * w_1 + (phi / 2) * w_2,
+        (phi / 8) * w_1 * (a + 2 * b - c) + (phi / 8) * w_2 * (a - 2 * b - c),
+        (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2,
+        (phi / np.pi) * w_1 / ((a - b) * np.sqrt(h)) + (phi / np.pi) * w_2 / ((a + b) * np.sqrt(h)),
+        (phi / np.pi) * w_1 / ((b + c) * np.sqrt(h)) - (phi / np.pi) * w_2 / ((b - c) * np.sqrt(h)),
     )
     found = mended(
         found,
@@ -214,7 +214,7 @@ def contact_at_tilt(
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = phi*(theta_1 - theta_2)/pi
+        alpha = phi*theta_1/pi - phi*theta_2/pi
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
 
@@ -242,7 +242,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = [only_where(exists, (phi / np.pi) * (theta_1 - theta_2))]
+    found = [only_where(exists, (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2)]
     found = mended(found, ("tilt",), 1.0, _BODY, a, c, b=b, phi=phi)
     return found[0]
 
@@ -251,7 +251,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*phi*(w_1 + w_2)/2
+        P = E_star*phi*w_1/2 + E_star*phi*w_2/2
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
 
@@ -277,7 +277,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = [only_where(exists, (E_star * phi / 2) * (w_1 + w_2))]
+    found = [only_where(exists, (E_star * phi / 2) * w_1 + (E_star * phi / 2) * w_2)]
     found = mended(found, ("load",), E_star, _BODY, a, c, b=b, phi=phi)
     return found[0]
 
@@ -286,7 +286,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = E_star*phi*(w_1*(a + 2*b - c)/8 + w_2*(a - 2*b - c)/8)
+        M = E_star*phi*w_1*(a + 2*b - c)/8 + E_star*phi*w_2*(a - 2*b - c)/8
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
 
@@ -302,7 +302,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to
     another kink, by quadrature of g''.
 
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
+    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
         at 24 points.
     Derived from derive/geometries/flat_sloped.py.
 
@@ -314,7 +314,10 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [
-        only_where(exists, (E_star * phi) * (w_1 * (a + 2 * b - c) / 8 + w_2 * (a - 2 * b - c) / 8))
+        only_where(
+            exists,
+            (E_star * phi / 8) * w_1 * (a + 2 * b - c) + (E_star * phi / 8) * w_2 * (a - 2 * b - c),
+        )
     ]
     found = mended(found, ("moment",), E_star, _BODY, a, c, b=b, phi=phi)
     return found[0]
@@ -377,8 +380,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*phi*(a*w_1 + a*w_2 + b*w_1 - b*w_2)/(pi*(a - b)*(a + b)*sqrt(a + c))
-        K_N_right = E_star*phi*(b*w_1 - b*w_2 - c*w_1 - c*w_2)/(pi*sqrt(a + c)*(b - c)*(b + c))
+        K_N_left = E_star*phi*w_1/(pi*(a - b)*sqrt(a + c)) + E_star*phi*w_2/(pi*(a + b)*sqrt(a +
+            c))
+        K_N_right = E_star*phi*w_1/(pi*sqrt(a + c)*(b + c)) - E_star*phi*w_2/(pi*sqrt(a + c)*(b
+            - c))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
 
@@ -402,14 +407,15 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0306902', '0.0501169']
     """
     h = a + c  # contact width [m]
-    scale = (E_star * phi / np.pi) / np.sqrt(h)
     w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        scale * (a * w_1 + a * w_2 + w_1 * b - w_2 * b) / ((a + b) * (a - b)),
-        scale * (w_1 * b - w_2 * b - c * w_1 - c * w_2) / ((b + c) * (b - c)),
+        (E_star * phi / np.pi) * w_1 / ((a - b) * np.sqrt(h))
+        + (E_star * phi / np.pi) * w_2 / ((a + b) * np.sqrt(h)),
+        (E_star * phi / np.pi) * w_1 / ((b + c) * np.sqrt(h))
+        - (E_star * phi / np.pi) * w_2 / ((b - c) * np.sqrt(h)),
     )
     found = mended(
         found,
@@ -431,11 +437,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = (E_star*phi*w_1*(a + b)**2*sqrt(a + c)*(3*a - b + 2*c) + E_star*phi*w_2*(a -
-            b)**2*sqrt(a + c)*(3*a + b + 2*c))/(6*pi*(a - b)**2*(a + b)**2*(a + c)**2)
-        L_N_right = (E_star*phi*w_1*sqrt(a + c)*(b - c)**2*(2*a + b + 3*c) +
-            E_star*phi*w_2*sqrt(a + c)*(b + c)**2*(2*a - b + 3*c))/(6*pi*(a + c)**2*(b -
-            c)**2*(b + c)**2)
+        L_N_left = E_star*phi*w_1*(3*a - b + 2*c)/(6*pi*(a - b)**2*(a + c)**(3/2)) +
+            E_star*phi*w_2*(3*a + b + 2*c)/(6*pi*(a + b)**2*(a + c)**(3/2))
+        L_N_right = E_star*phi*w_1*(2*a + b + 3*c)/(6*pi*(a + c)**(3/2)*(b + c)**2) +
+            E_star*phi*w_2*(2*a - b + 3*c)/(6*pi*(a + c)**(3/2)*(b - c)**2)
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
 
@@ -459,22 +464,21 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00539662', '0.0151476']
     """
     h = a + c  # contact width [m]
-    root = (6 * np.pi) * h**2
     w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (
-            (E_star * phi) * w_1 * (a + b) ** 2 * (3 * a + 2 * c - b) * np.sqrt(h)
-            + (E_star * phi) * w_2 * (a - b) ** 2 * (3 * a + b + 2 * c) * np.sqrt(h)
-        )
-        / (root * (a + b) ** 2 * (a - b) ** 2),
-        (
-            (E_star * phi) * w_1 * (b - c) ** 2 * (2 * a + b + 3 * c) * np.sqrt(h)
-            + (E_star * phi) * w_2 * (b + c) ** 2 * (2 * a + 3 * c - b) * np.sqrt(h)
-        )
-        / (root * (b + c) ** 2 * (b - c) ** 2),
+        (E_star * phi / (6 * np.pi)) * w_1 * (3 * a + 2 * c - b) / (h * (a - b) ** 2 * np.sqrt(h))
+        + (E_star * phi / (6 * np.pi))
+        * w_2
+        * (3 * a + b + 2 * c)
+        / (h * (a + b) ** 2 * np.sqrt(h)),
+        (E_star * phi / (6 * np.pi)) * w_1 * (2 * a + b + 3 * c) / (h * (b + c) ** 2 * np.sqrt(h))
+        + (E_star * phi / (6 * np.pi))
+        * w_2
+        * (2 * a + 3 * c - b)
+        / (h * (b - c) ** 2 * np.sqrt(h)),
     )
     found = mended(
         found,

@@ -81,7 +81,6 @@ _BODY = Profile(
 def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
     h = a + c  # contact width [m]
-    scale = phi / b
     # angle of the contact beyond the kink x = -b [-]
     theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
@@ -91,36 +90,35 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        scale
-        * (
-            (np.pi / 16) * h**2
-            + w_2 * (a + 2 * b - c) / 8
-            - theta_1 * h**2 / 16
-            - theta_2 * h**2 / 16
-            - w_1 * (a - 2 * b - c) / 8
-        ),
-        scale
-        * (
-            (np.pi / 32) * h**2 * (a - c)
-            + w_2 * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c) / 48
-            - theta_1 * h**2 * (a - c) / 32
-            - theta_2 * h**2 * (a - c) / 32
-            - w_1 * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2) / 48
-        ),
-        (scale / (2 * np.pi))
-        * (
-            theta_1 * (2 * b + c - a)
-            + theta_2 * (c - a - 2 * b)
-            + 2 * w_2
-            + np.pi * (a - c)
-            - 2 * w_1
-        ),
-        (scale / (2 * np.pi))
-        * (np.pi * h + theta_1 * ((-a) - c) + theta_2 * ((-a) - c) + 2 * w_2 - 2 * w_1)
-        / np.sqrt(h),
-        (scale / (2 * np.pi))
-        * (np.pi * h + theta_1 * ((-a) - c) + theta_2 * ((-a) - c) + 2 * w_1 - 2 * w_2)
-        / np.sqrt(h),
+        (np.pi * phi / (16 * b)) * h**2
+        + (phi / (8 * b)) * w_2 * (a + 2 * b - c)
+        - (phi / (16 * b)) * theta_1 * h**2
+        - (phi / (16 * b)) * theta_2 * h**2
+        - (phi / (8 * b)) * w_1 * (a - 2 * b - c),
+        (np.pi * phi / (32 * b)) * h**2 * (a - c)
+        + (phi / (48 * b))
+        * w_2
+        * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
+        - (phi / (32 * b)) * theta_1 * h**2 * (a - c)
+        - (phi / (32 * b)) * theta_2 * h**2 * (a - c)
+        - (phi / (48 * b))
+        * w_1
+        * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
+        (phi / (np.pi * b)) * w_2
+        + (phi / (2 * b)) * (a - c)
+        - (phi / (2 * np.pi * b)) * theta_1 * (a - 2 * b - c)
+        - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
+        - (phi / (np.pi * b)) * w_1,
+        (phi / (2 * b)) * np.sqrt(h)
+        + (phi / (np.pi * b)) * w_2 / np.sqrt(h)
+        - (phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
+        - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
+        - (phi / (np.pi * b)) * w_1 / np.sqrt(h),
+        (phi / (2 * b)) * np.sqrt(h)
+        + (phi / (np.pi * b)) * w_1 / np.sqrt(h)
+        - (phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
+        - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
+        - (phi / (np.pi * b)) * w_2 / np.sqrt(h),
     )
     found = mended(
         found,
@@ -230,8 +228,8 @@ def contact_at_tilt(
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = phi*(theta_1*(-a + 2*b + c) + theta_2*(-a - 2*b + c) - 2*w_1 + 2*w_2 + pi*(a -
-            c))/(2*pi*b)
+        alpha = -phi*theta_1*(a - 2*b - c)/(2*pi*b) - phi*theta_2*(a + 2*b - c)/(2*pi*b) -
+            phi*w_1/(pi*b) + phi*w_2/(pi*b) + phi*(a - c)/(2*b)
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -265,14 +263,11 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     found = [
         only_where(
             exists,
-            (phi / (2 * np.pi * b))
-            * (
-                theta_1 * (2 * b + c - a)
-                + theta_2 * (c - a - 2 * b)
-                + 2 * w_2
-                + np.pi * (a - c)
-                - 2 * w_1
-            ),
+            (phi / (np.pi * b)) * w_2
+            + (phi / (2 * b)) * (a - c)
+            - (phi / (2 * np.pi * b)) * theta_1 * (a - 2 * b - c)
+            - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
+            - (phi / (np.pi * b)) * w_1,
         )
     ]
     found = mended(found, ("tilt",), 1.0, _BODY, a, c, b=b, phi=phi)
@@ -283,8 +278,9 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*phi*(-theta_1*(a + c)**2 - theta_2*(a + c)**2 - 2*w_1*(a - 2*b - c) +
-            2*w_2*(a + 2*b - c) + pi*(a + c)**2)/(16*b)
+        P = -E_star*phi*theta_1*(a + c)**2/(16*b) - E_star*phi*theta_2*(a + c)**2/(16*b) -
+            E_star*phi*w_1*(a - 2*b - c)/(8*b) + E_star*phi*w_2*(a + 2*b - c)/(8*b) +
+            pi*E_star*phi*(a + c)**2/(16*b)
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -319,14 +315,11 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     found = [
         only_where(
             exists,
-            (E_star * phi / (16 * b))
-            * (
-                np.pi * h**2
-                + 2 * w_2 * (a + 2 * b - c)
-                - theta_1 * h**2
-                - theta_2 * h**2
-                - 2 * w_1 * (a - 2 * b - c)
-            ),
+            (np.pi * E_star * phi / (16 * b)) * h**2
+            + (E_star * phi / (8 * b)) * w_2 * (a + 2 * b - c)
+            - (E_star * phi / (16 * b)) * theta_1 * h**2
+            - (E_star * phi / (16 * b)) * theta_2 * h**2
+            - (E_star * phi / (8 * b)) * w_1 * (a - 2 * b - c),
         )
     ]
     found = mended(found, ("load",), E_star, _BODY, a, c, b=b, phi=phi)
@@ -337,9 +330,10 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = E_star*phi*(-3*theta_1*(a - c)*(a + c)**2 - 3*theta_2*(a - c)*(a + c)**2 -
-            2*w_1*(3*a**2 - 2*a*b - 2*a*c - 4*b**2 + 2*b*c + 3*c**2) + 2*w_2*(3*a**2 + 2*a*b -
-            2*a*c - 4*b**2 - 2*b*c + 3*c**2) + 3*pi*(a - c)*(a + c)**2)/(96*b)
+        M = -E_star*phi*theta_1*(a - c)*(a + c)**2/(32*b) - E_star*phi*theta_2*(a - c)*(a +
+            c)**2/(32*b) - E_star*phi*w_1*(3*a**2 - 2*a*b - 2*a*c - 4*b**2 + 2*b*c +
+            3*c**2)/(48*b) + E_star*phi*w_2*(3*a**2 + 2*a*b - 2*a*c - 4*b**2 - 2*b*c +
+            3*c**2)/(48*b) + pi*E_star*phi*(a - c)*(a + c)**2/(32*b)
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -357,7 +351,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     lengths leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by
     quadrature of g''.
 
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 47 digits
+    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 46 digits
         at 24 points.
     Derived from derive/geometries/rounded_wedge.py.
 
@@ -375,14 +369,15 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     found = [
         only_where(
             exists,
-            (E_star * phi / (96 * b))
-            * (
-                (3 * np.pi) * h**2 * (a - c)
-                + 2 * w_2 * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-                - 3 * theta_1 * h**2 * (a - c)
-                - 3 * theta_2 * h**2 * (a - c)
-                - 2 * w_1 * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2)
-            ),
+            (np.pi * E_star * phi / (32 * b)) * h**2 * (a - c)
+            + (E_star * phi / (48 * b))
+            * w_2
+            * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
+            - (E_star * phi / (32 * b)) * theta_1 * h**2 * (a - c)
+            - (E_star * phi / (32 * b)) * theta_2 * h**2 * (a - c)
+            - (E_star * phi / (48 * b))
+            * w_1
+            * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
         )
     ]
     found = mended(found, ("moment",), E_star, _BODY, a, c, b=b, phi=phi)
@@ -464,10 +459,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*phi*(theta_1*(-a - c) + theta_2*(-a - c) - 2*w_1 + 2*w_2 + pi*(a +
-            c))/(2*pi*b*sqrt(a + c))
-        K_N_right = E_star*phi*(theta_1*(-a - c) + theta_2*(-a - c) + 2*w_1 - 2*w_2 + pi*(a +
-            c))/(2*pi*b*sqrt(a + c))
+        K_N_left = -E_star*phi*theta_1*sqrt(a + c)/(2*pi*b) - E_star*phi*theta_2*sqrt(a +
+            c)/(2*pi*b) - E_star*phi*w_1/(pi*b*sqrt(a + c)) + E_star*phi*w_2/(pi*b*sqrt(a + c))
+            + E_star*phi*sqrt(a + c)/(2*b)
+        K_N_right = -E_star*phi*theta_1*sqrt(a + c)/(2*pi*b) - E_star*phi*theta_2*sqrt(a +
+            c)/(2*pi*b) + E_star*phi*w_1/(pi*b*sqrt(a + c)) - E_star*phi*w_2/(pi*b*sqrt(a + c))
+            + E_star*phi*sqrt(a + c)/(2*b)
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -493,7 +490,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0295854', '0.0455819']
     """
     h = a + c  # contact width [m]
-    scale = (E_star * phi / (2 * np.pi * b)) / np.sqrt(h)
     # angle of the contact beyond the kink x = -b [-]
     theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
@@ -503,8 +499,16 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        scale * (np.pi * h + theta_1 * ((-a) - c) + theta_2 * ((-a) - c) + 2 * w_2 - 2 * w_1),
-        scale * (np.pi * h + theta_1 * ((-a) - c) + theta_2 * ((-a) - c) + 2 * w_1 - 2 * w_2),
+        (E_star * phi / (2 * b)) * np.sqrt(h)
+        + (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h)
+        - (E_star * phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
+        - (E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
+        - (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h),
+        (E_star * phi / (2 * b)) * np.sqrt(h)
+        + (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h)
+        - (E_star * phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
+        - (E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
+        - (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h),
     )
     found = mended(
         found,
@@ -526,15 +530,14 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = (3*E_star*phi*theta_1*(a - b)*(a + b)*(a + c)**(3/2) +
-            3*E_star*phi*theta_2*(a - b)*(a + b)*(a + c)**(3/2) + 2*E_star*phi*w_1*(a +
-            b)*sqrt(a + c)*(3*a + b + 4*c) - 2*E_star*phi*w_2*(a - b)*sqrt(a + c)*(3*a - b +
-            4*c) - 3*pi*E_star*phi*(a - b)*(a + b)*(a + c)**(3/2))/(12*pi*b*(a - b)*(a + b)*(a +
-            c)**2)
-        L_N_right = (3*E_star*phi*theta_1*(a + c)**(3/2)*(b - c)*(b + c) +
-            3*E_star*phi*theta_2*(a + c)**(3/2)*(b - c)*(b + c) - 2*E_star*phi*w_1*sqrt(a +
-            c)*(b - c)*(4*a - b + 3*c) - 2*E_star*phi*w_2*sqrt(a + c)*(b + c)*(4*a + b + 3*c) -
-            3*pi*E_star*phi*(a + c)**(3/2)*(b - c)*(b + c))/(12*pi*b*(a + c)**2*(b - c)*(b + c))
+        L_N_left = E_star*phi*theta_1/(4*pi*b*sqrt(a + c)) + E_star*phi*theta_2/(4*pi*b*sqrt(a +
+            c)) + E_star*phi*w_1*(3*a + b + 4*c)/(6*pi*b*(a - b)*(a + c)**(3/2)) -
+            E_star*phi*w_2*(3*a - b + 4*c)/(6*pi*b*(a + b)*(a + c)**(3/2)) -
+            E_star*phi/(4*b*sqrt(a + c))
+        L_N_right = E_star*phi*theta_1/(4*pi*b*sqrt(a + c)) + E_star*phi*theta_2/(4*pi*b*sqrt(a
+            + c)) - E_star*phi*w_1*(4*a - b + 3*c)/(6*pi*b*(a + c)**(3/2)*(b + c)) -
+            E_star*phi*w_2*(4*a + b + 3*c)/(6*pi*b*(a + c)**(3/2)*(b - c)) -
+            E_star*phi/(4*b*sqrt(a + c))
         theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
         w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
         theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
@@ -560,7 +563,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00457246', '0.0105478']
     """
     h = a + c  # contact width [m]
-    root = (12 * np.pi * b) * h**2
     # angle of the contact beyond the kink x = -b [-]
     theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
@@ -570,22 +572,16 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (
-            (3 * E_star * phi) * theta_1 * h * (a + b) * (a - b) * np.sqrt(h)
-            + (3 * E_star * phi) * theta_2 * h * (a + b) * (a - b) * np.sqrt(h)
-            + (2 * E_star * phi) * w_1 * (a + b) * (3 * a + b + 4 * c) * np.sqrt(h)
-            - (3 * np.pi * E_star * phi) * h * (a + b) * (a - b) * np.sqrt(h)
-            - (2 * E_star * phi) * w_2 * (a - b) * (3 * a + 4 * c - b) * np.sqrt(h)
-        )
-        / (root * (a + b) * (a - b)),
-        (
-            (3 * E_star * phi) * theta_1 * h * (b + c) * (b - c) * np.sqrt(h)
-            + (3 * E_star * phi) * theta_2 * h * (b + c) * (b - c) * np.sqrt(h)
-            - (3 * np.pi * E_star * phi) * h * (b + c) * (b - c) * np.sqrt(h)
-            - (2 * E_star * phi) * w_1 * (b - c) * (4 * a + 3 * c - b) * np.sqrt(h)
-            - (2 * E_star * phi) * w_2 * (b + c) * (4 * a + b + 3 * c) * np.sqrt(h)
-        )
-        / (root * (b + c) * (b - c)),
+        (E_star * phi / (4 * np.pi * b)) * theta_1 / np.sqrt(h)
+        + (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
+        + (E_star * phi / (6 * np.pi * b)) * w_1 * (3 * a + b + 4 * c) / (h * (a - b) * np.sqrt(h))
+        - (E_star * phi / (4 * b)) / np.sqrt(h)
+        - (E_star * phi / (6 * np.pi * b)) * w_2 * (3 * a + 4 * c - b) / (h * (a + b) * np.sqrt(h)),
+        (E_star * phi / (4 * np.pi * b)) * theta_1 / np.sqrt(h)
+        + (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
+        - (E_star * phi / (4 * b)) / np.sqrt(h)
+        - (E_star * phi / (6 * np.pi * b)) * w_1 * (4 * a + 3 * c - b) / (h * (b + c) * np.sqrt(h))
+        - (E_star * phi / (6 * np.pi * b)) * w_2 * (4 * a + b + 3 * c) / (h * (b - c) * np.sqrt(h)),
     )
     found = mended(
         found,

@@ -19,8 +19,8 @@ from sympy import (
     Min,
     Mul,
     Piecewise,
-    Poly,
     Pow,
+    Rational,
     S,
     Symbol,
     asinh,
@@ -132,16 +132,23 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
         for angle in angles:
             stand_in = Symbol("angle_stand_in")
             linear = expr.subs(angle, stand_in)
-            if not linear.is_polynomial(stand_in) or Poly(linear, stand_in).degree() != 1:
+            times, rest = linear.diff(stand_in), linear.subs(stand_in, 0)
+            if times == 0 or times.has(stand_in):
                 continue
-            times, rest = Poly(linear, stand_in).all_coeffs()
-            if simplify(rest + times * pi / 2) == 0:
+            if _vanishes(rest + times * pi / 2):
                 expr = simplify(-times) * _complement(angle, kinks)
-            elif angle in kinks and simplify(rest + times * pi) == 0:
+            elif angle in kinks and _vanishes(rest + times * pi):
                 expr = simplify(-times) * _opposite(kinks[angle])
         return expr
 
     return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
+
+
+def _vanishes(expr: Expr) -> bool:
+    """Whether an expression is zero everywhere; most are not, and one number tells."""
+    symbols = sorted(expr.free_symbols, key=str)
+    value = expr.xreplace({symbol: Rational(3 * i + 5, 7) for i, symbol in enumerate(symbols)})
+    return abs(value.evalf(30, maxn=100)) < 1e-15 and bool(simplify(expr) == 0)
 
 
 def _complement(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:

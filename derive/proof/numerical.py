@@ -4,6 +4,7 @@ In:  FormulaSheet, and the name of a formula.
 Out: Proof with the verdict *numerical*, *refuted* or *unknown*; None where there is no such route.
 """
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -122,8 +123,20 @@ class NumericalRoutes:
         yield self._at("pressure", point), contact.pressure(point[x])
 
     def _p(self, point: Point) -> Callable[[mpf], mpf]:
-        p = numeric(self.sheet.flat("pressure"))
-        return lambda place: p({**point, x: place})
+        """p(x) at one contact; load and moment ask for it at the same places."""
+        p, known = numeric(self.sheet.flat("pressure")), self._pressures[named(point)]
+
+        def at(place: mpf) -> mpf:
+            asked = (place, mpmath.mp.prec)
+            if asked not in known:
+                known[asked] = p({**point, x: place})
+            return known[asked]
+
+        return at
+
+    @cached_property
+    def _pressures(self) -> dict[str, dict[tuple[mpf, int], mpf]]:
+        return defaultdict(dict)
 
     def _second_left(self, point: Point, contact: Contact) -> Pairs:
         yield self._at("L_N_left", point), self._second("left", point, contact)

@@ -7,7 +7,7 @@ moments and tilts of both signs in turn; a point that breaks an assumption is dr
 import hashlib
 import random
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache
+from functools import cache, lru_cache
 from typing import TypeVar
 
 import mpmath
@@ -15,6 +15,7 @@ from mpmath import mpf
 from sympy import Dummy, Expr, Integral, Pow, Symbol, diff, lambdify
 from sympy.logic.boolalg import Boolean
 
+from derive.geometry import Geometry
 from derive.proof.rule import integral
 from derive.proof.verdict import POINTS
 from derive.sheet import Formula, FormulaSheet
@@ -45,10 +46,15 @@ def draws(
 
 def contacts(sheet: FormulaSheet) -> list[Point]:
     """Contacts [-a, c] of the body, with an x inside each and changes of shear and tension."""
-    places = [numeric(kink.position) for kink in sheet.geometry.slope.kinks]
+    return _contacts(sheet.geometry, sheet["pressure"].conditions)
+
+
+@lru_cache(maxsize=4)
+def _contacts(body: Geometry, conditions: tuple[Boolean, ...]) -> list[Point]:
+    places = [numeric(kink.position) for kink in body.slope.kinks]
 
     def draw(rng: random.Random, found: int) -> Point | None:
-        point = _parameters(sheet, rng)
+        point = _parameters(body, rng)
         size = max([abs(place(point)) for place in places], default=mpf(0)) or mpf(1)
         middle = abs(mpf(rng.gauss(0, 1))) * (-1 if found % 2 == 0 else 1)
         half = mpf(2) ** rng.uniform(-2, 2)
@@ -56,16 +62,16 @@ def contacts(sheet: FormulaSheet) -> list[Point]:
         theta = mpmath.pi * mpf(rng.uniform(0.02, 0.98))
         point[x] = size * (middle + half * mpmath.cos(theta))
         point[dQ], point[dsigma] = mpf(rng.uniform(0, 2)), mpf(rng.uniform(-2, 2))
-        return point if holds(sheet["pressure"].conditions, point) else None
+        return point if holds(conditions, point) else None
 
-    return list(draws(sheet.geometry.name, draw))
+    return list(draws(body.name, draw))
 
 
 def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
     """Loads, moments and tilts under which `formula` gives a contact."""
 
     def draw(rng: random.Random, found: int) -> Point | None:
-        point = _parameters(sheet, rng)
+        point = _parameters(sheet.geometry, rng)
         sign = 1 if found % 2 == 0 else -1
         point[P] = mpf(2) ** rng.uniform(-6, 6)
         point[M] = sign * point[P] * mpf(2) ** rng.uniform(-6, 3)
@@ -75,10 +81,10 @@ def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
     return draws(f"{sheet.geometry.name} {formula.name}", draw)
 
 
-def _parameters(sheet: FormulaSheet, rng: random.Random) -> Point:
+def _parameters(body: Geometry, rng: random.Random) -> Point:
     """Parameters above what the body demands of them."""
-    made = [E_star, *(q.symbol for q in sheet.geometry.parameters)]
-    least = {d.gts: d.lts for d in sheet.geometry.slope.demands if d.lts.is_number}
+    made = [E_star, *(q.symbol for q in body.parameters)]
+    least = {d.gts: d.lts for d in body.slope.demands if d.lts.is_number}
     return {symbol: mpf(2) ** rng.uniform(-1.5, 1.5) + mpf(least.get(symbol, 0)) for symbol in made}
 
 

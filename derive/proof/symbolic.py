@@ -33,6 +33,7 @@ from derive.theory.frame import KinkFrame
 
 _LIMIT = "limit of p at the edges"
 _RATE = "(2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated"
+_PUNCHES = "grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt"
 _SHORT = 60
 """Operations up to which an inverse is put back symbolically."""
 
@@ -117,6 +118,8 @@ def _pressure(sheet: FormulaSheet, name: str) -> str | None:
     """
     frame = sheet.frame
     tilt, load, p = (sheet[key].expr for key in ("tilt", "load", name))
+    if len(frame.kinks) > 1:
+        return _PUNCHES if _grows_by_punches(sheet, p) else None
     by_a, by_c = frame.diff(tilt, a), frame.diff(tilt, c)
 
     def along(expr: Expr) -> Expr:
@@ -124,7 +127,20 @@ def _pressure(sheet: FormulaSheet, name: str) -> str | None:
 
     if not is_zero(along(p) - along(load) / (pi * w), frame):
         return None
-    return "grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt"
+    return _PUNCHES
+
+
+def _grows_by_punches(sheet: FormulaSheet, p: Expr) -> bool:
+    """Each edge by itself: dp/dc = K_right (a + x)/(2 sqrt(h) w), dp/da = K_left (c - x)/(...).
+
+    At fixed tilt, where a'(c) = K_right/K_left, both make dp/dc = P'(c)/(pi w).
+    """
+    return all(
+        is_zero(
+            sheet.frame.diff(p, edge) - sheet[K].expr * opposite / (2 * sqrt(h) * w), sheet.frame
+        )
+        for edge, K, opposite in ((c, "K_N_right", a + x), (a, "K_N_left", c - x))
+    )
 
 
 def _stick(sheet: FormulaSheet, name: str) -> str | None:
@@ -152,18 +168,40 @@ def _differentiated(of: str, edge: Symbol) -> Route:
     return _equal_to(lambda sheet: sheet.frame.diff(sheet[of].expr, edge), f"{of} differentiated")
 
 
+def _by_rates(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
+    """The route of `_equal_to`; with many kinks by the four rates, which are linear in them.
+
+    Where P_a, P_c = (pi sqrt(h)/4) K_N and alpha_a, alpha_c = +/- K_N/(E* sqrt(h)) at the left and
+    the right edge, a'(c) = -alpha_c/alpha_a and P'(c) = P_c + P_a a'(c) follow at once.
+    """
+
+    def route(sheet: FormulaSheet, name: str) -> str | None:
+        if len(sheet.frame.kinks) < 2:
+            return _equal_to(value, words)(sheet, name)
+        rates = [f"{of}_by_{edge}" for of in ("load", "tilt") for edge in (a, c)]
+        if not all(_ROUTES[rate](sheet, rate) for rate in rates):
+            return None
+        ratio = sheet["K_N_right"].expr / sheet["K_N_left"].expr
+        rate = pi / 2 * sqrt(h) * sheet["K_N_right"].expr
+        follows = {"edge_ratio": ratio, "load_rate": rate, "punch": rate / pi}
+        wanted = follows.get(name, sheet[name].expr)
+        return words if simplify(sheet[name].expr / wanted) == 1 else None
+
+    return route
+
+
 _ROUTES: dict[str, Route] = {
     "tilt": _equal_to(_tilt, "I_0 by antiderivatives that differentiate back"),
     "load": _equal_to(_load, "by parts, P = (E*/2) int g'' w ds"),
     "moment": _equal_to(_moment, "by parts, M = -(E*/2) int g'' w (s + mid)/2 ds"),
     "pressure": _pressure,
-    "edge_ratio": _equal_to(lambda s: s["K_N_right"].expr / s["K_N_left"].expr, _LIMIT),
-    "load_rate": _equal_to(lambda s: pi / 2 * sqrt(h) * s["K_N_right"].expr, _LIMIT),
-    "punch": _equal_to(lambda s: sqrt(h) / 2 * s["K_N_right"].expr, _LIMIT),
-    "K_N_left": _equal_to(
+    "edge_ratio": _by_rates(lambda s: s["K_N_right"].expr / s["K_N_left"].expr, _LIMIT),
+    "load_rate": _by_rates(lambda s: pi / 2 * sqrt(h) * s["K_N_right"].expr, _LIMIT),
+    "punch": _by_rates(lambda s: sqrt(h) / 2 * s["K_N_right"].expr, _LIMIT),
+    "K_N_left": _by_rates(
         lambda s: 2 / pi * s["load_rate"].expr / sqrt(h) / s["edge_ratio"].expr, _RATE
     ),
-    "K_N_right": _equal_to(lambda s: 2 / pi * s["load_rate"].expr / sqrt(h), _RATE),
+    "K_N_right": _by_rates(lambda s: 2 / pi * s["load_rate"].expr / sqrt(h), _RATE),
     **{
         f"{of}_by_{edge}": _differentiated(of, edge)
         for of in ("load", "moment", "tilt")

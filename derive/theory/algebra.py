@@ -34,6 +34,10 @@ def reduced(expr: Expr, frame: Frame) -> Expr:
 
 def tidy(expr: Expr, frame: Frame) -> Expr:
     """`expr` in the form that is shown: factored, or collected by the kinks' symbols if shorter."""
+    if len(frame.kinks) > 1:
+        linear = _collected_linear(expr, frame)
+        if linear is not None:
+            return linear
     quotient = reduced(expr, frame)
     forms = [factor(quotient), _collected(quotient, frame)]
     return min(forms, key=lambda form: (count_ops(form), str(form)))
@@ -44,8 +48,15 @@ def is_zero(expr: Expr, frame: Frame) -> bool:
 
     Every root becomes a symbol whose square is known and every denominator is multiplied up, so
     that a polynomial remains; it is expanded, even powers of roots are replaced, and it is zero or
-    not.
+    not.  What is linear in the symbols of many kinks is zero if every coefficient is.
     """
+    parts = _coefficients(expr, [s for k in frame.kinks for s in (k.theta, k.w, k.L)])
+    if len(frame.kinks) > 1 and parts is not None:
+        return all(_is_zero_polynomial(part, frame) for part in parts)
+    return _is_zero_polynomial(expr, frame)
+
+
+def _is_zero_polynomial(expr: Expr, frame: Frame) -> bool:
     expr, roots = _without_roots(expr)
     polynomial = _low_power(_numerator(expr), frame)
     return bool(_even_powers_replaced(expand(polynomial), roots) == 0)
@@ -102,6 +113,32 @@ def _collected(quotient: Expr, frame: Frame) -> Expr:
         for powers, coefficient in primitive.terms()
     )
     return factor(content / denominator) * collected
+
+
+def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
+    """Each coefficient of theta_j and w_j factored by itself; None where they are not linear.
+
+    Without a common denominator of all: with many kinks that would be by far the longest way.
+    """
+    symbols = _symbols(frame)
+    stand_ins = {root: Dummy("r", positive=True) for root in _roots_in(expr)}
+    parts = _coefficients(expr.xreplace(stand_ins), symbols)
+    if parts is None:
+        return None
+    back = {stand_in: root for root, stand_in in stand_ins.items()}
+    terms = (factor(part) * s for part, s in zip(parts, [S.One, *symbols], strict=True))
+    return Add(*(term.xreplace(back) for term in terms))
+
+
+def _coefficients(expr: Expr, symbols: list[Symbol]) -> list[Expr] | None:
+    """What is free of the symbols, and the factor of each; None where they are not linear."""
+    parts = [expr.xreplace(dict.fromkeys(symbols, S.Zero)), *(expr.diff(s) for s in symbols)]
+    return None if any(part.has(*symbols) for part in parts if symbols) else parts
+
+
+def _roots_in(expr: Expr) -> list[Expr]:
+    """The roots and odd powers of roots that an expression holds."""
+    return sorted((p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2), key=str)
 
 
 def _low_power(expr: Expr, frame: Frame) -> Expr:

@@ -47,7 +47,9 @@ def pressure_series(frame: Frame, edge: Edge, terms: int) -> list[Expr]:
         sense = kink.kink.side * 2 / pi
         for i, term in enumerate(_product(jump, logarithm, terms)):
             total[i] += sense * term
-    return [tidy(E_star / 2 * sqrt(h) * cancel(term), frame) for term in total]
+    if len(frame.kinks) < 2:  # a common denominator of many kinks is long
+        total = [cancel(term) for term in total]
+    return [tidy(E_star / 2 * sqrt(h) * term, frame) for term in total]
 
 
 def _taylor(polynomial: Expr, terms: int) -> list[Expr]:

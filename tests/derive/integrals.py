@@ -11,9 +11,12 @@ from mpmath import mpf
 
 Function = Callable[[mpf], mpf]
 
+GENTLE = "gauss-legendre"
+"""Enough for polynomials on pieces; "tanh-sinh" where a slope bends sharply."""
+
 
 def over_contact(
-    f: Function, a: mpf, c: mpf, cuts: Iterable[mpf] = (), method: str = "gauss-legendre"
+    f: Function, a: mpf, c: mpf, cuts: Iterable[mpf] = (), method: str = GENTLE
 ) -> mpf:
     """int_{-a}^{c} f(s)/w(s) ds."""
     middle, half = mpf(c - a) / 2, mpf(a + c) / 2
@@ -30,27 +33,55 @@ def root(s: mpf, a: mpf, c: mpf) -> mpf:
     return mpmath.sqrt((a + s) * (c - s))
 
 
-def tilt(slope: Function, a: mpf, c: mpf, kinks: Iterable[mpf]) -> mpf:
+def tilt(slope: Function, a: mpf, c: mpf, kinks: Iterable[mpf], method: str = GENTLE) -> mpf:
     """alpha from int (g' + alpha)/w ds = 0, where int 1/w ds = pi."""
-    return -over_contact(slope, a, c, kinks) / mpmath.pi
+    return -over_contact(slope, a, c, kinks, method) / mpmath.pi
 
 
-def load(slope: Function, a: mpf, c: mpf, kinks: Iterable[mpf], E_star: mpf) -> mpf:
+def load(
+    slope: Function,
+    a: mpf,
+    c: mpf,
+    kinks: Iterable[mpf],
+    E_star: mpf,
+    method: str = GENTLE,
+) -> mpf:
     """P = (E*/2) int s (g' + alpha)/w ds."""
-    alpha = tilt(slope, a, c, kinks)
-    return E_star / 2 * over_contact(lambda s: s * (slope(s) + alpha), a, c, kinks)
+    alpha = tilt(slope, a, c, kinks, method)
+    return E_star / 2 * over_contact(lambda s: s * (slope(s) + alpha), a, c, kinks, method)
 
 
-def moment(slope: Function, a: mpf, c: mpf, kinks: Iterable[mpf], E_star: mpf) -> mpf:
+def moment(
+    slope: Function,
+    a: mpf,
+    c: mpf,
+    kinks: Iterable[mpf],
+    E_star: mpf,
+    method: str = GENTLE,
+) -> mpf:
     """M = -(E*/2) int s (s - mid) (g' + alpha)/w ds."""
-    alpha, middle = tilt(slope, a, c, kinks), mpf(c - a) / 2
-    return -E_star / 2 * over_contact(lambda s: s * (s - middle) * (slope(s) + alpha), a, c, kinks)
+    alpha, middle = tilt(slope, a, c, kinks, method), mpf(c - a) / 2
+    arm = over_contact(lambda s: s * (s - middle) * (slope(s) + alpha), a, c, kinks, method)
+    return -E_star / 2 * arm
 
 
-def pressure(slope: Function, x: mpf, a: mpf, c: mpf, kinks: Iterable[mpf], E_star: mpf) -> mpf:
-    """p(x) = (E*/2 pi) w(x) int (g'(s) - g'(x)) / ((s - x) w(s)) ds."""
+def pressure(
+    slope: Function,
+    x: mpf,
+    a: mpf,
+    c: mpf,
+    kinks: Iterable[mpf],
+    E_star: mpf,
+    method: str = GENTLE,
+    cut: bool = True,
+) -> mpf:
+    """p(x) = (E*/2 pi) w(x) int (g'(s) - g'(x)) / ((s - x) w(s)) ds, cut at x unless at an edge."""
     here = slope(x)
-    principal = over_contact(lambda s: (slope(s) - here) / (s - x), a, c, (*kinks, x))
+
+    def quotient(s: mpf) -> mpf:
+        return (slope(s) - here) / (s - x) if s != x else mpf(0)
+
+    principal = over_contact(quotient, a, c, (*kinks, *([x] if cut else [])), method)
     return E_star / (2 * mpmath.pi) * root(x, a, c) * principal
 
 

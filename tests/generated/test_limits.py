@@ -1,0 +1,115 @@
+"""Bodies of the library at the limits that tie them together, and quartic and cosh by hand."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.special import iv
+
+from generated import (
+    catenary,
+    circular_arc,
+    flat_rounded,
+    flat_sloped,
+    hertz,
+    hyperbola,
+    parabola_quartic,
+    power,
+    quartic,
+    rounded_wedge,
+    two_radii,
+    unequal_wedge,
+    wedge,
+    wedge_parabola,
+)
+
+E = 2.0
+R, PHI = 1.5, 0.25
+A, C = np.array([0.75, 1.0, 0.5]), np.array([0.5, 1.0, 1.25])
+X = np.array([-0.375, 0.125, 1.0])
+
+HERTZ = (hertz, {"R": R})
+WEDGE = (wedge, {"phi": PHI})
+
+LIMITS = [
+    (flat_rounded, {"R": R, "b": 1e-13}, HERTZ, 1e-11),
+    (power, {"k": 2.0, "L": R}, HERTZ, 1e-14),
+    (circular_arc, {"R": 1e8 * R}, (hertz, {"R": 1e8 * R}), 1e-13),
+    (two_radii, {"R_1": R, "R_2": R}, HERTZ, 1e-13),
+    (parabola_quartic, {"R": R, "L": 1e6}, HERTZ, 1e-13),
+    (catenary, {"R": R, "b": 1e8}, HERTZ, 1e-13),
+    (rounded_wedge, {"phi": PHI, "b": 1e-15}, WEDGE, 1e-13),
+    (flat_sloped, {"phi": PHI, "b": 1e-15}, WEDGE, 1e-13),
+    (unequal_wedge, {"phi_1": PHI, "phi_2": PHI}, WEDGE, 1e-14),
+    (hyperbola, {"phi": PHI, "b": 1e-9}, WEDGE, 1e-8),
+    (
+        wedge_parabola,
+        {"phi": PHI, "R": 1e16},
+        (unequal_wedge, {"phi_1": PHI, "phi_2": 1e-30}),
+        1e-12,
+    ),
+]
+"""A body near its limit, the limit, and how close they come."""
+
+
+def _id(value: Any) -> str:
+    return getattr(value, "__name__", "").split(".")[-1]
+
+
+@pytest.mark.parametrize(("body", "own", "limit", "close"), LIMITS, ids=_id)
+def test_a_body_near_its_limit(body: Any, own: dict[str, float], limit: Any, close: float) -> None:
+    other, others = limit
+    for name in ("load", "moment", "K_N"):
+        found = getattr(body, name)(A, C, E_star=E, **own)
+        wanted = getattr(other, name)(A, C, E_star=E, **others)
+        size = np.max(np.abs(wanted))
+        assert_allclose(found, wanted, rtol=0, atol=close * size, err_msg=name)
+    found, wanted = body.tilt(A, C, **own), other.tilt(A, C, **others)
+    assert_allclose(found, wanted, rtol=0, atol=close, err_msg="tilt")
+    found, wanted = (
+        body.pressure(X, A, C, E_star=E, **own),
+        other.pressure(X, A, C, E_star=E, **others),
+    )
+    assert_allclose(found, wanted, rtol=10 * close, err_msg="pressure")
+
+
+def test_a_quartic_under_a_centred_load_by_hand() -> None:
+    """P = (E*/2) int (3 s^2/L^3) sqrt(a^2 - s^2) ds, and int s^2 sqrt(a^2 - s^2) ds = pi a^4/8:
+    P = 3 pi E* a^4/(16 L^3); with E* = 2, L = 1, a = 2 that is 6 pi."""
+    assert_allclose(quartic.load(2.0, 2.0, E_star=2.0, L=1.0), 6 * np.pi, rtol=1e-15)
+
+
+def test_a_catenary_through_bessel_functions() -> None:
+    """g'' = cosh(s/b)/R and s = mid + (h/2) cos(theta): int cosh(s/b) sin^2 is a Bessel integral,
+
+    int_0^pi e^(z cos t) sin^2 t dt = pi I_1(z)/z,   z = h/(2 b),
+    P = (E*/2) (h/2)^2 cosh(mid/b) (pi I_1(z)/z)/R,  alpha = -(b/R) sinh(mid/b) I_0(z).
+    """
+    b, h, mid = 0.5, A + C, (C - A) / 2
+    z = h / (2 * b)
+    load = E / 2 * (h / 2) ** 2 * np.cosh(mid / b) * np.pi * iv(1, z) / z / R
+    assert_allclose(catenary.load(A, C, E_star=E, R=R, b=b), load, rtol=1e-14)
+    tilt = -b / R * np.sinh(mid / b) * iv(0, z)
+    assert_allclose(catenary.tilt(A, C, R=R, b=b), tilt, rtol=1e-13, atol=1e-15)
+
+
+def test_a_power_law_under_a_centred_load_by_the_gamma_function() -> None:
+    """P = (E*/2) 2 int_0^a (k-1) s^(k-2)/L^(k-1) sqrt(a^2 - s^2) ds, a beta function:
+
+    int_0^a s^(k-2) sqrt(a^2 - s^2) ds = a^k/2 B((k-1)/2, 3/2).
+    """
+    from scipy.special import beta
+
+    k, L, a = np.array([1.1, 1.5, 2.0, 3.7, 8.0]), 1.25, 0.75
+    load = E * (k - 1) / L ** (k - 1) * a**k / 2 * beta((k - 1) / 2, 1.5)
+    assert_allclose(power.load(a, a, E_star=E, k=k, L=L), load, rtol=1e-13)
+
+
+def test_a_power_law_tends_to_the_wedge() -> None:
+    """At k = 1 it is the wedge of slope one: the polynomial through six exponents above it."""
+    k = 1 + 0.05 * np.arange(1, 7)
+    weights = [np.prod([(1 - o) / (p - o) for o in k if o != p]) for p in k]
+    found = [power.load(0.75, 0.5, E_star=E, k=p, L=1.0) for p in k]
+    wanted = wedge.load(0.75, 0.5, E_star=E, phi=1.0)
+    assert_allclose(np.dot(weights, found), wanted, rtol=1e-5)

@@ -1,0 +1,236 @@
+"""Ten profiles that are in no library, from g(x) in a file to a module, without a line of help.
+
+Each is built as a user would, by file name alone, and its functions are held against quadrature at
+30 digits of a slope that is typed here by hand, at contacts central and not, and at contacts that
+have left kinks or the origin.
+"""
+
+import importlib
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from types import ModuleType
+
+import mpmath
+import numpy as np
+import pytest
+from mpmath import mpf
+
+from derive.codegen.publish import package_files, publish
+from derive.pipeline import build
+from tests.derive import integrals
+
+pytestmark = pytest.mark.slow
+
+DIGITS = 40
+E_STAR = 1.75
+PARAMETERS = {"R": 1.25, "b": 0.5, "h_0": 0.75, "phi": 0.125, "L": 1.5, "k": 2.75}
+UNITS = {"phi": "rad", "k": "-"}
+
+Slope = Callable[[mpf], mpf]
+
+
+@dataclass(frozen=True)
+class Profile:
+    """g(x) as a user writes it, its slope by hand, and its kinks."""
+
+    g: str
+    parameters: str
+    slope: Callable[[dict[str, mpf]], Slope]
+    kinks: Callable[[dict[str, mpf]], list[mpf]] = lambda _: []
+
+
+def up(s: mpf) -> mpf:
+    """Max(0, s)."""
+    return s if s > 0 else mpf(0)
+
+
+def sign(s: mpf) -> int:
+    return 1 if s > 0 else -1
+
+
+PROFILES = {
+    "one_side_cubic": Profile(
+        "x**2/(2*R) + phi*Max(0, x - b) + Max(0, -x - h_0)**3/L**2",
+        "R b L phi h_0",
+        lambda v: (
+            lambda s: (
+                s / v["R"] + v["phi"] * (s > v["b"]) - 3 * up(-s - v["h_0"]) ** 2 / v["L"] ** 2
+            )
+        ),
+        lambda v: [v["b"], -v["h_0"]],
+    ),
+    "four_kinks": Profile(
+        "phi*Abs(x) + Max(0, x - b)**3/L**2 + phi*Max(0, x - b - h_0) + Max(0, -x - b)**2/(2*R)",
+        "R b L phi h_0",
+        lambda v: (
+            lambda s: (
+                v["phi"] * sign(s)
+                + 3 * up(s - v["b"]) ** 2 / v["L"] ** 2
+                + v["phi"] * (s > v["b"] + v["h_0"])
+                - up(-s - v["b"]) / v["R"]
+            )
+        ),
+        lambda v: [mpf(0), v["b"], v["b"] + v["h_0"], -v["b"]],
+    ),
+    "seventh": Profile(
+        "x**2/(2*R) + Abs(x)**7/L**6",
+        "R L",
+        lambda v: lambda s: s / v["R"] + 7 * sign(s) * abs(s) ** 6 / v["L"] ** 6,
+        lambda v: [mpf(0)],
+    ),
+    "blunt_and_steep": Profile(
+        "Piecewise((x**4/L**3, x < 0), (0, x < b), ((x - b)**2/(2*R), True))",
+        "R b L",
+        lambda v: lambda s: 4 * min(s, mpf(0)) ** 3 / v["L"] ** 3 + up(s - v["b"]) / v["R"],
+        lambda v: [mpf(0), v["b"]],
+    ),
+    "sextic": Profile(
+        "x**6/L**5 + x**2/(2*R) + phi*x",
+        "R L phi",
+        lambda v: lambda s: 6 * s**5 / v["L"] ** 5 + s / v["R"] + v["phi"],
+    ),
+    "soft_wedge": Profile(
+        "phi*b*log(cosh(x/b))",
+        "phi b",
+        lambda v: lambda s: v["phi"] * mpmath.tanh(s / v["b"]),
+    ),
+    "lopsided": Profile(
+        "phi*b*exp(x/b) + x**2/(2*R)",
+        "phi b R",
+        lambda v: lambda s: v["phi"] * mpmath.exp(s / v["b"]) + s / v["R"],
+    ),
+    "bent_corner": Profile(
+        "phi*sqrt((x - h_0)**2 + b**2) + Max(0, -x)**2/(2*R)",
+        "phi b R h_0",
+        lambda v: (
+            lambda s: (
+                v["phi"] * (s - v["h_0"]) / mpmath.sqrt((s - v["h_0"]) ** 2 + v["b"] ** 2)
+                - up(-s) / v["R"]
+            )
+        ),
+        lambda v: [mpf(0)],
+    ),
+    "arctangent": Profile(
+        "phi*x*atan(x/b)",
+        "phi b",
+        lambda v: (
+            lambda s: v["phi"] * (mpmath.atan(s / v["b"]) + s * v["b"] / (v["b"] ** 2 + s**2))
+        ),
+    ),
+    "powers_beyond_a_flat": Profile(
+        "L*(Max(0, Abs(x) - b)/L)**k",
+        "L b k",
+        lambda v: lambda s: v["k"] * sign(s) * (up(abs(s) - v["b"]) / v["L"]) ** (v["k"] - 1),
+        lambda v: [-v["b"], v["b"]],
+    ),
+}
+
+CONTACTS = [
+    *((0.875, 1.25), (1.5, 1.0), (0.6875, 0.6875)),
+    *((2.5, 3.25), (-0.625, 1.5), (1.75, -0.8125)),
+    *((0.0009765625, 1.375), (1.5, 0.5009765625)),
+]
+"""Edges a and c: central, lopsided, wide, off the origin on either side, close to a kink."""
+
+
+def text(name: str, profile: Profile) -> str:
+    """The file that a user would write."""
+    made = [
+        f'{p} = parameter("{p}", "made up", unit="{UNITS.get(p, "m")}")'
+        for p in profile.parameters.split()
+    ]
+    functions = "Abs, Max, Piecewise, atan, cosh, exp, log, sqrt"
+    return "\n".join(
+        [
+            '"""Made up."""',
+            f"from sympy import {functions}",
+            "from derive import Geometry, parameter, x",
+            *made,
+            f'geometry = Geometry("{name}", g={profile.g})',
+        ]
+    )
+
+
+def values(profile: Profile) -> dict[str, float]:
+    return {p: PARAMETERS[p] for p in profile.parameters.split()}
+
+
+@pytest.fixture(scope="module", params=PROFILES)
+def made(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[tuple[Profile, ModuleType]]:
+    """The profile and its module."""
+    name, folder = request.param, tmp_path_factory.mktemp("made_up")
+    file = folder / f"{name}.py"
+    file.write_text(text(name, PROFILES[name]))
+    body = build(str(file))
+    publish(package_files({name: body.text}), folder / f"package_of_{name}")
+    sys.path.insert(0, str(folder))
+    try:
+        yield PROFILES[name], importlib.import_module(f"package_of_{name}.{name}")
+    finally:
+        sys.path.remove(str(folder))
+
+
+def close(found: float, wanted: mpf, size: mpf) -> bool:
+    return bool(abs(mpf(float(found)) - wanted) <= 1e-12 * size)
+
+
+def test_every_function_against_quadrature_of_the_slope(made: tuple[Profile, ModuleType]) -> None:
+    profile, module = made
+    own = values(profile)
+    exact = {name: mpf(value) for name, value in own.items()}
+    slope, kinks = profile.slope(exact), profile.kinks(exact)
+    carried = 0
+    for left, right in CONTACTS:
+        with mpmath.workdps(DIGITS):
+            a, c = mpf(left), mpf(right)
+            load = integrals.load(slope, a, c, kinks, mpf(E_STAR), "tanh-sinh")
+            if load < 1e-20:
+                assert np.isnan(module.load(left, right, E_star=E_STAR, **own))
+                continue
+            carried += 1
+            x = (3 * c - 5 * a) / 8
+            moment = integrals.moment(slope, a, c, kinks, mpf(E_STAR), "tanh-sinh")
+            tilt = integrals.tilt(slope, a, c, kinks, "tanh-sinh")
+            pressure = integrals.pressure(slope, x, a, c, kinks, mpf(E_STAR), "tanh-sinh")
+            steepest = max(abs(slope(-a)), abs(slope(c)))
+        given = {"E_star": E_STAR, **own}
+        assert close(module.load(left, right, **given), load, load)
+        assert close(module.moment(left, right, **given), moment, load * (a + c))
+        assert close(module.tilt(left, right, **own), tilt, steepest)
+        assert close(module.pressure(float(x), left, right, **given), pressure, pressure)
+        found = module.contact(float(load), float(moment), **given)
+        assert close(found.a, a, a + c) and close(found.c, c, a + c)
+        assert close(found.alpha, tilt, 4 * steepest)
+    assert carried >= 6
+
+
+def test_the_edge_coefficients_against_the_pressure_next_to_the_edges(
+    made: tuple[Profile, ModuleType],
+) -> None:
+    """p/sqrt(s) at s = h 1e-12 is K_N + L_N s; with s twice as large, L_N from the difference."""
+    profile, module = made
+    own = values(profile)
+    exact = {name: mpf(value) for name, value in own.items()}
+    slope, kinks = profile.slope(exact), profile.kinks(exact)
+    for left, right in CONTACTS[:3]:
+        given = {"E_star": E_STAR, **own}
+        K_N, L_N = module.K_N(left, right, **given), module.L_N(left, right, **given)
+        for side, K, L in (("left", K_N.left, L_N.left), ("right", K_N.right, L_N.right)):
+            with mpmath.workdps(60):
+                a, c = mpf(left), mpf(right)
+                s = (a + c) * mpf(10) ** -16
+                at = [n * s - a if side == "left" else c - n * s for n in (1, 2)]
+                first, second = (
+                    integrals.pressure(
+                        slope, place, a, c, kinks, mpf(E_STAR), "tanh-sinh", cut=False
+                    )
+                    / mpmath.sqrt(n * s)
+                    for n, place in enumerate(at, start=1)
+                )
+                rate = (second - first) / s
+                value = first - rate * s
+            assert close(K, value, value)
+            assert close(L, rate, value / (a + c) * 100)
