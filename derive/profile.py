@@ -20,6 +20,7 @@ from sympy import (
     And,
     Dummy,
     Expr,
+    Function,
     Gt,
     Heaviside,
     Integer,
@@ -35,9 +36,12 @@ from sympy import (
     Rational,
     S,
     Symbol,
+    asinh,
     atan,
     cancel,
+    cosh,
     diff,
+    exp,
     expand,
     factor,
     fraction,
@@ -50,6 +54,8 @@ from sympy import (
     roots,
     sign,
     simplify,
+    sinh,
+    tanh,
     together,
 )
 from sympy.core.relational import Relational
@@ -59,6 +65,7 @@ from derive.errors import BadProfile
 from derive.symbols import x
 
 _BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
+_SMOOTH = (exp, log, sinh, cosh, tanh, asinh, atan)
 _SAMPLES = 8
 """Sets of parameters for which a body is tested for convexity."""
 
@@ -151,6 +158,7 @@ def read_slope(name: str, g: Expr) -> Slope:
     Raises BadProfile when g is not real, not continuous, not convex or straight.
     """
     pieces = _merged(_resolved(name, g, -oo, oo))
+    _demand_known_functions(name, pieces)
     _demand_continuous(name, pieces)
     demands = _demands(name, pieces)
     domain = _domain(name, pieces)
@@ -319,6 +327,18 @@ def _merged(pieces: list[Piece]) -> list[Piece]:
         else:
             merged.append(piece)
     return merged
+
+
+def _demand_known_functions(name: str, pieces: list[Piece]) -> None:
+    for piece in pieces:
+        for held in sorted(piece.profile.atoms(Function), key=str):
+            if held.has(x) and not isinstance(held, _SMOOTH):
+                known = ", ".join(f.__name__ for f in (*_BRANCHING, *_SMOOTH))
+                raise BadProfile(
+                    name,
+                    f"holds {held}, a function of x that cannot be derived with",
+                    f"write it with powers and {known}",
+                )
 
 
 def _demand_continuous(name: str, pieces: list[Piece]) -> None:

@@ -112,6 +112,7 @@ def _state(a: Array, c: Array, *, R: Array, b: Array) -> State:
     )
     found = mended(
         found,
+        exists,
         (
             "load",
             "moment",
@@ -248,7 +249,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
             - w_2 / (np.pi * R),
         )
     ]
-    found = mended(found, ("tilt",), 1.0, _BODY, a, c, R=R, b=b)
+    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, R=R, b=b)
     return found[0]
 
 
@@ -298,7 +299,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
             - (E_star / (8 * R)) * w_2 * (a + 2 * b - c),
         )
     ]
-    found = mended(found, ("load",), E_star, _BODY, a, c, R=R, b=b)
+    found = mended(found, exists, ("load",), E_star, _BODY, a, c, R=R, b=b)
     return found[0]
 
 
@@ -354,7 +355,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
             * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c),
         )
     ]
-    found = mended(found, ("moment",), E_star, _BODY, a, c, R=R, b=b)
+    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, R=R, b=b)
     return found[0]
 
 
@@ -425,7 +426,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
             + (E_star * (theta_1 + theta_2) / (2 * np.pi * R)) * w,
         )
     ]
-    found = mended(found, ("p",), E_star, _BODY, a, c, x=x, R=R, b=b)
+    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, R=R, b=b)
     return found[0]
 
 
@@ -482,6 +483,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "left",
             "right",
@@ -551,6 +553,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "second_left",
             "second_right",

@@ -95,6 +95,7 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     )
     found = mended(
         found,
+        exists,
         (
             "load",
             "moment",
@@ -243,7 +244,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [only_where(exists, (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2)]
-    found = mended(found, ("tilt",), 1.0, _BODY, a, c, b=b, phi=phi)
+    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, b=b, phi=phi)
     return found[0]
 
 
@@ -278,7 +279,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [only_where(exists, (E_star * phi / 2) * w_1 + (E_star * phi / 2) * w_2)]
-    found = mended(found, ("load",), E_star, _BODY, a, c, b=b, phi=phi)
+    found = mended(found, exists, ("load",), E_star, _BODY, a, c, b=b, phi=phi)
     return found[0]
 
 
@@ -319,7 +320,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
             (E_star * phi / 8) * w_1 * (a + 2 * b - c) + (E_star * phi / 8) * w_2 * (a - 2 * b - c),
         )
     ]
-    found = mended(found, ("moment",), E_star, _BODY, a, c, b=b, phi=phi)
+    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, b=b, phi=phi)
     return found[0]
 
 
@@ -372,7 +373,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     L_2 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_2 / np.abs(b - x), 0)))
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
     found = [only_where(exists, (E_star / np.pi) * (L_1 * phi + L_2 * phi))]
-    found = mended(found, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
+    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
     return found[0]
 
 
@@ -419,6 +420,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "left",
             "right",
@@ -482,6 +484,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "second_left",
             "second_right",

@@ -122,6 +122,7 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     )
     found = mended(
         found,
+        exists,
         (
             "load",
             "moment",
@@ -270,7 +271,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
             - (phi / (np.pi * b)) * w_1,
         )
     ]
-    found = mended(found, ("tilt",), 1.0, _BODY, a, c, b=b, phi=phi)
+    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, b=b, phi=phi)
     return found[0]
 
 
@@ -322,7 +323,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
             - (E_star * phi / (8 * b)) * w_1 * (a - 2 * b - c),
         )
     ]
-    found = mended(found, ("load",), E_star, _BODY, a, c, b=b, phi=phi)
+    found = mended(found, exists, ("load",), E_star, _BODY, a, c, b=b, phi=phi)
     return found[0]
 
 
@@ -380,7 +381,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
             * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
         )
     ]
-    found = mended(found, ("moment",), E_star, _BODY, a, c, b=b, phi=phi)
+    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, b=b, phi=phi)
     return found[0]
 
 
@@ -451,7 +452,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
             + (E_star * phi * (np.pi - theta_1 - theta_2) / (2 * np.pi * b)) * w,
         )
     ]
-    found = mended(found, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
+    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
     return found[0]
 
 
@@ -512,6 +513,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "left",
             "right",
@@ -585,6 +587,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "second_left",
             "second_right",

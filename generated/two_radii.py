@@ -91,6 +91,7 @@ def _state(a: Array, c: Array, *, R_1: Array, R_2: Array) -> State:
     )
     found = mended(
         found,
+        exists,
         (
             "load",
             "moment",
@@ -226,7 +227,7 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
             / (2 * np.pi * R_1 * R_2),
         )
     ]
-    found = mended(found, ("tilt",), 1.0, _BODY, a, c, R_1=R_1, R_2=R_2)
+    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, R_1=R_1, R_2=R_2)
     return found[0]
 
 
@@ -272,7 +273,7 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
             ),
         )
     ]
-    found = mended(found, ("load",), E_star, _BODY, a, c, R_1=R_1, R_2=R_2)
+    found = mended(found, exists, ("load",), E_star, _BODY, a, c, R_1=R_1, R_2=R_2)
     return found[0]
 
 
@@ -319,7 +320,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
             ),
         )
     ]
-    found = mended(found, ("moment",), E_star, _BODY, a, c, R_1=R_1, R_2=R_2)
+    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, R_1=R_1, R_2=R_2)
     return found[0]
 
 
@@ -372,7 +373,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
             * w,
         )
     ]
-    found = mended(found, ("p",), E_star, _BODY, a, c, x=x, R_1=R_1, R_2=R_2)
+    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, R_1=R_1, R_2=R_2)
     return found[0]
 
 
@@ -418,6 +419,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "left",
             "right",
@@ -486,6 +488,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "second_left",
             "second_right",

@@ -80,6 +80,7 @@ def _state(a: Array, c: Array, *, R: Array, phi: Array) -> State:
     )
     found = mended(
         found,
+        exists,
         (
             "load",
             "moment",
@@ -212,7 +213,7 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
             (2 * np.pi * R * phi + theta_1 * (a - 2 * R * phi - c) - 2 * w_1) / (2 * np.pi * R),
         )
     ]
-    found = mended(found, ("tilt",), 1.0, _BODY, a, c, R=R, phi=phi)
+    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, R=R, phi=phi)
     return found[0]
 
 
@@ -249,7 +250,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     found = [
         only_where(exists, (E_star / (16 * R)) * (theta_1 * h**2 - 2 * w_1 * (a - 4 * R * phi - c)))
     ]
-    found = mended(found, ("load",), E_star, _BODY, a, c, R=R, phi=phi)
+    found = mended(found, exists, ("load",), E_star, _BODY, a, c, R=R, phi=phi)
     return found[0]
 
 
@@ -297,7 +298,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
             ),
         )
     ]
-    found = mended(found, ("moment",), E_star, _BODY, a, c, R=R, phi=phi)
+    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, R=R, phi=phi)
     return found[0]
 
 
@@ -347,7 +348,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
             (E_star / (np.pi * R)) * L_1 * (R * phi + x) + (theta_1 * E_star / (2 * np.pi * R)) * w,
         )
     ]
-    found = mended(found, ("p",), E_star, _BODY, a, c, x=x, R=R, phi=phi)
+    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, R=R, phi=phi)
     return found[0]
 
 
@@ -391,6 +392,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "left",
             "right",
@@ -465,6 +467,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     )
     found = mended(
         found,
+        exists,
         (
             "second_left",
             "second_right",

@@ -95,7 +95,7 @@ def mended_lines(
     guarded = f"only_where(exists, {', '.join(values.values())})"
     names = "".join(f"{name!r}, " for name in fields)
     yield f"    found = {guarded if len(values) > 1 else f'[{guarded}]'}"
-    yield f"    found = mended(found, ({names}), {scale}, _BODY, a, c{at}{own})"
+    yield f"    found = mended(found, exists, ({names}), {scale}, _BODY, a, c{at}{own})"
     yield (
         f"    return {made.function.kind}(*found)" if made.function.kind else "    return found[0]"
     )

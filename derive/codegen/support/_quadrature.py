@@ -201,6 +201,7 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
 
 def mended(
     values: Sequence[Array],
+    exists: Array,
     fields: Sequence[str],
     scale: Array,
     body: Profile,
@@ -212,10 +213,11 @@ def mended(
 ) -> list[Array]:
     """Values of closed formulas, by quadrature instead where the formulas would lose digits.
 
+    exists: where there is a contact.
     fields: of a State; or "p", or "second_left" and "second_right".
     scale: what the quadrature is multiplied by.
     """
-    rough = is_delicate(body, a, c, **constants)
+    rough = exists & is_delicate(body, a, c, **constants)
     if not np.any(rough):
         return [*values]
     given = _Flat(a, c, constants, x, scale, rough, *values)
@@ -233,7 +235,7 @@ def mended(
     mended_values = []
     for value, fresh in zip(values, found, strict=True):
         whole = value.copy()
-        whole[rows] = np.where(np.isnan(value[rows]), np.nan, scale[rows] * fresh)
+        whole[rows] = scale[rows] * fresh
         mended_values.append(given.shaped(whole))
     return mended_values
 
@@ -247,7 +249,7 @@ def is_delicate(body: Profile, a: Array, c: Array, /, **constants: Array) -> Arr
     rough = h < 0
     for place in places:
         near = np.minimum(a + place, c - place)
-        rough = rough | ((near > 0) & (near < CLOSE * h))
+        rough = rough | ((near >= 0) & (near < CLOSE * h))
     for left, right in pairwise(places):
         rough = rough | ((right - left < CLOSE * h) & (left > -a) & (right < c))
     return rough
