@@ -2,7 +2,7 @@
 #             nothing is taken from an earlier run, so that every proof and time is of this one
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that take no long
-# make bench  speed, as ratios measured in one run
+# make bench  speed, as ratios measured in one run; bench-inverse: of the way from loads to contacts
 # make accuracy  worst error of every generated function, in units in the last place
 # make picture   draws the README's picture
 
@@ -11,7 +11,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test quick bench accuracy picture clean
+.PHONY: all test quick bench bench-inverse accuracy picture clean
 
 all: $(STAMP)
 	$(BIN)/derive generate --fresh
@@ -27,6 +27,9 @@ quick: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.speed
+
+bench-inverse: $(STAMP)
+	$(BIN)/python -m tests.benchmarks.inverse
 
 accuracy: $(STAMP)
 	$(BIN)/python -m tests.accuracy.report

@@ -53,8 +53,10 @@ def _exists(path: Path) -> bool:
 def _execute(path: Path) -> "Geometry":
     from derive.geometry import Geometry
 
-    if not (_exists(path) and path.is_file()):
+    if not _exists(path):
         raise BadGeometryFile(str(path), "there is no such file")
+    if not path.is_file():
+        raise BadGeometryFile(str(path), "it is a directory")
     spec = importlib.util.spec_from_file_location(f"_geometry_{path.stem}", path)
     if spec is None or spec.loader is None:
         raise BadGeometryFile(str(path), "it is no Python file")

@@ -38,7 +38,7 @@ from derive import Geometry, parameter, x
 radius = parameter("radius", "radius", unit="m")
 geometry = Geometry("cylinder", g=x**2 / (2 * radius))
 '''
-HEAD = """from sympy import I, Piecewise, Symbol, cosh, zeta
+HEAD = """from sympy import I, Piecewise, Symbol, floor, zeta
 from derive import Geometry, parameter, x
 R = parameter("R", "radius", unit="m")
 """
@@ -66,7 +66,7 @@ FILES = {
     "concave.py": HEAD + 'geometry = Geometry("body", g=-x**2 / R)\n',
     "straight.py": HEAD + 'geometry = Geometry("body", g=x)\n',
     "jumps.py": HEAD + 'geometry = Geometry("body", g=Piecewise((0, x < 0), (R, True)))\n',
-    "cosh.py": HEAD + 'geometry = Geometry("body", g=R * cosh(x / R))\n',
+    "floor.py": HEAD + 'geometry = Geometry("body", g=R * floor(x / R))\n',
     "complex.py": HEAD + 'geometry = Geometry("body", g=I * x**2 / R)\n',
     "stray.py": HEAD + 'geometry = Geometry("body", g=x**2 / Symbol("r"))\n',
     "dimension.py": HEAD + 'geometry = Geometry("body", g=x**2)\n',
@@ -85,11 +85,11 @@ BAD = [
     (("show", ":bug:"), ":bug:"),
     (("show", "[red]x[/]"), "[red]x[/]"),
     (("show", "nowhere.py"), "no such file"),
-    (("show", "."), "no such file"),
-    (("show", ""), ""),
+    (("show", "."), "a directory"),
+    (("show", ""), "a directory"),
     (("show", "a" * 300), "a" * 300),
     (("show", "body.txt"), "no Python file"),
-    (("show", "folder.py"), "no such file"),
+    (("show", "folder.py"), "a directory"),
     (("show", "bytes.py"), "bytes.py"),
     (("show", "syntax.py"), "SyntaxError"),
     (("show", "raises.py"), "ValueError: no such body"),
@@ -104,7 +104,7 @@ BAD = [
     (("show", "concave.py"), "not convex"),
     (("show", "straight.py"), "straight"),
     (("show", "jumps.py"), "jumps"),
-    (("show", "cosh.py"), "cosh"),
+    (("show", "floor.py"), "floor"),
     (("show", "complex.py"), "not real"),
     (("show", "stray.py"), "'r'"),
     (("show", "dimension.py"), "dimension"),

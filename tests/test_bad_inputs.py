@@ -1,0 +1,155 @@
+"""What a user can get wrong, each with the one line that tells so.
+
+Texts of g(x), geometry files, directories, and loads; an attempt to run code is among them.  Every
+command leaves with status 2, without a traceback, and writes nothing.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from derive.cli import main
+from generated import circular_arc, hertz, power, wedge
+
+HEAD = """from sympy import *
+from derive import Geometry, parameter, x
+R = parameter("R", "radius", unit="m")
+b = parameter("b", "width", unit="m")
+d_0 = parameter("d_0", "another width", unit="m")
+phi = parameter("phi", "slope", unit="rad")
+"""
+
+TEXTS = [
+    ("__import__('os').system('touch ran')", "parameter '__import__' cannot be a name"),
+    ("(lambda: x)()", "lambda"),
+    ("x.diff()", "."),
+    ("x**2/R; x", ";"),
+    ("x**2/(2*R", "("),
+    ("x**2/R + x.real", "."),
+    ("9**9**9**9*x**2/R", "large"),
+    ("x^2/R", "^"),
+    ("|x|*phi", "Abs"),
+    ("", "empty"),
+]
+"""g(x) as text for `derive new`, and a word of the message."""
+
+FILES = [
+    ("-x**2/R", "is not convex: its curvature is negative"),
+    ("x**3/R**2", "is not convex"),
+    ("b*(1 - cos(x/b))", "holds cos(x/b), a function of x that cannot be derived with"),
+    ("b*(1 - exp(-x**2/b**2))", "is not convex"),
+    ("sqrt(Abs(x)*b)", "is not convex"),
+    ("phi*Abs(x) - phi*Max(0, x - b)", "its slope falls at"),
+    ("phi*x", "is straight"),
+    ("Piecewise((x**2/R, x < 0), (b + x**2/R, True))", "jumps by b at x = 0"),
+    ("Piecewise((x**2/R, x < 0))", "is not defined near"),
+    ("b*floor(x/b)", "holds floor(x/b)"),
+    ("phi*Max(0, x - b) + phi*Max(0, x - d_0) + x**2/R", "kinks whose order is open"),
+    ("sqrt(x - b)*sqrt(b)", "is not"),
+    ("x**2", "has the dimension m**2 where m is needed"),
+    ("R*Abs(x/R)**R", "the exponent of (Abs(x)/R)**R has the dimension m"),
+    ("x**2/Symbol('r')", "holds the symbol 'r'"),
+    ("I*x**2/R", "not real"),
+    ("'x**2/R'", "no expression"),
+    ("Abs(x)**oo/R", "not real and finite"),
+]
+"""g(x) in a geometry file, and a part of the message."""
+
+PLACES = [
+    (["show", "nowhere.py"], "no such file"),
+    (["show", "."], "it is a directory"),
+    (["show", "sphere"], "there is no geometry 'sphere'"),
+    (["generate", "body.py"], "--out"),
+    (["generate", "body.py", "--out", "mine"], "notes.txt"),
+    (["generate", "body.py", "--out", "notes.txt"], "is no directory"),
+    (["generate", "body.py", "body.txt", "--out", "new"], "body.txt"),
+]
+"""Files and directories, and a part of the message."""
+
+LOADS: list[tuple[Any, type[Exception], str]] = [
+    (lambda: hertz.contact("1e5", E_star=1.0, R=1.0), TypeError, "P must be a real number"),
+    (lambda: hertz.contact(None, E_star=1.0, R=1.0), TypeError, "P must be a real number"),
+    (lambda: hertz.contact(1 + 2j, E_star=1.0, R=1.0), TypeError, "P must be a real number"),
+    (lambda: hertz.contact(True, E_star=1.0, R=1.0), TypeError, "P must be a real number"),
+    (
+        lambda: hertz.contact(np.ones(2), np.ones(3), E_star=1.0, R=1.0),
+        ValueError,
+        "must broadcast to one shape; their shapes are P (2,), M (3,)",
+    ),
+    (lambda: hertz.contact(1.0, E_star=1.0), TypeError, "R"),
+    (lambda: hertz.contact(1.0, E_star=1.0, R=1.0, phi=2.0), TypeError, "phi"),
+]
+"""Calls that are no contact problem at all, and a part of the message."""
+
+NOWHERE = [
+    (hertz.contact, (-1.0,), {"E_star": 1.0, "R": 1.0}),
+    (hertz.contact, (np.nan,), {"E_star": 1.0, "R": 1.0}),
+    (hertz.contact, (1.0, np.inf), {"E_star": 1.0, "R": 1.0}),
+    (hertz.contact, (1.0,), {"E_star": 0.0, "R": 1.0}),
+    (wedge.contact_at_tilt, (1.0, 0.5), {"E_star": 1.0, "phi": 0.25}),
+    (power.contact, (1.0,), {"E_star": 1.0, "k": 0.5, "L": 1.0}),
+    (circular_arc.load, (1.5, 0.5), {"E_star": 1.0, "R": 1.0}),
+]
+"""States that do not exist: NaN, and no warning."""
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "notes.txt").write_text("mine")
+    (tmp_path / "notes.txt").write_text("mine")
+    (tmp_path / "body.txt").write_text("no Python")
+    (tmp_path / "body.py").write_text(f'{HEAD}geometry = Geometry("body", g=x**2 / (2 * R))\n')
+    return tmp_path
+
+
+def refused(arguments: list[str], here: Path) -> str:
+    """The message of a command that is refused and writes nothing."""
+    before = {p: p.read_bytes() for p in here.rglob("*") if p.is_file()}
+    result = CliRunner().invoke(main, arguments)
+    after = {p: p.read_bytes() for p in here.rglob("*") if p.is_file() and p.suffix != ".pyc"}
+    assert result.exit_code == 2, result.output
+    assert "Traceback" not in result.output
+    assert after == before
+    return result.output
+
+
+@pytest.mark.parametrize(("text", "word"), TEXTS, ids=[text for text, _ in TEXTS])
+def test_a_text_that_is_no_profile(text: str, word: str, here: Path) -> None:
+    message = refused(["new", "body", text, "--unit", "R=m", "--out", "new.py"], here)
+    assert word in message
+    assert "^" in message
+
+
+@pytest.mark.parametrize(("g", "words"), FILES, ids=[g for g, _ in FILES])
+def test_a_file_whose_profile_is_refused(g: str, words: str, here: Path) -> None:
+    (here / "bad.py").write_text(f'{HEAD}geometry = Geometry("bad", g={g})\n')
+    message = refused(["generate", "bad.py", "--out", "new"], here)
+    assert words in message
+    assert message.count("\n") == 1
+
+
+@pytest.mark.parametrize(("arguments", "words"), PLACES, ids=[" ".join(a) for a, _ in PLACES])
+def test_a_file_or_directory_that_will_not_do(arguments: list[str], words: str, here: Path) -> None:
+    assert words in refused(arguments, here)
+
+
+@pytest.mark.parametrize(("call", "error", "words"), LOADS, ids=[words for *_, words in LOADS])
+def test_a_load_that_is_no_number(call: Any, error: type[Exception], words: str) -> None:
+    with pytest.raises(error) as caught:
+        call()
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("function", "given", "own"), NOWHERE)
+def test_a_state_that_does_not_exist(function: Any, given: Any, own: dict[str, float]) -> None:
+    assert np.all(np.isnan(np.asarray(function(*given, **own))))
+
+
+def test_the_list_is_long_enough() -> None:
+    assert len(TEXTS) + len(FILES) + len(PLACES) + len(LOADS) >= 30
