@@ -64,7 +64,8 @@ class BadName(UserError):
         """What was wrong with the name."""
         return (
             f"{self.what} {self.given!r} {self.why}; a name is letters, digits and "
-            "_, does not start with a digit, and is none of the theory's own: choose another"
+            "_, does not start with a digit, and is none of the theory's own, such as a, c, d, E, "
+            "f, h, m, n, p, q, s, t, x: choose another"
         )
 
 
@@ -174,8 +175,8 @@ class BadOutput(UserError):
     def message(self) -> str:
         """Why the directory is refused."""
         return (
-            f"{self.given} {self.why}; --out takes a directory that does not exist, is empty, or "
-            "was made by `derive generate`: choose another"
+            f"{self.given} {self.why}; a package is written to a directory that does not exist, is "
+            "empty, or was made by `derive generate`: choose another by --out, or clear this one"
         )
 
 

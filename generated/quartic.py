@@ -223,6 +223,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0):.6g}"
     '0.484375'
     """
+    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)

@@ -420,6 +420,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0941076'
     """
+    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
     # vanishes at both edges [m]
     smaller_1 = np.minimum(
@@ -444,7 +445,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     # angle of the contact beyond the kink x = b [-]
     theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
     found = [
         only_where(
             exists,

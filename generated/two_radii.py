@@ -354,6 +354,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.5'
     """
+    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
     # vanishes at both edges [m]
     smaller_1 = np.minimum(
@@ -364,7 +365,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     # angle of the contact beyond the kink x = 0 [-]
     theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
-    exists = (h > LEAST) & (h < MOST)
+    exists = (h > LEAST) & (h < MOST) & (x == x)
     found = [
         only_where(
             exists,

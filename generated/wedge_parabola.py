@@ -331,6 +331,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.359742'
     """
+    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
     # vanishes at both edges [m]
     smaller_1 = np.minimum(

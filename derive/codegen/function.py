@@ -10,7 +10,7 @@ from itertools import product
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Gt, Lt, Min, Symbol
+from sympy import Expr, Gt, Lt, Min, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
@@ -21,7 +21,7 @@ from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, h, x
+from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, h, w, x
 from derive.units import Dimension, dimension_of, parse_unit
 
 LINE = 100
@@ -110,6 +110,8 @@ class FunctionText:
                 varying.add(step.symbol)
         printer = NumPyPrinter(varying)
         units = self._units()
+        if x in arguments and self.sheet["pressure"].expr.xreplace({w: S.One}).has(x):
+            yield "    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]"
         for step in self.program.steps:
             note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
             yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)

@@ -80,6 +80,11 @@ class MendedText(FunctionText):
         return mended_lines(self, values, _FIELDS[self.function.name])
 
     @property
+    def _further_checks(self) -> Iterator[str]:
+        if self.function.name == "pressure":
+            yield "x == x"
+
+    @property
     def _existence(self) -> str:
         words = "where a kink lies close to an edge or to another kink, by quadrature of g''"
         return f"{super()._existence}.  {words[0].upper()}{words[1:]}"

@@ -23,16 +23,16 @@ from sympy import (
     exp,
     expand,
     floor,
-    log,
     oo,
     sign,
     simplify,
     sqrt,
+    zeta,
 )
 
 from derive import Geometry, parameter, x
 from derive.errors import BadProfile
-from derive.profile import Slope
+from derive.profile import Slope, breaks_of
 from tests.derive.bodies import BODIES, VALUES, geometry
 
 R = parameter("R", "radius", unit="m")
@@ -305,21 +305,60 @@ def test_a_straight_body_is_refused(g: Expr) -> None:
 
 
 @pytest.mark.parametrize(
-    "g",
+    ("g", "domain", "limits", "cuts"),
     [
-        R * cosh(x / R),
-        R * exp(x / R),
-        R * log(2 + x / R),
-        sqrt(x**2 + R**2),
-        Abs(x) ** Rational(3, 2) / sqrt(R),
-        R**2 / (R + x),
-        floor(x / R) * R,
-        Max(0, R * cosh(x / R) - 2 * x**2 / R),
-        Abs(R * cosh(x / R) - R),
+        (R * cosh(x / R), (-oo, oo), (-oo, oo), (0,)),
+        (R * exp(x / R), (-oo, oo), (0, oo), (0,)),
+        (sqrt(x**2 + R**2), (-oo, oo), (-1, 1), (0,)),
+        (sqrt((x - b) ** 2 + R**2), (-oo, oo), (-1, 1), (b,)),
+        (R - sqrt(R**2 - x**2), (-R, R), (-oo, oo), (0,)),
+        (Abs(x) ** Rational(3, 2) / sqrt(R), (-oo, oo), (-oo, oo), (0,)),
+        (R**2 / (R + x), (-R, oo), (-oo, 0), (0,)),
+        (Max(0, Abs(x) - b) ** Rational(5, 2) / R ** Rational(3, 2), (-oo, oo), (-oo, oo), (-b, b)),
     ],
     ids=str,
 )
-def test_what_is_no_polynomial_on_its_pieces_is_refused(g: Expr) -> None:
+def test_what_is_no_polynomial_on_its_pieces_is_read_all_the_same(
+    g: Expr, domain: tuple[Expr, Expr], limits: tuple[Expr, Expr], cuts: tuple[Expr, ...]
+) -> None:
+    """Where it is real, its slopes at the ends, and where quadrature must cut it."""
+    found = slope(g)
+    assert not found.is_polynomial
+    assert str(found.domain) == str(domain)
+    assert str(found.limits) == str(limits)
+    assert str(breaks_of(found)[0]) == str(cuts)
+    assert found.demands == ()
+
+
+def test_an_exponent_must_lie_above_one() -> None:
+    """Abs(x)**k is convex for k > 1; its slope at the apex, 0**(k - 1), is then no corner."""
+    k = parameter("k", "exponent", unit="-")
+    found = slope(R * (Abs(x) / R) ** k)
+    assert [str(demand) for demand in found.demands] == ["k > 1"]
+    assert found.kinks[0].step == 0
+    assert found.limits == (-oo, oo)
+
+
+def test_a_corner_whose_sign_hangs_on_a_parameter() -> None:
+    """x**2/(2 R) + (phi - 1/200) |x| is convex for phi > 1/200 alone."""
+    found = slope(x**2 / (2 * R) + Abs(x) * (phi - Rational(1, 200)))
+    assert [str(demand) for demand in found.demands] == ["phi > 1/200"]
+
+
+@pytest.mark.parametrize("g", [floor(x / R) * R, R * zeta(2 + x**2 / R**2)], ids=str)
+def test_a_function_that_cannot_be_derived_with_is_named(g: Expr) -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert "a function of x that cannot be derived with" in caught.value.why
+    assert "cosh" in caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    "g",
+    [Max(0, R * cosh(x / R) - 2 * x**2 / R), Abs(R * cosh(x / R) - R)],
+    ids=str,
+)
+def test_a_branch_at_a_place_that_is_no_root_of_a_polynomial_is_refused(g: Expr) -> None:
     with pytest.raises(BadProfile) as caught:
         slope(g)
     assert "no polynomial in x" in caught.value.why

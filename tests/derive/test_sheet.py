@@ -118,7 +118,7 @@ def test_the_tilt_leaves_slopes_of_both_signs(name: str, bounds: set[object]) ->
 
 
 def test_loads_are_positive() -> None:
-    (condition,) = load_conditions()
+    (condition,) = load_conditions(sheet("hertz").frame)
     assert str(condition) == "P > 0"
     assert (condition.lhs, condition.rhs) == (P, 0)
 
@@ -140,7 +140,9 @@ def test_a_place_inside_lies_between_the_edges() -> None:
     ],
 )
 def test_closed_means_that_the_loads_give_the_contact(name: str, closed: bool) -> None:
-    assert sheet(name).is_closed is closed
+    assert sheet(name).is_closed("contact_a") is closed
+    assert sheet(name).is_closed("contact_at_tilt_a") is closed
+    assert sheet(name).is_closed("load")
 
 
 def test_definitions_name_only_what_is_held() -> None:

@@ -158,7 +158,7 @@ def test_zero_has_every_dimension() -> None:
         Piecewise((1, length > 1), (2, True)),
         Piecewise((1, length > stress), (2, True)),
         sqrt(length + length**2),
-        Integral(length, length),
+        Integral(length, (length, stress, angle)),
     ],
     ids=str,
 )
