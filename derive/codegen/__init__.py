@@ -5,8 +5,11 @@ rewrite   rules that keep digits in floating point; the result is compared with 
 printer   SymPy -> NumPy source
 contract  which functions a module has
 function  the text of one function
+integrated  the text of functions that are integrated, everywhere or where kinks crowd
 solved    the text of the inverses that have no closed formula
 module    the one template of a generated module
+mark      what every generated file begins with
+trial     runs the module as it was printed, and compares
 publish   compares a whole package with what is on disk, or replaces it
 support/  what generated modules need besides NumPy; copied beside them
 """

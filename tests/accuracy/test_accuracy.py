@@ -3,9 +3,8 @@
 import pytest
 
 from derive.codegen.contract import CONTRACT
-from derive.library import library
 from tests.accuracy.measure import worst_of
-from tests.accuracy.reference import sheet_of
+from tests.accuracy.regions import BODIES
 
 POINTS = 300
 """Random points a region; `make accuracy` takes more."""
@@ -22,12 +21,7 @@ CANCELLING = {
 }
 """Here the error is held against the conditioning of the problem."""
 
-CASES = [
-    (body, function.name)
-    for body in library()
-    for function in CONTRACT
-    if function.available(sheet_of(body))
-]
+CASES = [(body, function.name) for body in BODIES for function in CONTRACT]
 
 
 @pytest.mark.parametrize(("body", "function"), CASES)
