@@ -95,10 +95,6 @@ def build_all(
     for source in bodies:
         report(source, KEPT)
     missing = [(source, key) for source, key in keys.items() if source not in bodies]
-    if len(missing) > 1:
-        for source, _ in missing:
-            if not is_in_library(source):
-                load_geometry(source)  # a file that cannot be read is told before the long work
     made = in_processes(_build_and_keep, missing, report, jobs)
     bodies |= {source: body for (source, _), body in zip(missing, made, strict=True)}
     return [bodies[source] for source in sources]

@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from click.testing import CliRunner, Result
 
 import derive.cache
 import derive.cli
+import derive.codegen.trial
 import derive.parallel
 import derive.pipeline
 import derive.proof.prove
@@ -193,12 +195,19 @@ def committed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Monk
 def unproven(monkeypatch: pytest.MonkeyPatch) -> None:
     """The pipeline without the seconds that its proofs take."""
     monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
+    monkeypatch.setattr(derive.codegen.trial, "demand_right", lambda sheet, text: None)
 
 
 def body_of(sheet: FormulaSheet, text: str) -> Body:
     """A body without the seconds that its text takes."""
     verdicts = tuple((name, Verdict.PROVED) for name in sheet)
     return Body(sheet.geometry.name, text, 0.0, *by_form(sheet.is_closed), verdicts)
+
+
+@cache
+def derived(name: str) -> FormulaSheet:
+    """The sheet of a body of the library, derived once."""
+    return derive_sheet(load_geometry(name))
 
 
 @pytest.fixture
@@ -214,7 +223,7 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         asked.append(source)
         for stage in STAGES:
             report(source, stage)
-        made = derive_sheet(load_geometry(source))
+        made = derived(source) if source in texts else derive_sheet(load_geometry(source))
         return body_of(made, texts.get(source, f"{MARK}\n# {made.geometry.g}\n"))
 
     monkeypatch.setattr(derive.pipeline, "build", build)
