@@ -140,12 +140,15 @@ class Slope:
         if self.is_polynomial:
             return limit(self.pieces[0].slope, x, -oo), limit(self.pieces[-1].slope, x, oo)
         (low, high), (first, last) = self.domain, (self.pieces[0], self.pieces[-1])
-        return self._limit(first, low, "+", -oo), self._limit(last, high, "-", oo)
+        bounds = self._limit(first, low, "+", -oo), self._limit(last, high, "-", oo)
+        rises = simplify(bounds[1] - bounds[0]).is_extended_positive
+        return bounds if rises else (-oo, oo)  # what SymPy finds of powers is not always right
 
     def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
         """Limit of g' at an end; `otherwise`, which bounds nothing, where SymPy finds none."""
         try:
-            found = limit(_with_surpluses(piece.slope, _surpluses(self.demands)), x, end, side)
+            slope = simplify(_with_surpluses(piece.slope, _surpluses(self.demands)))
+            found = limit(slope, x, end, side)
         except (NotImplementedError, ValueError, TypeError, RecursionError, AttributeError):
             return otherwise
         known = found in (oo, -oo) or not (found.atoms(Dummy) or found.has(Limit, AccumBounds))

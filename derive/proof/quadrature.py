@@ -8,11 +8,11 @@ Out: the integrals of theory.equilibrium and theory.pressure, evaluated with
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Piecewise, Symbol, diff, lambdify
+from sympy import Expr, Piecewise, Symbol, diff, lambdify, nan, piecewise_fold, zoo
 
 from derive.geometry import Geometry
 from derive.proof.rule import Function, integral
@@ -32,7 +32,7 @@ class Contact:
     @cached_property
     def slope(self) -> Function:
         """g'(x) from g as it was given, not from the pieces that the derivation uses."""
-        return _numeric(diff(self.geometry.g.rewrite(Piecewise), x), self.values)
+        return _numeric(_slope_as_given(self.geometry.g), self.values)
 
     @cached_property
     def kinks(self) -> list[mpf]:
@@ -122,6 +122,17 @@ class Contact:
             return weight(s) * pressure(s) * mpmath.sqrt((self.a + s) * (self.c - s))
 
         return self.integral(integrand, singular=True)
+
+
+@cache
+def _slope_as_given(g: Expr) -> Expr:
+    """g'(x) by branches; each by itself where a power of zero would be divided by zero."""
+    branched = g.rewrite(Piecewise)
+    slope = diff(branched, x)
+    if slope.has(zoo, nan):
+        folded = piecewise_fold(branched)
+        slope = Piecewise(*((diff(value, x), holds) for value, holds in folded.args))
+    return slope
 
 
 def _numeric(expr: Expr, values: Mapping[Symbol, mpf]) -> Function:
