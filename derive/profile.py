@@ -62,7 +62,7 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadProfile
-from derive.symbols import x
+from derive.symbols import a, c, x
 
 _BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
 _SMOOTH = (exp, log, sinh, cosh, tanh, asinh, atan)
@@ -128,6 +128,11 @@ class Slope:
     def is_polynomial(self) -> bool:
         """Whether g' is a polynomial on every piece: then every integral is elementary."""
         return all(piece.slope.is_polynomial(x) for piece in self.pieces)
+
+    @property
+    def least(self) -> dict[Symbol, Expr]:
+        """Numbers above which parameters must lie."""
+        return {d.gts: d.lts for d in self.demands if d.lts.is_number}
 
     @property
     def straight_pieces(self) -> tuple[Piece, ...]:
@@ -444,6 +449,15 @@ def _branch_points(profile: Expr) -> list[Expr]:
     return list(found)
 
 
+def has_sharp_power(expr: Expr, place: Symbol) -> bool:
+    """Whether a power in it is infinite, or not smooth, at a place that parameters alone fix.
+
+    Roots that vanish at the edges of a contact hold a and c; they are no feature of the body.
+    """
+    powers = (p for p in expr.atoms(Pow) if p.base.has(place) and not p.base.has(a, c))
+    return any(not p.exp.is_Integer and diff(p.base, place, 2) == 0 for p in powers)
+
+
 def _is_natural(exponent: Expr) -> bool:
     return bool(exponent.is_Integer and exponent.is_nonnegative)
 
@@ -502,13 +516,12 @@ def _demand_convex(
         tested += 1
         if tested == _SAMPLES:
             return
-    if tested < _SAMPLES:
-        needed = " and ".join(map(str, demands))
-        raise BadProfile(
-            name,
-            f"is convex only if {needed}, which no parameters were found to meet",
-            "make it convex for all parameters, or for all above a number",
-        )
+    needed = " and ".join(map(str, demands))
+    raise BadProfile(
+        name,
+        f"is convex only if {needed}, which no parameters were found to meet",
+        "make it convex for all parameters, or for all above a number",
+    )
 
 
 def _samples(symbols: list[Symbol]) -> Iterator[dict[Symbol, Rational]]:

@@ -12,13 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from ._roots import STEPS, Array, Rows, increasing_root
+from ._roots import STEPS, Array, Excess, Rows, increasing_root
 from ._state import State
 
 _EPS = 2.0**-52
-
-Excess = Callable[[Array, Rows], tuple[Array, Array]]
-"""Value and rate of a function that grows with an edge's distance from `place`."""
 
 
 def edges(

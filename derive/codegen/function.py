@@ -261,6 +261,13 @@ class FunctionText:
             yield repr(shown[0])
 
 
+def own_parameters(sheet: FormulaSheet) -> tuple[str, str]:
+    """The body's parameters as a function takes them, keyword-only, and as it hands them on."""
+    names = [q.name for q in sheet.geometry.parameters]
+    taken = "".join(f", {name}: Array" for name in names)
+    return (f", *{taken}" if names else ""), "".join(f", {name}={name}" for name in names)
+
+
 def _without_width(conditions: Iterable[Boolean]) -> list[Boolean]:
     """The conditions without h > 0, where a > 0 and c > 0 already say it."""
     held = list(conditions)
@@ -298,7 +305,7 @@ def _off_all_kinks(sheet: FormulaSheet, point: Point) -> bool:
 
 def _example(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
     """Plain numbers that meet the function's assumptions, for its docstring."""
-    least = {d.gts: d.lts for d in sheet.geometry.slope.demands if d.lts.is_number}
+    least = sheet.geometry.slope.least
     parameters = {
         q.symbol: mpf(least.get(q.symbol, 0)) + (mpf("0.125") if q.unit == "rad" else mpf(1))
         for q in sheet.geometry.parameters

@@ -7,12 +7,12 @@ Out: the text of the body's `Profile`, piece by piece, and of the functions that
 
 from collections.abc import Iterator
 
-from sympy import Expr, Pow, S, Symbol, cse, diff, factor, numbered_symbols, simplify
+from sympy import Expr, S, Symbol, cse, diff, factor, numbered_symbols, simplify
 
-from derive.codegen.function import FunctionText
+from derive.codegen.function import FunctionText, own_parameters
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
-from derive.profile import Piece, Slope, breaks_of
+from derive.profile import Piece, breaks_of, has_sharp_power
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, x
 
@@ -44,7 +44,7 @@ class IntegratedText(FunctionText):
 
     @property
     def _code(self) -> Iterator[str]:
-        given = "".join(f", {q.name}={q.name}" for q in self.sheet.geometry.parameters)
+        _, given = own_parameters(self.sheet)
         match self.function.name:
             case "pressure":
                 yield f"    p = pressure_at(_BODY, x, a, c{given})"
@@ -94,7 +94,7 @@ def mended_lines(
     made: FunctionText, values: dict[str, str], fields: tuple[str, ...]
 ) -> Iterator[str]:
     """The closed values, and the call that integrates them where they would lose digits."""
-    own = "".join(f", {q.name}={q.name}" for q in made.sheet.geometry.parameters)
+    _, own = own_parameters(made.sheet)
     scale = "E_star" if E_star in made.keywords else "1.0"
     at = ", x=x" if x in made.function.arguments else ""
     guarded = f"only_where(exists, {', '.join(values.values())})"
@@ -115,8 +115,8 @@ def curve_text(sheet: FormulaSheet) -> str:
     """The body's breaks, corners and pieces, and `_BODY` that holds them."""
     slope = sheet.geometry.slope
     places, pieces = breaks_of(slope)
-    own = "".join(f", {q.name}: Array" for q in sheet.geometry.parameters)
-    signature = f"(*{own})" if own else "()"
+    own, _ = own_parameters(sheet)
+    signature = f"({own.removeprefix(', ')})"
     printer = NumPyPrinter()
     steps = {kink.position: kink.step for kink in slope.kinks}
     corners = [steps.get(place, S.Zero) for place in places]
@@ -132,10 +132,11 @@ def curve_text(sheet: FormulaSheet) -> str:
             names.append(name)
             if place.is_finite:
                 sense = 1 if side == "left" else -1
-                signature = f"(t: Array{', *' + own if own else ''})"
+                signature = f"(t: Array{own})"
                 lines += _branch(name, piece, place, sense, signature)
         held.append(f"Piece({', '.join(names)}{', straight=True' * piece.straight})")
-    reach = _FAR if _is_infinite_at_a_break(slope) else _NEAR
+    sharp = any(has_sharp_power(piece.profile, x) for piece in slope.pieces)
+    reach = _FAR if sharp else _NEAR
     lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach})")
     return "\n".join(lines)
 
@@ -174,15 +175,9 @@ def _positive_form(curvature: Expr) -> Expr:
     return factor(simplify(curvature))
 
 
-def _is_infinite_at_a_break(slope: Slope) -> bool:
-    """Whether some g'' is infinite, or not smooth, at the end of its piece."""
-    powers = (p for piece in slope.pieces for p in piece.profile.atoms(Pow) if p.base.has(x))
-    return any(not p.exp.is_Integer and diff(p.base, x, 2) == 0 for p in powers)
-
-
 def carried_text(sheet: FormulaSheet) -> str:
     """`_state`: what a contact carries."""
-    own, given = _own(sheet)
+    own, given = own_parameters(sheet)
     return "\n".join(
         [
             f"def _state(a: Array, c: Array{own}) -> State:",
@@ -194,7 +189,7 @@ def carried_text(sheet: FormulaSheet) -> str:
 
 def level_text(sheet: FormulaSheet) -> str:
     """`_slope`: the body's slope and curvature at a place."""
-    own, given = _own(sheet)
+    own, given = own_parameters(sheet)
     return "\n".join(
         [
             f"def _slope(x: Array{own}) -> tuple[Array, Array]:",
@@ -202,10 +197,3 @@ def level_text(sheet: FormulaSheet) -> str:
             f"    return slope_of(_BODY, x{given})",
         ]
     )
-
-
-def _own(sheet: FormulaSheet) -> tuple[str, str]:
-    """The body's parameters as a function takes them and hands them on."""
-    names = [q.name for q in sheet.geometry.parameters]
-    taken = "".join(f", {name}: Array" for name in names)
-    return (f", *{taken}" if names else ""), "".join(f", {name}={name}" for name in names)

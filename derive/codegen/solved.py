@@ -11,7 +11,7 @@ from sympy import Expr, Gt, Lt, Piecewise, S, diff, factor
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
-from derive.codegen.function import FunctionText
+from derive.codegen.function import FunctionText, own_parameters
 from derive.codegen.integrated import is_mended, mended_lines
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
@@ -72,10 +72,10 @@ def slope_text(sheet: FormulaSheet) -> str:
         beyond = compare(x, kink.position, evaluate=False)
         slope += Piecewise((factor(kink.jump), beyond), (S.Zero, True))
     printer = NumPyPrinter({x})
-    own = "".join(f", {q.name}: Array" for q in sheet.geometry.parameters)
+    own, _ = own_parameters(sheet)
     return "\n".join(
         [
-            f"def _slope(x: Array, *{own}) -> tuple[Array, Array]:",
+            f"def _slope(x: Array{own}) -> tuple[Array, Array]:",
             '    """g\'(x) and g\'\'(x)."""',
             f"    slope = {printer.doprint(slope)}",
             f"    curvature = {printer.doprint(diff(slope, x))}",
@@ -153,8 +153,7 @@ class SolvedText(FunctionText):
 
     @property
     def _code(self) -> Iterator[str]:
-        own = [q.name for q in self.sheet.geometry.parameters]
-        constants = "".join(f", {name}={name}" for name in own)
+        _, constants = own_parameters(self.sheet)
         size = _length(self.sheet)
         cut = not self.sheet.geometry.slope.is_polynomial or is_mended(self.sheet)
         breaks = f"_breaks({constants.removeprefix(', ')})" if cut else "()"

@@ -12,10 +12,11 @@ from typing import TypeVar
 
 import mpmath
 from mpmath import mpf
-from sympy import Dummy, Expr, Integral, Pow, Symbol, diff, lambdify
+from sympy import Dummy, Expr, Integral, Symbol, lambdify
 from sympy.logic.boolalg import Boolean
 
 from derive.geometry import Geometry
+from derive.profile import has_sharp_power
 from derive.proof.rule import integral
 from derive.proof.verdict import POINTS
 from derive.sheet import Formula, FormulaSheet
@@ -84,7 +85,7 @@ def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
 def _parameters(body: Geometry, rng: random.Random) -> Point:
     """Parameters above what the body demands of them."""
     made = [E_star, *(q.symbol for q in body.parameters)]
-    least = {d.gts: d.lts for d in body.slope.demands if d.lts.is_number}
+    least = body.slope.least
     return {symbol: mpf(2) ** rng.uniform(-1.5, 1.5) + mpf(least.get(symbol, 0)) for symbol in made}
 
 
@@ -116,7 +117,7 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
     variable, low, high = over.limits[0]
     held = sorted(over.free_symbols, key=str)
     integrand = lambdify([variable, *held], over.function, modules="mpmath")
-    power = 3 if _is_infinite(over.function, variable) else 1
+    power = 3 if has_sharp_power(over.function, variable) else 1
     ends = lambdify(held, [low, high], modules="mpmath")
     known: dict[tuple[mpf, ...], mpf] = {}
 
@@ -146,12 +147,6 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
             return power * (angles[1] - angles[0]) * integral(along, [mpf(0), mpf(1)])
 
     return at
-
-
-def _is_infinite(integrand: Expr, variable: Symbol) -> bool:
-    """Whether a power in it is infinite, or bends sharply, where its base vanishes."""
-    powers = [p for p in integrand.atoms(Pow) if p.base.has(variable) and not p.base.has(a, c)]
-    return any(not p.exp.is_Integer and diff(p.base, variable, 2) == 0 for p in powers)
 
 
 _INSIDE, _OUTSIDE = 160, 40

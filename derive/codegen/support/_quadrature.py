@@ -104,8 +104,7 @@ def state_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> State:
     for part in shared.pieces():
         if part.piece.straight:
             lean = lean + np.where(part.length > 0, part.at_high().slope * part.angle(), 0.0)
-    for place, jump in shared.corners():
-        A, B = np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
+    for _, jump, A, B in _corners(body, a, c, constants):
         root = np.where((A > 0) & (B > 0), np.sqrt(A * B), 0.0)
         inside = root > 0
         force, arm = force + jump * root, arm + jump * root * (A - B)
@@ -140,8 +139,7 @@ def pressure_at(body: Profile, x: Array, a: Array, c: Array, /, **constants: Arr
         shared = _Contact(body, constants, low, high, width, ())
         (part,) = _integrals(shared, kernel, 1, positive=1)
         total = total + part
-    for place, jump in shared.corners():
-        A, B = np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
+    for place, jump, A, B in _corners(body, a, c, constants):
         ratio = np.minimum(B * left, A * right) / (h * np.abs(x - place))
         total = total + np.where((A > 0) & (B > 0), jump * np.arcsinh(np.sqrt(ratio)), 0.0)
     return given.shaped(np.where(inside, total / np.pi, 0.0 * total))
@@ -192,8 +190,7 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         psi = 2 * r_0 - 1.5 * np.arctan(r_0) - r_0 / (2 * (1 + r_0**2))
         edge = piece.at_high().curvature * (-0.75 * np.pi - psi) * (2 * h)
         total = total + np.where(piece.ends_high & (piece.length > 0), edge, 0.0)
-    for place, jump in shared.corners():
-        A, B = np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
+    for _, jump, A, B in _corners(body, a, c, constants):
         r = np.sqrt(A / np.where(B > 0, B, 1.0))
         total = total + np.where(B > 0, jump * r * (3 + 2 * r**2), 0.0)
     return total / (np.pi * scale)
@@ -223,7 +220,7 @@ def mended(
     given = _Flat(a, c, constants, x, scale, rough, *values)
     x, scale, rough, *values = given.also
     rows = np.flatnonzero(rough)
-    held = {n: v[rows] if np.ndim(v) else v for n, v in given.constants.items()}
+    held = _on(rows, given.constants)
     a, c = given.a[rows], given.c[rows]
     if "p" in fields:
         found: Any = (pressure_at(body, x[rows], a, c, **held),)
@@ -293,6 +290,21 @@ def slope_of(body: Profile, x: Array, /, **constants: Array) -> tuple[Array, Arr
             here = True
         found = np.where(here, curve[0], found[0]), np.where(here, curve[1], found[1])
     return found
+
+
+def _corners(
+    body: Profile, a: Array, c: Array, constants: dict[str, Array]
+) -> Iterator[tuple[Array, Array, Array, Array]]:
+    """Places and jumps of g', and how far each corner lies inside the left and the right edge."""
+    places, jumps = body.breaks(**constants), body.corners(**constants)
+    for place, jump in zip(places, jumps, strict=True):
+        if np.ndim(jump) or jump != 0:
+            yield place, jump, np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
+
+
+def _on(rows: Any, constants: dict[str, Array]) -> dict[str, Array]:
+    """The constants of some elements."""
+    return {n: v[rows] if np.ndim(v) else v for n, v in constants.items()}
 
 
 # ---------------------------------------------------------------------- the rule
@@ -375,17 +387,10 @@ class _Contact(NamedTuple):
 
     def on(self, rows: Any) -> "_Contact":
         """The same for some elements."""
-        constants = {n: v[rows] if np.ndim(v) else v for n, v in self.constants.items()}
+        constants = _on(rows, self.constants)
         return _Contact(
             self.body, constants, self.low[rows], self.high[rows], self.width[rows], rows
         )
-
-    def corners(self) -> Iterator[tuple[Array, Array]]:
-        """Places and jumps of g'."""
-        places, jumps = (of(**self.constants) for of in (self.body.breaks, self.body.corners))
-        for place, jump in zip(places, jumps, strict=True):
-            if np.ndim(jump) or jump != 0:
-                yield place, jump
 
     def pieces(self) -> Iterator[_Part]:
         """The pieces as they lie in the windows."""
