@@ -18,8 +18,8 @@ from derive.sheet import (
     load_conditions,
     tilt_conditions,
 )
-from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, h, mid, x
-from derive.theory import contact_law, equilibrium, stick, superposition
+from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, h, m, mid, n, x
+from derive.theory import contact_law, equilibrium, slip, stick, superposition
 from derive.theory.algebra import tidy
 from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
 from derive.theory.frame import Frame
@@ -173,17 +173,68 @@ def _stick(sheet: FormulaSheet) -> Iterator[Formula]:
         source,
         inside,
     )
+    for name, derive, power, unit in (
+        ("K_T", stick.K_T, "1/sqrt(s)", "Pa*sqrt(m)"),
+        ("L_T", stick.L_T, "sqrt(s)", "Pa/sqrt(m)"),
+    ):
+        for edge in Edge:
+            side = edge.name.lower()
+            yield Formula(
+                f"{name}_{side}",
+                Symbol(f"{name}_{side}"),
+                arguments,
+                derive(edge),
+                f"coefficient of {power} in the full-stick change at the {side} edge",
+                unit,
+                f"expansion of full_stick_change; cf. eq. (K_T), {_PAPER}",
+                conditions,
+            )
     for edge in Edge:
         side = edge.name.lower()
         yield Formula(
-            f"K_T_{side}",
-            Symbol(f"K_T_{side}"),
-            arguments,
-            stick.K_T(edge),
-            f"coefficient of 1/sqrt(s) in the full-stick change at the {side} edge",
-            "Pa*sqrt(m)",
-            f"edge limit of full_stick_change; cf. eq. (K_T), {_PAPER}",
+            f"stick_margin_{side}",
+            Symbol(f"S_{side}"),
+            (a, c, dP, dM, dQ, dsigma),
+            stick.stick_margin(edge),
+            f"friction left at the {side} edge as all loads begin to change",
+            "N/m",
+            "an edge that moves by d leaves the shear 2 K_T sqrt(s)/d behind, under f K_N sqrt(s)",
             conditions,
+        )
+
+
+def _slip(sheet: FormulaSheet) -> Iterator[Formula]:
+    source = f"both conditions for a bounded change of shear, first order; cf. {_PAPER}, section 3"
+    for edge in Edge:
+        side = edge.name.lower()
+        K_T, K_N = sheet[f"K_T_{side}"].expr, sheet[f"K_N_{side}"].expr
+        yield Formula(
+            f"slip_{side}",
+            Symbol(f"d_{side}"),
+            (a, c, dQ, dsigma),
+            slip.slip_zone(edge, K_T, K_N),
+            f"slip zone at the {side} edge under constant normal loads, first order",
+            "m",
+            source,
+            contact_conditions(sheet.frame),
+        )
+
+
+def _moderate(sheet: FormulaSheet) -> Iterator[Formula]:
+    """The stick zone as a contact patch, where contact_at_tilt is a formula."""
+    if "contact_at_tilt_a" not in sheet:
+        return
+    for symbol, edge, side in ((m, "a", "left"), (n, "c", "right")):
+        inverse = sheet[f"contact_at_tilt_{edge}"]
+        yield Formula(
+            f"stick_{symbol}",
+            symbol,
+            (P, alpha, dQ, dsigma),
+            stick.moderate(inverse.expr),
+            f"{side} end of the stick zone, moderate tension; P and alpha are the cycle's means",
+            "m",
+            "f (p1 + p2) less 2 f times the pressure of a contact patch of the same body",
+            tuple(stick.moderate(condition) for condition in inverse.conditions),
         )
 
 
@@ -223,8 +274,11 @@ def _inverse(
             )
 
 
-_CLOSED = (_equilibrium, _pressure, _edges, _contact_law, _rates, _stick, _inverses)
+_CLOSED = (
+    *(_equilibrium, _pressure, _edges, _contact_law, _rates),
+    *(_stick, _slip, _inverses, _moderate),
+)
 """Stages for a body whose integrals are elementary."""
 
-_SUPERPOSED = (_superposed, _stick)
+_SUPERPOSED = (_superposed, _stick, _slip)
 """Stages for any other body."""

@@ -37,6 +37,10 @@ s = Symbol("s", positive=True)
 f = Symbol("f", positive=True)
 dQ = Symbol("dQ", nonnegative=True)
 dsigma = Symbol("dsigma", real=True)
+dP = Symbol("dP", real=True)
+dM = Symbol("dM", real=True)
+m = Symbol("m", real=True)
+n = Symbol("n", real=True)
 
 h = a + c
 """Contact width."""
@@ -68,6 +72,10 @@ _TABLE = (
         "Pa",
         r"\Delta\sigma",
     ),
+    Quantity(m, "left end of the permanent stick zone at x = -m", "m"),
+    Quantity(n, "right end of the permanent stick zone at x = n", "m"),
+    Quantity(dP, "change of the normal load over the same half-cycle", "N/m", r"\Delta P"),
+    Quantity(dM, "change of the moment over the same half-cycle", "N", r"\Delta M"),
 )
 
 QUANTITIES: dict[str, Quantity] = {q.name: q for q in _TABLE}
@@ -95,7 +103,10 @@ _USED_BESIDES = (
     *("Array", "exists", "first", "second", "order"),
     *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure"),
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),
-    *("Contact", "Edges", "StickZone", "Threshold", "Regime"),
+    *("Contact", "Edges", "StickZone", "Threshold", "Regime", "March", "Law"),
+    *("stick_zone_of", "tension_threshold_of", "slip_zones_of", "slip_error_of", "march_of"),
+    *("shear_change_of", "slip_range_of", "closing_tension_of", "stick_margin", "slip_error"),
+    *("shear_change", "slip_range", "closing_tension", "march", "slip_terms"),
 )
 
 RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_USED_BESIDES)

@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+Array = Any
 Function = TypeVar("Function", bound=Callable[..., Any])
 Shape = tuple[int, ...]
 
@@ -99,6 +100,39 @@ def select(condition: Any, first: Any, second: Any) -> Any:
     mask = -condition.astype(np.int64)
     one, other = first.view(np.int64), second.view(np.int64)
     return (other ^ ((one ^ other) & mask)).view(np.float64)
+
+
+class Flat:
+    """Arguments along one dimension, and the way back.
+
+    values     those that are given, by name, then the positive ones: float64, all of one length
+    constants  positive numbers; of that length if any varies, else as they are
+
+    Raises TypeError for what is no real number, ValueError for shapes that do not broadcast.
+    """
+
+    def __init__(
+        self,
+        given: Mapping[str, Any],
+        constants: Mapping[str, Any],
+        positive: Mapping[str, Any] | None = None,
+    ) -> None:
+        held = {name: np.asarray(_float64(value, name)) for name, value in given.items()}
+        for name, value in {**(positive or {}), **constants}.items():
+            held[name] = np.asarray(_positive(_float64(value, name)))
+        self.shape = _broadcast(held)
+        flat = {name: np.broadcast_to(value, self.shape).ravel() for name, value in held.items()}
+        self.values = [flat[name] for name in (*given, *(positive or {}))]
+        self.constants = {n: flat[n] if held[n].ndim else held[n][()] for n in constants}
+
+    def shaped(self, value: Any) -> Any:
+        """A result in the shape of the arguments."""
+        return value.reshape(self.shape)[()]
+
+
+def at_rows(rows: Any, constants: Mapping[str, Any]) -> dict[str, Any]:
+    """The constants of some elements."""
+    return {name: v[rows] if np.ndim(v) else v for name, v in constants.items()}
 
 
 def _positive(value: Any) -> Any:

@@ -7,22 +7,40 @@ g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geome
 import numpy as np
 
 from ._arrays import LEAST, MOST, TINY, elementwise, only_where, select
+from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, mended
+from ._shear import shear_change_of, slip_range_of
+from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
 from ._state import State
-from ._types import Array, Contact, Edges
+from ._stick import Law, closing_tension_of, stick_zone_of, tension_threshold_of
+from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
     "K_N",
     "K_T",
     "L_N",
+    "L_T",
     "Contact",
     "Edges",
+    "March",
+    "Regime",
+    "StickZone",
+    "Threshold",
+    "closing_tension",
     "contact",
     "contact_at_tilt",
     "load",
+    "march",
     "moment",
     "pressure",
+    "shear_change",
+    "slip_error",
+    "slip_range",
+    "slip_zones",
+    "stick_margin",
+    "stick_zone",
+    "tension_threshold",
     "tilt",
 ]
 
@@ -459,8 +477,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
     1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
 
-    L_N_left numerical: p - K_N sqrt(s) close to the edge; 47 digits at 24 points.
-    L_N_right numerical: p - K_N sqrt(s) close to the edge; 47 digits at 24 points.
+    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
+        digits at 24 points.
+    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
+        digits at 24 points.
     Derived from derive/geometries/two_radii.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0)]
@@ -535,3 +555,408 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
             exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root
         )
     )
+
+
+@elementwise
+def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
+    """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
+
+        L_T_left = (dQ/pi - 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
+        L_T_right = (dQ/pi + 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        a       left edge of the contact at x = -a [m]
+        c       right edge of the contact at x = c [m]
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
+    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
+
+    L_T_left proved: limit of the full-stick change at the edge.
+    L_T_right proved: limit of the full-stick change at the edge.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> [f"{v:.6g}" for v in L_T(1.5, 1.0, 0.25, 0.125)]
+    ['-0.00475733', '0.024889']
+    """
+    h = a + c  # contact width [m]
+    root = 2 * h * np.sqrt(h)
+    exists = (h > LEAST) & (h < MOST)
+    return Edges(
+        *only_where(
+            exists,
+            (dQ / np.pi - 3 * dsigma * h / 8) / root,
+            (dQ / np.pi + 3 * dsigma * h / 8) / root,
+        )
+    )
+
+
+@elementwise
+def stick_margin(
+    a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
+) -> Edges:
+    """Friction left at the edges as all loads begin to change: no slip starts where it is >= 0.
+
+        S_left = f*Abs((4*dM - dP*(a - 3*c))/(a + c)) - Abs(dQ + pi*dsigma*(a + c)/8)
+        S_right = f*Abs((4*dM - dP*(3*a - c))/(a + c)) - Abs(dQ - pi*dsigma*(a + c)/8)
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        a       left edge of the contact at x = -a [m]
+        c       right edge of the contact at x = c [m]
+        dP      change of the normal load over the same half-cycle [N/m]
+        dM      change of the moment over the same half-cycle [N]
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+        f       coefficient of friction [-]
+
+    Returns Edges(left [N/m], right [N/m]).
+    NaN unless a + c > 0 and f > 0; nor where lengths leave 1e-75 to 1e75 m.
+
+    S_left proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
+    S_right proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> [f"{v:.6g}" for v in stick_margin(1.5, 1.0, 0.5, 0.25, 0.25, 0.125, f=0.5)]
+    ['-0.0227185', '0.0227185']
+    """
+    h = a + c  # contact width [m]
+    exists = (h > LEAST) & (h < MOST)
+    return Edges(
+        *only_where(
+            exists,
+            f * np.abs(4 * dM - dP * (a - 3 * c)) / h - np.abs(dQ + (np.pi / 8) * dsigma * h),
+            f * np.abs(4 * dM - dP * (3 * a - c)) / h - np.abs(dQ - (np.pi / 8) * dsigma * h),
+        )
+    )
+
+
+_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+
+
+def stick_zone(
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    R_1: Array,
+    R_2: Array,
+) -> StickZone:
+    """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
+
+        moderate tension: load(m, n) = (P1 + P2)/2 - dQ/(2 f), tilt(m, n) = (alpha1 + alpha2)/2
+            - dsigma/(4 f E*)
+        large tension: int r sqrt((xi + m)/(xi - n)) dxi = dQ - pi dsigma (m + n)/8, int r
+            sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones, r = +/-
+            f (p1 + p2), the upper sign on the left if dsigma > 0
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        first   Contact at the start of the half-cycle that raises the shear load
+        second  Contact at its end; the same for constant normal loads
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+        f       coefficient of friction [-]
+        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        R_1     relative radius of curvature on the left [m]
+        R_2     relative radius of curvature on the right [m]
+
+    Returns StickZone(m [m], n [m], regime as a code of Regime).
+    NaN unless the regime is MODERATE, LARGE or FULL_STICK: where slip reverses within a half-cycle
+    no exact solution is known; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> zone = stick_zone(here, here, 0.15, 0.0, f=0.5, **law)
+    >>> Regime(zone.regime).name
+    'MODERATE'
+    >>> f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
+    '1.07718'
+    """
+    return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R_1=R_1, R_2=R_2)
+
+
+def tension_threshold(
+    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R_1: Array, R_2: Array
+) -> Threshold:
+    """Changes of bulk tension between which tension is moderate, so that its solution is exact.
+
+        constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        first   Contact at the start of the half-cycle that raises the shear load
+        second  Contact at its end; the same for constant normal loads
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        f       coefficient of friction [-]
+        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        R_1     relative radius of curvature on the left [m]
+        R_2     relative radius of curvature on the right [m]
+
+    Returns Threshold(lower [Pa], upper [Pa]).
+    NaN unless there is such a range; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> lower, upper = tension_threshold(here, here, 0.15, f=0.5, **law)
+    >>> f"{upper:.6g}"
+    '0.152789'
+    """
+    return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, R_1=R_1, R_2=R_2)
+
+
+def closing_tension(
+    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R_1: Array, R_2: Array
+) -> Threshold:
+    """Changes of bulk tension at which the moderate solution closes one slip zone.
+
+        upper: load(m, c) = (P1 + P2)/2 - dQ/(2 f), dsigma = 4 f E* ((alpha1 + alpha2)/2 -
+            tilt(m, c)), c that of the smaller contact
+        lower: the same with a kept
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        first   Contact at the start of the half-cycle that raises the shear load
+        second  Contact at its end; the same for constant normal loads
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        f       coefficient of friction [-]
+        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        R_1     relative radius of curvature on the left [m]
+        R_2     relative radius of curvature on the right [m]
+
+    Returns Threshold(lower [Pa], upper [Pa]); slip reverses before it closes, see
+    tension_threshold.
+    NaN unless the reduced load is positive; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> lower, upper = closing_tension(here, here, 0.15, f=0.5, **law)
+    >>> bool(lower < 0 < upper)
+    True
+    """
+    return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, R_1=R_1, R_2=R_2)
+
+
+def slip_zones(
+    a: Array,
+    c: Array,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    R_1: Array,
+    R_2: Array,
+    da: Array = 0.0,
+    dc: Array = 0.0,
+    order: int = 1,
+) -> Edges:
+    """Slip zones by series in their length: order 1, 2 or 3.
+
+        order 1: d = |K_T|/(f K_N) + da/2, and dc/2 at the right edge
+        orders 2 and 3: the conditions of stick_zone for the pressure's first two or three terms
+            at each edge of both contacts, cut behind that power of d, solved as they stand
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        a       left edge of the contact at x = -a [m]
+        c       right edge of the contact at x = c [m]
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+        f       coefficient of friction [-]
+        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        R_1     relative radius of curvature on the left [m]
+        R_2     relative radius of curvature on the right [m]
+        da      how much further the left edge reaches than at the other end of the half-cycle [m]
+        dc      how much further the right edge reaches [m]
+        order   order of the series; march takes 0 for the exact conditions
+
+    Returns Edges(left [m], right [m]).
+    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
+    + P2), which is sliding.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
+    >>> d = slip_zones(1.5, 1.0, 0.15, 0.0, f=0.5, **law)
+    >>> [f"{v:.6g}" for v in d]
+    ['0.0763944', '0.0763944']
+    """
+    return slip_zones_of(
+        _LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R_1=R_1, R_2=R_2, da=da, dc=dc, order=order
+    )
+
+
+def slip_error(
+    a: Array,
+    c: Array,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    R_1: Array,
+    R_2: Array,
+    da: Array = 0.0,
+    dc: Array = 0.0,
+    order: int = 1,
+) -> Edges:
+    """By how much one more term would change the slip zones: an estimate of the series' error.
+
+        |d(order + 1) - d(order)|
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        a       left edge of the contact at x = -a [m]
+        c       right edge of the contact at x = c [m]
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+        f       coefficient of friction [-]
+        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        R_1     relative radius of curvature on the left [m]
+        R_2     relative radius of curvature on the right [m]
+        da      how much further the left edge reaches than at the other end of the half-cycle [m]
+        dc      how much further the right edge reaches [m]
+        order   order of the series; march takes 0 for the exact conditions
+
+    Returns Edges(left [m], right [m]).
+    NaN unless both orders give slip zones; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
+    >>> error = slip_error(1.5, 1.0, 0.15, 0.0, f=0.5, **law)
+    >>> bool(error.left > 0)
+    True
+    """
+    return slip_error_of(
+        _LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R_1=R_1, R_2=R_2, da=da, dc=dc, order=order
+    )
+
+
+def shear_change(
+    x: Array,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    R_1: Array,
+    R_2: Array,
+) -> Array:
+    """Change of the shear traction at x over the half-cycle; zero outside the contacts.
+
+        dq = kappa f (p1 + p2) where it slips
+        moderate tension: dq = f (p1 + p2) - 2 f p(x; m, n)
+        large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi where it sticks, w =
+            sqrt((xi + m)(xi - n)), negative on the left
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        x       position along the interface, right positive [m]
+        first   Contact at the start of the half-cycle that raises the shear load
+        second  Contact at its end; the same for constant normal loads
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+        f       coefficient of friction [-]
+        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        R_1     relative radius of curvature on the left [m]
+        R_2     relative radius of curvature on the right [m]
+
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    NaN unless the stick zone is known; nor in full stick between two contacts; nor where dQ < 0 or
+    dQ >= f (P1 + P2), which is sliding.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> float(shear_change(here.c + 1.0, here, here, 0.15, 0.0, f=0.5, **law))
+    0.0
+    """
+    return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R_1=R_1, R_2=R_2)
+
+
+def slip_range(
+    x: Array,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    R_1: Array,
+    R_2: Array,
+) -> Array:
+    """How far the surfaces slip at x over the half-cycle; zero where they stick.
+
+        (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4; moderate tension and
+            constant loads: 2 f times the gap beside the patch [-m, n]
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        x       position along the interface, right positive [m]
+        first   Contact at the start of the half-cycle that raises the shear load
+        second  Contact at its end; the same for constant normal loads
+        dQ      change of the shear load over the half-cycle that raises it [N/m]
+        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+        f       coefficient of friction [-]
+        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        R_1     relative radius of curvature on the left [m]
+        R_2     relative radius of curvature on the right [m]
+
+    Returns slip [m], positive.
+    NaN unless x lies in both contacts and the stick zone is known; nor where dQ < 0 or dQ >= f (P1
+    + P2), which is sliding.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> zone = stick_zone(here, here, 0.15, 0.0, f=0.5, **law)
+    >>> float(slip_range(zone.n, here, here, 0.15, 0.0, f=0.5, **law))
+    0.0
+    """
+    return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R_1=R_1, R_2=R_2)
+
+
+def march(
+    P: Array,
+    M: Array,
+    Q: Array,
+    sigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    R_1: Array,
+    R_2: Array,
+    order: int = 0,
+) -> March:
+    """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
+
+        since the loads last turned, at the least or the greatest Q, slip has grown as in a
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+
+    Arguments broadcast; the instants of a cycle lie along the last axis.
+        P       normal load per unit depth [N/m]
+        M       moment per unit depth, M = -int p x dx [N]
+        Q       shear load at every instant [N/m]
+        sigma   differential bulk tension at every instant [Pa]
+        f       coefficient of friction [-]
+        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        R_1     relative radius of curvature on the left [m]
+        R_2     relative radius of curvature on the right [m]
+        order   order of the series; march takes 0 for the exact conditions
+
+    Returns March(a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime).
+    NaN unless all loads are as far on their way between both states, to 1e-6 of their change; nor
+    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    Derived from derive/geometries/two_radii.py.
+
+    >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
+    >>> P, M = (of(1.5, 1.0, **law) for of in (load, moment))
+    >>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * 0.15 / 2
+    >>> cycle = march(P, M, Q, 0.0, f=0.5, **law)
+    >>> cycle.left.tolist()
+    [1, 1, -1, -1]
+    """
+    return march_of(_LAW, P, M, Q, sigma, f=f, E_star=E_star, R_1=R_1, R_2=R_2, order=order)

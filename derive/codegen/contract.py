@@ -9,7 +9,7 @@ from sympy import Expr, Gt, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, x
+from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, x
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,7 @@ class Function:
     kind        the named tuple that it returns, "" for a plain array
     material    whether it takes E_star
     geometric   whether it takes the geometry's own parameters
+    friction    whether it takes f
     """
 
     name: str
@@ -31,6 +32,7 @@ class Function:
     defaults: tuple[tuple[Symbol, str], ...] = ()
     material: bool = True
     geometric: bool = True
+    friction: bool = False
 
     @property
     def formulas(self) -> tuple[str, ...]:
@@ -42,9 +44,9 @@ class Function:
         return all(name in sheet for name in self.formulas)
 
     def keywords(self, sheet: FormulaSheet) -> tuple[Symbol, ...]:
-        """Its keyword-only arguments: material, then geometry."""
+        """Its keyword-only arguments: friction, material, geometry."""
         own = tuple(q.symbol for q in sheet.geometry.parameters) if self.geometric else ()
-        return ((E_star,) if self.material else ()) + own
+        return ((f,) if self.friction else ()) + ((E_star,) if self.material else ()) + own
 
     def outputs(self, sheet: FormulaSheet) -> dict[str, Expr]:
         """Expression of every field."""
@@ -65,10 +67,23 @@ class Function:
         return (*held, *positive)
 
 
-def _edges(name: str, arguments: tuple[Symbol, ...], summary: str, bare: bool = False) -> Function:
+def _edges(
+    name: str,
+    arguments: tuple[Symbol, ...],
+    summary: str,
+    bare: bool = False,
+    friction: bool = False,
+) -> Function:
     fields = tuple((side, f"{name}_{side}") for side in ("left", "right"))
     return Function(
-        name, arguments, fields, summary, "Edges", material=not bare, geometric=not bare
+        name,
+        arguments,
+        fields,
+        summary,
+        "Edges",
+        material=not bare,
+        geometric=not bare,
+        friction=friction,
     )
 
 
@@ -109,5 +124,18 @@ CONTRACT: tuple[Function, ...] = (
         (a, c, dQ, dsigma),
         "Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.",
         bare=True,
+    ),
+    _edges(
+        "L_T",
+        (a, c, dQ, dsigma),
+        "Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.",
+        bare=True,
+    ),
+    _edges(
+        "stick_margin",
+        (a, c, dP, dM, dQ, dsigma),
+        "Friction left at the edges as all loads begin to change: no slip starts where it is >= 0.",
+        bare=True,
+        friction=True,
     ),
 )

@@ -21,7 +21,7 @@ from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, h, w, x
+from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
 from derive.units import Dimension, dimension_of, parse_unit
 
 LINE = 100
@@ -45,7 +45,7 @@ class FunctionText:
         self.keywords = function.keywords(sheet)
         self.outputs = self._expressions()
         self.conditions = self._conditions()
-        self.example = _example(sheet, self.conditions)
+        self.example = example_of(sheet, self.conditions)
         self.program = self._made()
         self._demand_equal()
 
@@ -303,7 +303,7 @@ def _off_all_kinks(sheet: FormulaSheet, point: Point) -> bool:
     return not {*places} & {point[x], -point[a], point[c]}
 
 
-def _example(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
+def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
     """Plain numbers that meet the function's assumptions, for its docstring."""
     least = sheet.geometry.slope.least
     parameters = {
@@ -322,6 +322,9 @@ def _example(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
             alpha: mpf("0.03125") * lean,
             dQ: mpf("0.25"),
             dsigma: mpf("0.125"),
+            dP: mpf("0.5"),
+            dM: mpf("0.25"),
+            f: mpf("0.5"),
         }
         if holds(conditions, point) and _off_all_kinks(sheet, point):
             return point

@@ -121,7 +121,7 @@ def curve_text(sheet: FormulaSheet) -> str:
     steps = {kink.position: kink.step for kink in slope.kinks}
     corners = [steps.get(place, S.Zero) for place in places]
     lines = [
-        *_tuple_of("_breaks", "Where the curve is cut.", places, signature, printer),
+        *breaks_text(sheet),
         *_tuple_of("_corners", "By how much g' rises at the breaks.", corners, signature, printer),
     ]
     held = []
@@ -139,6 +139,14 @@ def curve_text(sheet: FormulaSheet) -> str:
     reach = _FAR if sharp else _NEAR
     lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach})")
     return "\n".join(lines)
+
+
+def breaks_text(sheet: FormulaSheet) -> Iterator[str]:
+    """`_breaks` of one body."""
+    places, _ = breaks_of(sheet.geometry.slope)
+    own, _ = own_parameters(sheet)
+    signature = f"({own.removeprefix(', ')})"
+    return _tuple_of("_breaks", "Where the curve is cut.", places, signature, NumPyPrinter())
 
 
 def _tuple_of(

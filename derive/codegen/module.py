@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from ruff import find_ruff_bin
 
 from derive.codegen.contract import CONTRACT, Function
+from derive.codegen.cycle import CYCLE, CycleText, law_text
 from derive.codegen.function import LINE, FunctionText, inside_quotes
 from derive.codegen.integrated import (
     IntegratedText,
@@ -29,12 +30,16 @@ from derive.symbols import alpha
 
 _HELPERS = {
     "_arrays": ("LEAST", "MOST", "TINY", "elementwise", "only_where", "select"),
+    "_march": ("march_of",),
     "_quadrature": (
         *("Curve", "Piece", "Profile"),
         *("mended", "pressure_at", "second_of", "slope_of", "state_of"),
     ),
+    "_shear": ("shear_change_of", "slip_range_of"),
+    "_slip": ("slip_error_of", "slip_zones_of"),
     "_solve": ("contact_at", "contact_under", "level"),
     "_state": ("State",),
+    "_stick": ("Law", "closing_tension_of", "stick_zone_of", "tension_threshold_of"),
 }
 """What the modules of support/ offer to those beside them."""
 
@@ -46,8 +51,9 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     """
     sheet.demand_proven()
     bodies = "\n\n".join(_functions(sheet, source))
-    kinds = sorted({f.kind for f in CONTRACT if f.kind})
-    names = sorted([f.name for f in CONTRACT] + kinds, key=_order_of_names)
+    made = [(f.name, f.kind) for f in CONTRACT] + [(f.name, f.kind) for f in CYCLE]
+    kinds = sorted({kind for _, kind in made if kind} | {"Regime"})
+    names = sorted([name for name, _ in made] + kinds, key=_order_of_names)
     origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
     title = textwrap.fill(sheet.geometry.title, LINE - 4)
     heading = f"{title}\n\n{textwrap.fill(origin, LINE, subsequent_indent=' ' * 4)}"
@@ -80,6 +86,9 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
         yield slope_text(sheet) if closed else level_text(sheet)
     for function in CONTRACT:
         yield _made(sheet, function, function in solved, mended)(sheet, function, source).text
+    yield law_text(sheet)
+    for cycle in CYCLE:
+        yield CycleText(sheet, cycle, source).text
 
 
 def _made(

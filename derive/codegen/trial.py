@@ -25,12 +25,15 @@ from derive.codegen.publish import package_files
 from derive.errors import NotProven
 from derive.proof.points import Point, contacts, named, numeric
 from derive.sheet import FormulaSheet
-from derive.symbols import M, P, a, alpha, c
+from derive.symbols import E_star, M, P, a, alpha, c
 
 TOLERANCE = 1e-10
 """Largest error allowed, compared with the size of what is computed; a wrong text is far off."""
 
 _DIGITS = 30
+
+_CYCLES = 6
+"""Contacts at which a stick zone is tried."""
 
 
 def demand_right(sheet: FormulaSheet, text: str) -> None:
@@ -46,6 +49,7 @@ def demand_right(sheet: FormulaSheet, text: str) -> None:
                 _demand_inverse(sheet, function, module, points)
             else:
                 _demand_forward(sheet, function, module, points)
+        _demand_patch(sheet, module, points[:_CYCLES])
 
 
 def _demand_forward(
@@ -75,6 +79,27 @@ def _demand_inverse(
             size = 100 * (point[a] + point[c]) if field != alpha else mpf(100)
             label = f"{function.name} {field}"
             _demand_close(sheet, label, value, point[field], size, point)
+
+
+def _demand_patch(sheet: FormulaSheet, module: ModuleType, points: list[Point]) -> None:
+    """Under moderate tension the stick zone is the contact at the reduced load and shifted tilt.
+
+    f = 1/2, dQ a quarter of the load, half of the threshold's tension at either sign in turn.
+    """
+    constants = [E_star, *(q.symbol for q in sheet.geometry.parameters)]
+    for i, point in enumerate(points):
+        load, tilt = (numeric(sheet.flat(name))(point) for name in ("load", "tilt"))
+        shear, width = load / 4, point[a] + point[c]
+        tension = (-1) ** i * 4 * shear / (mpmath.pi * width)
+        here = module.Contact(float(point[a]), float(point[c]), float(tilt))
+        given = {str(s): float(point[s]) for s in constants}
+        zone = module.stick_zone(here, here, float(shear), float(tension), f=0.5, **given)
+        stuck = {**point, a: mpf(float(zone.m)), c: mpf(float(zone.n))}
+        wanted = {"load": load - shear, "tilt": tilt - tension / (2 * point[E_star])}
+        for name, right in wanted.items():
+            found = float(numeric(sheet.flat(name))(stuck))
+            size = load if name == "load" else load / (point[E_star] * width)
+            _demand_close(sheet, f"stick_zone's {name}", found, right, size, point)
 
 
 def _demand_close(

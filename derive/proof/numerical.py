@@ -17,9 +17,11 @@ from derive.proof.points import Point, contacts, loads, named, numeric
 from derive.proof.quadrature import Contact
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet import Formula, FormulaSheet
-from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, w, x
+from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, f, w, x
 
 _QUADRATURE = "quadrature of the defining integral of g(x)"
+_BOUNDED = "dq bounded at the ends of the stick zone, by quadrature of p"
+_STICK = ("stick_m", "stick_n")
 _FORWARD = {P: "load", M: "moment", alpha: "tilt"}
 
 Pairs = Iterator[tuple[mpf, mpf]]
@@ -36,7 +38,7 @@ class NumericalRoutes:
     def proof(self, name: str) -> Proof | None:
         """The proof of one formula by its numerical route."""
         with mpmath.workdps(WORKING):
-            if self.sheet[name].arguments[0] == P:
+            if self.sheet[name].arguments[0] == P and name not in _STICK:
                 return self._put_back(self.sheet[name])
             if name not in self._routes:
                 return None
@@ -62,6 +64,7 @@ class NumericalRoutes:
             "L_N_left": ("p - K_N sqrt(s) close to the edge", self._second_left),
             "L_N_right": ("p - K_N sqrt(s) close to the edge", self._second_right),
             "full_stick_change": ("its force and its strain by quadrature", self._full_stick),
+            **{name: (_BOUNDED, self._stuck_between(name)) for name in _STICK},
         }
 
     @cached_property
@@ -166,6 +169,27 @@ class NumericalRoutes:
         strain = contact.integral(lambda s: (numerator(s) - here) / (place - s), place)
         yield contact.integral(numerator), point[dQ]
         yield strain / mpmath.pi, point[dsigma] / 4
+
+    def _stuck_between(self, name: str) -> Route:
+        """int 2 f p sqrt(..) over both slip zones against what shear and tension ask for."""
+
+        def route(point: Point, contact: Contact) -> Pairs:
+            cycle = {**point, P: self._at("load", point), alpha: self._at("tilt", point)}
+            cycle[f] = (1 + abs(point[dsigma])) / 4
+            cycle[dQ] = cycle[f] * cycle[P] * point[dQ] / 2
+            cycle[dsigma] = 4 * cycle[dQ] / (mpmath.pi * contact.h) * point[dsigma]
+            left, right = (self._at(end, cycle) for end in _STICK)
+            stuck, sense = left + right, -1 if name == _STICK[0] else 1
+            by_tension = mpmath.pi * cycle[dsigma] * stuck / 8
+
+            def weight(place: mpf) -> mpf:
+                return ((place + left) / (place - right)) ** (mpf(sense) / 2)
+
+            p = self._p(point)
+            pulled = 2 * cycle[f] * contact.outside(left, right, lambda s: p(s) * weight(s))
+            yield pulled, cycle[dQ] - sense * by_tension
+
+        return route
 
     def _put_back(self, formula: Formula) -> Proof:
         """The inverse put back into what it was solved from."""

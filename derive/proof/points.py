@@ -20,7 +20,7 @@ from derive.profile import has_sharp_power
 from derive.proof.rule import integral
 from derive.proof.verdict import POINTS
 from derive.sheet import Formula, FormulaSheet
-from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, e, x
+from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
 
 Point = dict[Symbol, mpf]
 T = TypeVar("T")
@@ -46,7 +46,7 @@ def draws(
 
 
 def contacts(sheet: FormulaSheet) -> list[Point]:
-    """Contacts [-a, c] of the body, with an x inside each and changes of shear and tension."""
+    """Contacts [-a, c] of the body, with an x inside each and changes of all loads."""
     return _contacts(sheet.geometry, sheet["pressure"].conditions)
 
 
@@ -63,6 +63,8 @@ def _contacts(body: Geometry, conditions: tuple[Boolean, ...]) -> list[Point]:
         theta = mpmath.pi * mpf(rng.uniform(0.02, 0.98))
         point[x] = size * (middle + half * mpmath.cos(theta))
         point[dQ], point[dsigma] = mpf(rng.uniform(0, 2)), mpf(rng.uniform(-2, 2))
+        point[dP], point[dM] = point[dsigma] / 2 + point[dQ] / 4, point[dQ] - point[dsigma] / 4
+        point[f] = (1 + point[dQ]) / 4
         return point if holds(conditions, point) else None
 
     return list(draws(body.name, draw))

@@ -9,6 +9,7 @@ Out: the integrals of theory.equilibrium and theory.pressure, evaluated with
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
+from itertools import pairwise
 
 import mpmath
 from mpmath import mpf
@@ -64,6 +65,25 @@ class Contact:
         gentle = self.geometry.slope.is_polynomial and not singular
         method = "gauss-legendre" if gentle else "tanh-sinh"
         return integral(lambda theta: integrand(self.at(theta)), cuts, method)
+
+    def outside(self, left: mpf, right: mpf, integrand: Function) -> mpf:
+        """int integrand(s) ds over the contact less [-left, right]; roots at the ends do no harm.
+
+        The integrand is evaluated to twice the digits: next to an end its distance keeps them.
+        """
+        total, digits = mpf(0), 2 * mpmath.mp.dps
+        for edge, end in ((-self.a, -left), (self.c, right)):
+            low, high = min(edge, end), max(edge, end)
+            for start, stop in pairwise([low, *(k for k in self.kinks if low < k < high), high]):
+
+                def along(theta: mpf, start: mpf = start, stop: mpf = stop) -> mpf:
+                    with mpmath.workdps(digits):
+                        half = (stop - start) / 2
+                        place = (start + stop) / 2 + half * mpmath.cos(theta)
+                        return half * mpmath.sin(theta) * integrand(place)
+
+                total += integral(along, [mpf(0), mpmath.pi])
+        return total
 
     @cached_property
     def tilt(self) -> mpf:

@@ -11,23 +11,28 @@ punches; the contact law against the edge limit of p; the inverses by substituti
 from collections.abc import Callable
 
 from sympy import (
+    Abs,
     Expr,
     Poly,
+    Rational,
     S,
     Symbol,
     count_ops,
     diff,
     expand,
+    integrate,
     linsolve,
     pi,
     simplify,
+    sin,
+    solve,
     sqrt,
     symbols,
 )
 
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, P, a, c, e, h, mid, w, x
+from derive.symbols import E_star, P, a, c, dM, dP, e, f, h, mid, s, w, x
 from derive.theory.algebra import is_zero
 from derive.theory.frame import KinkFrame
 
@@ -41,7 +46,7 @@ _SHORT = 60
 def symbolic_proof(sheet: FormulaSheet, name: str) -> Proof | None:
     """The proof of one formula by its symbolic route, if there is one and it succeeds."""
     route = _ROUTES.get(name)
-    if not sheet.geometry.slope.is_polynomial and route is not _stick:
+    if not sheet.geometry.slope.is_polynomial and route not in _FOR_ALL:
         return None
     words = route and route(sheet, name)
     return Proof(Verdict.PROVED, words) if words else None
@@ -144,12 +149,43 @@ def _grows_by_punches(sheet: FormulaSheet, p: Expr) -> bool:
 
 
 def _stick(sheet: FormulaSheet, name: str) -> str | None:
-    edge = -a if name.endswith("left") else c
+    """K_T and L_T: dq sqrt(s) and its derivative at s = 0, with w = sqrt(s) sqrt(h - s)."""
+    inward = 1 if name.endswith("left") else -1
+    at = -a + s if inward > 0 else c - s
     without_root = sheet["full_stick_change"].expr.subs(1 / w, 1)
-    limit = without_root.subs(x, edge) / sqrt(h)
-    if without_root.has(w) or simplify(sheet[name].expr - limit) != 0:
+    regular = without_root.subs(x, at) / sqrt(h - s)
+    wanted = regular if name.startswith("K") else diff(regular, s)
+    if without_root.has(w) or simplify(sheet[name].expr - wanted.subs(s, 0)) != 0:
         return None
     return "limit of the full-stick change at the edge"
+
+
+def _margin(sheet: FormulaSheet, name: str) -> str | None:
+    """f K_N dedge/2 - |K_T|, times pi sqrt(h), where dP and dM move the edges by da and dc."""
+    moves, K = symbols("da dc", real=True), symbols("K_left K_right", positive=True)
+    force = [pi * sqrt(h) / 4 * k * move for k, move in zip(K, moves, strict=True)]
+    loads = {dP: sum(force), dM: -(force[0] * (mid - h / 4) + force[1] * (mid + h / 4))}
+    side = 0 if name.endswith("left") else 1
+    friction = f * pi * sqrt(h) * K[side] * Abs(moves[side]) / 2
+    shear = pi * Abs(simplify(sqrt(h) * sheet[f"K_T_{('left', 'right')[side]}"].expr))
+    found = sheet[name].expr.subs(loads, simultaneous=True)
+    width = Symbol("h", positive=True)
+    off = (found - friction + shear).subs(c, width - a)
+    if simplify(off.replace(Abs, lambda v: Abs(simplify(expand(v))))) != 0:
+        return None
+    return "f K_N dedge/2 - |K_T| as the edges move by flat punches"
+
+
+def _slip(sheet: FormulaSheet, name: str) -> str | None:
+    """2 f int_0^d K_N sqrt(s) sqrt(h/(d - s)) ds = pi sqrt(h) |K_T|, by an antiderivative."""
+    side = name.removeprefix("slip_")
+    length, t = Symbol("d", positive=True), Symbol("t", positive=True)
+    # s = d sin(t)**2: the integral is d int_0^(pi/2) 2 sin(t)**2 dt
+    weight = integrate(2 * sin(t) ** 2, (t, 0, pi / 2)) * length
+    K_T, K_N = (sheet[f"{K}_{side}"].expr for K in ("K_T", "K_N"))
+    (found,) = solve(2 * f * weight - pi * Symbol("ratio"), length)
+    off = sheet[name].expr - found.subs(Symbol("ratio"), Abs(K_T) / K_N)
+    return "the first power of d in both conditions" if simplify(off) == 0 else None
 
 
 def _put_back(sheet: FormulaSheet, name: str) -> str | None:
@@ -162,6 +198,18 @@ def _put_back(sheet: FormulaSheet, name: str) -> str | None:
     if simplify(load - P) != 0 or simplify(moment - P * e) != 0:
         return None
     return "put back symbolically"
+
+
+def _next(sheet: FormulaSheet, name: str) -> str | None:
+    r"""L_N from the growth of p with its edge: dp/dc = K_N sqrt(h - s)/(2 sqrt(h) sqrt(s)).
+
+    p = K_N s**(1/2) + L_N s**(3/2) + ..., s = c - x: at s**(1/2) K_N' + (3/2) L_N = -K_N/(4 h).
+    """
+    edge = a if name.endswith("left") else c
+    K = sheet[name.replace("L", "K", 1)].expr
+    rate = sheet.frame.diff(K, edge)
+    off = rate + Rational(3, 2) * sheet[name].expr + K / (4 * h)
+    return "K_N grows with its edge by flat punches" if is_zero(off, sheet.frame) else None
 
 
 def _differentiated(of: str, edge: Symbol) -> Route:
@@ -207,8 +255,13 @@ _ROUTES: dict[str, Route] = {
         for of in ("load", "moment", "tilt")
         for edge in (a, c)
     },
-    "K_T_left": _stick,
-    "K_T_right": _stick,
+    **{f"{K}_T_{side}": _stick for K in "KL" for side in ("left", "right")},
+    **{f"stick_margin_{side}": _margin for side in ("left", "right")},
+    **{f"slip_{side}": _slip for side in ("left", "right")},
+    **{f"L_N_{side}": _next for side in ("left", "right")},
     "contact_a": _put_back,
     "contact_c": _put_back,
 }
+
+_FOR_ALL = (_stick, _margin, _slip)
+"""Routes that do not ask what the body is."""

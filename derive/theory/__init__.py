@@ -8,5 +8,6 @@ pressure     p(x) inside the contact
 contact_law  P'(c) along fixed tilt, F(c), and the inverses (P, M), (P, alpha) -> (a, c)
 edges        K_N by two routes, the series of p at an edge
 superposition  P, M, p, K_N and L_N as integrals of g'', where no closed form is sought
-stick        the change of shear in a fully stuck contact, K_T
+stick        full stick and its edges, what keeps an edge from slipping, the stick zone
+slip         slip zones by series in their length, to any order
 """

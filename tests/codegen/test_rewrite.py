@@ -50,6 +50,7 @@ def _states(body: str) -> Iterator[dict[str, mpf]]:
         edges = mpf(left), mpf(right)
         state = {name: mpf(value) for name, value in VALUES.items()}
         state |= {"a": edges[0], "c": edges[1], "dQ": mpf("0.375"), "dsigma": mpf("-0.25")}
+        state |= {"dP": mpf("0.25"), "dM": mpf("-0.125"), "f": mpf("0.5")}
         state["alpha"] = integrals.tilt(slope, *edges, kinks)
         state["P"] = integrals.load(slope, *edges, kinks, state["E_star"])
         state["M"] = integrals.moment(slope, *edges, kinks, state["E_star"])

@@ -19,7 +19,11 @@ from tests.derive.bodies import BODIES, VALUES, close, evaluated, mirrored, shee
 FORWARD = ("tilt", "load", "moment", "pressure", "edge_ratio", "load_rate", "punch")
 EDGES = ("K_N_left", "K_N_right", "L_N_left", "L_N_right")
 RATES = tuple(f"{of}_by_{edge}" for edge in "ac" for of in ("load", "moment", "tilt"))
-STICK = ("full_stick_change", "K_T_left", "K_T_right")
+SIDES = ("left", "right")
+STICK = (
+    "full_stick_change",
+    *(f"{of}_{side}" for of in ("K_T", "L_T", "stick_margin", "slip") for side in SIDES),
+)
 
 R, C, phi, psi, b = (Symbol(name, positive=True) for name in ("R", "C", "phi", "psi", "b"))
 A, B = Symbol("A", positive=True), Symbol("B", positive=True)  # a > 0 and c > 0
@@ -98,6 +102,7 @@ def test_a_sheet_lists_its_formulas_in_the_order_of_derivation() -> None:
     assert tuple(sheet("quartic")) == (*FORWARD[:4], *EDGES, *FORWARD[4:], *RATES, *STICK)
     inverses = ["contact_a", "contact_c", "contact_alpha"]
     inverses += ["contact_at_tilt_a", "contact_at_tilt_c", "contact_at_tilt_M"]
+    inverses += ["stick_m", "stick_n"]
     for name in ("hertz", "wedge"):
         assert list(sheet(name)) == [*FORWARD[:4], *EDGES, *FORWARD[4:], *RATES, *STICK, *inverses]
 

@@ -89,6 +89,7 @@ def test_every_symbol_with_latex_of_its_own_is_set_in_it() -> None:
 def test_a_printed_formula_reads_back_to_the_same_number(name: str) -> None:
     """The text is what a user copies: it must be the formula, not something like it."""
     numbers = VALUES | {"a": 2, "c": 1, "x": 0.375, "dQ": 0.5, "dsigma": -0.25}
+    numbers |= {"dP": 0.25, "dM": 0.125, "f": 0.5}
     numbers |= {"P": 0.75, "M": 0.125, "e": 0.125 / 0.75, "alpha": 0.125}
     body = sheet(name)
     local = {s.name: s for key in body for s in body.flat(key).free_symbols}

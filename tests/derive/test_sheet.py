@@ -16,6 +16,7 @@ from derive.sheet import (
     tilt_conditions,
 )
 from derive.symbols import E_star, P, a, alpha, c, h, x
+from derive.symbols import f as friction
 from derive.units import parse_unit
 from tests.derive.bodies import BODIES, geometry, sheet
 
@@ -69,7 +70,7 @@ def test_a_flat_formula_holds_arguments_material_and_parameters_only(name: str) 
     parameters = {q.symbol for q in body.geometry.parameters}
     for key, f in body.items():
         lever = {Symbol("e", real=True)} if P in f.arguments else set()
-        assert body.flat(key).free_symbols <= {*f.arguments, E_star, *parameters} | lever
+        assert body.flat(key).free_symbols <= {*f.arguments, E_star, friction, *parameters} | lever
 
 
 @pytest.mark.parametrize("name", BODIES)

@@ -1,5 +1,6 @@
 """What the generated functions return: named tuples of arrays, fields in a fixed order."""
 
+from enum import IntEnum
 from typing import Any, NamedTuple, TypeAlias
 
 Array: TypeAlias = Any
@@ -19,3 +20,57 @@ class Edges(NamedTuple):
 
     left: Array
     right: Array
+
+
+class Regime(IntEnum):
+    """How a cycle slips.
+
+    NONE        there is no such cycle, or one of its numbers is none
+    MODERATE    forward slip at both edges: m and n are exact
+    LARGE       slip of opposite signs at the edges: m and n are exact
+    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN
+    SLIDING     nothing sticks: m and n are NaN
+    FULL_STICK  nothing slips: m and n are those of the smaller contact
+    UNSOLVED    the iteration did not end: m and n are NaN
+    """
+
+    NONE = 0
+    MODERATE = 1
+    LARGE = 2
+    MIXED = 3
+    SLIDING = 4
+    FULL_STICK = 5
+    UNSOLVED = 6
+
+
+class StickZone(NamedTuple):
+    """What sticks all the time, [-m, n], and a code of Regime."""
+
+    m: Array
+    n: Array
+    regime: Array
+
+
+class Threshold(NamedTuple):
+    """Changes of bulk tension between which tension is moderate."""
+
+    lower: Array
+    upper: Array
+
+
+class March(NamedTuple):
+    """A cycle instant by instant.
+
+    a, c         the contact [-a, c]
+    m, n         what has not slipped since the loads last turned, [-m, n]
+    left, right  sense of slip at either edge: +1 forward, -1 in reverse, 0 none
+    regime       a code of Regime
+    """
+
+    a: Array
+    c: Array
+    m: Array
+    n: Array
+    left: Array
+    right: Array
+    regime: Array

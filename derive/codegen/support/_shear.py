@@ -1,0 +1,212 @@
+r"""The change of shear over a half-cycle, and how far the surfaces slip.
+
+With w(x) = sqrt((x + m)(x - n)), negative on the left, W(x) = sqrt((x + m)(n - x)), and r = kappa f
+(p1 + p2) in the slip zones, the bounded solution is
+
+    dq(x) = (W(x)/pi) int_slip r/(w(xi) (xi - x)) dxi              in the stick zone,
+    (1/pi) PV int dq/(x - xi) dxi - dsigma/4
+          = -(w(x)/pi) PV int_slip r/(w(xi) (xi - x)) dxi          in the slip zones.
+
+The second is E*/2 times the rate of slip along x.  Slip is its integral from the stick zone: with y
+and Y the distances of x and xi from there, to the outside,
+
+    int_0^y sqrt(t (t + h_s))/(Y - t) dt = -sqrt(y (y + h_s)) - (2 Y + h_s) asinh sqrt(y/h_s)
+        + sqrt(Y (Y + h_s)) log |(r + s)/(r - s)|,   r = sqrt(Y (y + h_s)),  s = sqrt(y (Y + h_s)),
+
+and for Y < -h_s, the other slip zone, with |Y|, |Y + h_s| in r and s and the logarithm's sign
+changed.  Under moderate tension dq is f (p1 + p2 - 2 p_s), p_s the pressure of the patch [-m, n].
+"""
+
+from typing import Any
+
+import numpy as np
+
+from ._arrays import Array, Flat, at_rows
+from ._stick import Law, stick_zone_of
+from ._types import Contact, Regime
+from ._zones import parts_of
+
+LEVEL = 5
+"""Steps of the quadrature are 2**-LEVEL: enough however close a place is to the stick zone."""
+
+TOGETHER = 500
+"""Elements that are computed in one piece."""
+
+
+@np.errstate(all="ignore")
+def shear_change_of(
+    law: Law,
+    x: Array,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    **own: Array,
+) -> Array:
+    """dq at x; zero outside both contacts, NaN where the stick zone is not known."""
+    cycle = _Known(law, x, first, second, dQ, dsigma, f, E_star, own)
+    return cycle.given.shaped(cycle.in_pieces(_Known.change))
+
+
+@np.errstate(all="ignore")
+def slip_range_of(
+    law: Law,
+    x: Array,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    **own: Array,
+) -> Array:
+    """How far the surfaces slip at x over the half-cycle; zero where they stick."""
+    cycle = _Known(law, x, first, second, dQ, dsigma, f, E_star, own)
+    return cycle.given.shaped(cycle.in_pieces(_Known.slip))
+
+
+class _Known:
+    """A place in a cycle whose stick zone is known; all arrays have one length."""
+
+    def __init__(
+        self,
+        law: Law,
+        x: Array,
+        first: Contact,
+        second: Contact,
+        dQ: Array,
+        dsigma: Array,
+        f: Array,
+        E_star: Array,
+        own: dict[str, Array],
+    ) -> None:
+        zone = stick_zone_of(law, first, second, dQ, dsigma, f=f, E_star=E_star, **own)
+        values = {
+            "x": x,
+            **{"first.a": first.a, "first.c": first.c, "second.a": second.a, "second.c": second.c},
+            **{"dsigma": dsigma, "m": zone.m, "n": zone.n, "regime": zone.regime},
+        }
+        self.law, self.given = law, Flat(values, {"E_star": E_star, **own}, {"f": f})
+        x, a_1, c_1, a_2, c_2, dsigma, m, n, regime, f = self.given.values
+        self.x, self.m, self.n, self.regime, self.f = x, m, n, regime, f
+        self.a, self.c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
+        self.opposite = regime == Regime.LARGE
+        self.sense = np.where(self.opposite & (dsigma < 0), -1.0, 1.0)
+        self.constants = self.given.constants
+
+    def in_pieces(self, of: Any) -> Array:
+        """A result, so many elements at once."""
+        found = np.full(self.x.shape, np.nan)
+        for start in range(0, found.size, TOGETHER):
+            rows = np.arange(start, min(start + TOGETHER, found.size))
+            found[rows] = of(self, rows)
+        return found
+
+    def pressures(self, x: Array, rows: Array) -> Array:
+        """p1 + p2; at a kink, where it may be infinite, nothing."""
+        held = at_rows(rows, self.constants)
+        first, second = (
+            self.law.pressure(x, a[rows], c[rows], **held)
+            for a, c in zip(self.a, self.c, strict=True)
+        )
+        return np.where(first + second == np.inf, 0.0, first + second)
+
+    def kappa(self, side: int, rows: Array) -> Array:
+        """Sense of slip on the left (side -1) or on the right (+1)."""
+        opposed = self.opposite[rows] & (side > 0)
+        return np.where(opposed, -self.sense[rows], self.sense[rows])
+
+    def zone(self, side: int, rows: Array) -> tuple[Array, Array, list[Array]]:
+        """Where a slip zone starts, outward; how long it is; where it is to be cut."""
+        start = (self.n if side > 0 else self.m)[rows]
+        edges = (self.c if side > 0 else self.a)[:, rows]
+        held = at_rows(rows, self.constants)
+        held.pop("E_star")
+        places = [side * place - start for place in self.law.kinks(**held)]
+        return start, np.max(edges, axis=0) - start, [*places, *(edges - start)]
+
+    def change(self, rows: Array) -> Array:
+        """dq at x."""
+        x, m, n, regime = self.x[rows], self.m[rows], self.n[rows], self.regime[rows]
+        side = np.where(x < (n - m) / 2, -1, 1)
+        slips = (x >= n) | (x <= -m)
+        kappa = np.where(side > 0, self.kappa(1, rows), self.kappa(-1, rows))
+        sliding = kappa * self.f[rows] * self.pressures(x, rows)
+        held = at_rows(rows, self.constants)
+        patch = self.law.pressure(x, m, n, **held)
+        moderate = sliding - 2 * self.f[rows] * patch
+        stuck = np.where(regime == Regime.LARGE, self._bounded(rows), moderate)
+        alike = (self.a[0] == self.a[1]) & (self.c[0] == self.c[1])
+        still = (regime == Regime.FULL_STICK) & alike[rows]  # there is no shear at all
+        found = np.where(slips, sliding, stuck)
+        known = (regime == Regime.MODERATE) | (regime == Regime.LARGE)
+        return np.where(still, 0.0 * x, np.where(known, found, np.nan))
+
+    def _bounded(self, rows: Array) -> Array:
+        """dq in the stick zone: the bounded solution."""
+        x, m, n = self.x[rows], self.m[rows], self.n[rows]
+        total = 0.0
+        for side in (-1, 1):
+            start, end, cuts = self.zone(side, rows)
+            away = start - side * x  # from x to this end of the stick zone
+            for y, weight in parts_of(end, cuts, LEVEL):
+                force = self.kappa(side, rows) * self.pressures(side * (start + y), rows)
+                total = total + np.sum(
+                    weight * force / (np.sqrt(y * (y + m + n)) * (y + away)), axis=0
+                )
+        return self.f[rows] * np.sqrt((x + m) * (n - x)) / np.pi * total
+
+    def slip(self, rows: Array) -> Array:
+        """Slip at x."""
+        x, m, n, regime = self.x[rows], self.m[rows], self.n[rows], self.regime[rows]
+        side = np.where(x < (n - m) / 2, -1, 1)
+        total = np.where(side > 0, self._slipped(1, rows), self._slipped(-1, rows))
+        known = (regime == Regime.MODERATE) | (regime == Regime.LARGE)
+        sticks = ((x >= -m) & (x <= n)) | (regime == Regime.FULL_STICK)
+        a, c = np.min(self.a[:, rows], axis=0), np.min(self.c[:, rows], axis=0)
+        inside = (x >= -a) & (x <= c)
+        found = np.where(sticks, 0.0 * x, np.where(known, np.abs(total), np.nan))
+        return np.where(inside & (regime > 0), found, np.nan)
+
+    def _slipped(self, side: int, rows: Array) -> Array:
+        """The integral of the rate of slip from the stick zone to x, to one side."""
+        stuck = self.m[rows] + self.n[rows]
+        start, end, cuts = self.zone(side, rows)
+        there = np.clip(side * self.x[rows] - start, 0, end)
+        total = 0.0
+        for y, weight in parts_of(end, [*cuts, there], LEVEL):
+            force = self.kappa(side, rows) * self.pressures(side * (start + y), rows)
+            weighted = weight * force / np.sqrt(y * (y + stuck))
+            total = total + np.sum(weighted * _between(there, y, stuck), axis=0)
+        start, end, cuts = self.zone(-side, rows)
+        for y, weight in parts_of(end, cuts, LEVEL):
+            force = self.kappa(-side, rows) * self.pressures(-side * (start + y), rows)
+            weighted = weight * force / np.sqrt(y * (y + stuck))
+            total = total - np.sum(weighted * _across(there, y, stuck), axis=0)
+        scale = 2 * self.f[rows] / (np.pi * at_rows(rows, self.constants)["E_star"])
+        return scale * total
+
+
+def _between(y: Array, other: Array, stuck: Array) -> Array:
+    """int_0^y sqrt(t (t + stuck))/(other - t) dt, its principal value."""
+    root = np.sqrt(other * (other + stuck))
+    r, s = np.sqrt(other * (y + stuck)), np.sqrt(y * (other + stuck))
+    # |r - s| = stuck |other - y|/(r + s)
+    logarithm = np.log((r + s) ** 2 / np.maximum(stuck * np.abs(other - y), 1e-300))
+    return root * logarithm - _smooth(y, other, stuck)
+
+
+def _across(y: Array, beyond: Array, stuck: Array) -> Array:
+    """int_0^y sqrt(t (t + stuck))/(other - t) dt, other = -stuck - beyond."""
+    root = np.sqrt((stuck + beyond) * beyond)
+    r, s = np.sqrt((stuck + beyond) * (y + stuck)), np.sqrt(y * beyond)
+    logarithm = np.log((r + s) ** 2 / (stuck * (stuck + beyond + y)))
+    return -root * logarithm - _smooth(y, -stuck - beyond, stuck)
+
+
+def _smooth(y: Array, other: Array, stuck: Array) -> Array:
+    return np.sqrt(y * (y + stuck)) + (2 * other + stuck) * np.arcsinh(np.sqrt(y / stuck))

@@ -1,0 +1,225 @@
+r"""Slip zones by series in their length over the width of the stick zone.
+
+At a distance s from an edge p = K s**(1/2) + L s**(3/2) + N s**(5/2) + ...  A slip zone of length d
+beside a stick zone of width h_s adds to the conditions for a bounded change of shear
+
+    near = int_0^d p sqrt((h_s + d - s)/(d - s)) ds  at its own end of the stick zone,
+    far  = int_0^d p sqrt((d - s)/(h_s + d - s)) ds  at the other end,
+
+sums of C_i h_s**(1/2 - j) d**(i + j + 1) and of C_i h_s**(-1/2 - j) d**(i + j + 2).  An order keeps
+powers of d up to itself; both conditions are then solved as they stand.  Each contact of the cycle
+has its own edges, so that varying loads need nothing more.  N follows from how L changes as the
+edge alone moves: N = -(2/5) (dL/dedge + K/(16 h**2)).
+"""
+
+from typing import Any
+
+import numpy as np
+
+from ._arrays import Array, Flat
+from ._types import Edges
+
+ORDERS = (1, 2, 3)
+
+NEAR = ((1 / 2, 1 / 16, -1 / 128), (3 / 8, 1 / 32), (5 / 16,))
+"""binomial(1/2, j) B(i + 3/2, j + 1/2)/pi, i the row."""
+
+FAR = ((1 / 8, -1 / 32), (1 / 16,))
+"""binomial(-1/2, j) B(i + 3/2, j + 3/2)/pi, i the row."""
+
+STEPS = 40
+"""Newton's steps at most; four to six are common."""
+
+LONGEST = 1.0
+"""Longest of them in the logarithm of a slip zone over the stick zone."""
+
+APART = 1e-4
+"""How far an edge is moved to see L change, in parts of the distance to the next kink."""
+
+_EPS = 2.0**-52
+
+
+@np.errstate(all="ignore")
+def slip_zones_of(
+    law: Any,
+    a: Array,
+    c: Array,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    da: Array,
+    dc: Array,
+    order: int,
+    **own: Array,
+) -> Edges:
+    """Slip zones to an order, as seen from the contact [-a, c]."""
+    if order not in ORDERS or isinstance(order, bool):
+        raise ValueError(f"order must be 1, 2 or 3; got {order!r:.60}")
+    task = _Task(law, a, c, dQ, dsigma, f, E_star, da, dc, own)
+    left, right = task.first_order()
+    if order > 1:
+        left, right = task.solved(left, right, order)
+    sound = task.exists & (left >= task.least_left) & (right >= task.least_right)
+    sound &= left + right < task.h
+    return Edges(*(task.given.shaped(np.where(sound, v, np.nan)) for v in (left, right)))
+
+
+def slip_error_of(law: Any, *args: Array, order: int, **given: Array) -> Edges:
+    """By how much the next order changes the slip zones."""
+    if order not in ORDERS[:-1] or isinstance(order, bool):
+        raise ValueError(f"order must be 1 or 2; got {order!r:.60}")
+    now = slip_zones_of(law, *args, order=order, **given)
+    following = slip_zones_of(law, *args, order=order + 1, **given)
+    return Edges(*(np.abs(v - w) for v, w in zip(now, following, strict=True)))
+
+
+class _Task:
+    """One call: the contact as it is now, and as it is at the other end of the half-cycle."""
+
+    def __init__(
+        self,
+        law: Any,
+        a: Array,
+        c: Array,
+        dQ: Array,
+        dsigma: Array,
+        f: Array,
+        E_star: Array,
+        da: Array,
+        dc: Array,
+        own: dict[str, Array],
+    ) -> None:
+        values = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
+        self.law = law
+        self.given = Flat(values, {"E_star": E_star, **own}, {"f": f})
+        self.a, self.c, self.dQ, self.dsigma, da, dc, self.f = self.given.values
+        self.constants = self.given.constants
+        self.geometry = {n: v for n, v in self.constants.items() if n != "E_star"}
+        self.da, self.dc, self.h = da, dc, self.a + self.c
+        self.least_left, self.least_right = np.maximum(da, 0), np.maximum(dc, 0)
+        self.varies = bool(np.any(da) or np.any(dc))
+        loads = [law.load(*edges, **self.constants) for edges in self.contacts]
+        limit = self.f * (loads[0] + loads[-1])
+        self.exists = (self.dQ >= 0) & (self.dQ < limit) & np.isfinite(self.dsigma)
+
+    @property
+    def contacts(self) -> list[tuple[Array, Array]]:
+        """Edges of both contacts; once if they are the same."""
+        now = self.a, self.c
+        return [now, (self.a - self.da, self.c - self.dc)] if self.varies else [now]
+
+    @property
+    def pulls(self) -> tuple[Array, Array]:
+        """pi sqrt(h) K_T at the left and the right edge."""
+        by_tension = np.pi * self.h * self.dsigma / 8
+        return self.dQ + by_tension, self.dQ - by_tension
+
+    def first_order(self) -> tuple[Array, Array]:
+        """K_T/(f K_N), and half of what the contact has gained."""
+        K = self.law.K_N(self.a, self.c, **self.constants)
+        scale = np.pi * np.sqrt(self.h) * self.f
+        left, right = (np.abs(v) / (scale * k) for v, k in zip(self.pulls, K, strict=True))
+        return left + self.da / 2, right + self.dc / 2
+
+    def coefficients(self, order: int) -> list[tuple[list[Array], list[Array]]]:
+        """K, L, ... at the left and the right edge, contact by contact."""
+        found = []
+        for a, c in self.contacts:
+            K, L = (of(a, c, **self.constants) for of in (self.law.K_N, self.law.L_N))
+            left, right = [K.left, L.left], [K.right, L.right]
+            if order > 2:
+                left.append(self._third(a, c, K.left, 0))
+                right.append(self._third(a, c, K.right, 1))
+            found.append((left, right))
+        return found
+
+    def _third(self, a: Array, c: Array, K: Array, side: int) -> Array:
+        h, place = a + c, (-a, c)[side]
+        step = h
+        for kink in self.law.kinks(**self.geometry):
+            step = np.minimum(step, np.abs(place - kink))
+        step = APART * step
+        more, less = (
+            self.law.L_N(a + sign * step * (side == 0), c + sign * step * side, **self.constants)
+            for sign in (1, -1)
+        )
+        return -0.4 * ((more[side] - less[side]) / (2 * step) + K / (16 * h**2))
+
+    def solved(self, left: Array, right: Array, order: int) -> tuple[Array, Array]:
+        """Both conditions cut behind an order, by Newton's method from the first order."""
+        coefficients = self.coefficients(order)
+        width = self.h - self.least_left - self.least_right
+        kappa = [np.where(v < 0, -1.0, 1.0) * self.f for v in self.pulls]
+        least = 1e-14 * width
+        left = np.maximum(left - self.least_left, least)
+        right = np.maximum(right - self.least_right, least)
+        shrink = width / (width + left + right)
+        left, right = left * shrink, right * shrink
+        done = np.full(left.shape, False)
+        for _ in range(STEPS):
+            stuck = width - left - right
+            off, rates = self._conditions(coefficients, kappa, left, right, stuck)
+            (left_l, left_r), (right_l, right_r) = rates
+            determinant = left_l * right_r - left_r * right_l
+            to_left = (left_r * off[1] - right_r * off[0]) / determinant
+            to_right = (right_l * off[0] - left_l * off[1]) / determinant
+            more = (to_left + to_right) / stuck
+            by_left, by_right = to_left / left + more, to_right / right + more
+            length = np.maximum(np.abs(by_left), np.abs(by_right))
+            shrink = np.minimum(1, LONGEST / length)
+            over_left = left / stuck * np.exp(shrink * by_left)
+            over_right = right / stuck * np.exp(shrink * by_right)
+            whole = 1 + over_left + over_right
+            left, right = width * over_left / whole, width * over_right / whole
+            done = length < 1e-9 + 16 * _EPS * width / np.minimum(left, right)
+            if np.all(done | ~np.isfinite(length)):
+                break
+        left, right = left + self.least_left, right + self.least_right
+        return np.where(done, left, np.nan), np.where(done, right, np.nan)
+
+    def _conditions(
+        self, coefficients: Any, kappa: list[Array], left: Array, right: Array, stuck: Array
+    ) -> tuple[list[Array], list[list[Array]]]:
+        """What is left over at both ends of the stick zone; its rates with both slip zones."""
+        by_tension = np.pi * stuck * self.dsigma / 8
+        tension = np.pi * self.dsigma / 8
+        off = [-self.dQ - by_tension, -self.dQ + by_tension]
+        rates = [[tension, tension], [-tension, -tension]]
+        share = 2 / len(coefficients)
+        moves = [(self.least_left, self.least_right)]
+        moves.append((self.least_left - self.da, self.least_right - self.dc))
+        for (at_left, at_right), (gap_left, gap_right) in zip(coefficients, moves, strict=False):
+            zones = ((at_left, left + gap_left), (at_right, right + gap_right))
+            for i, (pressure, d) in enumerate(zones):
+                for j, rule in ((i, _near), (1 - i, _far)):
+                    value, by_d, by_stuck = rule(pressure, d, stuck)
+                    off[j] = off[j] + share * kappa[i] * value
+                    rates[j][i] = rates[j][i] + share * kappa[i] * (by_d - by_stuck)
+                    rates[j][1 - i] = rates[j][1 - i] - share * kappa[i] * by_stuck
+        return off, rates
+
+
+def _near(pressure: list[Array], d: Array, stuck: Array) -> tuple[Array, Array, Array]:
+    """At a slip zone's own end of the stick zone; rates with its length and with `stuck`."""
+    return _summed(NEAR, pressure, d, stuck, len(pressure), 1, 0.5)
+
+
+def _far(pressure: list[Array], d: Array, stuck: Array) -> tuple[Array, Array, Array]:
+    """At the other end."""
+    return _summed(FAR, pressure, d, stuck, len(pressure) - 1, 2, -0.5)
+
+
+def _summed(
+    table: Any, pressure: list[Array], d: Array, stuck: Array, order: int, least: int, power: float
+) -> tuple[Array, Array, Array]:
+    value = by_d = by_stuck = 0.0 * d
+    for i in range(order):
+        for j in range(order - i):
+            exponent, falling = i + j + least, power - j
+            term = np.pi * table[i][j] * pressure[i] * stuck**falling * d ** (exponent - 1)
+            value = value + term * d
+            by_d = by_d + exponent * term
+            by_stuck = by_stuck + falling * term * d / stuck
+    return value, by_d, by_stuck

@@ -1,0 +1,393 @@
+r"""The permanent stick zone [-m, n] of a cycle, and how the cycle slips, from a body's contact law.
+
+Where slip happens in both half-cycles dq = kappa f (p1 + p2).  With kappa = +1 at both edges
+(moderate tension) the zone is the contact patch of the same body at the mean load less dQ/(2 f) and
+the mean tilt less dsigma/(4 f E*).  With opposite signs (large tension) it is solved for in
+_zones.py.  Either is exact only while both slip zones grow all the way from one end of the cycle to
+the other.  Let the loads change by dP and dM along the way, at a contact of width h, and let h_s be
+the width of the zone that is still stuck; then slip goes on at the edges if
+
+    kappa pull > f lead,    pull = dQ -/+ pi h_s dsigma/8,   lead = dP -/+ 4 h_s (dM + mid dP)/h**2,
+
+the upper sign at the right edge, and as long as the zone ends inside both contacts.  `lead` says
+how fast an edge runs ahead; where |pull| < f |lead| at both edges all the way there is no slip.
+This is tested at PARTS parts of the way, from both ends, lead included at the start; with constant
+loads it can fail first where slip begins (moderate tension) or ends (large tension), and only there
+it is tested.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ._arrays import Array, Flat, at_rows
+from ._roots import around, increasing_root
+from ._types import Contact, Regime, StickZone, Threshold
+from ._zones import stick_between
+
+PARTS = 8
+"""Parts of a half-cycle at which the growth of slip is tested."""
+
+HALVINGS = 52
+"""Halvings of an interval: to the last bit of float64."""
+
+
+class Law(NamedTuple):
+    """The functions of one body that partial slip is made of."""
+
+    contact: Callable[..., Contact]
+    contact_at_tilt: Callable[..., Contact]
+    tilt: Callable[..., Array]
+    load: Callable[..., Array]
+    moment: Callable[..., Array]
+    pressure: Callable[..., Array]
+    K_N: Callable[..., Any]
+    L_N: Callable[..., Any]
+    kinks: Callable[..., tuple[Array, ...]]
+
+
+@np.errstate(all="ignore")
+def stick_zone_of(
+    law: Law,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    **own: Array,
+) -> StickZone:
+    """The stick zone of a cycle between two contacts of one body."""
+    cycle, given = _cycle(law, first, second, dQ, dsigma, f, E_star, own)
+    regime = np.full(cycle.dQ.shape, Regime.NONE)
+    m, n = np.full(regime.shape, np.nan), np.full(regime.shape, np.nan)
+
+    open_ = cycle.exists
+    regime[open_] = Regime.MIXED
+    for code, found in (
+        (Regime.SLIDING, _sliding),
+        (Regime.FULL_STICK, _full_stick),
+        (Regime.MODERATE, _moderate),
+        (Regime.LARGE, _large),
+    ):
+        rows = np.flatnonzero(open_)
+        if rows.size:
+            here, left, right = found(cycle.on(rows))
+            regime[rows[here]] = code
+            m[rows], n[rows] = np.where(here, left, np.nan), np.where(here, right, np.nan)
+            open_[rows[here]] = False
+    unsolved = (regime == Regime.LARGE) & ~np.isfinite(m)
+    regime[unsolved] = Regime.UNSOLVED
+    return StickZone(*(given.shaped(v) for v in (m, n, regime)))
+
+
+@np.errstate(all="ignore")
+def tension_threshold_of(
+    law: Law,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    **own: Array,
+) -> Threshold:
+    """The changes of tension between which the moderate solution is exact."""
+    cycle, given = _cycle(law, first, second, dQ, 0.0, f, E_star, own)
+    lower, upper = cycle.tensions_at_the_start
+    good = cycle.exists & (lower <= upper) & (cycle.dQ < cycle.f * np.sum(cycle.load, axis=0))
+    lower, upper = np.where(good, lower, np.nan), np.where(good, upper, np.nan)
+    rows = np.flatnonzero(good & ~cycle.steady)
+    if rows.size:
+        lower[rows], upper[rows] = _narrowed(cycle.on(rows), lower[rows], upper[rows])
+    return Threshold(given.shaped(lower), given.shaped(upper))
+
+
+@np.errstate(all="ignore")
+def closing_tension_of(
+    law: Law,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    **own: Array,
+) -> Threshold:
+    """The changes of tension at which the moderate solution leaves no slip zone at one edge."""
+    cycle, given = _cycle(law, first, second, dQ, 0.0, f, E_star, own)
+    load = (cycle.load[0] + cycle.load[1]) / 2 - cycle.dQ / (2 * cycle.f)
+    tilt = (cycle.tilt[0] + cycle.tilt[1]) / 2
+    found = []
+    for edge, sense in ((np.min(cycle.a, axis=0), -1), (np.min(cycle.c, axis=0), 1)):
+        width = _width_under(cycle, load, edge, sense)
+        a, c = (width - edge, edge) if sense > 0 else (edge, width - edge)
+        leaning = law.tilt(a, c, **cycle.geometry)
+        found.append(4 * cycle.f * cycle.constants["E_star"] * (tilt - leaning))
+    lower, upper = (np.where(cycle.exists & (load > 0), v, np.nan) for v in found)
+    return Threshold(given.shaped(lower), given.shaped(upper))
+
+
+def _width_under(cycle: "_Cycle", load: Array, edge: Array, sense: int) -> Array:
+    """Width of the contact under a load that keeps its edge on the left (-1) or right (+1)."""
+
+    def excess(width: Array, rows: Array) -> tuple[Array, Array]:
+        held = at_rows(rows, cycle.constants)
+        a, c = (width - edge[rows], edge[rows]) if sense > 0 else (edge[rows], width - edge[rows])
+        K = cycle.law.K_N(a, c, **held)
+        off = np.nan_to_num(cycle.law.load(a, c, **held)) - load[rows]
+        return off, np.pi * np.sqrt(width) / 4 * (K.left if sense > 0 else K.right)
+
+    return increasing_root(excess, *around(excess, np.max(cycle.a + cycle.c, axis=0)))
+
+
+# ---------------------------------------------------------------------- the cycle
+
+
+@dataclass(frozen=True)
+class _Cycle:
+    """A body, two contacts, and the changes of shear and tension from the first to the second.
+
+    a, c: edges, two rows, one a contact; all arrays have one length.
+    """
+
+    law: Law
+    a: Array
+    c: Array
+    dQ: Array
+    dsigma: Array
+    f: Array
+    constants: dict[str, Array]
+    load: Array
+    moment: Array
+    tilt: Array
+
+    @property
+    def geometry(self) -> dict[str, Array]:
+        """The body's own constants."""
+        return {name: value for name, value in self.constants.items() if name != "E_star"}
+
+    @property
+    def exists(self) -> Array:
+        """Whether there is such a cycle."""
+        numbers = np.isfinite(self.load).all(axis=0) & np.isfinite(self.tilt).all(axis=0)
+        return numbers & (self.dQ >= 0) & (self.dQ < np.inf) & np.isfinite(self.dsigma)
+
+    @property
+    def steady(self) -> Array:
+        """Whether the contact is the same at both ends."""
+        return (self.a[0] == self.a[1]) & (self.c[0] == self.c[1])
+
+    def on(self, rows: Array) -> "_Cycle":
+        """The same for some elements."""
+        arrays = ("a", "c", "dQ", "dsigma", "f", "load", "moment", "tilt")
+        picked = {name: getattr(self, name)[..., rows] for name in arrays}
+        return replace(self, constants=at_rows(rows, self.constants), **picked)
+
+    def pulls(self, stuck: Array) -> tuple[Array, Array]:
+        """By how much shear and tension drive slip at the left and the right edge."""
+        by_tension = np.pi * stuck * self.dsigma / 8
+        return self.dQ + by_tension, self.dQ - by_tension
+
+    def leads(self, stuck: Array, a: Array, c: Array) -> tuple[Array, Array]:
+        """By how much the loads drive the left and the right edge of the contact [-a, c]."""
+        more, turn = self.load[1] - self.load[0], self.moment[1] - self.moment[0]
+        by_turning = 4 * stuck * (turn + (c - a) / 2 * more) / (a + c) ** 2
+        return more + by_turning, more - by_turning
+
+    def slips_at_the_start(self, left: Array, right: Array) -> Array:
+        """Whether slip of the senses `left` and `right` begins at either end of the cycle."""
+        held = True
+        for a, c in zip(self.a, self.c, strict=True):
+            pulls, leads = self.pulls(a + c), self.leads(a + c, a, c)
+            for kappa, pull, lead in zip((left, right), pulls, leads, strict=True):
+                held = held & (kappa * pull >= self.f * np.abs(lead))
+        return held
+
+    @property
+    def tensions_at_the_start(self) -> tuple[Array, Array]:
+        """Between which changes of tension both edges begin to slip forward."""
+        bounds = []
+        for a, c in zip(self.a, self.c, strict=True):
+            leads = self.leads(a + c, a, c)
+            bounds.append([8 * (self.dQ - self.f * np.abs(v)) / (np.pi * (a + c)) for v in leads])
+        (left_1, right_1), (left_2, right_2) = bounds
+        return -np.minimum(left_1, left_2), np.minimum(right_1, right_2)
+
+    def contacts(self) -> tuple[Array, Array]:
+        """Edges at every part of the way, those of the ends as given."""
+        part = np.linspace(0, 1, PARTS + 1)[:, None]
+        inside = part[1:-1]
+        loads = self.load[0] + inside * (self.load[1] - self.load[0])
+        moments = self.moment[0] + inside * (self.moment[1] - self.moment[0])
+        found = self.law.contact(loads, moments, **self.constants)
+        return tuple(
+            np.concatenate([v[:1], between, v[1:]])
+            for v, between in ((self.a, found.a), (self.c, found.c))
+        )  # type: ignore[return-value]
+
+
+def _cycle(
+    law: Law,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    f: Array,
+    E_star: Array,
+    own: dict[str, Array],
+) -> tuple[_Cycle, Flat]:
+    values = {
+        "first.a": first.a,
+        "first.c": first.c,
+        "second.a": second.a,
+        "second.c": second.c,
+        "dQ": dQ,
+        "dsigma": dsigma,
+    }
+    given = Flat(values, {"E_star": E_star, **own}, {"f": f})
+    a_1, c_1, a_2, c_2, dQ, dsigma, f = given.values
+    a, c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
+    constants = given.constants
+    load, moment = law.load(a, c, **constants), law.moment(a, c, **constants)
+    tilt = law.tilt(a, c, **{name: value for name, value in constants.items() if name != "E_star"})
+    return _Cycle(law, a, c, dQ, dsigma, f, constants, load, moment, tilt), given
+
+
+# ---------------------------------------------------------------------- the regimes
+
+Found = tuple[Array, Array, Array]
+"""Whether a cycle is of a regime; m; n."""
+
+
+def _sliding(cycle: _Cycle) -> Found:
+    limit = cycle.f * (cycle.load[0] + cycle.load[1])
+    nowhere = np.full_like(limit, np.nan)
+    return ~(cycle.dQ < limit), nowhere, nowhere
+
+
+def _full_stick(cycle: _Cycle) -> Found:
+    a, c = np.minimum(*cycle.a), np.minimum(*cycle.c)
+    sticks = (cycle.dQ == 0) & (cycle.dsigma == 0)
+    rows = np.flatnonzero(~(sticks | cycle.steady))
+    if rows.size:
+        there = cycle.on(rows)
+        edges = there.contacts()
+        h = edges[0] + edges[1]
+        pairs = zip(there.pulls(h), there.leads(h, *edges), strict=True)
+        held = [np.abs(pull) <= there.f * np.abs(lead) for pull, lead in pairs]
+        sticks[rows] = np.all(held[0] & held[1], axis=0)
+    return sticks, a, c
+
+
+def _moderate(cycle: _Cycle) -> Found:
+    slips = cycle.slips_at_the_start(1, 1)
+    rows = np.flatnonzero(slips & ~cycle.steady)
+    if rows.size:
+        slips[rows] = _grows(cycle.on(rows))
+    patch = _patch(cycle, cycle.load, cycle.tilt, 1.0)
+    return slips & np.isfinite(patch.a), patch.a, patch.c
+
+
+def _patch(cycle: _Cycle, loads: Any, tilts: Any, part: Array) -> Contact:
+    """The stick zone of moderate tension, a part of the way from one state to another."""
+    E_star = cycle.constants["E_star"]
+    load = (loads[0] + loads[1]) / 2 - part * cycle.dQ / (2 * cycle.f)
+    tilt = (tilts[0] + tilts[1]) / 2 - part * cycle.dsigma / (4 * cycle.f * E_star)
+    return cycle.law.contact_at_tilt(load, tilt, **cycle.constants)
+
+
+def _grows(cycle: _Cycle) -> Array:
+    """Whether moderate slip goes on at every part of the way, from both ends."""
+    a, c = cycle.contacts()
+    tilt = cycle.law.tilt(a, c, **cycle.geometry)
+    part = np.linspace(0, 1, PARTS + 1)[1:, None]
+    grows = True
+    for end, sense, there in ((0, 1, slice(1, None)), (1, -1, slice(-2, None, -1))):
+        load = cycle.load[end] + sense * part * (cycle.load[1] - cycle.load[0])
+        zone = _patch(cycle, (cycle.load[end], load), (tilt[-end], tilt[there]), part)
+        stuck = zone.a + zone.c
+        for edge, pull, lead, given in zip(
+            (zone.a, zone.c),
+            cycle.pulls(stuck),
+            cycle.leads(stuck, a[there], c[there]),
+            (a, c),
+            strict=True,
+        ):
+            inside = (edge <= given[there]) & (edge <= given[-end])
+            grows = grows & np.all(inside & (pull >= sense * cycle.f * lead), axis=0)
+    return grows
+
+
+def _large(cycle: _Cycle) -> Found:
+    """Opposite slip at the edges: forward at the left if the tension rises."""
+    sense = np.where(cycle.dsigma < 0, -1.0, 1.0)
+    slips = cycle.slips_at_the_start(sense, -sense)
+    m, n = np.full(sense.shape, np.nan), np.full(sense.shape, np.nan)
+    rows = np.flatnonzero(slips)
+    if rows.size:
+        there = cycle.on(rows)
+        m[rows], n[rows] = _solved(there, there.a, there.c, 1.0)
+        stuck = m + n
+        slips &= ~(np.pi * stuck * np.abs(cycle.dsigma) / 8 < cycle.dQ)
+    rows = np.flatnonzero(slips & ~cycle.steady & np.isfinite(m))
+    if rows.size:
+        slips[rows] = _grows_apart(cycle.on(rows), m[rows], n[rows])
+    return slips, m, n
+
+
+def _solved(cycle: _Cycle, a: Array, c: Array, part: Array) -> tuple[Array, Array]:
+    """m and n of large tension between two contacts, at parts of the changes."""
+
+    def pressure(x: Array, of: int, rows: Array) -> Array:
+        edges = a[of][rows], c[of][rows]
+        return cycle.law.pressure(x, *edges, **at_rows(rows, cycle.constants))
+
+    def kinks(rows: Array) -> tuple[Array, ...]:
+        return cycle.law.kinks(**at_rows(rows, cycle.geometry))
+
+    K = cycle.law.K_N(a, c, **cycle.constants)
+    K_left, K_right = np.mean(K.left, axis=0), np.mean(K.right, axis=0)
+    dQ, dsigma = part * cycle.dQ, part * cycle.dsigma
+    return stick_between(a, c, dQ, dsigma, cycle.f, K_left, K_right, pressure, kinks)
+
+
+def _grows_apart(cycle: _Cycle, m: Array, n: Array) -> Array:
+    """Whether slip of opposite signs goes on at every part of the way, from both ends."""
+    a, c = cycle.contacts()
+    grows = np.full(m.shape, True)
+    for end, order in ((0, range(1, PARTS)), (-1, range(PARTS - 1, 0, -1))):
+        before = a[end], c[end]
+        for k in order:
+            part = k / PARTS if end == 0 else 1 - k / PARTS
+            ends = np.stack([a[end], a[k]]), np.stack([c[end], c[k]])
+            now = _solved(cycle, *ends, part)
+            for edge, last, limit in zip(now, before, (a[k], c[k]), strict=True):
+                grows &= (edge <= last) & (edge <= limit)
+            before = now
+        grows &= (m <= before[0]) & (n <= before[1])
+    return grows & (m <= np.minimum(*cycle.a)) & (n <= np.minimum(*cycle.c))
+
+
+def _narrowed(cycle: _Cycle, lower: Array, upper: Array) -> tuple[Array, Array]:
+    """The interval of tensions cut down to where moderate slip goes on to the end.
+
+    A tension that is inside is looked for first, then each bound by halving.
+    """
+    inside = np.full(lower.shape, np.nan)
+    for part in np.sort(np.linspace(0, 1, 2 * PARTS + 1)[1:-1], kind="stable"):
+        tried = lower + part * (upper - lower)
+        nearer = ~(np.abs(inside - (lower + upper) / 2) <= np.abs(tried - (lower + upper) / 2))
+        inside = np.where(nearer & _grows(replace(cycle, dsigma=tried)), tried, inside)
+    bounds = []
+    for bound in (lower, upper):
+        good, bad = np.where(_grows(replace(cycle, dsigma=bound)), bound, inside), bound
+        for _ in range(HALVINGS):
+            middle = (good + bad) / 2
+            grows = _grows(replace(cycle, dsigma=middle))
+            good, bad = np.where(grows, middle, good), np.where(grows, bad, middle)
+        bounds.append(good)
+    return bounds[0], bounds[1]

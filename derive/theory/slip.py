@@ -1,0 +1,141 @@
+r"""How far slip reaches in, order by order, from the pressure next to the edges.
+
+The two conditions of stick.py hold with p1 and p2 as they are.  Over a slip zone of length d, and
+with p = K s**(1/2) + L s**(3/2) + ... at a distance s from the edge, their integrals are series in
+d/h_s, h_s the width of the stick zone:
+
+    near = int_0^d p sqrt((h_s + d - s)/(d - s)) ds = sqrt(h_s) pi (K d/2 + 3 L d**2/8 + ...) + ...
+    far  = int_0^d p sqrt((d - s)/(h_s + d - s)) ds = pi K d**2/(8 sqrt(h_s)) + ...,
+
+each term from int_0^d s**(i + 1/2) (d - s)**(j - 1/2) ds, a beta function.  Each contact of the
+cycle has its own edges, its own d and its own K, L, ..., so that varying loads need nothing more.
+An order counts powers of the loads' changes: d, dQ, dsigma and the motion of the edges are of
+order one.  `conditions` cuts both conditions behind an order; solved as they stand they are closer
+than the powers written out, which `terms` gives for constant loads.
+"""
+
+from collections.abc import Sequence
+
+from sympy import (
+    Abs,
+    Expr,
+    Rational,
+    S,
+    Symbol,
+    binomial,
+    expand,
+    gamma,
+    pi,
+    series,
+    solve,
+    sqrt,
+    symbols,
+)
+
+from derive.symbols import dsigma, f, h
+from derive.theory.edges import Edge
+
+HALF = Rational(1, 2)
+
+d_left, d_right = symbols("d_left d_right", positive=True)
+K_T_left, K_T_right = symbols("K_T_left K_T_right", real=True)
+kappa_left, kappa_right = symbols("kappa_left kappa_right", real=True)
+"""Senses of slip: +1 forward, -1 backward."""
+
+
+def coefficients(side: str, order: int) -> tuple[Symbol, ...]:
+    """K_N, L_N and the next coefficients of the pressure at one edge."""
+    return symbols(f"C_{side}_0:{order}", positive=True)
+
+
+def near(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
+    """int_0^d p sqrt((stuck + d - s)/(d - s)) ds without powers of d beyond `order`."""
+    return sum(
+        (
+            pressure[i] * binomial(HALF, j) * stuck ** (HALF - j) * _beta(i, j) * d ** (i + j + 1)
+            for i in range(order)
+            for j in range(order - i)
+        ),
+        S.Zero,
+    )
+
+
+def far(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
+    """int_0^d p sqrt((d - s)/(stuck + d - s)) ds without powers of d beyond `order`."""
+    return sum(
+        (
+            pressure[i]
+            * binomial(-HALF, j)
+            * stuck ** (-HALF - j)
+            * _beta(i, j + 1)
+            * d ** (i + j + 2)
+            for i in range(order - 1)
+            for j in range(order - 1 - i)
+        ),
+        S.Zero,
+    )
+
+
+def _beta(i: int, j: int) -> Expr:
+    """int_0^1 t**(i + 1/2) (1 - t)**(j - 1/2) dt."""
+    return gamma(i + 3 * HALF) * gamma(j + HALF) / gamma(i + j + 2)
+
+
+def conditions(order: int) -> tuple[Expr, Expr]:
+    """What vanishes at the left and the right end of the stick zone, for constant loads.
+
+    Both over pi sqrt(h), so that the loads enter by K_T alone and by dsigma.
+    """
+    left, right = coefficients("left", order), coefficients("right", order)
+    stuck = h - d_left - d_right
+    shrunk = dsigma * (d_left + d_right) / (8 * sqrt(h))
+    at_left = kappa_left * near(left, d_left, stuck, order)
+    at_left += kappa_right * far(right, d_right, stuck, order)
+    at_right = kappa_right * near(right, d_right, stuck, order)
+    at_right += kappa_left * far(left, d_left, stuck, order)
+    scale = 2 * f / (pi * sqrt(h))
+    return scale * at_left - K_T_left + shrunk, scale * at_right - K_T_right - shrunk
+
+
+def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
+    """The slip zones at constant loads as sums: terms of order 1, 2, ... at the left and the right.
+
+    >>> from derive.theory.slip import terms
+    >>> terms(1)
+    ((K_T_left/(C_left_0*f*kappa_left),), (K_T_right/(C_right_0*f*kappa_right),))
+    """
+    size, width = Symbol("epsilon", positive=True), Symbol("h", positive=True)
+    unknown = [(Symbol(f"l_{k}"), Symbol(f"r_{k}")) for k in range(1, order + 1)]
+    lefts, rights = ([pair[i] * size**k for k, pair in enumerate(unknown, 1)] for i in (0, 1))
+    small = {d_left: sum(lefts), d_right: sum(rights)}
+    small |= {symbol: symbol * size for symbol in (K_T_left, K_T_right, dsigma)}
+    both = [
+        series(condition.subs(h, width).xreplace(small), size, 0, order + 1).removeO()
+        for condition in conditions(order)
+    ]
+    known: dict[Symbol, Expr] = {}
+    for k, pair in enumerate(unknown, 1):
+        equations = [expand(condition).coeff(size, k).subs(known) for condition in both]
+        (found,) = solve(equations, pair, dict=True)
+        known |= {symbol: value.subs(width, h).factor() for symbol, value in found.items()}
+    return tuple(known[pair[0]] for pair in unknown), tuple(known[pair[1]] for pair in unknown)
+
+
+def slip_zone(edge: Edge, K_T: Expr, K_N: Expr) -> Expr:
+    """The slip zone at `edge` to the first order, whatever the sense of slip."""
+    sides = {Edge.LEFT: (K_T_left, kappa_left), Edge.RIGHT: (K_T_right, kappa_right)}
+    K_T_edge, kappa = sides[edge]
+    (first,) = terms(1)[edge is Edge.RIGHT]
+    (K_N_edge,) = coefficients(edge.name.lower(), 1)
+    return first.subs({K_T_edge: Abs(K_T), kappa: S.One, K_N_edge: K_N})
+
+
+def pressure_next(coefficient: Expr, rate: Expr, order: int, K: Expr) -> Expr:
+    r"""The coefficient that follows C_order, `rate` being its derivative as the edge alone moves.
+
+    An edge that moves by dc adds K sqrt(h - s)/(2 sqrt(h) sqrt(s)) dc to the pressure: by powers of
+    s, C_k' + (k + 3/2) C_(k+1) = (K/2) binomial(1/2, k + 1) (-1/h)**(k + 1).
+    """
+    k = order
+    grown = K / 2 * binomial(HALF, k + 1) * (-1 / h) ** (k + 1)
+    return (grown - rate) / (k + 3 * HALF)

@@ -1,0 +1,56 @@
+"""Stick zones of large tension: time for a hundred thousand load cases, and how many are unsolved.
+
+    python -m tests.benchmarks.slip
+
+Contacts, shear and tension are drawn at random, tension from the threshold to ten times it.
+"""
+
+import importlib
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from generated._types import Contact, Regime
+
+COUNT = 100_000
+F, E_STAR = 0.5, 1.0
+BODIES: dict[str, tuple[dict[str, float], int]] = {
+    "hertz": ({"R": 1.0}, COUNT),
+    "wedge": ({"phi": 0.125}, COUNT),
+    "unequal_wedge": ({"phi_1": 0.125, "phi_2": 0.25}, COUNT),
+    "quartic": ({"L": 1.0}, COUNT // 10),
+    "flat_rounded": ({"R": 1.0, "b": 0.5}, COUNT // 100),
+    "hyperbola": ({"b": 0.5, "phi": 0.125}, COUNT // 1000),
+}
+"""Parameters, and how many cases: where the pressure is integrated, few."""
+
+
+def cases(body: Any, own: dict[str, float], count: int) -> tuple[Contact, Any, Any]:
+    """Contacts with their changes of shear and tension; the same on every machine."""
+    rng = np.random.default_rng(7)
+    a, c = 0.6 + np.exp(0.4 * rng.normal(size=(2, count)))
+    shear = 2 * F * rng.uniform(0.01, 0.9, count) * body.load(a, c, E_star=E_STAR, **own)
+    over = np.exp(rng.uniform(0, np.log(10), count)) * rng.choice([-1, 1], count)
+    return Contact(a, c, 0.0 * a), shear, over * 8 * shear / (np.pi * (a + c))
+
+
+def main() -> None:
+    """Measure and print."""
+    table = Table("geometry", "cases", "large", "mixed", "unsolved", "s for 1e5 cases")
+    for name, (own, count) in BODIES.items():
+        body: Any = importlib.import_module(f"generated.{name}")
+        here, shear, tension = cases(body, own, count)
+        start = perf_counter()
+        regime = body.stick_zone(here, here, shear, tension, f=F, E_star=E_STAR, **own).regime
+        seconds = (perf_counter() - start) * COUNT / count
+        counts = [np.count_nonzero(regime == r) for r in (Regime.LARGE, Regime.MIXED)]
+        unsolved = np.count_nonzero(regime == Regime.UNSOLVED)
+        table.add_row(name, *map(str, (count, *counts, unsolved)), f"{seconds:.1f}")
+    Console(width=100).print(table)
+
+
+if __name__ == "__main__":
+    main()

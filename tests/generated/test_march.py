@@ -1,0 +1,91 @@
+"""A cycle instant by instant."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from generated import wedge
+from generated._types import Contact, Regime
+
+LAW = {"f": 0.5, "E_star": 1.25, "phi": 0.25}
+OWN = {"E_star": 1.25, "phi": 0.25}
+T = np.arange(16) * np.pi / 8
+"""Sixteen instants; the loads turn at the 4th and the 12th."""
+UP, DOWN = np.arange(-3, 5), np.arange(5, 13)
+
+
+def loads(tension: float, normal: float = 0.0, turn: float = 0.0) -> tuple[np.ndarray, ...]:
+    P, M = wedge.load(1.5, 1.0, **OWN), wedge.moment(1.5, 1.0, **OWN)
+    Q = 0.15 * 0.5 * P * np.sin(T)
+    sigma = tension * 8 * Q / (np.pi * 2.5)
+    return P * (1 + normal * np.sin(T)), M * (1 + turn * np.sin(T)), Q, sigma
+
+
+@pytest.mark.parametrize("tension", [0.0, 0.5, -0.5])
+def test_moderate_tension_slips_forward_and_back(tension: float) -> None:
+    cycle = wedge.march(*loads(tension), **LAW)
+    assert np.all(cycle.regime == Regime.MODERATE)
+    assert np.all(cycle.left[UP] == 1) and np.all(cycle.right[UP] == 1)
+    assert np.all(cycle.left[DOWN] == -1) and np.all(cycle.right[DOWN] == -1)
+
+
+@pytest.mark.parametrize("tension", [3.0, -3.0])
+def test_large_tension_slips_apart(tension: float) -> None:
+    cycle, sense = wedge.march(*loads(tension), **LAW), np.sign(tension)
+    assert np.all(cycle.regime == Regime.LARGE)
+    assert np.all(cycle.left[UP] == sense) and np.all(cycle.right[UP] == -sense)
+    assert np.all(cycle.left == -cycle.right)
+    assert np.all(cycle.left[DOWN] == -sense)
+
+
+@pytest.mark.parametrize("tension", [0.5, 3.0])
+@pytest.mark.parametrize("normal", [0.0, 0.01])
+def test_at_the_turns_it_is_the_permanent_stick_zone(tension: float, normal: float) -> None:
+    given = loads(tension, normal, -normal)
+    cycle = wedge.march(*given, **LAW)
+    ends = wedge.contact(given[0][[12, 4]], given[1][[12, 4]], **OWN)
+    first, second = (Contact(*(v[i] for v in ends)) for i in (0, 1))
+    zone = wedge.stick_zone(first, second, np.ptp(given[2]), 2 * given[3][4], **LAW)
+    assert_allclose((cycle.m[[4, 12]], cycle.n[[4, 12]]), ([zone.m] * 2, [zone.n] * 2), rtol=1e-11)
+    assert np.all(np.diff(cycle.m[UP]) < 0) and np.all(np.diff(cycle.n[DOWN]) < 0)
+
+
+def test_constant_loads_go_back_as_they_came() -> None:
+    cycle = wedge.march(*loads(0.5), **LAW)
+    assert_allclose(cycle.m[UP], cycle.m[DOWN], rtol=1e-12)
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_series_come_closer_order_by_order(order: int) -> None:
+    given = loads(3.0, 0.002)
+    exact, found = wedge.march(*given, **LAW), wedge.march(*given, **LAW, order=order)
+    assert np.array_equal(found.regime, exact.regime)
+    assert np.array_equal(found.left, exact.left)
+    off = np.max(np.abs(found.m - exact.m) + np.abs(found.n - exact.n))
+    assert 0.1 ** (order + 2) < off < 0.35**order
+
+
+def test_cycles_lie_along_the_last_axis() -> None:
+    given = [np.stack(pair) for pair in zip(loads(0.5), loads(3.0), strict=True)]
+    both = wedge.march(*given, **LAW)
+    assert both.m.shape == (2, 16)
+    assert np.array_equal(both.m[1], wedge.march(*loads(3.0), **LAW).m)
+
+
+def test_no_change_is_full_stick() -> None:
+    P = wedge.load(1.5, 1.0, **OWN) * np.ones(4)
+    cycle = wedge.march(P, 0.0, 0.1 * P, 0.0, **LAW)
+    assert np.all(cycle.regime == Regime.FULL_STICK)
+    assert np.all(cycle.left == 0) and np.all(cycle.m == cycle.a)
+
+
+def test_loads_out_of_phase_have_no_stick_zone() -> None:
+    P, M, Q, _ = loads(0.0)
+    cycle = wedge.march(P, M, Q, 0.1 * np.cos(T), **LAW)
+    assert np.all(np.isnan(cycle.m) == (cycle.regime == Regime.NONE))
+    assert np.count_nonzero(cycle.regime == Regime.NONE) > 10
+
+
+def test_a_cycle_is_an_array() -> None:
+    with pytest.raises(ValueError, match="instants along the last axis"):
+        wedge.march(1.0, 0.0, 0.1, 0.0, **LAW)

@@ -1,0 +1,138 @@
+"""Series of the slip zones: the first order by hand, and every order against the exact zone."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from generated import hertz, rounded_wedge, wedge
+from generated._types import Contact, Regime
+from tests.benchmarks import series
+
+F, E_STAR = 0.5, 1.25
+WEDGE = {"f": F, "E_star": E_STAR, "phi": 0.25}
+
+
+def load(a: Any, c: Any) -> Any:
+    return wedge.load(a, c, E_star=E_STAR, phi=0.25)
+
+
+def twice_the_closing_tension(here: Contact, shear: Any) -> Any:
+    return 2 * wedge.closing_tension(here, here, shear, **WEDGE).upper
+
+
+def test_first_order_by_hand() -> None:
+    """Hertz, a = c = 2, E* = 1.25, R = 4, f = 0.5: K_N = (E*/R) sqrt(2 a)/2 = 0.3125, with p =
+    (E*/2R) sqrt(a**2 - x**2).  dQ = pi/100, dsigma = 0.02: K_T = (0.01 +/- 0.02*4/8)/2 = 0.01 and
+    0: d = 0.01/(0.5*0.3125) = 0.064 on the left, nothing on the right."""
+    given = {"f": F, "E_star": 1.25, "R": 4.0}
+    K_N = hertz.K_N(2.0, 2.0, E_star=1.25, R=4.0)
+    assert_allclose(K_N, 0.3125, rtol=1e-15)
+    d = hertz.slip_zones(2.0, 2.0, np.pi / 100, 0.02, **given)
+    assert_allclose(d.left, 0.064, rtol=1e-15)
+    assert_allclose(d.right, 0.0, atol=1e-17)
+
+
+def test_half_of_what_an_edge_gains_is_added_and_taken_off() -> None:
+    """f K_N d = K_T + f K_N dc/2 at the larger contact, the same with -dc at the smaller."""
+    shear, by = 0.1 * F * load(1.5, 1.0), {"da": 0.004, "dc": -0.002}
+    still = wedge.slip_zones(1.5, 1.0, shear, 0.0, **WEDGE)
+    moved = wedge.slip_zones(1.5, 1.0, shear, 0.0, **WEDGE, **by)
+    assert_allclose(moved.left - still.left, 0.002, rtol=1e-12)
+    assert_allclose(moved.right - still.right, -0.001, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", series.BODIES)
+def test_errors_fall_with_the_power_of_the_order(name: str) -> None:
+    for of in series.measured(name, 0.3 * 0.25 ** np.arange(2, 4)):
+        assert_allclose(of.slopes, [1, 2, 3], atol=0.1)
+
+
+@pytest.mark.parametrize(("part", "times"), [(0.3, 6), (0.05, 20)])
+def test_second_order_on_a_wedge(part: float, times: float) -> None:
+    """Twice the tension at which a slip zone closes, tilted and not, at each edge."""
+    a, c = np.array([1.5, 1.0, 1.25]), np.array([1.0, 1.0, 2.0])
+    here, shear = Contact(a, c, 0.0), part * F * load(a, c)
+    tension = twice_the_closing_tension(here, shear)
+    zone = wedge.stick_zone(here, here, shear, tension, **WEDGE)
+    assert np.all(zone.regime == Regime.LARGE)
+    first, second = (
+        wedge.slip_zones(a, c, shear, tension, **WEDGE, order=order) for order in (1, 2)
+    )
+    for edge, exact in (("left", a - zone.m), ("right", c - zone.n)):
+        off = [np.abs(getattr(d, edge) / exact - 1) for d in (first, second)]
+        assert np.all(off[0] > times * off[1])
+
+
+@pytest.mark.parametrize("tension", [0.5, 2.5, -2.5])
+def test_varying_loads_at_every_order(tension: float) -> None:
+    """Both edges move by a part of what slips; an eighth of all changes: 8**-order of the errors,
+    and 8**-1 more for the size of the slip zone."""
+    errors = []
+    for by in (1 / 8, 1 / 64):
+        first = Contact(1.5 * (1 - 0.02 * by), 1.0 * (1 - 0.01 * by), 0.0)
+        second = Contact(1.5, 1.0, 0.0)
+        shear = 0.3 * F * load(1.5, 1.0) * by
+        dsigma = tension * 8 * shear / (np.pi * 2.5)
+        zone = wedge.stick_zone(first, second, shear, dsigma, **WEDGE)
+        assert zone.regime in (Regime.MODERATE, Regime.LARGE)
+        moved = {"da": 1.5 - first.a, "dc": 1.0 - first.c}
+        found = [
+            wedge.slip_zones(1.5, 1.0, shear, dsigma, **WEDGE, **moved, order=order)
+            for order in (1, 2, 3)
+        ]
+        errors.append([abs(d.left - (1.5 - zone.m)) + abs(d.right - (1 - zone.n)) for d in found])
+    powers = np.log(np.array(errors[0]) / errors[1]) / np.log(8)
+    assert_allclose(powers, [2, 3, 4], atol=0.25)
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_both_ends_of_a_half_cycle_see_one_stick_zone(order: int) -> None:
+    shear, tension = 0.2 * F * load(1.5, 1.0), 0.02
+    now = wedge.slip_zones(1.5, 1.0, shear, tension, **WEDGE, da=0.01, dc=0.02, order=order)
+    then = wedge.slip_zones(1.49, 0.98, shear, tension, **WEDGE, da=-0.01, dc=-0.02, order=order)
+    assert_allclose((1.5 - now.left, 1.0 - now.right), (1.49 - then.left, 0.98 - then.right))
+
+
+def test_the_estimate_is_what_one_more_term_changes() -> None:
+    """And of the size of the error itself where the series is any good."""
+    shear = np.array([0.3, 0.1, 0.02]) * F * load(1.5, 1.0)
+    here = Contact(1.5, 1.0, 0.0)
+    tension = twice_the_closing_tension(here, shear)
+    zone = wedge.stick_zone(here, here, shear, tension, **WEDGE)
+    for order in (1, 2):
+        d = wedge.slip_zones(1.5, 1.0, shear, tension, **WEDGE, order=order)
+        error = wedge.slip_error(1.5, 1.0, shear, tension, **WEDGE, order=order)
+        ratio = error.left / np.abs(d.left - (1.5 - zone.m))
+        assert np.all((ratio > 0.7) & (ratio < 1.3))
+
+
+def test_where_there_is_no_slip_zone() -> None:
+    whole = 2 * F * load(1.5, 1.0)
+    for shear, tension in ((whole, 0.0), (-0.1 * whole, 0.0), (np.nan, 0.0), (0.1 * whole, 10.0)):
+        d = wedge.slip_zones(1.5, 1.0, shear, tension, **WEDGE)
+        assert np.isnan(d.left) and np.isnan(d.right)
+    d = wedge.slip_zones(1.5, 1.0, 0.01 * whole, 0.0, **WEDGE, da=0.5)  # the edge runs ahead
+    assert np.isnan(d.left)
+
+
+@pytest.mark.parametrize("order", [0, 4, 1.5, "2", None, True])
+def test_no_other_order(order: Any) -> None:
+    with pytest.raises(ValueError, match="order must be 1, 2 or 3; got"):
+        wedge.slip_zones(1.5, 1.0, 0.01, 0.0, **WEDGE, order=order)
+    with pytest.raises(ValueError, match="order must be 1 or 2; got"):
+        wedge.slip_error(1.5, 1.0, 0.01, 0.0, **WEDGE, order=order)
+
+
+def test_a_body_whose_kinks_are_near_its_edges() -> None:
+    """The third coefficient is found without stepping over a kink; b = 0.99 of the edge."""
+    own = {"E_star": E_STAR, "phi": 0.25, "b": 0.99}
+    shear = 1e-5 * F * rounded_wedge.load(1.0, 1.0, **own)
+    here = Contact(1.0, 1.0, 0.0)
+    zone = rounded_wedge.stick_zone(here, here, shear, 0.0, f=F, **own)
+    errors = [
+        abs(rounded_wedge.slip_zones(1.0, 1.0, shear, 0.0, f=F, **own, order=k).left - (1 - zone.m))
+        for k in (1, 2, 3)
+    ]
+    assert errors[2] < errors[1] < errors[0]

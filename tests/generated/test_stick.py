@@ -1,0 +1,352 @@
+"""The stick zone: both conditions in 25 digits, other solutions, regimes and their borders."""
+
+import importlib
+from functools import partial
+from types import ModuleType
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import mpf
+from numpy.testing import assert_allclose
+
+from derive.derivation import derive_sheet
+from derive.library import load_geometry
+from derive.sheet import FormulaSheet
+from generated import hertz, unequal_wedge, wedge
+from generated._types import Contact, Regime
+from tests.derive.bodies import evaluated
+from tests.derive.partial_slip import Cycle
+
+E_STAR, F = 1.25, 0.5
+OWN: dict[str, dict[str, float]] = {
+    "hertz": {"R": 1.5},
+    "wedge": {"phi": 0.25},
+    "unequal_wedge": {"phi_1": 0.25, "phi_2": 0.375},
+    "flat_rounded": {"R": 1.5, "b": 0.5},
+    "two_radii": {"R_1": 0.75, "R_2": 1.5},
+    "wedge_parabola": {"phi": 0.25, "R": 1.5},
+    "rounded_wedge": {"phi": 0.25, "b": 0.5},
+    "quartic": {"L": 1.25},
+}
+KINKS = {
+    "wedge": (0.0,),
+    "unequal_wedge": (0.0,),
+    "two_radii": (0.0,),
+    "wedge_parabola": (0.0,),
+} | {name: (-0.5, 0.5) for name in ("flat_rounded", "rounded_wedge")}
+FIRST, SECOND = (1.5, 1.25), (1.5625, 1.28125)
+"""Contacts (a, c) at both ends of a cycle."""
+
+
+def module(name: str) -> ModuleType:
+    return importlib.import_module(f"generated.{name}")
+
+
+def law(name: str) -> dict[str, float]:
+    return {"E_star": E_STAR, **OWN[name]}
+
+
+def sheet(name: str) -> FormulaSheet:
+    return derive_sheet(load_geometry(name))
+
+
+def cycle(
+    name: str,
+    first: tuple[float, float],
+    second: tuple[float, float],
+    shear: float,
+    tension: float,
+    kappa: tuple[int, int],
+) -> Cycle:
+    """A cycle in 30 digits, its pressures from the sheet."""
+    body, own = sheet(name), law(name)
+
+    def pressure(x: mpf, a: float, c: float) -> mpf:
+        """Rounding may put x beyond an edge, where the formula is not real."""
+        x = min(max(x, -a * (1 - 2 * mpmath.eps)), c * (1 - 2 * mpmath.eps))
+        return evaluated(body, "pressure", **own, x=x, a=a, c=c)
+
+    pressures = [partial(pressure, a=a, c=c) for a, c in (first, second)]
+    edges = ((mpf(first[i]), mpf(second[i])) for i in (0, 1))
+    changes = mpf(F), mpf(shear), mpf(tension)
+    return Cycle((pressures[0], pressures[1]), *edges, *changes, kappa, KINKS.get(name, ()))
+
+
+def loads(name: str, *edges: tuple[float, float]) -> Any:
+    """P at the contacts (a, c)."""
+    return [module(name).load(a, c, **law(name)) for a, c in edges]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "name",
+    ["wedge", "hertz", "flat_rounded", "unequal_wedge", "two_radii", "wedge_parabola"],
+)
+def test_moderate_tension_meets_both_conditions(name: str) -> None:
+    """P and M vary.  The patch is solved for in 30 digits, put into both conditions to 25, and
+    the generated zone is it."""
+    with mpmath.workdps(32):
+        body, own = sheet(name), law(name)
+        of = partial(evaluated, body, **own)
+        ends = [{"a": mpf(a), "c": mpf(c)} for a, c in (FIRST, SECOND)]
+        geometry = OWN[name]
+        tilt = sum(evaluated(body, "tilt", **geometry, **end) for end in ends) / 2
+        load = sum(of("load", **end) for end in ends) / 2
+        shear = 2 * F * float(load) * 0.25
+        tension = 2.0 * shear / 3
+        aim = load - mpf(shear) / (2 * F), tilt - mpf(tension) / (4 * F * E_STAR)
+
+        def off(m: mpf, n: mpf) -> tuple[mpf, mpf]:
+            return of("load", a=m, c=n) - aim[0], evaluated(
+                body, "tilt", **geometry, a=m, c=n
+            ) - aim[1]
+
+        zone = module(name).stick_zone(
+            Contact(*FIRST, 0.0), Contact(*SECOND, 0.0), shear, tension, f=F, **law(name)
+        )
+        assert zone.regime == Regime.MODERATE
+        m, n = mpmath.findroot(off, (mpf(zone.m) * 0.999, mpf(zone.n) * 1.001), tol=1e-56)
+        assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=2e-14)
+        whole = cycle(name, FIRST, SECOND, shear, tension, (1, 1))
+        assert max(map(abs, whole.residuals(m, n))) < mpf(10) ** -25 * shear
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "first", "second", "tension"),
+    [
+        ("hertz", (1.5, 1.25), (1.5, 1.25), 1.5),
+        ("hertz", FIRST, SECOND, -2.5),
+        ("wedge", (1.5, 1.25), (1.5, 1.25), 1.75),
+        ("wedge", (2.0, 0.75), (2.0, 0.75), -3.0),
+        ("wedge", FIRST, SECOND, 2.5),
+        ("unequal_wedge", (1.0, 1.5), (1.0, 1.5), 2.0),
+        ("quartic", FIRST, SECOND, 2.0),
+        ("two_radii", (1.5, 1.25), (1.5, 1.25), 4.0),
+        ("flat_rounded", (1.0, 1.25), (1.0, 1.25), -2.0),
+        ("wedge_parabola", (1.0, 1.25), (1.0, 1.25), 2.0),
+    ],
+)
+def test_large_tension_against_another_solution(
+    name: str, first: tuple[float, float], second: tuple[float, float], tension: float
+) -> None:
+    """`tension` in parts of 8 dQ/(pi h): the threshold of constant loads."""
+    with mpmath.workdps(24):
+        shear = 0.25 * F * sum(loads(name, first, second))
+        dsigma = tension * 8 * shear / (np.pi * sum(first))
+        zone = module(name).stick_zone(
+            Contact(*first, 0.0), Contact(*second, 0.0), shear, dsigma, f=F, **law(name)
+        )
+        assert zone.regime == Regime.LARGE
+        sense = 1 if tension > 0 else -1
+        whole = cycle(name, first, second, shear, dsigma, (sense, -sense))
+        m, n = whole.solution(zone.m + 1e-3, zone.n - 1e-3)
+        assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=1e-12)
+
+
+# ---------------------------------------------------------------------- regimes
+
+
+def steady(
+    body: ModuleType, a: Any, c: Any, shear: Any, tension: Any, **own: float
+) -> tuple[Any, Any, Any]:
+    here = Contact(a, c, 0.0)
+    return body.stick_zone(here, here, shear, tension, f=F, E_star=E_STAR, **own)  # type: ignore[no-any-return]
+
+
+def random_cycles(count: int, seed: int) -> tuple[Any, ...]:
+    """Contacts of the wedge, dQ in parts of 2 f P, dsigma in parts of 8 dQ/(pi h)."""
+    rng = np.random.default_rng(seed)
+    a, c = np.exp(rng.normal(size=(2, count)))
+    part = rng.uniform(0.001, 0.999, count)
+    tension = rng.choice([-1, 1], count) * np.exp(rng.uniform(-2, 2, count))
+    shear = 2 * F * wedge.load(a, c, E_star=E_STAR, phi=0.25) * part
+    return a, c, shear, tension * 8 * shear / (np.pi * (a + c)), tension
+
+
+@pytest.mark.slow
+def test_regimes_of_constant_loads_follow_the_signs_of_K_T() -> None:
+    """1e5 cycles: moderate if both K_T are positive; large if the right one, of the zone that is
+    still stuck in the end, has the opposite sign; mixed between; and all of them solved."""
+    a, c, shear, tension, ratio = random_cycles(100_000, 1)
+    m, n, regime = steady(wedge, a, c, shear, tension, phi=0.25)
+    K_T = wedge.K_T(a, c, shear, tension)
+    forward = (K_T.left >= 0) & (K_T.right >= 0)
+    assert np.array_equal(regime == Regime.MODERATE, forward)
+    assert np.array_equal(forward, np.abs(ratio) <= 1)
+    assert set(np.unique(regime)) == {Regime.MODERATE, Regime.LARGE, Regime.MIXED}
+    large = regime == Regime.LARGE
+    assert np.all(np.pi * (m + n)[large] * np.abs(tension[large]) / 8 >= shear[large])
+    assert np.all(np.isnan(m) == (regime == Regime.MIXED))
+
+
+def test_the_threshold_is_where_moderate_ends() -> None:
+    first = Contact(*np.array([FIRST, (1.0, 2.0), (3.0, 1.0)]).T, 0.0)
+    for second in (first, Contact(first.a * 1.02, first.c * 1.01, 0.0)):
+        shear = 0.3 * F * wedge.load(first.a, first.c, E_star=E_STAR, phi=0.25)
+        given = {"f": F, "E_star": E_STAR, "phi": 0.25}
+        bounds = wedge.tension_threshold(first, second, shear, **given)
+        for bound, outward in ((bounds.upper, 1), (bounds.lower, -1)):
+            step = outward * 1e-9 * (bounds.upper - bounds.lower)
+            inside = wedge.stick_zone(first, second, shear, bound - step, **given)
+            beyond = wedge.stick_zone(first, second, shear, bound + step, **given)
+            assert np.all(inside.regime == Regime.MODERATE)
+            assert np.all(beyond.regime != Regime.MODERATE)
+
+
+def test_thresholds_of_constant_loads_come_before_slip_zones_close() -> None:
+    """8 dQ/(pi h); wedge, dQ = 0.3 f P, no tilt: the window of theory.md begins at 0.927."""
+    here, given = Contact(1.0, 1.0, 0.0), {"f": F, "E_star": E_STAR, "phi": 0.25}
+    shear = 0.3 * F * wedge.load(1.0, 1.0, E_star=E_STAR, phi=0.25)
+    bounds = wedge.tension_threshold(here, here, shear, **given)
+    closing = wedge.closing_tension(here, here, shear, **given)
+    assert_allclose(bounds, (-4 * shear / np.pi, 4 * shear / np.pi), rtol=1e-15)
+    assert_allclose(bounds.upper / closing.upper, 0.927, atol=5e-4)
+    assert_allclose(closing.lower, -closing.upper, rtol=1e-13)
+    # by hand: P_s = 0.85 P with c = 1 kept is m = 0.85**2 (P ~ sqrt(m c)), and
+    # tilt = (2 phi/pi) atan((m - c)/(2 sqrt(m c))) is dsigma/(4 f E*) below zero
+    m = 0.85**2
+    tilt = 2 * 0.25 / np.pi * np.arctan((m - 1) / (2 * np.sqrt(m)))
+    assert_allclose(closing.upper, -4 * F * E_STAR * tilt, rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", sorted(OWN))
+def test_borders(name: str) -> None:
+    body, own = module(name), OWN[name]
+    a, c = FIRST
+    load = loads(name, FIRST)[0]
+    at = partial(steady, body, a, c, **own)
+
+    m, n, regime = at(0.0, 0.0)  # no shear at all
+    assert (m, n, regime) == (a, c, Regime.FULL_STICK)
+    for shear in (2 * F * load, 3 * F * load):
+        m, n, regime = at(shear, 0.0)
+        assert np.isnan(m) and np.isnan(n) and regime == Regime.SLIDING
+    m, n, regime = at(2 * F * load * (1 - 1e-9), 0.0)  # a stick zone that shrinks to nothing
+    assert regime == Regime.MODERATE and 0 <= m + n < 0.25 * (a + c)
+    m, n, regime = at(0.0, 1e-6)  # tension alone: opposite slip, however small
+    assert regime == Regime.LARGE and 0 < a - m < 1e-3 and 0 < c - n < 1e-3
+    m, n, regime = at(1e-6 * load, 0.0)
+    assert regime == Regime.MODERATE and 0 < a - m < 1e-3 and 0 < c - n < 1e-3
+    for wrong in ((-0.1 * load, 0.0), (np.nan, 0.0), (0.1 * load, np.inf)):
+        m, n, regime = at(*wrong)
+        assert np.isnan(m) and regime == Regime.NONE
+
+
+def test_a_contact_that_does_not_exist_has_no_stick_zone() -> None:
+    m, _, regime = steady(wedge, [1.0, -1.0, np.nan], [1.0, 2.0, 1.0], 0.01, 0.0, phi=0.25)
+    assert np.array_equal(regime, [Regime.MODERATE, Regime.NONE, Regime.NONE])
+    assert np.array_equal(np.isnan(m), [False, True, True])
+
+
+def test_it_broadcasts() -> None:
+    here = Contact(np.array([1.0, 1.5])[:, None], 1.0, 0.0)
+    zone = wedge.stick_zone(
+        here, here, np.array([0.01, 0.02, 0.03]), 0.0, f=F, E_star=E_STAR, phi=0.25
+    )
+    assert zone.m.shape == zone.n.shape == zone.regime.shape == (2, 3)
+    alone = wedge.stick_zone(
+        Contact(1.5, 1.0, 0.0), Contact(1.5, 1.0, 0.0), 0.03, 0.0, f=F, E_star=E_STAR, phi=0.25
+    )
+    assert zone.m[1, 2] == alone.m
+
+
+# ---------------------------------------------------------------------- what must always hold
+
+size = st.floats(0.25, 4.0)
+part = st.floats(0.01, 0.9)
+tension = st.floats(-4.0, 4.0)
+nudge = st.floats(-0.03, 0.03)
+
+
+def one_cycle(
+    body: ModuleType, own: dict[str, float], a: float, c: float, share: float, pull: float
+) -> tuple[float, float]:
+    """dQ and dsigma from parts of 2 f P and of 8 dQ/(pi h)."""
+    shear = 2 * F * share * float(body.load(a, c, E_star=E_STAR, **own))
+    return shear, pull * 8 * shear / (np.pi * (a + c))
+
+
+@settings(max_examples=25)
+@given(a=size, c=size, share=part, pull=tension, da=nudge, dc=nudge)
+def test_the_mirror_swaps_the_edges(
+    a: float, c: float, share: float, pull: float, da: float, dc: float
+) -> None:
+    """x -> -x turns M, alpha and dsigma; the flanks of the unequal wedge change places."""
+    slopes = {"phi_1": 0.25, "phi_2": 0.375}
+    swapped = {"phi_1": 0.375, "phi_2": 0.25}
+    shear, dsigma = one_cycle(unequal_wedge, slopes, a, c, share, pull)
+    second = a * (1 + da), c * (1 + dc)
+    given_here = {"f": F, "E_star": E_STAR}
+    there = unequal_wedge.stick_zone(
+        Contact(a, c, 0.0), Contact(*second, 0.0), shear, dsigma, **given_here, **slopes
+    )
+    mirror = unequal_wedge.stick_zone(
+        Contact(c, a, 0.0), Contact(*second[::-1], 0.0), shear, -dsigma, **given_here, **swapped
+    )
+    assert there.regime == mirror.regime
+    assert_allclose((there.m, there.n), (mirror.n, mirror.m), rtol=1e-11)
+    bounds = unequal_wedge.tension_threshold(
+        Contact(a, c, 0.0), Contact(*second, 0.0), shear, **given_here, **slopes
+    )
+    turned = unequal_wedge.tension_threshold(
+        Contact(c, a, 0.0), Contact(*second[::-1], 0.0), shear, **given_here, **swapped
+    )
+    assert_allclose(bounds, (-turned.upper, -turned.lower), rtol=1e-9, atol=1e-9 * shear)
+
+
+@settings(max_examples=40)
+@given(a=size, c=size, share=part, pull=tension, by=st.floats(-8, 8))
+def test_forces_and_lengths_scale(a: float, c: float, share: float, pull: float, by: float) -> None:
+    """Pa and m are free: E* by 10**by; the wedge has no length of its own."""
+    scale = 10.0**by
+    shear, dsigma = one_cycle(wedge, {"phi": 0.25}, a, c, share, pull)
+    here, small = Contact(a, c, 0.0), Contact(a * scale, c * scale, 0.0)
+    zone = wedge.stick_zone(here, here, shear, dsigma, f=F, E_star=E_STAR, phi=0.25)
+    harder = wedge.stick_zone(
+        here, here, shear * scale, dsigma * scale, f=F, E_star=E_STAR * scale, phi=0.25
+    )
+    smaller = wedge.stick_zone(small, small, shear * scale, dsigma, f=F, E_star=E_STAR, phi=0.25)
+    for other, length in ((harder, 1.0), (smaller, scale)):
+        assert zone.regime == other.regime
+        assert_allclose((other.m, other.n), (zone.m * length, zone.n * length), rtol=1e-9)
+
+
+@settings(max_examples=40)
+@given(a=size, c=size, share=st.floats(0.01, 0.45), pull=tension)
+def test_slip_grows_with_the_changes_of_load(a: float, c: float, share: float, pull: float) -> None:
+    """A part of the way leaves more stick; both contacts are the same."""
+    shear, dsigma = one_cycle(wedge, {"phi": 0.25}, a, c, share, pull)
+    m, n, regime = steady(wedge, a, c, np.linspace(0.1, 1, 5) * shear, 0.0, phi=0.25)
+    assert np.all(np.diff(m) < 0) and np.all(np.diff(n) < 0)
+    parts = np.linspace(0.2, 1, 5)
+    m, n, regime = steady(wedge, a, c, parts * shear, parts * dsigma, phi=0.25)
+    if regime[-1] in (Regime.MODERATE, Regime.LARGE):
+        assert np.all(regime == regime[-1])
+        assert np.all(np.diff(m) <= 1e-12 * a) and np.all(np.diff(n) <= 1e-12 * c)
+
+
+def test_cattaneo_and_mindlin() -> None:
+    """A cylinder, no tension: m = n = a sqrt(1 - dQ/(2 f P)), the classical stick zone."""
+    a, parts = 1.5, np.array([0.1, 0.5, 0.9])
+    load = hertz.load(a, a, E_star=E_STAR, R=2.0)
+    m, n, regime = steady(hertz, a, a, parts * 2 * F * load, 0.0, R=2.0)
+    assert np.all(regime == Regime.MODERATE)
+    assert_allclose(m, a * np.sqrt(1 - parts), rtol=1e-14)
+    assert_allclose(n, m, rtol=1e-14)
+
+
+def test_nothing_slips_while_edges_run_ahead() -> None:
+    """P and Q grow together, dQ below f dP: full stick, as far as the smaller contact reaches."""
+    first, second = Contact(1.0, 1.0, 0.0), Contact(1.25, 1.25, 0.0)
+    more = np.diff(hertz.load(np.array([1.0, 1.25]), np.array([1.0, 1.25]), E_star=E_STAR, R=2.0))
+    shear = F * more[0] * np.array([0.5, 0.99, 1.01])
+    zone = hertz.stick_zone(first, second, shear, 0.0, f=F, E_star=E_STAR, R=2.0)
+    assert np.array_equal(zone.regime, [Regime.FULL_STICK] * 2 + [Regime.MODERATE])
+    assert_allclose((zone.m[:2], zone.n[:2]), 1.0)
+    margin = hertz.stick_margin(1.0, 1.0, more[0], 0.0, shear, 0.0, f=F)
+    assert np.array_equal(margin.left >= 0, [True, True, False])
