@@ -2,7 +2,9 @@
 #             nothing is taken from an earlier run, so that every proof and time is of this one
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that take no long
-# make bench  speed, as ratios measured in one run; bench-inverse: of the way from loads to contacts
+# make bench  speed, as ratios measured in one run; bench-inverse: of the way from loads to contacts;
+#             bench-slip: of stick zones
+# make series    errors of the series of the slip zones, order by order: notebooks/series.md
 # make accuracy  worst error of every generated function, in units in the last place
 # make picture   draws the README's picture
 
@@ -11,7 +13,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test quick bench bench-inverse accuracy picture clean
+.PHONY: all test quick bench bench-inverse bench-slip series accuracy picture clean
 
 all: $(STAMP)
 	$(BIN)/derive generate --fresh
@@ -30,6 +32,12 @@ bench: $(STAMP)
 
 bench-inverse: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.inverse
+
+bench-slip: $(STAMP)
+	$(BIN)/python -m tests.benchmarks.slip
+
+series: $(STAMP)
+	$(BIN)/python -m tests.benchmarks.series
 
 accuracy: $(STAMP)
 	$(BIN)/python -m tests.accuracy.report

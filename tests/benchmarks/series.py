@@ -1,6 +1,6 @@
 """How far the series of the slip zones are off, order by order, against the exact stick zone.
 
-    python -m tests.benchmarks.series      the table, also kept in docs/series.md
+    python -m tests.benchmarks.series      the table, also kept in notebooks/series.md
 
 Large tension, twice that which closes a slip zone; dQ from 0.3 f P down to 0.3 f P/64.  Each row
 gives the slip zone in parts of the width, the relative error of orders 1, 2 and 3, and under the
@@ -16,7 +16,7 @@ import numpy as np
 
 from generated._types import Contact
 
-TABLE = Path(__file__).parent.parent.parent / "docs" / "series.md"
+TABLE = Path(__file__).parent.parent.parent / "notebooks" / "series.md"
 F, E_STAR = 0.5, 1.0
 ORDERS = (1, 2, 3)
 PARTS = 0.3 * 0.25 ** np.arange(4)

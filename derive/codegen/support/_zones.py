@@ -56,7 +56,7 @@ TURNS = 40
 SMALLEST = 1e-12
 """Both zones rest when a turn changes them by less, in parts of their own."""
 
-TOGETHER = 500
+TOGETHER = 2_000
 """Elements that are solved in one piece."""
 
 LEAST_SLIP = 1e-14
