@@ -70,7 +70,7 @@ class Known:
     @property
     def exact(self) -> Zone:
         """From the conditions."""
-        return self.half_cycle.zone(self.kappa, self.half_cycle.start)
+        return self.half_cycle.exact(self.kappa)
 
 
 def _hertz(name: str, kappa: int, dQ: float, dsigma: float, *P: float, **given: object) -> Known:

@@ -3,12 +3,15 @@
     int_slip r/w dxi = -pi dsigma/4,    int_slip r xi/w dxi = dQ + pi dsigma (m - n)/8,
 
 r = kappa f (p1 + p2), w = sqrt((xi + m)(xi - n)), positive right of n and negative left of -m;
-kappa is 1 on the left, and on the right 1 in moderate tension and -1 in large tension.  They hold
-where slip grows all through every half-cycle.
+kappa is 1 on the left, and on the right 1 in moderate tension and -1 in large tension.
+
+They hold for whole half-cycles that end with all of both slip zones at friction.  Whether they do
+can be asked of the partial half-cycles, which meet the same conditions: see `Premise`.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from enum import Enum
 
 import numpy as np
 from scipy.optimize import root
@@ -24,6 +27,9 @@ NOWHERE = Zone(np.nan, np.nan)
 
 EXACT = 1e-9
 """What may be missing in the conditions, over dQ."""
+
+STARTS = (0.98, 0.8, 0.6, 0.4)
+"""Parts of what is in contact at both ends, from which a zone is searched for."""
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(160)
 
@@ -77,47 +83,99 @@ class HalfCycle:
         return replace(self, first=turned[0], second=turned[1])
 
     @property
-    def start(self) -> Zone:
-        """Where to search from."""
-        ends = self.ends
-        return Zone(*(0.8 * min(edges) for edges in zip(*((e.a, e.c) for e in ends), strict=True)))
+    def always(self) -> Zone:
+        """What is in contact at both ends."""
+        first, second = self.ends
+        return Zone(min(first.a, second.a), min(first.c, second.c))
 
     def missing(self, zone: Zone, kappa: int) -> tuple[float, float]:
         """Left sides less right sides."""
-        ends = self.ends
-        sides = (
-            (_Side(-zone.m, zone.n, (-ends[0].a, -ends[1].a)), -1),
-            (_Side(zone.n, -zone.m, (ends[0].c, ends[1].c)), kappa),
+        sides = self._sides(zone)
+        force, moment = (
+            kappa * sides[1].integral(weighted) - sides[0].integral(weighted)
+            for weighted in (self._r, lambda x: self._r(x) * x)
         )
-
-        def over_slip(power: int) -> float:
-            def r(x: Floats) -> Floats:
-                return self.f * (ends[0].p(x) + ends[1].p(x)) * x**power
-
-            return sum(sign * side.integral(r) for side, sign in sides)
-
         return (
-            over_slip(0) + np.pi * self.dsigma / 4,
-            over_slip(1) - self.dQ - np.pi * self.dsigma * (zone.m - zone.n) / 8,
+            force + np.pi * self.dsigma / 4,
+            moment - self.dQ - np.pi * self.dsigma * (zone.m - zone.n) / 8,
         )
+
+    def exact(self, kappa: int) -> Zone:
+        """What meets the conditions, searched for from the edges inwards; NaN if nothing does."""
+        m, n = self.always
+        zones = (self.zone(kappa, Zone(part * m, part * n)) for part in STARTS)
+        return next((zone for zone in zones if not np.isnan(zone.m)), NOWHERE)
 
     def zone(self, kappa: int, guess: Zone) -> Zone:
-        """What meets the conditions inside both contacts; NaN if nothing does."""
+        """What meets the conditions near a guess, inside both contacts; NaN if nothing does."""
         found = root(lambda z: self.missing(Zone(*z), kappa), guess, tol=1e-13)
-        zone = Zone(*map(float, found.x))
-        within = all(-patch.a <= -zone.m < zone.n <= patch.c for patch in self.ends)
+        zone, always = Zone(*map(float, found.x)), self.always
+        within = -zone.m < zone.n <= always.n and zone.m <= always.m
         return zone if within and np.abs(found.fun).max() <= EXACT * self.dQ else NOWHERE
 
-    def partial_zones(self, kappa: int, guess: Zone, count: int = 12) -> Iterator[Zone]:
-        """The zones of partial half-cycles, from the whole one down to a small part."""
-        for part in np.linspace(1, 0, count, endpoint=False):
-            guess = self.partial(float(part)).zone(kappa, guess)
-            yield guess
+    def shear(self, zone: Zone, kappa: int, x: float) -> float:
+        """Change of shear at x in the stick zone.
 
-    def monotone(self, kappa: int, guess: Zone) -> bool:
-        """Whether both slip zones grow all through this half-cycle."""
-        falls = np.diff([*self.partial_zones(kappa, guess)], axis=0)
-        return bool(np.all(falls >= 0))  # NaN is not
+        dq(x) = (1/pi) sqrt((x + m)(n - x)) int_slip r / |w (xi - x)| dxi
+        """
+        left, right = self._sides(zone)
+        around = left.integral(lambda xi: self._r(xi) / (x - xi)) + kappa * right.integral(
+            lambda xi: self._r(xi) / (xi - x)
+        )
+        return float(np.sqrt((x + zone.m) * (zone.n - x)) / np.pi * around)
+
+    def _r(self, x: Floats) -> Floats:
+        """f (p1 + p2)."""
+        first, second = self.ends
+        return self.f * (first.p(x) + second.p(x))
+
+    def _sides(self, zone: Zone) -> tuple["_Side", "_Side"]:
+        first, second = self.ends
+        return (
+            _Side(-zone.m, zone.n, (-first.a, -second.a)),
+            _Side(zone.n, -zone.m, (first.c, second.c)),
+        )
+
+
+class Premise(Enum):
+    """What partial half-cycles say about the whole one."""
+
+    HOLDS = "holds"
+    NO_ZONE = "no zone inside both contacts"
+    SHRINKS = "a slip zone shrinks"
+    BEYOND = "shear beyond friction"
+
+
+def premise(half: HalfCycle, kappa: int, zone: Zone, count: int = 16) -> Premise:
+    """Whether this half-cycle may pass through its partial ones.
+
+    Both slip zones must grow with the part that is gone, inside both contacts; and where slip is
+    still to come, the shear, which begins at friction, must stay within it:
+    kappa dq >= f (p1 - p) there.
+    """
+    if np.isnan(zone.m):
+        return Premise.NO_ZONE
+    wider = zone
+    for part in np.linspace(1, 0, count, endpoint=False)[1:]:
+        gone = half.partial(float(part))
+        before, wider = wider, gone.zone(kappa, wider)
+        if np.isnan(wider.m) or wider.m < before.m or wider.n < before.n:
+            return Premise.SHRINKS
+        if _beyond(gone, kappa, zone, wider):
+            return Premise.BEYOND
+    return Premise.HOLDS
+
+
+def _beyond(gone: HalfCycle, kappa: int, zone: Zone, wider: Zone, count: int = 8) -> bool:
+    """Whether shear passes friction between the whole's stick zone and the wider one so far."""
+    first, now = gone.ends
+    for sense, inner, outer in ((1, -zone.m, -wider.m), (kappa, zone.n, wider.n)):
+        x = inner + (outer - inner) * (np.arange(count) + 0.5) / count
+        least = gone.f * (first.p(x) - now.p(x))
+        change = np.array([gone.shear(wider, kappa, place) for place in x])
+        if np.any(sense * change < least - EXACT * gone.f * first.p(x)):
+            return True
+    return False
 
 
 @dataclass(frozen=True)

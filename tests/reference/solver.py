@@ -91,8 +91,8 @@ def level(case: Case, surface: Surface, steps: int) -> Level:
         contacts.append(press(case.body, surface, P, M, guess))
     cycle = Friction(surface, case.f, case.first, case.second, contacts).cycle()
     way = cycle.there.way + cycle.back.way
-    touching = np.all([contact.p > 0 for contact in contacts], axis=0)
-    return Level(surface.x, contacts, cycle, permanent(surface.x, way, touching))
+    always = Zone(-max(c.left for c in contacts), min(c.right for c in contacts))
+    return Level(surface.x, contacts, cycle, permanent(surface.x, way, always))
 
 
 def _mesh(body: Body, breaks: Sequence[float], count: int) -> Floats:

@@ -3,7 +3,7 @@
 What tells is the way that was slipped, not |q| = f p, which a node may come back to at rest.
 The way rises from the end of the zone like the power 3/2 of the distance, so way^(2/3), drawn to
 zero from the second and the third node that slip, puts the end within an element; the first one
-carries most of the mesh's error.
+carries most of the mesh's error.  Where nothing slips the zone ends with what touches always.
 """
 
 from typing import NamedTuple
@@ -25,12 +25,14 @@ class Zone(NamedTuple):
     n: float
 
 
-def permanent(x: Floats, way: Floats, touching: Flags) -> Zone:
-    """The longest run of nodes that always touch and never slip."""
+def permanent(x: Floats, way: Floats, always: Zone) -> Zone:
+    """The longest run of nodes that never slip inside what touches always."""
+    touching = (x > -always.m) & (x < always.n)
     run = _longest(x, touching & (way <= NONE * way.max()))
     if len(run) < 2:
         return Zone(np.nan, np.nan)
-    return Zone(-_end(x, way, touching, run[::-1]), _end(x, way, touching, run))
+    left, right = (_end(x, way, touching, nodes) for nodes in (run[::-1], run))
+    return Zone(-left if np.isfinite(left) else always.m, right if np.isfinite(right) else always.n)
 
 
 def _longest(x: Floats, inside: Flags) -> NDArray[np.intp]:
@@ -40,9 +42,11 @@ def _longest(x: Floats, inside: Flags) -> NDArray[np.intp]:
 
 
 def _end(x: Floats, way: Floats, touching: Flags, run: NDArray[np.intp]) -> float:
-    """Where the run ends: close to its last node and the next."""
+    """Where the run ends, close to its last node and the next; NaN if it ends with the contact."""
     outward = run[-1] - run[-2]
     sticking, first, second, third = run[-1] + outward * np.arange(4)
+    if not touching[first]:
+        return np.nan
     near, far = way[second] ** (2 / 3), way[third] ** (2 / 3)
     if not (touching[second] and touching[third] and far > near):
         return float((x[sticking] + x[first]) / 2)

@@ -12,7 +12,7 @@ from tests.reference.kernel import Surface
 from tests.reference.loads import State
 from tests.reference.mesh import Floats, graded
 from tests.reference.solver import Case, Level, level, reference
-from tests.reference.stick import permanent
+from tests.reference.stick import Zone, permanent
 
 F = 0.5
 SURFACE = Surface(graded([-1.05, -1, -0.8, 0.8, 1, 1.05], 16))
@@ -136,10 +136,18 @@ def test_sliding_is_refused() -> None:
 
 def test_what_slips_everywhere_has_no_zone() -> None:
     x = np.linspace(0, 1, 9)
-    assert np.isnan(permanent(x, 1 + x, np.ones(9, dtype=bool))).all()
+    assert np.isnan(permanent(x, 1 + x, Zone(0.0, 1.0))).all()
 
 
-def test_what_lifts_off_is_not_in_the_zone() -> None:
-    x = np.linspace(0, 1, 9)
-    way = np.where(x > 0.6, x, 0)
-    assert permanent(x, way, x > 0.3).m == pytest.approx(-0.3, abs=0.07)
+def test_the_zone_ends_with_what_touches_always_or_within_an_element() -> None:
+    # way^(2/3) = x - 0.61
+    x = np.linspace(0, 1, 41)
+    way = np.maximum(x - 0.61, 0) ** 1.5
+    assert permanent(x, way, Zone(-0.33, 1.01)) == pytest.approx((-0.33, 0.61), rel=1e-12)
+
+
+def test_an_edge_that_runs_ahead_of_slip_ends_the_zone() -> None:
+    # contact [-a, c] with c - a = -4 M/P and a c = (P/(E* phi))^2: c = sqrt(1 + 0.1^2) - 0.1
+    first, second = (State(1, s * 0.05, s * 0.06, s * 0.05) for s in (-1, 1))
+    found = reference(Case(WEDGE.body, F, first, second), (16, 32, 64), (4, 8, 16))
+    assert abs(found.zone.n - np.sqrt(1.01) + 0.1) <= found.error.n < 5e-4
