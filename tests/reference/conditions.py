@@ -12,6 +12,7 @@ can be asked of the partial half-cycles, which meet the same conditions: see `Pr
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import root
@@ -19,6 +20,8 @@ from scipy.optimize import root
 from tests.reference.loads import State
 from tests.reference.mesh import Floats
 from tests.reference.stick import Zone
+
+Function = Callable[[Floats], Floats]
 
 MODERATE, LARGE = 1, -1
 """kappa on the right."""
@@ -40,7 +43,7 @@ class Patch:
 
     a: float
     c: float
-    inside: Callable[[Floats], Floats]
+    inside: Function
 
     def p(self, x: Floats) -> Floats:
         """Pressure at the places x."""
@@ -88,17 +91,15 @@ class HalfCycle:
         first, second = self.ends
         return Zone(min(first.a, second.a), min(first.c, second.c))
 
-    def missing(self, zone: Zone, kappa: int) -> tuple[float, float]:
-        """Left sides less right sides."""
-        sides = self._sides(zone)
-        force, moment = (
-            kappa * sides[1].integral(weighted) - sides[0].integral(weighted)
-            for weighted in (self._r, lambda x: self._r(x) * x)
-        )
-        return (
-            force + np.pi * self.dsigma / 4,
-            moment - self.dQ - np.pi * self.dsigma * (zone.m - zone.n) / 8,
-        )
+    def slip(self, zone: Zone, kappa: int) -> "Slip":
+        """What changes outside a stick zone: r on both sides of it."""
+        first, second = self.ends
+
+        def r(x: Floats) -> Floats:
+            return self.f * (first.p(x) + second.p(x))
+
+        edges = (-first.a, -second.a), (first.c, second.c)
+        return Slip(zone, *edges, r, lambda x: kappa * r(x))
 
     def exact(self, kappa: int) -> Zone:
         """What meets the conditions, searched for from the edges inwards; NaN if nothing does."""
@@ -108,33 +109,63 @@ class HalfCycle:
 
     def zone(self, kappa: int, guess: Zone) -> Zone:
         """What meets the conditions near a guess, inside both contacts; NaN if nothing does."""
-        found = root(lambda z: self.missing(Zone(*z), kappa), guess, tol=1e-13)
+
+        def missing(z: Floats) -> tuple[float, float]:
+            return self.slip(Zone(*z), kappa).missing(self.dQ, self.dsigma)
+
+        found = root(missing, guess, tol=1e-13)
         zone, always = Zone(*map(float, found.x)), self.always
         within = -zone.m < zone.n <= always.n and zone.m <= always.m
         return zone if within and np.abs(found.fun).max() <= EXACT * self.dQ else NOWHERE
 
-    def shear(self, zone: Zone, kappa: int, x: float) -> float:
+
+@dataclass(frozen=True)
+class Slip:
+    """A stick zone, and the change r of shear beside it; at `left` and `right` r has roots."""
+
+    zone: Zone
+    left: tuple[float, ...]
+    right: tuple[float, ...]
+    r_left: Function
+    r_right: Function
+
+    def missing(self, dQ: float, dsigma: float) -> tuple[float, float]:
+        """Left sides of the conditions less right sides."""
+        m, n = self.zone
+        return (
+            self._over(lambda x: np.sign(x - n)) + np.pi * dsigma / 4,
+            self._over(lambda x: np.sign(x - n) * x) - dQ - np.pi * dsigma * (m - n) / 8,
+        )
+
+    def shear(self, x: float) -> float:
         """Change of shear at x in the stick zone.
 
         dq(x) = (1/pi) sqrt((x + m)(n - x)) int_slip r / |w (xi - x)| dxi
         """
-        left, right = self._sides(zone)
-        around = left.integral(lambda xi: self._r(xi) / (x - xi)) + kappa * right.integral(
-            lambda xi: self._r(xi) / (xi - x)
-        )
-        return float(np.sqrt((x + zone.m) * (zone.n - x)) / np.pi * around)
+        m, n = self.zone
+        around = self._over(lambda xi: 1 / np.abs(xi - x))
+        return float(np.sqrt(max((x + m) * (n - x), 0.0)) / np.pi * around)
 
-    def _r(self, x: Floats) -> Floats:
-        """f (p1 + p2)."""
-        first, second = self.ends
-        return self.f * (first.p(x) + second.p(x))
+    def _over(self, weight: Function) -> float:
+        """int_slip r weight/|w| dxi."""
+        m, n = self.zone
+        left = _side(lambda x: self.r_left(x) * weight(x), -m, n, self.left)
+        return left + _side(lambda x: self.r_right(x) * weight(x), n, -m, self.right)
 
-    def _sides(self, zone: Zone) -> tuple["_Side", "_Side"]:
-        first, second = self.ends
-        return (
-            _Side(-zone.m, zone.n, (-first.a, -second.a)),
-            _Side(zone.n, -zone.m, (first.c, second.c)),
-        )
+
+def _side(integrand: Function, end: float, other: float, cuts: tuple[float, ...]) -> float:
+    """int integrand/|w| dxi from the end of the stick zone over the cuts to the farthest."""
+    places = sorted({end, *cuts}, key=lambda cut: abs(cut - end))
+    return sum(_piece(integrand, end, other, *ends) for ends in pairwise(places))
+
+
+def _piece(integrand: Function, end: float, other: float, start: float, stop: float) -> float:
+    """xi = start + (stop - start) sin^2(t) takes away the roots at both ends."""
+    t = np.pi / 4 * (1 + NODES)
+    away = (stop - start) * np.sin(t) ** 2
+    x = start + away
+    w = np.sqrt(np.abs((start - end + away) * (x - other)))
+    return float(np.pi / 4 * WEIGHTS @ (integrand(x) / w * abs(stop - start) * np.sin(2 * t)))
 
 
 class Premise(Enum):
@@ -169,38 +200,14 @@ def premise(half: HalfCycle, kappa: int, zone: Zone, count: int = 16) -> Premise
 def _beyond(gone: HalfCycle, kappa: int, zone: Zone, wider: Zone, count: int = 8) -> bool:
     """Whether shear passes friction between the whole's stick zone and the wider one so far."""
     first, now = gone.ends
+    slip = gone.slip(wider, kappa)
     for sense, inner, outer in ((1, -zone.m, -wider.m), (kappa, zone.n, wider.n)):
         x = inner + (outer - inner) * (np.arange(count) + 0.5) / count
         least = gone.f * (first.p(x) - now.p(x))
-        change = np.array([gone.shear(wider, kappa, place) for place in x])
+        change = np.array([slip.shear(place) for place in x])
         if np.any(sense * change < least - EXACT * gone.f * first.p(x)):
             return True
     return False
-
-
-@dataclass(frozen=True)
-class _Side:
-    """The slip zone from an end of the stick zone, the other end of which is `other`."""
-
-    end: float
-    other: float
-    edges: tuple[float, float]
-
-    def integral(self, r: Callable[[Floats], Floats]) -> float:
-        """int r/|w| dxi to the farther edge, cut at the nearer one."""
-        near, far = sorted(self.edges, key=lambda edge: abs(edge - self.end))
-        return self._piece(r, self.end, near) + self._piece(r, near, far)
-
-    def _piece(self, r: Callable[[Floats], Floats], start: float, stop: float) -> float:
-        """xi = start + (stop - start) sin^2(t) takes away the roots at both ends."""
-        if start == stop:
-            return 0.0
-        t = np.pi / 4 * (1 + NODES)
-        away = (stop - start) * np.sin(t) ** 2
-        x = start + away
-        w = np.sqrt(np.abs((start - self.end + away) * (x - self.other)))
-        integrand = r(x) * abs(stop - start) * np.sin(2 * t) / w
-        return float(np.pi / 4 * WEIGHTS @ integrand)
 
 
 def hertz(P: float, M: float, R: float = 1.0, E_star: float = 1.0) -> Patch:
