@@ -74,6 +74,8 @@ class TooShort(NoSolution):
 
 def rough_edges(body: Body, P: float, M: float, count: int = 24) -> tuple[float, float]:
     """Edges on a coarse mesh about the load's line of action, which is made to fit: a start."""
+    if P <= 0:
+        raise NoSolution(f"no contact under P = {P}")
     centre, reach = -M / P, 1.0
     for _ in range(200):
         breaks = [centre - reach, centre, centre + reach]

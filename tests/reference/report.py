@@ -175,7 +175,8 @@ def _summary(points: Sequence[Explored]) -> str:
     beyond = sum(p.off(p.best.zone) > p.error for p in fails)
     largest = max((p.off(p.best.zone) for p in fails), default=np.nan)
     ahead = sum(p.found.zone.n > p.known.half_cycle.always.n - p.found.error.n for p in none)
-    return f"""* The premise holds in {len(holds)} of {len(points)} cycles.  There the conditions are off by
+    return f"""\
+* The premise holds in {len(holds)} of {len(points)} cycles.  There the conditions are off by
   {worst:.2f} of the solver's estimate at most.
 * In {len(fails)} cycles it fails, but the conditions have a zone: {beyond} of these are off by more
   than the estimate, by up to {largest:.1e}.

@@ -13,7 +13,12 @@ from tests.reference.mixed import NotInWindow, turning
 from tests.reference.solver import level, reference
 
 
-@pytest.mark.parametrize("part", [0.95, 1.0, 1.05, 1.085])
+def slow(part: float) -> object:
+    """A cycle that `make quick` leaves out."""
+    return pytest.param(part, marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("part", [slow(0.95), 1.0, slow(1.05), slow(1.085)])
 def test_wedge(part: float) -> None:
     known = cycle(part * threshold())
     found, exact = reference(known.case, (16, 32, 64), (8, 16, 32)), turning(known.half_cycle)
