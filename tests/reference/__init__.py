@@ -10,10 +10,12 @@ Nothing of `derive` or `generated` is imported here.  One way, from top to botto
     friction.py     q through load steps with Coulomb friction, cycle after cycle until it settles
     stick.py        the permanent stick zone, located within the elements
     solver.py       all of it on finer and finer meshes, with an estimate of the error
-    conditions.py   the two integral conditions of the exact stick zone, by quadrature
-    cases.py        the cases compared, and what is known of each
-    explore.py      the open cases: where the exact conditions hold
-    __main__.py     the command: compares, explores, writes FINDINGS.md
+    conditions.py   the exact stick zone: two integral conditions, and the premise they stand on
+    mixed.py        the exact stick zone where slip turns round inside the half-cycle
+    cases.py        cycles whose stick zone is known
+    explore.py      cycles around the threshold, and with varying moment
+    report.py       what came out, as Markdown
+    __main__.py     the command that writes FINDINGS.md
 
 Signs: q is the traction on the body whose bulk tension counts positive, x to the right; slip is
 its displacement relative to the other one.

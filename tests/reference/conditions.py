@@ -12,7 +12,7 @@ can be asked of the partial half-cycles, which meet the same conditions: see `Pr
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 from scipy.optimize import root
@@ -31,7 +31,7 @@ NOWHERE = Zone(np.nan, np.nan)
 EXACT = 1e-9
 """What may be missing in the conditions, over dQ."""
 
-STARTS = (0.98, 0.8, 0.6, 0.4)
+STARTS = (0.8, 0.6, 0.4, 0.99)
 """Parts of what is in contact at both ends, from which a zone is searched for."""
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(160)
@@ -104,7 +104,7 @@ class HalfCycle:
     def exact(self, kappa: int) -> Zone:
         """What meets the conditions, searched for from the edges inwards; NaN if nothing does."""
         m, n = self.always
-        zones = (self.zone(kappa, Zone(part * m, part * n)) for part in STARTS)
+        zones = (self.zone(kappa, Zone(u * m, v * n)) for u, v in product(STARTS, STARTS))
         return next((zone for zone in zones if not np.isnan(zone.m)), NOWHERE)
 
     def zone(self, kappa: int, guess: Zone) -> Zone:
@@ -187,7 +187,7 @@ def premise(half: HalfCycle, kappa: int, zone: Zone, count: int = 16) -> Premise
     if np.isnan(zone.m):
         return Premise.NO_ZONE
     wider = zone
-    for part in np.linspace(1, 0, count, endpoint=False)[1:]:
+    for part in np.sin(np.linspace(np.pi / 2, 0, count, endpoint=False)[1:]) ** 2:
         gone = half.partial(float(part))
         before, wider = wider, gone.zone(kappa, wider)
         if np.isnan(wider.m) or wider.m < before.m or wider.n < before.n:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from tests.reference.cases import WEDGE, Known
 from tests.reference.conditions import LARGE, MODERATE, HalfCycle, Premise, premise
@@ -128,6 +129,20 @@ def at_constant_loads(half: HalfCycle) -> tuple[str, Zone]:
     if large.m + large.n >= width:
         return "large", large
     return "turns round", turning(half).zone
+
+
+def window() -> tuple[float, float]:
+    """Tensions over the threshold between which slip turns round."""
+
+    def opens(part: float) -> float:
+        known = cycle(part * threshold())
+        return 1 + known.half_cycle.exact(MODERATE).n - narrowest(known.dsigma)
+
+    def closes(part: float) -> float:
+        known = cycle(part * threshold())
+        return sum(known.half_cycle.exact(LARGE)) - narrowest(known.dsigma)
+
+    return float(brentq(opens, 0.9, 0.96)), float(brentq(closes, 1.05, 1.12))
 
 
 def smallest(half: HalfCycle, parts: int = 60) -> Zone:

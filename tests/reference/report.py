@@ -20,6 +20,7 @@ from tests.reference.explore import (
     narrowest,
     smallest,
     threshold,
+    window,
 )
 from tests.reference.solver import reference
 from tests.reference.stick import Zone
@@ -50,13 +51,14 @@ CLOSED_TEXT = """## Where the zone is known
 Errors are at the worse end; the order is between the coarsest mesh and the finest.
 """
 
-WINDOW_TEXT = f"""## Constant loads around the threshold
+WINDOW_TEXT = """## Constant loads around the threshold
 
-The upright wedge at P = 1, dQ = 0.3 f P; the threshold is dsigma = {threshold():.6f}.  With
+The upright wedge at P = 1, dQ = 0.3 f P; the threshold is dsigma = {:.6f}.  With
 H = 8 dQ/(pi dsigma), slip on the right turns round inside the half-cycle where m + n passes H: the
-moderate zone is exact up to a + n = H, the large one from m + n = H on, and between them the three
-phases of `mixed.py` are.  Which of them applies follows from the loads alone; it is the regime in
-the table.  All that follows "±" are distances of n from the solver's.
+moderate zone is exact up to a + n = H, the large one from m + n = H on, and between them, from
+{:.4f} to {:.4f} of the threshold, the three phases of `mixed.py` are.  Which of them applies
+follows from the loads alone; it is the regime in the table.  What follows "±" are distances of n
+from the solver's.
 """
 
 MAP_TEXT = """## Varying moment
@@ -118,7 +120,7 @@ def _window(step: Step) -> list[str]:
     rows = [_window_row(part, step) for part in WINDOW]
     candidates = ["exact", "moderate", "large", "smallest of parts"]
     head = ["dsigma / threshold", "regime", "H", "m, n solver", "±", *candidates]
-    return [WINDOW_TEXT.strip(), table(head, rows)]
+    return [WINDOW_TEXT.strip().format(threshold(), *window()), table(head, rows)]
 
 
 def _window_row(part: float, step: Step) -> list[str]:

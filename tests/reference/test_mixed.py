@@ -6,7 +6,7 @@ import pytest
 from tests.reference import mixed
 from tests.reference.cases import HERTZ, HERTZ_LOAD, Known
 from tests.reference.conditions import LARGE, MODERATE
-from tests.reference.explore import cycle, narrowest, threshold
+from tests.reference.explore import cycle, narrowest, threshold, window
 from tests.reference.kernel import Surface
 from tests.reference.mesh import graded
 from tests.reference.mixed import NotInWindow, turning
@@ -47,6 +47,7 @@ def test_the_window_opens_where_the_moderate_zone_is_wide_enough() -> None:
         return narrowest(part * threshold()) - 1 - zone.n
 
     assert room(0.931) > 0 > room(0.933)
+    assert room(window()[0]) == pytest.approx(0, abs=1e-9)
     half = cycle(0.933 * threshold()).half_cycle
     assert turning(half).zone == pytest.approx(half.exact(MODERATE), abs=2e-6)
     with pytest.raises(NotInWindow):
@@ -59,6 +60,7 @@ def test_the_window_closes_where_the_large_zone_is_wide_enough() -> None:
         return sum(zone) - narrowest(part * threshold())
 
     assert room(1.091) < 0 < room(1.092)
+    assert room(window()[1]) == pytest.approx(0, abs=1e-9)
     half = cycle(1.091 * threshold()).half_cycle
     assert turning(half).zone == pytest.approx(half.exact(LARGE), abs=2e-6)
     with pytest.raises(NotInWindow):
