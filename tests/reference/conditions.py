@@ -180,8 +180,8 @@ class Premise(Enum):
 def premise(half: HalfCycle, kappa: int, zone: Zone, count: int = 16) -> Premise:
     """Whether this half-cycle may pass through its partial ones.
 
-    Both slip zones must grow with the part that is gone, inside both contacts; and where slip is
-    still to come, the shear, which begins at friction, must stay within it:
+    It may if both slip zones grow with the part that is gone, inside both contacts; and if, where
+    slip is still to come, the shear, which begins at friction, stays within it:
     kappa dq >= f (p1 - p) there.
     """
     if np.isnan(zone.m):

@@ -3,7 +3,7 @@
 All on the upright wedge g = phi |x| with E* = phi = 1, P = 1, f = 1/2 and dQ = 0.3 f P.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from tests.reference.cases import WEDGE, Known
-from tests.reference.conditions import LARGE, MODERATE, HalfCycle, Premise, premise
+from tests.reference.conditions import LARGE, MODERATE, NOWHERE, HalfCycle, Premise, premise
 from tests.reference.mixed import turning
 from tests.reference.solver import Reference, reference
 from tests.reference.stick import Zone
@@ -68,6 +68,7 @@ def narrowest(dsigma: float) -> float:
 class Verdict(NamedTuple):
     """The conditions in one regime: their zone, and the premise there and back."""
 
+    kappa: int
     zone: Zone
     there: Premise
     back: Premise
@@ -77,11 +78,16 @@ class Verdict(NamedTuple):
         """Whether the premise holds in both half-cycles."""
         return self.there is self.back is Premise.HOLDS
 
+    @property
+    def shrinks(self) -> bool:
+        """Whether it holds in one of them, and a zone only shrinks in the other."""
+        return {self.there, self.back} == {Premise.HOLDS, Premise.SHRINKS}
+
 
 def verdict(half: HalfCycle, kappa: int) -> Verdict:
     """From the loads alone."""
     zone = half.exact(kappa)
-    return Verdict(zone, premise(half, kappa, zone), premise(half.back(), kappa, zone))
+    return Verdict(kappa, zone, premise(half, kappa, zone), premise(half.back(), kappa, zone))
 
 
 @dataclass(frozen=True)
@@ -97,6 +103,13 @@ class Explored:
     def best(self) -> Verdict:
         """The regime whose premise holds, or else the one that has a zone."""
         return max(self.moderate, self.large, key=lambda v: (v.holds, not np.isnan(v.zone.m)))
+
+    @property
+    def smallest(self) -> Zone:
+        """The candidate where slip turns round, in the same regime."""
+        best = self.best
+        none = np.isnan(best.zone.m)
+        return NOWHERE if none else smallest(self.known.half_cycle, [best.kappa])
 
     def off(self, zone: Zone) -> float:
         """How far a zone is from the solver's, at its worse end."""
@@ -145,12 +158,18 @@ def window() -> tuple[float, float]:
     return float(brentq(opens, 0.9, 0.96)), float(brentq(closes, 1.05, 1.12))
 
 
-def smallest(half: HalfCycle, parts: int = 60) -> Zone:
-    """The smallest ends of the zones of partial half-cycles: a candidate inside the window."""
+def smallest(half: HalfCycle, kappas: Iterable[int] = (MODERATE, LARGE), count: int = 24) -> Zone:
+    """The smallest ends of the zones of partial half-cycles, there and back.
+
+    Exact where one half-cycle has its premise and so leaves all of both slip zones at friction: the
+    other one then starts as the conditions assume, and goes with them until a zone shrinks.
+    """
+    parts = np.sin(np.linspace(np.pi / 2, 0, count, endpoint=False)) ** 2
     zones = [
-        half.partial(part).exact(kappa)
-        for part in np.linspace(1, 0, parts, endpoint=False)
-        for kappa in (MODERATE, LARGE)
+        way.partial(float(part)).exact(kappa)
+        for way in (half, half.back())
+        for kappa in kappas
+        for part in parts
     ]
     kept = [zone for zone in zones if not np.isnan(zone.m)]
-    return Zone(*map(float, np.min(kept, axis=0)))
+    return Zone(*map(float, np.min(kept, axis=0))) if kept else NOWHERE

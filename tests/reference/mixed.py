@@ -152,7 +152,7 @@ class _Window:
             per_part = slip(n).missing(self.half.dQ, self.half.dsigma)
             return force * (per_part[1] - moment) - moment * (per_part[0] - force)
 
-        least = max(self.width - self.a, 0.0)
+        least = self.width - self.a  # m = a
         n = _root(missing, least + (self.c - least) * APART)
         return slip(n), -4 * slip(n).missing(0.0, 0.0)[0] / (np.pi * self.half.dsigma)
 

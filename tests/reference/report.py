@@ -66,7 +66,8 @@ MAP_TEXT = """## Varying moment
 The same wedge; M goes from its mean less half its range to its mean plus half of it while Q and
 sigma rise.  The premise is asked of both half-cycles, from the loads alone: zones of partial
 half-cycles grow inside both contacts, and shear that has not slipped yet stays within friction.
-"off" is how far the zone of the conditions is from the solver's, at its worse end.
+"off" is how far a zone is from the solver's at its worse end: that of the conditions, and that of
+the smallest ends over partial half-cycles there and back.
 """
 
 
@@ -146,7 +147,15 @@ def _map(step: Step) -> list[str]:
     points = [_explored(*point, step) for point in MAP]
     rows = [_map_row(*at, point) for at, point in zip(MAP, points, strict=True)]
     premises = ["premise there", "and back", "rounds"]
-    head = ["M mean, range", "dsigma / threshold", "m, n solver", "±", "off", *premises]
+    head = [
+        "M mean, range",
+        "dsigma / threshold",
+        "m, n solver",
+        "±",
+        "off",
+        "smallest, off",
+        *premises,
+    ]
     return [MAP_TEXT.strip(), _summary(points), table(head, rows)]
 
 
@@ -163,6 +172,7 @@ def _map_row(mean: float, span: float, part: float, point: Explored) -> list[str
         _zone(point.found.zone),
         _small(point.error),
         _small(point.off(best.zone)),
+        _small(point.off(point.smallest)),
         best.there.value,
         best.back.value,
         str(point.found.finest.cycle.rounds),
@@ -177,10 +187,14 @@ def _summary(points: Sequence[Explored]) -> str:
     beyond = sum(p.off(p.best.zone) > p.error for p in fails)
     largest = max((p.off(p.best.zone) for p in fails), default=np.nan)
     ahead = sum(p.found.zone.n > p.known.half_cycle.always.n - p.found.error.n for p in none)
+    shrinks = [p for p in fails if p.best.shrinks]
+    turns = max((p.off(p.smallest) / p.error for p in shrinks), default=np.nan)
     return f"""\
 * The premise holds in {len(holds)} of {len(points)} cycles.  There the conditions are off by
   {worst:.2f} of the solver's estimate at most.
 * In {len(fails)} cycles it fails, but the conditions have a zone: {beyond} of these are off by more
   than the estimate, by up to {largest:.1e}.
+* In {len(shrinks)} of those it holds in one half-cycle, and in the other one a zone only shrinks.
+  There the smallest ends over partial half-cycles are off by {turns:.2f} of the estimate at most.
 * In {len(none)} there is no zone inside both contacts.  In {ahead} of these the solver's n is where
   the contact ends at its smallest: the edge runs ahead of slip."""

@@ -39,6 +39,13 @@ def test_where_the_premise_fails_the_conditions_do(
     assert point.off(point.large.zone) > 2 * point.error
 
 
+@pytest.mark.slow
+def test_where_only_one_half_cycle_turns_round_its_smallest_zone_is_exact() -> None:
+    point = explored(cycle(3 * threshold(), (0.0, 0.2)), (16, 32, 64), (8, 16, 16))
+    assert point.large.shrinks
+    assert point.off(point.smallest) <= point.error < point.off(point.large.zone)
+
+
 def test_zones_that_grow_are_not_enough() -> None:
     # what was at friction goes on slipping while pressure falls; in one step it would not show
     known = cycle(5 * threshold(), (-0.2, 0.2))
