@@ -204,4 +204,4 @@ def _summary(points: Sequence[Explored]) -> str:
   There the smallest ends over partial half-cycles are off by at most {turns:.2f} of the estimate.
 * In {len(none)} there is no zone inside both contacts.  In {ahead} of these the solver's n is where
   the contact ends at its smallest: the edge runs ahead of slip.  In {coarse} the solver's own
-  estimate is above {COARSE:g}: meshes and steps do not resolve them yet."""
+  estimate is above {COARSE:g}."""
