@@ -1,0 +1,175 @@
+"""The open cases: constant loads around the threshold, and varying moment with large tension.
+
+All on the upright wedge g = phi |x| with E* = phi = 1, P = 1, f = 1/2 and dQ = 0.3 f P.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from tests.reference.cases import WEDGE, Known
+from tests.reference.conditions import LARGE, MODERATE, NOWHERE, HalfCycle, Premise, premise
+from tests.reference.mixed import turning
+from tests.reference.solver import Reference, reference
+from tests.reference.stick import Zone
+
+F, DQ = 0.5, 0.15
+
+WINDOW = (
+    0.9,
+    0.927,
+    0.931,
+    0.935,
+    0.95,
+    0.97,
+    0.99,
+    1.0,
+    1.01,
+    1.03,
+    1.05,
+    1.07,
+    1.085,
+    1.095,
+    1.15,
+)
+"""Tensions at constant loads, over the paper's threshold."""
+
+MEANS = (0.0, 0.1)
+RANGES = (0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
+TENSIONS = (0.5, 1.2, 1.5, 2.0, 3.0, 5.0, 7.0)
+"""The map: mean and range of the moment over P^2/(E* phi), tension over the threshold."""
+
+COUNTS, STEPS = (16, 32, 64), (8, 16, 32)
+"""Elements between breaks, load steps a half-cycle."""
+
+
+def threshold(dQ: float = DQ, f: float = F) -> float:
+    """The paper's: where the moderate n of the upright wedge, P = E* = phi = 1, is c = 1.
+
+    At load P' and tilt alpha = phi (1 - 2 theta/pi) the wedge reaches c = P' tan(theta/2); with
+    P' = 1 - dQ/(2 f), alpha = -dsigma/(4 f):  dsigma = 4 f ((4/pi) arctan(1/P') - 1).
+    """
+    return float(4 * f * (4 / np.pi * np.arctan(1 / (1 - dQ / (2 * f))) - 1))
+
+
+def cycle(dsigma: float, M: tuple[float, float] = (0.0, 0.0)) -> Known:
+    """One of the explored cycles; the sense of slip on the right is yet to be found."""
+    return Known("", WEDGE, LARGE, DQ, dsigma, (1.0, 1.0), M, F)
+
+
+def narrowest(dsigma: float) -> float:
+    """The width of a stick zone whose right end is just not loaded: dQ/pi = (dsigma/4) width/2."""
+    return 8 * DQ / (np.pi * dsigma)
+
+
+class Verdict(NamedTuple):
+    """The conditions in one regime: their zone, and the premise there and back."""
+
+    kappa: int
+    zone: Zone
+    there: Premise
+    back: Premise
+
+    @property
+    def holds(self) -> bool:
+        """Whether the premise holds in both half-cycles."""
+        return self.there is self.back is Premise.HOLDS
+
+    @property
+    def shrinks(self) -> bool:
+        """Whether it holds in one of them, and a zone only shrinks in the other."""
+        return {self.there, self.back} == {Premise.HOLDS, Premise.SHRINKS}
+
+
+def verdict(half: HalfCycle, kappa: int) -> Verdict:
+    """From the loads alone."""
+    zone = half.exact(kappa)
+    return Verdict(kappa, zone, premise(half, kappa, zone), premise(half.back(), kappa, zone))
+
+
+@dataclass(frozen=True)
+class Explored:
+    """One cycle: the solver's answer, and the conditions of both regimes."""
+
+    known: Known
+    found: Reference
+    moderate: Verdict
+    large: Verdict
+
+    @property
+    def best(self) -> Verdict:
+        """The regime whose premise holds, or else the one that has a zone."""
+        return max(self.moderate, self.large, key=lambda v: (v.holds, not np.isnan(v.zone.m)))
+
+    @property
+    def smallest(self) -> Zone:
+        """The candidate where slip turns round, in the same regime."""
+        best = self.best
+        none = np.isnan(best.zone.m)
+        return NOWHERE if none else smallest(self.known.half_cycle, [best.kappa])
+
+    def off(self, zone: Zone) -> float:
+        """How far a zone is from the solver's, at its worse end."""
+        return float(np.abs(np.subtract(zone, self.found.zone)).max())
+
+    @property
+    def error(self) -> float:
+        """The solver's own estimate, at its worse end."""
+        return max(self.found.error)
+
+
+def explored(
+    known: Known, counts: Sequence[int] = COUNTS, steps: Sequence[int] = STEPS
+) -> Explored:
+    """One cycle by the solver and by the conditions."""
+    half = known.half_cycle
+    found = reference(known.case, counts, steps)
+    return Explored(known, found, verdict(half, MODERATE), verdict(half, LARGE))
+
+
+def at_constant_loads(half: HalfCycle) -> tuple[str, Zone]:
+    """The regime of a cycle with dQ, dsigma > 0, and its exact zone: from the loads alone.
+
+    Moderate while a + n <= 8 dQ/(pi dsigma), large from m + n = 8 dQ/(pi dsigma) on.
+    """
+    width = 8 * half.dQ / (np.pi * half.dsigma)
+    moderate, large = half.exact(MODERATE), half.exact(LARGE)
+    if half.ends[0].a + moderate.n <= width:
+        return "moderate", moderate
+    if large.m + large.n >= width:
+        return "large", large
+    return "turns round", turning(half).zone
+
+
+def window() -> tuple[float, float]:
+    """Tensions over the threshold between which slip turns round."""
+
+    def opens(part: float) -> float:
+        known = cycle(part * threshold())
+        return 1 + known.half_cycle.exact(MODERATE).n - narrowest(known.dsigma)
+
+    def closes(part: float) -> float:
+        known = cycle(part * threshold())
+        return sum(known.half_cycle.exact(LARGE)) - narrowest(known.dsigma)
+
+    return float(brentq(opens, 0.9, 0.96)), float(brentq(closes, 1.05, 1.12))
+
+
+def smallest(half: HalfCycle, kappas: Iterable[int] = (MODERATE, LARGE), count: int = 24) -> Zone:
+    """The smallest ends of the zones of partial half-cycles, there and back.
+
+    Exact where one half-cycle has its premise and so leaves all of both slip zones at friction: the
+    other one then starts as the conditions assume, and goes with them until a zone shrinks.
+    """
+    parts = np.sin(np.linspace(np.pi / 2, 0, count, endpoint=False)) ** 2
+    zones = [
+        way.partial(float(part)).exact(kappa)
+        for way in (half, half.back())
+        for kappa in kappas
+        for part in parts
+    ]
+    kept = [zone for zone in zones if not np.isnan(zone.m)]
+    return Zone(*map(float, np.min(kept, axis=0))) if kept else NOWHERE

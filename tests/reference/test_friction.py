@@ -1,0 +1,153 @@
+"""Shear under Coulomb friction."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from tests.reference.bounded import NoSolution
+from tests.reference.cases import HERTZ, HERTZ_LOAD, WEDGE, Known
+from tests.reference.conditions import LARGE
+from tests.reference.kernel import Surface
+from tests.reference.loads import State
+from tests.reference.mesh import Floats, graded
+from tests.reference.solver import Case, Level, level, reference
+from tests.reference.stick import Zone, permanent
+
+F = 0.5
+SURFACE = Surface(graded([-1.05, -1, -0.8, 0.8, 1, 1.05], 16))
+
+VARYING = Known("", WEDGE, LARGE, 0.15, 1.0, (1, 1), (0.1, 0.2)).case
+
+
+def hertz(dQ: float, dsigma: float, f: float = F, mean: float = 0.0) -> Level:
+    """Half-width 1; loads over that of it."""
+    states = (
+        State(HERTZ_LOAD, 0, (mean + sign * dQ / 2) * HERTZ_LOAD, sign * dsigma / 2)
+        for sign in (-1, 1)
+    )
+    return level(Case(HERTZ.body, f, *states), SURFACE, 3)
+
+
+# ------------------------------------------------------------------ signs
+
+
+def test_full_stick_has_the_known_singular_change() -> None:
+    # dq = (dQ/pi - (dsigma/4) x)/sqrt(1 - x^2), where friction is never reached but at the edges
+    found = hertz(0.2, 0.3, f=500.0)
+    change = found.cycle.there.q - found.cycle.back.q
+    inner = np.abs(found.x) < 0.9
+    x = found.x[inner]
+    exact = (0.2 * HERTZ_LOAD / np.pi - 0.3 / 4 * x) / np.sqrt(1 - x**2)
+    np.testing.assert_allclose(change[inner], exact, atol=2e-3)
+
+
+@pytest.mark.parametrize("dsigma", [0.05, 0.1])
+def test_shear_and_tension_of_one_sign_load_the_left_edge_more(dsigma: float) -> None:
+    assert hertz(0.2, dsigma).zone.m < hertz(0.2, 0.0).zone.m < hertz(0.2, -dsigma).zone.m
+    assert hertz(0.2, dsigma).zone.n > hertz(0.2, 0.0).zone.n > hertz(0.2, -dsigma).zone.n
+
+
+def test_a_stretched_body_slips_outward_and_is_held_back() -> None:
+    # pure tension: q pulls its body's ends inward, slip goes outward
+    found = hertz(0.0, 0.5)
+    q, slip, _ = found.cycle.there
+    left, right = found.x < found.zone.m * -1.02, found.x > found.zone.n * 1.02
+    assert np.all(q[left] >= 0) and np.all(q[right] <= 0)
+    assert slip[left].min() < 0 < slip[right].max()
+    assert found.zone.m == pytest.approx(found.zone.n, rel=1e-9)
+
+
+# ------------------------------------------------------------------ every step
+
+
+@pytest.fixture(scope="module")
+def varying() -> Level:
+    return reference(VARYING, (8, 12, 16), (4, 4, 4)).finest
+
+
+def ends(found: Level) -> Sequence[tuple[Floats, Floats, float]]:
+    """q, f p and Q at both ends of the half-cycle."""
+    p1, p2 = found.contacts[0].p, found.contacts[-1].p
+    there, back = found.cycle.there, found.cycle.back
+    return (there.q, F * p2, VARYING.second.Q), (back.q, F * p1, VARYING.first.Q)
+
+
+def test_shear_is_in_equilibrium_and_within_friction(varying: Level) -> None:
+    for q, bound, Q in ends(varying):
+        assert Surface(varying.x).force @ q == pytest.approx(Q, rel=1e-10)
+        assert np.all(np.abs(q) <= bound * (1 + 1e-10))
+
+
+def test_a_steady_cycle_closes(varying: Level) -> None:
+    there, back = varying.cycle.there, varying.cycle.back
+    touching = np.all([contact.p > 0 for contact in varying.contacts], axis=0)
+    net = (there.slip + back.slip)[touching]
+    assert np.abs(net).max() < 1e-6 * there.way.max()
+    assert not there.way[np.all([contact.p == 0 for contact in varying.contacts], axis=0)].any()
+
+
+def test_slip_is_against_friction(varying: Level) -> None:
+    halves = varying.cycle.there, varying.cycle.back
+    for half, (q, bound, _) in zip(halves, ends(varying), strict=True):
+        slides = (np.abs(q) >= bound * (1 - 1e-10)) & (bound > 0)
+        assert np.all(half.slip[slides] * q[slides] <= 1e-15)
+
+
+def test_varying_moment_takes_more_rounds_than_constant_loads(varying: Level) -> None:
+    assert hertz(0.2, 0.1).cycle.rounds == 2  # the second one only repeats the first
+    assert 3 <= varying.cycle.rounds <= 8
+
+
+def test_steps_do_not_matter_where_slip_only_grows() -> None:
+    one, many = (level(VARYING, Surface(mesh()), steps) for steps in (1, 12))
+    assert one.zone == pytest.approx(many.zone, abs=1e-9)
+
+
+def mesh() -> Floats:
+    return graded([-1.6, -1.3, -1.1, 0, 0.8, 1, 1.2], 12)
+
+
+# ------------------------------------------------------------------ traps
+
+
+def test_an_element_that_comes_back_to_friction_at_rest_has_not_slipped() -> None:
+    # high mean shear: the small cycle moves only where a sqrt(1 - dQ/(2 f P)) < |x|, but all that
+    # slipped on the way up, a sqrt(1 - Q/(f P)) < |x|, is at q = f p whenever Q is back
+    dQ, mean = 0.1, 0.25
+    small, wide = np.sqrt(1 - dQ / (2 * F)), np.sqrt(1 - (mean + dQ / 2) / F)
+    surface = Surface(graded([-1.05, -1, -small, -wide, wide, small, 1, 1.05], 24))
+    states = (State(HERTZ_LOAD, 0, (mean + s * dQ / 2) * HERTZ_LOAD) for s in (1, -1))
+    found = level(Case(HERTZ.body, F, *states), surface, 3)
+    at_rest = (np.abs(found.x) > wide + 0.01) & (np.abs(found.x) < small - 0.01)
+    q, p = found.cycle.back.q, found.contacts[0].p
+    np.testing.assert_allclose(q[at_rest], F * p[at_rest], rtol=1e-9)
+    assert found.zone == pytest.approx((small, small), abs=1e-3)
+
+
+def test_the_transient_does_not_matter() -> None:
+    assert hertz(0.2, 0.1, mean=0.2).zone == pytest.approx(hertz(0.2, 0.1).zone, abs=1e-4)
+
+
+def test_sliding_is_refused() -> None:
+    with pytest.raises(NoSolution, match="slides"):
+        hertz(1.01, 0.0)
+
+
+def test_what_slips_everywhere_has_no_zone() -> None:
+    x = np.linspace(0, 1, 9)
+    assert np.isnan(permanent(x, 1 + x, Zone(0.0, 1.0))).all()
+
+
+def test_the_zone_ends_with_what_touches_always_or_within_an_element() -> None:
+    # way^(2/3) = x - 0.61
+    x = np.linspace(0, 1, 41)
+    way = np.maximum(x - 0.61, 0) ** 1.5
+    assert permanent(x, way, Zone(-0.33, 1.01)) == pytest.approx((-0.33, 0.61), rel=1e-12)
+
+
+def test_an_edge_that_runs_ahead_of_slip_ends_the_zone() -> None:
+    # contact [-a, c] with c - a = -4 M/P and a c = (P/(E* phi))^2: c = sqrt(1 + 0.1^2) - 0.1
+    first, second = (State(1, s * 0.05, s * 0.06, s * 0.05) for s in (-1, 1))
+    found = reference(Case(WEDGE.body, F, first, second), (16, 32, 64), (4, 8, 16))
+    assert abs(found.zone.n - np.sqrt(1.01) + 0.1) <= found.error.n < 5e-4

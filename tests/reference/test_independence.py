@@ -1,0 +1,36 @@
+"""A reference that shares no line with what it judges."""
+
+import ast
+import sys
+from pathlib import Path
+
+ALLOWED = {"numpy", "scipy", "pytest", "rich", "click", "tests", *sys.stdlib_module_names}
+
+
+def imported(path: Path) -> set[str]:
+    """Top-level packages, and of the tests the modules."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0
+            found.add(node.module or "")
+    return found
+
+
+def test_neither_derive_nor_generated_is_imported() -> None:
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    assert len(files) > 10
+    for path in files:
+        names = imported(path)
+        assert {name.partition(".")[0] for name in names} <= ALLOWED, path.name
+        inner = {name for name in names if name.startswith("tests")}
+        assert all(name.startswith("tests.reference") for name in inner), path.name
+
+
+def test_no_module_is_fetched_by_name() -> None:
+    for path in Path(__file__).parent.glob("*.py"):
+        if path.name != Path(__file__).name:
+            text = path.read_text(encoding="utf-8")
+            assert "importlib" not in text and "__import__" not in text, path.name

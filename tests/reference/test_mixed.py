@@ -1,0 +1,87 @@
+"""The window in which slip turns round: the exact stick zone against the solver."""
+
+import numpy as np
+import pytest
+
+from tests.reference import mixed
+from tests.reference.cases import HERTZ, HERTZ_LOAD, Known
+from tests.reference.conditions import LARGE, MODERATE
+from tests.reference.explore import cycle, narrowest, threshold, window
+from tests.reference.kernel import Surface
+from tests.reference.mesh import graded
+from tests.reference.mixed import NotInWindow, turning
+from tests.reference.solver import level, reference
+
+
+def slow(part: float) -> object:
+    """A cycle that `make quick` leaves out."""
+    return pytest.param(part, marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("part", [slow(0.95), 1.0, slow(1.05), slow(1.085)])
+def test_wedge(part: float) -> None:
+    known = cycle(part * threshold())
+    found, exact = reference(known.case, (16, 32, 64), (8, 16, 32)), turning(known.half_cycle)
+    assert np.all(np.abs(np.subtract(found.zone, exact.zone)) <= found.error)
+    assert max(found.error) < 3e-4
+
+
+def test_hertz() -> None:
+    # the paper's threshold, 4 f E*/R (b - sqrt(b^2 - 2 R dQ/(pi E* f))), with b = R = E* = 1
+    dQ, f = 0.15 * HERTZ_LOAD, 0.5
+    dsigma = 4 * f * (1 - np.sqrt(1 - 2 * dQ / (np.pi * f)))
+    known = Known("", HERTZ, LARGE, dQ, dsigma, (HERTZ_LOAD, HERTZ_LOAD))
+    found, exact = reference(known.case, (24, 48, 96), (8, 8, 16)), turning(known.half_cycle)
+    assert np.all(np.abs(np.subtract(found.zone, exact.zone)) <= found.error)
+    assert 1 - exact.zone.n == pytest.approx(1 - found.zone.n, rel=0.05)
+
+
+def test_the_threshold_is_where_the_moderate_zone_reaches_the_edge() -> None:
+    assert cycle(0.9999999 * threshold()).half_cycle.exact(MODERATE).n == pytest.approx(1, abs=1e-6)
+
+
+def test_the_window_opens_where_the_moderate_zone_is_wide_enough() -> None:
+    # a + n = 8 dQ/(pi dsigma), a = 1: there both solutions meet
+    def room(part: float) -> float:
+        zone = cycle(part * threshold()).half_cycle.exact(MODERATE)
+        return narrowest(part * threshold()) - 1 - zone.n
+
+    assert room(0.931) > 0 > room(0.933)
+    assert room(window()[0]) == pytest.approx(0, abs=1e-9)
+    half = cycle(0.933 * threshold()).half_cycle
+    assert turning(half).zone == pytest.approx(half.exact(MODERATE), abs=2e-6)
+    with pytest.raises(NotInWindow):
+        turning(cycle(0.931 * threshold()).half_cycle)
+
+
+def test_the_window_closes_where_the_large_zone_is_wide_enough() -> None:
+    def room(part: float) -> float:
+        zone = cycle(part * threshold()).half_cycle.exact(LARGE)
+        return sum(zone) - narrowest(part * threshold())
+
+    assert room(1.091) < 0 < room(1.092)
+    assert room(window()[1]) == pytest.approx(0, abs=1e-9)
+    half = cycle(1.091 * threshold()).half_cycle
+    assert turning(half).zone == pytest.approx(half.exact(LARGE), abs=2e-6)
+    with pytest.raises(NotInWindow):
+        turning(cycle(1.092 * threshold()).half_cycle)
+
+
+def test_finer_pieces_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    half = cycle(threshold()).half_cycle
+    fine = turning(half)
+    monkeypatch.setattr(mixed, "CELLS", 50)
+    assert turning(half).zone == pytest.approx(fine.zone, abs=1e-8)
+
+
+def test_the_solver_ends_the_half_cycle_as_phase_three_does() -> None:
+    # q = f p right of n_end, and less between n and n_end, which stuck again
+    known = cycle(threshold())
+    exact = turning(known.half_cycle)
+    x = graded([-1.05, -1, -exact.zone.m, 0, exact.zone.n, exact.n_end, 1, 1.05], 24)
+    found = level(known.case, Surface(x), 16)
+    over = found.cycle.there.q / np.maximum(known.f * found.contacts[0].p, 1e-300)
+    again = (x > exact.zone.n + 2e-4) & (x < exact.n_end - 2e-4)
+    slips = (x > exact.n_end + 2e-4) & (found.contacts[0].p > 0)
+    assert np.all(np.abs(over[again]) < 1 - 1e-6)
+    np.testing.assert_allclose(over[slips], 1, rtol=1e-9)
