@@ -25,7 +25,7 @@ import numpy as np
 from ._arrays import Array, Flat, at_rows
 from ._stick import Law, stick_zone_of
 from ._types import Contact, Regime
-from ._zones import parts_of
+from ._zones import Task, bounded_change, parts_of
 
 LEVEL = 5
 """Steps of the quadrature are 2**-LEVEL: enough however close a place is to the stick zone."""
@@ -89,14 +89,14 @@ class _Known:
         values = {
             "x": x,
             **{"first.a": first.a, "first.c": first.c, "second.a": second.a, "second.c": second.c},
-            **{"dsigma": dsigma, "m": zone.m, "n": zone.n, "regime": zone.regime},
+            **{"dQ": dQ, "dsigma": dsigma, "m": zone.m, "n": zone.n, "regime": zone.regime},
         }
         self.law, self.given = law, Flat(values, {"E_star": E_star, **own}, {"f": f})
-        x, a_1, c_1, a_2, c_2, dsigma, m, n, regime, f = self.given.values
-        self.x, self.m, self.n, self.regime, self.f = x, m, n, regime, f
+        self.x, a_1, c_1, a_2, c_2, self.dQ, self.dsigma, *known = self.given.values
+        self.m, self.n, self.regime, self.f = known
         self.a, self.c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
-        self.opposite = regime == Regime.LARGE
-        self.sense = np.where(self.opposite & (dsigma < 0), -1.0, 1.0)
+        self.opposite = self.regime == Regime.LARGE
+        self.sense = np.where(self.opposite & (self.dsigma < 0), -1.0, 1.0)
         self.constants = self.given.constants
 
     def in_pieces(self, of: Any) -> Array:
@@ -148,18 +148,19 @@ class _Known:
         return np.where(still, 0.0 * x, np.where(known, found, np.nan))
 
     def _bounded(self, rows: Array) -> Array:
-        """dq in the stick zone: the bounded solution."""
-        x, m, n = self.x[rows], self.m[rows], self.n[rows]
-        total = 0.0
-        for side in (-1, 1):
-            start, end, cuts = self.zone(side, rows)
-            away = start - side * x  # from x to this end of the stick zone
-            for y, weight in parts_of(end, cuts, LEVEL):
-                force = self.kappa(side, rows) * self.pressures(side * (start + y), rows)
-                total = total + np.sum(
-                    weight * force / (np.sqrt(y * (y + m + n)) * (y + away)), axis=0
-                )
-        return self.f[rows] * np.sqrt((x + m) * (n - x)) / np.pi * total
+        """dq in the stick zone of large tension."""
+
+        def pressure(x: Array, of: int, some: Array) -> Array:
+            edges = self.a[of][some], self.c[of][some]
+            return self.law.pressure(x, *edges, **at_rows(some, self.constants))
+
+        def kinks(some: Array) -> tuple[Array, ...]:
+            held = at_rows(some, self.constants)
+            return self.law.kinks(**{name: v for name, v in held.items() if name != "E_star"})
+
+        a, c, dQ, dsigma = self.a[:, rows], self.c[:, rows], self.dQ[rows], self.dsigma[rows]
+        task = Task(a, c, dQ, dsigma, self.f[rows], rows, pressure, kinks)
+        return bounded_change(task, self.m[rows], self.n[rows], self.x[rows], LEVEL)
 
     def slip(self, rows: Array) -> Array:
         """Slip at x."""

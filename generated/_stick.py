@@ -12,6 +12,10 @@ the width of the zone that is still stuck; then slip goes on at the edges if
 
 the upper sign at the right edge, and as long as the zone ends inside both contacts.  `lead` says
 how fast an edge runs ahead; where |pull| < f |lead| at both edges all the way there is no slip.
+Shear that has not slipped yet, at friction since the last half-cycle, must stay within it while the
+pressure falls: kappa dq > f (p1 - p).  Under moderate tension it does, since p exceeds the pressure
+of a contact inside its own; under large tension it is asked.
+
 This is tested at PARTS parts of the way, from both ends, lead included at the start; with constant
 loads it can fail first where slip begins (moderate tension) or ends (large tension), and only there
 it is tested.
@@ -26,10 +30,19 @@ import numpy as np
 from ._arrays import Array, Flat, at_rows
 from ._roots import around, increasing_root
 from ._types import Contact, Regime, StickZone, Threshold
-from ._zones import stick_between
+from ._zones import Task, bounded_change, stick_between
 
 PARTS = 8
 """Parts of a half-cycle at which the growth of slip is tested."""
+
+PLACES = 4
+"""Places of a slip zone to come at which its shear is compared with friction."""
+
+LEVEL = 4
+"""Steps of the quadrature for that are 2**-LEVEL."""
+
+SLACK = 1e-6
+"""What is allowed for rounding, in parts of the friction."""
 
 HALVINGS = 52
 """Halvings of an interval: to the last bit of float64."""
@@ -80,6 +93,9 @@ def stick_zone_of(
             regime[rows[here]] = code
             m[rows], n[rows] = np.where(here, left, np.nan), np.where(here, right, np.nan)
             open_[rows[here]] = False
+    rows = np.flatnonzero((regime == Regime.MIXED) & cycle.steady)
+    if rows.size:
+        m[rows], n[rows] = _overtaken(cycle.on(rows))
     unsolved = (regime == Regime.LARGE) & ~np.isfinite(m)
     regime[unsolved] = Regime.UNSOLVED
     return StickZone(*(given.shaped(v) for v in (m, n, regime)))
@@ -208,6 +224,22 @@ class _Cycle:
                 held = held & (kappa * pull >= self.f * np.abs(lead))
         return held
 
+    def holds_at_the_start(self, left: Array, right: Array, m: Array, n: Array) -> Array:
+        """Whether shear that has not slipped yet stays within friction, from either end.
+
+        Shear in full stick and pressure both change as a line over w; so it holds all over a slip
+        zone to come if it does at its inner end, -m or n, and slip begins at its edge.
+        """
+        held = True
+        for sense, a, c in zip((1, -1), self.a, self.c, strict=True):
+            h, mid = a + c, (c - a) / 2
+            at_left, at_right = self.leads(h, a, c)
+            for kappa, x in ((left, -m), (right, n)):
+                shear = self.dQ - np.pi * self.dsigma * (x - mid) / 4
+                pressure = (at_left * (c - x) + at_right * (a + x)) / h
+                held = held & (kappa * shear >= -sense * self.f * pressure)
+        return held
+
     @property
     def tensions_at_the_start(self) -> tuple[Array, Array]:
         """Between which changes of tension both edges begin to slip forward."""
@@ -334,14 +366,37 @@ def _large(cycle: _Cycle) -> Found:
         m[rows], n[rows] = _solved(there, there.a, there.c, 1.0)
         stuck = m + n
         slips &= ~(np.pi * stuck * np.abs(cycle.dsigma) / 8 < cycle.dQ)
+        slips &= ~np.isfinite(m) | cycle.holds_at_the_start(sense, -sense, m, n) | cycle.steady
     rows = np.flatnonzero(slips & ~cycle.steady & np.isfinite(m))
     if rows.size:
         slips[rows] = _grows_apart(cycle.on(rows), m[rows], n[rows])
     return slips, m, n
 
 
-def _solved(cycle: _Cycle, a: Array, c: Array, part: Array) -> tuple[Array, Array]:
-    """m and n of large tension between two contacts, at parts of the changes."""
+def _overtaken(cycle: _Cycle) -> tuple[Array, Array]:
+    """m and n where slip reverses for a while at constant loads, but leaves nothing behind.
+
+    Tension a little beyond its threshold turns slip round at one edge, say the right one.  Shear is
+    at friction there already, since the last half-cycle ended so; what slips back, dq = 0, reaches
+    at once as far as pull = 0, to a + n0 = 8 dQ/(pi dsigma), and sticks again at once as the left
+    zone grows.  Slip that then comes in forward as under moderate tension, beyond n0, overtakes it.
+    """
+    patch = _patch(cycle, cycle.load, cycle.tilt, 1.0)
+    whole = np.where(cycle.dsigma < 0, cycle.c[0] + patch.a, cycle.a[0] + patch.c)
+    inside = (patch.a <= cycle.a[0]) & (patch.c <= cycle.c[0])
+    exact = inside & (np.pi * whole * np.abs(cycle.dsigma) / 8 <= cycle.dQ)
+    return np.where(exact, patch.a, np.nan), np.where(exact, patch.c, np.nan)
+
+
+def _solved(cycle: _Cycle, a: Array, c: Array, part: float) -> tuple[Array, Array]:
+    """m and n of large tension between two contacts, at a part of the changes."""
+    K = cycle.law.K_N(a, c, **cycle.constants)
+    K_left, K_right = np.mean(K.left, axis=0), np.mean(K.right, axis=0)
+    return stick_between(_task(cycle, a, c, part), K_left, K_right)
+
+
+def _task(cycle: _Cycle, a: Array, c: Array, part: float) -> Task:
+    """What the solver of large tension is told."""
 
     def pressure(x: Array, of: int, rows: Array) -> Array:
         edges = a[of][rows], c[of][rows]
@@ -350,10 +405,8 @@ def _solved(cycle: _Cycle, a: Array, c: Array, part: Array) -> tuple[Array, Arra
     def kinks(rows: Array) -> tuple[Array, ...]:
         return cycle.law.kinks(**at_rows(rows, cycle.geometry))
 
-    K = cycle.law.K_N(a, c, **cycle.constants)
-    K_left, K_right = np.mean(K.left, axis=0), np.mean(K.right, axis=0)
     dQ, dsigma = part * cycle.dQ, part * cycle.dsigma
-    return stick_between(a, c, dQ, dsigma, cycle.f, K_left, K_right, pressure, kinks)
+    return Task(a, c, dQ, dsigma, cycle.f, np.arange(dQ.size), pressure, kinks)
 
 
 def _grows_apart(cycle: _Cycle, m: Array, n: Array) -> Array:
@@ -368,9 +421,33 @@ def _grows_apart(cycle: _Cycle, m: Array, n: Array) -> Array:
             now = _solved(cycle, *ends, part)
             for edge, last, limit in zip(now, before, (a[k], c[k]), strict=True):
                 grows &= (edge <= last) & (edge <= limit)
+            rows = np.flatnonzero(grows)
+            task = _task(cycle, *ends, part).on(rows)
+            now_here, whole = (tuple(v[rows] for v in zone) for zone in (now, (m, n)))
+            grows[rows] &= _within_friction(task, now_here, whole)
             before = now
         grows &= (m <= before[0]) & (n <= before[1])
     return grows & (m <= np.minimum(*cycle.a)) & (n <= np.minimum(*cycle.c))
+
+
+def _within_friction(task: Task, zone: tuple[Array, Array], whole: tuple[Array, Array]) -> Array:
+    """Whether kappa dq > f (p1 - p) at places where slip is still to come.
+
+    zone: m and n so far; whole: in the end.
+    """
+    within = np.full(zone[0].shape, True)
+    for side, so_far, end in ((-1, zone[0], whole[0]), (1, zone[1], whole[1])):
+        kappa = -side * task.sense
+        for part in (np.arange(PLACES) + 0.5) / PLACES:
+            x = side * (end + part * (so_far - end))
+            fallen = task.pressure(x, 0, task.rows) - task.pressure(x, 1, task.rows)
+            rows = np.flatnonzero(fallen > 0)
+            if rows.size:
+                here = task.on(rows)
+                change = bounded_change(here, zone[0][rows], zone[1][rows], x[rows], LEVEL)
+                least = (task.f * fallen)[rows] * (1 - SLACK)
+                within[rows] &= kappa[rows] * change >= least
+    return within
 
 
 def _narrowed(cycle: _Cycle, lower: Array, upper: Array) -> tuple[Array, Array]:

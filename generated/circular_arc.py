@@ -482,8 +482,9 @@ def stick_zone(
         R       radius of the arc [m]
 
     Returns StickZone(m [m], n [m], regime as a code of Regime).
-    NaN unless the regime is MODERATE, LARGE or FULL_STICK: where slip reverses within a half-cycle
-    no exact solution is known; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
+    MIXED, they are given if the loads are constant and forward slip overtakes it in the end; nor
+    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/circular_arc.py.
 
     >>> law = dict(E_star=1.0, R=1.0)

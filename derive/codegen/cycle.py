@@ -73,8 +73,8 @@ CYCLE: tuple[CycleFunction, ...] = (
             "r = +/- f (p1 + p2), the upper sign on the left if dsigma > 0",
         ),
         "StickZone(m [m], n [m], regime as a code of Regime)",
-        "the regime is MODERATE, LARGE or FULL_STICK: where slip reverses within a half-cycle no "
-        "exact solution is known",
+        "the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle, "
+        "MIXED, they are given if the loads are constant and forward slip overtakes it in the end",
         "StickZone",
     ),
     CycleFunction(

@@ -15,6 +15,8 @@ parts of int r/(w (xi - n)) dxi and int r/(w (xi + m)) dxi, and F = (right - lef
 Next to the solution F vanishes and each end is sought by itself.  The unknowns of Newton's method
 are the logarithms of both slip zones over the stick zone, so that all three stay positive.
 
+Inside, dq is an integral of r over the slip zones, `bounded_change`.
+
 Each slip zone is cut where a contact ends and at the body's kinks; on each part the nodes of the
 double exponential rule crowd towards both ends.  The step is halved until the solution stays.
 """
@@ -76,44 +78,13 @@ Kinks = Callable[[Array], tuple[Array, ...]]
 """Places of the kinks of some elements."""
 
 
-def stick_between(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    f: Array,
-    K_left: Array,
-    K_right: Array,
-    pressure: Pressure,
-    kinks: Kinks,
-) -> tuple[Array, Array]:
-    """m and n, NaN where the iteration does not end.
-
-    a, c: edges of both contacts, two rows.
-    K_left, K_right: means of their edge coefficients, to start from.
-    """
-    task = Task(a, c, dQ, dsigma, f, np.arange(dQ.size), pressure, kinks)
-    left, right = _first_guess(task, K_left, K_right)
-    found_left, found_right = np.full(left.shape, np.nan), np.full(left.shape, np.nan)
-    rows = task.rows
-    for level in range(COARSEST, FINEST + 1):
-        here, last_left, last_right = task.on(rows), left, right
-        left, right = _by_one_rule(here, left, right, level)
-        rounding = 16 * _EPS * here.width
-        agreed = np.abs(left - last_left) <= AGREED * left + rounding
-        agreed &= np.abs(right - last_right) <= AGREED * right + rounding
-        agreed &= level > COARSEST
-        agreed |= here.width - left - right < here.least_stuck
-        found_left[rows[agreed]], found_right[rows[agreed]] = left[agreed], right[agreed]
-        on = ~agreed & np.isfinite(left) & np.isfinite(right)
-        rows, left, right = rows[on], left[on], right[on]
-        if not rows.size:
-            break
-    return task.smaller_a - found_left, task.smaller_c - found_right
-
-
 class Task(NamedTuple):
-    """Cycles whose stick zones are sought; `rows` are their numbers."""
+    """Cycles whose stick zones are sought.
+
+    a, c         edges of both contacts, two rows
+    dQ, dsigma   changes of shear and tension
+    rows         numbers of the cycles, by which pressure and kinks know them
+    """
 
     a: Array
     c: Array
@@ -171,6 +142,30 @@ class Task(NamedTuple):
         alike = (self.a[0] == self.a[1]) & (self.c[0] == self.c[1])
         total = 2 * total if np.all(alike) else total + self.pressure(x, 1, self.rows)
         return np.where(total == np.inf, 0.0, total)
+
+
+def stick_between(task: Task, K_left: Array, K_right: Array) -> Pair:
+    """m and n, NaN where the iteration does not end.
+
+    K_left, K_right: means of both contacts' edge coefficients, to start from.
+    """
+    left, right = _first_guess(task, K_left, K_right)
+    found_left, found_right = np.full(left.shape, np.nan), np.full(left.shape, np.nan)
+    rows = task.rows
+    for level in range(COARSEST, FINEST + 1):
+        here, last_left, last_right = task.on(rows), left, right
+        left, right = _by_one_rule(here, left, right, level)
+        rounding = 16 * _EPS * here.width
+        agreed = np.abs(left - last_left) <= AGREED * left + rounding
+        agreed &= np.abs(right - last_right) <= AGREED * right + rounding
+        agreed &= level > COARSEST
+        agreed |= here.width - left - right < here.least_stuck
+        found_left[rows[agreed]], found_right[rows[agreed]] = left[agreed], right[agreed]
+        on = ~agreed & np.isfinite(left) & np.isfinite(right)
+        rows, left, right = rows[on], left[on], right[on]
+        if not rows.size:
+            break
+    return task.smaller_a - found_left, task.smaller_c - found_right
 
 
 def _first_guess(task: Task, K_left: Array, K_right: Array) -> tuple[Array, Array]:
@@ -356,6 +351,18 @@ def _zone(task: Task, side: int, slip: Array, stuck: Array, level: int) -> _Zone
         far_off = y > _NEAREST * end
         along = along + np.sum(np.where(far_off, change / (y * np.sqrt(y)), 0.0), axis=0)
     return _Zone(near, far, along, across)
+
+
+def bounded_change(task: Task, m: Array, n: Array, x: Array, level: int) -> Array:
+    """dq at x in the stick zone [-m, n]:  sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi."""
+    total, stuck = 0.0, m + n
+    for side, end, smaller in ((-1, m, task.smaller_a), (1, n, task.smaller_c)):
+        slip, away = smaller - end, end - side * x
+        start, length = task.slip_zone(side, slip)
+        for y, weight in parts_of(length, task.cuts(side, slip), level):
+            force = weight * task.sum_of_pressures(side * (start + y))
+            total = total - side * np.sum(force / (np.sqrt(y * (y + stuck)) * (y + away)), axis=0)
+    return task.sense * task.f * np.sqrt((x + m) * (n - x)) / np.pi * total
 
 
 def parts_of(end: Array, cuts: list[Array], level: int) -> Iterator[tuple[Array, Array]]:
