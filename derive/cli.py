@@ -19,6 +19,7 @@ from derive.errors import NotProven, UserError
 
 if TYPE_CHECKING:
     from derive.body import Body
+    from derive.paper.claim import Claim
     from derive.pipeline import Order
 
 _WIDE = 10_000
@@ -150,6 +151,66 @@ def generate(
     changed = order.write(bodies)
     _print(view.summary(bodies))
     _print(f"{'Wrote' if changed else 'Nothing to change in'} {_shown(order.target)}")
+
+
+@main.command()
+@click.argument("file", required=False, type=click.Path(path_type=Path))
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["table", "json", "markdown", "latex"]),
+    default="table",
+    help="How the findings are written.",
+)
+@click.option("--explain", metavar="LABEL", help="One claim: the steps and the numbers.")
+def check(file: Path | None, form: str, explain: str | None) -> None:
+    """Check a paper's algebra: what is printed against what follows, claim by claim.
+
+    Without FILE the paper by Andresen, Fleury, Moore and Hills (2020); FILE is a claims file of
+    one's own in TOML, as in examples/.  Leaves with 1 if a verdict is not the one expected.
+    """
+    from derive import view
+    from derive.paper import report
+    from derive.paper.verdict import check as judged
+
+    title, claims = _claims(file, explain)
+    with _progress(len(claims), ("checking",)) as step:
+        findings = []
+        for claim in claims:
+            step(claim.label, "checking")
+            findings.append(judged(claim))
+            step(claim.label, "")
+    if form == "json":
+        click.echo(report.as_json(findings))
+    elif form == "markdown":
+        click.echo(report.as_markdown(title, findings))
+    elif form == "latex":
+        click.echo(report.as_latex(title, findings))
+    elif explain is not None:
+        _print(view.explained(findings[0]))
+    else:
+        _print(view.checked(findings))
+    wrong = report.unexpected(findings)
+    if wrong:
+        labels = ", ".join(finding.claim.label for finding in wrong)
+        _complain("Not as expected", labels)
+        sys.exit(FELL_SHORT)
+
+
+def _claims(file: Path | None, label: str | None) -> "tuple[str, tuple[Claim, ...]]":
+    """The title and the claims of a paper, or the one claim that is asked for."""
+    from derive.errors import UnknownClaim
+    from derive.paper.andresen2020 import paper
+    from derive.paper.userfile import read_claims
+
+    with _console(stderr=True).status("deriving what the paper is compared with"):
+        source = paper() if file is None else read_claims(file)
+    if label is None:
+        return source.title, source.claims
+    labels = tuple(claim.label for claim in source.claims)
+    if label not in labels:
+        raise UnknownClaim(label, labels)
+    return source.title, (source[label],)
 
 
 def _built(order: "Order", jobs: int | None, fresh: bool) -> "list[Body]":
