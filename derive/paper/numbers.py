@@ -15,7 +15,8 @@ from typing import TypeAlias
 
 import mpmath
 from mpmath import mpc, mpf
-from sympy import Abs, Dummy, Expr, Integral, Mul, Pow, S, Symbol, lambdify, log, sign
+from sympy import Abs, Dummy, Expr, Integral, Mul, Pow, S, Symbol, lambdify, log, nan, oo, sign, zoo
+from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from derive.paper.claim import SCALE, Claim, Meaning, Point, Range
 from derive.paper.quick import Unknown, approximately
@@ -28,6 +29,9 @@ LEAST = 20
 """Points where an integral is in it; below that nothing is decided."""
 _WORKING = (36, 44, 80)
 """Working digits, tried in this order."""
+_COARSE = (16, 24)
+_FEW = 4
+"""Digits: two sides that share no more of them differ."""
 _QUICK = 16
 """Digits by which candidates are told apart at first."""
 _INSIDE = 3
@@ -127,6 +131,19 @@ def numbers(claim: Claim, meaning: Meaning, point: Point) -> Point:
     return found
 
 
+def apart(left: Expr, right: Expr, value: Callable[[], Point], point: Point) -> Pair | None:
+    """Both sides where a few digits, that do not change with more of them, tell them apart."""
+    found = []
+    for working in _COARSE:
+        with mpmath.workdps(working):
+            numbers = value()
+            found.append((evaluated(left, numbers), evaluated(right, numbers)))
+        if not all(mpmath.isfinite(number) for number in found[-1]) or agreement(*found[-1]) > _FEW:
+            return None
+    stable = all(agreement(*values) > 2 * _FEW for values in zip(*found, strict=True))
+    return Pair(*found[-1], point) if stable else None
+
+
 def both(left: Expr, right: Expr, value: Callable[[], Point], point: Point) -> Pair:
     """Both sides with digits that are known to be right; raises Undecided."""
     previous: tuple[Value, Value] | None = None
@@ -180,12 +197,18 @@ def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf]) -> Value:
 
 @cache
 def _compiled(expr: Expr) -> tuple[Callable[..., Value], list[Symbol], list[Integral]]:
+    if expr.has(zoo, nan, oo):
+        raise Undecided(f"{expr} is no number")
     outer = [i for i in expr.atoms(Integral) if not _is_inner(i, expr)]
     integrals = sorted(outer, key=str)
     stand_ins = {found: Dummy("I") for found in integrals}
     plain = expr.xreplace(stand_ins)
     held = sorted(plain.free_symbols - set(stand_ins.values()), key=str)
-    return lambdify([*held, *stand_ins.values()], plain, modules="mpmath"), held, integrals
+    try:
+        function = lambdify([*held, *stand_ins.values()], plain, modules="mpmath")
+    except PrintMethodNotImplementedError as error:
+        raise Undecided(f"no way is known to compute {expr}") from error
+    return function, held, integrals
 
 
 def _is_inner(integral: Integral, expr: Expr) -> bool:

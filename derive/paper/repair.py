@@ -8,7 +8,7 @@
                one over it; the mean of it and another
     exponent   of every power: its sign, twice, half, 3/2 and 2/3 of it, one more, one less
     term       one left out, one too many
-    modulus    left out
+    modulus    one left out, one about the whole
 
 No knowledge of the paper is in here.
 """
@@ -150,6 +150,7 @@ def _terms(expr: Expr, swaps: tuple[Symbol, ...]) -> Iterator[Edit]:
 
 
 def _moduli(expr: Expr) -> Iterator[Edit]:
+    yield Edit("modulus", "about the whole", Abs(expr))
     for modulus in _places(expr, Abs):
         for sign in (1, -1):
             inside = sign * modulus.args[0]

@@ -19,6 +19,7 @@ from derive.paper.numbers import (
     LEAST,
     Pair,
     Undecided,
+    apart,
     both,
     near,
     numbers,
@@ -115,7 +116,7 @@ def judge(claim: Claim, left: Expr, right: Expr, meaning: Meaning) -> Judged:
     found: list[Pair] = []
     try:
         for point in points(claim):
-            pair = _at(claim, left, right, meaning, point)
+            pair = _at(claim, left, right, meaning, point, first=not found)
             found.append(pair)
             if not _stands(claim, pair):
                 return Judged(Verdict.FAILS, _example(claim, pair), tuple(found))
@@ -144,11 +145,15 @@ def _vanishing(claim: Claim, difference: Expr) -> str:
     return vanishes(difference, places)
 
 
-def _at(claim: Claim, left: Expr, right: Expr, meaning: Meaning, point: Point) -> Pair:
+def _at(claim: Claim, left: Expr, right: Expr, meaning: Meaning, point: Point, first: bool) -> Pair:
     """Both sides at one point; a printed integral is written in our symbols first."""
     if left.has(Integral) or right.has(Integral):
         left, right = left.xreplace(dict(meaning)), right.xreplace(dict(meaning))
-    return both(left, right, lambda: numbers(claim, meaning, point), point)
+
+    def value() -> Point:
+        return numbers(claim, meaning, point)
+
+    return (first and apart(left, right, value, point)) or both(left, right, value, point)
 
 
 def _stands(claim: Claim, pair: Pair) -> bool:

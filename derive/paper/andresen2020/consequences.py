@@ -141,4 +141,5 @@ def _short(number: mpf) -> str:
 
 
 def _error(given: mpf, right: mpf) -> str:
-    return f"{float(100 * (given / right - 1)):+.1f} %"
+    percent = round(float(100 * (given / right - 1)), 1)
+    return f"{percent + 0.0:+.1f} %"

@@ -1,6 +1,7 @@
 """Section 1: when a contact stays fully stuck."""
 
-from sympy import Expr, Symbol, pi
+from sympy import Expr, S, Symbol, pi
+from sympy import sign as sgn
 
 from derive.paper import anybody
 from derive.paper.andresen2020.symbols import a, dM, dP, dQ, dsigma
@@ -13,6 +14,7 @@ from derive.symbols import f
 
 _u, _v = Symbol("u", positive=True), Symbol("v", positive=True)
 """How far the left and the right edge move outward."""
+_sense = Symbol("sense", real=True)
 
 _STEPS = (
     "A symmetric body, edges that move by u and v: dP = P_a u + P_c v, dM = M_a u + M_c v.",
@@ -25,13 +27,17 @@ _STEPS = (
 def claims() -> tuple[Claim, ...]:
     """Both signs of eq. (1)."""
     anybody.demand_proven()
+    return (*_in_the_sense_of_shear(), *_in_either_sense())
+
+
+def _in_the_sense_of_shear() -> tuple[Claim, ...]:
     return tuple(
         Claim(
             label=f"fullstickinequality/{side}",
             equation="(1)",
             place=f"eq. (1), section 1, {word} signs",
             says=f"no slip starts at the {side} edge of a symmetric contact",
-            left=(4 * a * dQ + sign * pi * a**2 * dsigma) / (4 * a * dP + sign * 8 * dM),
+            left=_quotient(sign),
             right=f,
             relation=Relation.BOUND,
             meaning=_meaning(side),
@@ -45,7 +51,36 @@ def claims() -> tuple[Claim, ...]:
     )
 
 
-def _meaning(side: str) -> Meaning:
+def _in_either_sense() -> tuple[Claim, ...]:
+    """The same taken as sufficient, as it must be where tension reverses slip at one edge."""
+    return tuple(
+        Claim(
+            label=f"fullstickinequality/either sense/{side}",
+            place=f"eq. (1), section 1, {word} signs, taken as sufficient",
+            says=f"no slip of either sense starts at the {side} edge",
+            left=_quotient(sign),
+            right=f,
+            relation=Relation.BOUND,
+            meaning=_meaning(side, sense=sgn(_sense)),
+            against="the singular terms as before, slip of either sense",
+            ranges={change_of_tension: SIGNED, _sense: SIGNED},
+            steps=(*_STEPS, "For slip of the other sense K_T is -f K u/2, and the quotient -f."),
+            expected=Verdict.FAILS,
+            consequence=lambda: (
+                "where tension outweighs shear the quotient is negative and the inequality is met "
+                "however large the tension is: slip of the reversed sense goes unseen"
+            ),
+        )
+        for side, word, sign in (("left", "upper", 1), ("right", "lower", -1))
+    )
+
+
+def _quotient(sign: int) -> Expr:
+    """Eq. (1), left-hand side."""
+    return (4 * a * dQ + sign * pi * a**2 * dsigma) / (4 * a * dP + sign * 8 * dM)
+
+
+def _meaning(side: str, sense: Expr = S.One) -> Meaning:
     symmetric = {right: left, K_right: K_left}
     load = anybody.load_by(left) * _u + anybody.load_by(right) * _v
     moment = anybody.moment_by(left) * _u + anybody.moment_by(right) * _v
@@ -55,7 +90,7 @@ def _meaning(side: str) -> Meaning:
         dP: load.subs(symmetric),
         dM: moment.subs(symmetric),
         dsigma: change_of_tension,
-        dQ: _shear_at_slip(side, f * K_left * moved / 2),
+        dQ: _shear_at_slip(side, sense * f * K_left * moved / 2),
     }
 
 
