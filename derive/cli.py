@@ -8,6 +8,7 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,7 @@ from derive.errors import NotProven, UserError
 
 if TYPE_CHECKING:
     from derive.body import Body
-    from derive.paper.claim import Claim
+    from derive.paper.claim import Paper
     from derive.pipeline import Order
 
 _WIDE = 10_000
@@ -173,23 +174,23 @@ def check(file: Path | None, form: str, explain: str | None) -> None:
     from derive.paper import report
     from derive.paper.verdict import check as judged
 
-    title, claims = _claims(file, explain)
-    with _progress(len(claims), ("checking",)) as step:
+    paper = _paper(file, explain)
+    with _progress(len(paper.claims), ("checking",)) as step:
         findings = []
-        for claim in claims:
+        for claim in paper.claims:
             step(claim.label, "checking")
             findings.append(judged(claim))
             step(claim.label, "")
     if form == "json":
         click.echo(report.as_json(findings))
     elif form == "markdown":
-        click.echo(report.as_markdown(title, findings))
+        click.echo(report.as_markdown(paper, findings))
     elif form == "latex":
-        click.echo(report.as_latex(title, findings))
+        click.echo(report.as_latex(paper, findings))
     elif explain is not None:
         _print(view.explained(findings[0]))
     else:
-        _print(view.checked(findings))
+        _print(view.checked(paper, findings))
     wrong = report.unexpected(findings)
     if wrong:
         labels = ", ".join(finding.claim.label for finding in wrong)
@@ -197,8 +198,8 @@ def check(file: Path | None, form: str, explain: str | None) -> None:
         sys.exit(FELL_SHORT)
 
 
-def _claims(file: Path | None, label: str | None) -> "tuple[str, tuple[Claim, ...]]":
-    """The title and the claims of a paper, or the one claim that is asked for."""
+def _paper(file: Path | None, label: str | None) -> "Paper":
+    """The claims of a paper, or the one claim of it that is asked for."""
     from derive.errors import UnknownClaim
     from derive.paper.andresen2020 import paper
     from derive.paper.userfile import read_claims
@@ -206,11 +207,11 @@ def _claims(file: Path | None, label: str | None) -> "tuple[str, tuple[Claim, ..
     with _console(stderr=True).status("deriving what the paper is compared with"):
         source = paper() if file is None else read_claims(file)
     if label is None:
-        return source.title, source.claims
+        return source
     labels = tuple(claim.label for claim in source.claims)
     if label not in labels:
         raise UnknownClaim(label, labels)
-    return source.title, (source[label],)
+    return replace(source, claims=(source[label],))
 
 
 def _built(order: "Order", jobs: int | None, fresh: bool) -> "list[Body]":

@@ -18,6 +18,7 @@ from derive.proof.verdict import Verdict
 
 if TYPE_CHECKING:
     from derive.codegen.publish import Difference
+    from derive.paper.claim import Paper
     from derive.paper.verdict import Finding
     from derive.sheet import FormulaSheet
 
@@ -110,8 +111,8 @@ _VERDICTS = {
 }
 
 
-def checked(findings: "Sequence[Finding]") -> Group:
-    """What was found of every claim of a paper, and its errata."""
+def checked(paper: "Paper", findings: "Sequence[Finding]") -> Group:
+    """What was found of every claim of a paper, which sign each section takes, and its errata."""
     from derive.paper import report
 
     table = Table("claim", "place", "verdict", "says")
@@ -120,7 +121,9 @@ def checked(findings: "Sequence[Finding]") -> Group:
         if not row.expected:
             verdict.append(" (unexpected)", style="bold red")
         table.add_row(Text(row.label, style="cyan"), row.place, verdict, finding.claim.says)
-    parts: list[RenderableType] = [table, *map(_erratum, report.errata(findings))]
+    parts: list[RenderableType] = [table]
+    parts += [Text(f"sign of the {line}", style="dim") for line in report.signs(paper, findings)]
+    parts += map(_erratum, report.errata(findings))
     return Group(*parts, Text(report.summary(findings), style="bold"))
 
 

@@ -142,10 +142,14 @@ class Claim:
 
 @dataclass(frozen=True)
 class Paper:
-    """The claims of one source, in the order of its pages."""
+    """The claims of one source, in the order of its pages.
+
+    signs: for each quantity the labels of the claims that show which sign a section gives it.
+    """
 
     title: str
     claims: tuple[Claim, ...]
+    signs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         labels = [claim.label for claim in self.claims]

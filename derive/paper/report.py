@@ -9,9 +9,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import mpmath
+from sympy import Expr, Symbol
 
 from derive.notation import latex_of, text_of
-from derive.paper.claim import Claim, Relation, Verdict
+from derive.paper.claim import Claim, Paper, Relation, Verdict
 from derive.paper.verdict import Finding, Repair
 
 _SIGNS = {"<=": r"\le", "~": r"\sim"}
@@ -28,7 +29,22 @@ def _text(equation: Claim | Repair, relation: Relation) -> str:
 
 def _latex(equation: Claim | Repair, relation: Relation) -> str:
     sign = _SIGNS.get(relation, relation)
-    return rf"{latex_of(equation.left)} {sign} {latex_of(equation.right)}"
+    return rf"{_of(equation.left)} {sign} {_of(equation.right)}"
+
+
+def _of(expr: Expr) -> str:
+    """`expr` in LaTeX, Delta_Q as a difference and g_prime with its prime."""
+    return latex_of(expr.xreplace({s: Symbol(_spelled(s.name)) for s in expr.free_symbols}))
+
+
+def _spelled(name: str) -> str:
+    """Braces keep SymPy from spelling a name its own way."""
+    stem, _, rest = name.partition("_")
+    if stem == "Delta" and rest:
+        inner, _, index = rest.partition("_")
+        letter = rf"\{inner}" if len(inner) > 1 else inner
+        return rf"{{\Delta {letter}{f'_{{{index}}}' if index else ''}}}"
+    return f"{{{stem}'}}" if rest == "prime" else name
 
 
 def corrected(finding: Finding) -> str | None:
@@ -115,6 +131,30 @@ def consequence(finding: Finding) -> str:
     return tell() if tell else ""
 
 
+_SENSES = {
+    Verdict.HOLDS: "one sign",
+    Verdict.NUMERICAL: "one sign",
+    Verdict.CONVENTION: "the opposite sign",
+    Verdict.FAILS: "neither",
+}
+
+
+def signs(paper: Paper, findings: Iterable[Finding]) -> list[str]:
+    """For each quantity: the places that agree, those that turn it round, those that do neither."""
+    found = {finding.claim.label: finding for finding in findings}
+    lines = []
+    for quantity, labels in paper.signs.items():
+        senses: dict[str, list[str]] = {}
+        for label in labels:
+            if label in found:
+                sense = _SENSES.get(found[label].verdict, "unchecked")
+                senses.setdefault(sense, []).append(found[label].claim.place)
+        if senses:
+            told = "; ".join(f"{sense} in {', '.join(p)}" for sense, p in senses.items())
+            lines.append(f"{quantity}: {told}")
+    return lines
+
+
 def as_json(findings: Iterable[Finding]) -> str:
     """A list of objects, one a claim."""
     told = [
@@ -138,14 +178,17 @@ def as_json(findings: Iterable[Finding]) -> str:
 # ------------------------------------------------------------------ documents
 
 
-def as_markdown(title: str, findings: Sequence[Finding]) -> str:
-    """A table of all verdicts, and the errata."""
-    lines = [f"# {title}", "", summary(findings) + ".", ""]
+def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
+    """A table of all verdicts, the signs section by section, and the errata."""
+    lines = [f"# {paper.title}", "", summary(findings) + ".", ""]
     lines += ["| claim | place | says | verdict |", "| --- | --- | --- | --- |"]
     for finding in findings:
         claim = finding.claim
         cells = (f"`{claim.label}`", claim.place, claim.says, str(finding.verdict))
         lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
+    if told_signs := signs(paper, findings):
+        lines += ["", "## Signs, section by section", ""]
+        lines += [f"- {line}" for line in told_signs]
     lines += ["", "## Errata", ""]
     for finding in errata(findings):
         lines += [f"### {finding.claim.place}: {finding.claim.says}", ""]
@@ -169,13 +212,13 @@ def _plain(text: str) -> str:
     return "".join(_ESCAPED.get(character, character) for character in without)
 
 
-def as_latex(title: str, findings: Sequence[Finding]) -> str:
-    """A document: a long table of all verdicts, and the errata."""
+def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
+    """A document: a long table of all verdicts, the signs section by section, and the errata."""
     lines = [
         r"\documentclass{article}",
         r"\usepackage{amsmath,longtable}",
         r"\begin{document}",
-        rf"\section*{{{_plain(title)}}}",
+        rf"\section*{{{_plain(paper.title)}}}",
         f"{_plain(summary(findings))}.",
         r"\begin{longtable}{p{0.3\linewidth}p{0.45\linewidth}l}",
         r"place & says & verdict \\ \hline",
@@ -183,7 +226,11 @@ def as_latex(title: str, findings: Sequence[Finding]) -> str:
     for finding in findings:
         claim = finding.claim
         lines.append(rf"{_plain(claim.place)} & {_plain(claim.says)} & {finding.verdict} \\")
-    lines += [r"\end{longtable}", r"\section*{Errata}"]
+    lines.append(r"\end{longtable}")
+    if told_signs := signs(paper, findings):
+        lines.append(r"\section*{Signs, section by section}")
+        lines += [rf"\noindent {_plain(line)}\par" for line in told_signs]
+    lines.append(r"\section*{Errata}")
     for finding in errata(findings):
         lines += [rf"\subsection*{{{_plain(finding.claim.place)}: {_plain(finding.claim.says)}}}"]
         lines += [f"{finding.verdict}. Printed:", *_display(finding.claim, finding.claim.relation)]

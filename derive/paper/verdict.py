@@ -234,7 +234,8 @@ def _double(claim: Claim) -> Iterator[Candidate]:
     firsts = [e for e in edits(claim.right, claim.swaps) if e.kind in ("sign", "swap")]
     for first in firsts[:_FIRSTS]:
         for second in edits(first.expr, claim.swaps):
-            if second.kind in ("sign", "swap", "factor"):
+            whole = second.kind == "factor" and second.what.endswith("the whole")
+            if second.kind in ("sign", "swap") or whole:
                 what = f"{first.what}; {second.what}"
                 edit = Edit(f"{first.kind} and {second.kind}", what, second.expr)
                 yield claim.left, second.expr, edit

@@ -1,6 +1,6 @@
 """True claims broken in many ways: a sign, a factor, an exponent, a swapped symbol, a lost term."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -33,7 +33,12 @@ class Mutant:
 
 def mutants(claim: Claim) -> Iterator[Mutant]:
     """A few of every kind, from the right-hand side, and the left where it is no symbol."""
-    for kind, most in (_OF_AN_INTEGRAL if has_integral(claim) else _OF_A_KIND).items():
+    some = list(_chosen(claim, _OF_AN_INTEGRAL)) if has_integral(claim) else []
+    yield from some if len(some) >= FEWEST else _chosen(claim, _OF_A_KIND)
+
+
+def _chosen(claim: Claim, wanted: Mapping[str, int]) -> Iterator[Mutant]:
+    for kind, most in wanted.items():
         yield from islice(_of_kind(claim, kind), most)
 
 

@@ -9,7 +9,15 @@ from derive.paper import exact
 from derive.paper.andresen2020 import paper
 from derive.paper.claim import Verdict
 from derive.paper.numbers import DIGITS, LEAST
-from derive.paper.report import as_latex, as_markdown, consequence, corrected, errata, evidence
+from derive.paper.report import (
+    as_latex,
+    as_markdown,
+    consequence,
+    corrected,
+    errata,
+    evidence,
+    signs,
+)
 from derive.paper.verdict import Finding
 from tests.paper.displayed import DISPLAYED
 from tests.paper.mutants import FEWEST, mutants, survives
@@ -33,7 +41,7 @@ WRONG = {
     "section 4.1/M/integral": "-Integral",
     "K_T/tilted/left": "a + c",
     "K_T/tilted/right": "a + c",
-    "inequalitywedge": "1/gamma",
+    "inequalitywedge": "4 + 4/gamma",
     "eq18": "-Delta_Q/2",
     "eq26": "-Delta_Q/2",
     "Hertz_shift_stick_zone": "e = Delta_sigma*R",
@@ -124,9 +132,21 @@ def test_the_consequence_of_every_error_is_told(findings: dict[str, Finding]) ->
 
 def test_documents_hold_every_error(findings: dict[str, Finding]) -> None:
     found = list(findings.values())
-    for text in (as_markdown("title", found), as_latex("title", found)):
-        assert text.count("orrected:") == sum(f.repair is not None for f in errata(found))
-    assert r"\begin{document}" in as_latex("title", found)
+    for text in (as_markdown(paper(), found), as_latex(paper(), found)):
+        assert text.count("orrected: $") + text.count("Corrected:\n") == sum(
+            f.repair is not None for f in errata(found)
+        )
+    assert r"\begin{document}" in as_latex(paper(), found)
+
+
+def test_the_signs_of_the_sections_are_compared(findings: dict[str, Finding]) -> None:
+    told = {line.partition(":")[0]: line for line in signs(paper(), findings.values())}
+    assert told.keys() == {"moment", "tilt", "tension", "shear"}
+    assert "opposite" not in told["tilt"]
+    for number in ("(39)", "(44)", "(47)"):
+        assert number in told["tension"].partition("opposite sign in")[2]
+    for number in ("(23)", "(27), section 4.1, first part"):
+        assert number in told["moment"].partition("opposite sign in")[2]
 
 
 def test_broken_claims_are_found() -> None:
@@ -152,11 +172,11 @@ def test_broken_claims_are_found() -> None:
 
 
 def test_slip_zones_of_a_tilted_wedge_without_tension() -> None:
-    """gamma = (1 - sin 27 deg)/(1 + sin 27 deg) = 0.3755; exact d = (dQ/2fP) a, printed times
-    sqrt((1 + gamma)/2) at the left and sqrt((1 + 1/gamma)/2) at the right edge."""
+    """gamma = (1 - sin 27 deg)/(1 + sin 27 deg) = tan(31.5 deg)**2; exact d = (dQ/2fP) a, printed
+    times sqrt((1 + gamma)/2) at the left and sqrt((1 + 1/gamma)/2) at the right edge."""
     skew = exact.skewness(mpmath.mpf("0.3"))
     gamma = skew**2
-    assert mpmath.almosteq(gamma, mpmath.mpf("0.375524805945922"), 1e-14)
+    assert mpmath.almosteq(gamma, mpmath.tan(mpmath.radians(31.5)) ** 2, 1e-14)
     shear = mpmath.mpf("0.3")
     left, right = exact.leading_as_printed(skew, shear, mpmath.mpf(0))
     assert mpmath.almosteq(left, 0.15 / skew * mpmath.sqrt((1 + gamma) / 2), 1e-12)

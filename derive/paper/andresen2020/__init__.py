@@ -25,6 +25,30 @@ TITLE = (
     "steady-state (2020)"
 )
 
+SIGNS = {
+    "moment": (
+        *("fullstickinequality/left", "fullstickinequality/right", "alpha"),
+        *("section 4.1/M/integral", "section 4.1/M/value"),
+    ),
+    "tilt": ("gamma", "section 4.1/c", "gamma_2", "section 4.1/alpha_0"),
+    "tension": (
+        *("fullstickinequality/left", "fullstickinequality/right", "section 3/K_T/left"),
+        *("gamma_2", "K_T/left", "K_T/right", "inequalitywedge", "eq18"),
+        *("Hertz_shift_stick_zone", "eq26"),
+    ),
+    "shear": (
+        *("fullstickinequality/left", "section 3/K_T/left", "section 3/K_T/right"),
+        *(
+            "eq:CJshear/sense",
+            "eq:slipAsymptotes/1",
+            "eq:slipAsymptotes/2",
+            "K_T/left",
+            "K_T/right",
+        ),
+    ),
+}
+"""Claims by which the sections can be compared: which sign each gives to a quantity."""
+
 
 @cache
 def paper() -> Paper:
@@ -39,4 +63,4 @@ def paper() -> Paper:
     )
 
     sections = (introduction, mossakovskii, asymptotics, wedge, results, hertz)
-    return Paper(TITLE, tuple(claim for section in sections for claim in section.claims()))
+    return Paper(TITLE, tuple(c for section in sections for c in section.claims()), SIGNS)

@@ -96,8 +96,8 @@ def _terms() -> tuple[Claim, ...]:
 
 
 def _singular_term() -> Expr:
-    """lim sqrt(a + x) dq of full stick at the left edge."""
-    numerator = (formula("wedge", "full_stick_change") * w / sqrt(other - x)).subs(x, -edge)
+    """lim sqrt(a + x) dq of full stick at the left edge, which is the same for every body."""
+    numerator = (formula("hertz", "full_stick_change") * w / sqrt(other - x)).subs(x, -edge)
     return at(numerator, r / t, r * t)
 
 
