@@ -15,7 +15,7 @@ No knowledge of the paper is in here.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import chain, permutations
 
 from sympy import Abs, Add, Expr, Integral, Mul, Number, Pow, Rational, S, Symbol, pi
 
@@ -36,8 +36,18 @@ class Edit:
 
 def edits(expr: Expr, swaps: Iterable[Symbol] = ()) -> Iterator[Edit]:
     """All that is tried on one side; each differs from `expr`, none comes twice."""
+    return _distinct(expr, _all(expr, tuple(swaps)))
+
+
+def plain_edits(expr: Expr, swaps: Iterable[Symbol] = ()) -> Iterator[Edit]:
+    """Those few that are tried together with another: signs, swaps, factors on the whole."""
+    found = (_signs(expr), _swapped(expr, tuple(swaps)), _whole_factors(expr))
+    return _distinct(expr, chain(*found))
+
+
+def _distinct(expr: Expr, found: Iterable[Edit]) -> Iterator[Edit]:
     seen = {expr}
-    for edit in _all(expr, tuple(swaps)):
+    for edit in found:
         if edit.expr not in seen and not edit.expr.has(S.NaN, S.ComplexInfinity):
             seen.add(edit.expr)
             yield edit
@@ -45,6 +55,7 @@ def edits(expr: Expr, swaps: Iterable[Symbol] = ()) -> Iterator[Edit]:
 
 def _all(expr: Expr, swaps: tuple[Symbol, ...]) -> Iterator[Edit]:
     yield from _signs(expr)
+    yield from _whole_factors(expr)
     yield from _factors(expr)
     yield from _swapped(expr, swaps)
     yield from _exponents(expr)
@@ -82,9 +93,12 @@ def _walk(expr: Expr) -> Iterator[Expr]:
             yield from _walk(arg)
 
 
-def _factors(expr: Expr) -> Iterator[Edit]:
+def _whole_factors(expr: Expr) -> Iterator[Edit]:
     for factor in _FACTORS:
         yield Edit("factor", f"{factor} on the whole", factor * expr)
+
+
+def _factors(expr: Expr) -> Iterator[Edit]:
     for total in _places(expr, Add):
         for term in total.args:
             for factor in _FACTORS:

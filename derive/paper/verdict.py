@@ -26,7 +26,7 @@ from derive.paper.numbers import (
     points,
     variables,
 )
-from derive.paper.repair import KINDS, Edit, edits
+from derive.paper.repair import KINDS, Edit, edits, plain_edits
 from derive.paper.zero import vanishes
 
 _SCREENED = 3
@@ -231,14 +231,12 @@ def _single(claim: Claim) -> Iterator[Candidate]:
 
 def _double(claim: Claim) -> Iterator[Candidate]:
     """Two changes, one of them a sign or a swap of the whole equation's symbols."""
-    firsts = [e for e in edits(claim.right, claim.swaps) if e.kind in ("sign", "swap")]
+    firsts = [e for e in plain_edits(claim.right, claim.swaps) if e.kind in ("sign", "swap")]
     for first in firsts[:_FIRSTS]:
-        for second in edits(first.expr, claim.swaps):
-            whole = second.kind == "factor" and second.what.endswith("the whole")
-            if second.kind in ("sign", "swap") or whole:
-                what = f"{first.what}; {second.what}"
-                edit = Edit(f"{first.kind} and {second.kind}", what, second.expr)
-                yield claim.left, second.expr, edit
+        for second in plain_edits(first.expr, claim.swaps):
+            what = f"{first.what}; {second.what}"
+            edit = Edit(f"{first.kind} and {second.kind}", what, second.expr)
+            yield claim.left, second.expr, edit
 
 
 _FIRSTS = 12
