@@ -208,7 +208,10 @@ class _File:
 
     def _conventions(self, given: Mapping[str, Any], where: str) -> tuple[Convention, ...]:
         made = []
-        for each in given.get("conventions", []):
+        listed = given.get("conventions", [])
+        if not isinstance(listed, list):
+            raise self._bad(f"{where}: conventions is no list", "write [{ what = ... }]")
+        for each in listed:
             if not isinstance(each, dict):
                 raise self._bad(f"{where}: a convention is no table", "write { what = ... }")
             what = self._text(each, "what", where)

@@ -26,8 +26,12 @@ from sympy import (
     trigsimp,
 )
 
+from derive.writing.limits import terms
+
 _LONGEST = 400
 """Operations up to which an expression is worked on."""
+_MOST_TERMS = 50_000
+"""Terms that it may have when it is multiplied out, by a bound known before that is done."""
 _SHORT = 90
 """Operations up to which SymPy's own search for a simpler form is tried."""
 
@@ -37,7 +41,7 @@ def vanishes(expr: Expr, places: Mapping[Symbol, Expr]) -> str:
 
     places: every variable with a value that it may have, preferably one at which roots come out.
     """
-    if expr.has(Integral) or count_ops(expr) > _LONGEST:
+    if expr.has(Integral) or count_ops(expr) > _LONGEST or terms(expr) > _MOST_TERMS:
         return ""
     if _is_zero(expr):
         return "the difference of both sides is zero"

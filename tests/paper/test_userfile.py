@@ -157,6 +157,7 @@ BAD = {
     "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "cannot be a name"),
     "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
+    "conventions": (CIRCLE + "conventions = 3\n", "no list"),
     "bad symbol": (CIRCLE.replace('A = "pi*r**2"', 'A = "pi*q"'), "what q is"),
 }
 
@@ -169,6 +170,13 @@ def test_bad_input_is_one_message_and_status_two(case: str, tmp_path: Path) -> N
     assert part in done.stderr
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
+
+
+def test_powers_of_powers_end_in_time(tmp_path: Path) -> None:
+    """(r + k)**60 to the 90th is nothing to multiply out."""
+    text = HEAD.replace("[symbols]", '[symbols]\nB = "(r + k)**60"')
+    text += '[[claims]]\nlabel = "B"\nprinted = "B**90 = (B*B)**45"\n'
+    assert run(written(tmp_path, text)).exit_code == 0
 
 
 @pytest.mark.parametrize("given", ["nowhere.toml", ".", "a" * 300])

@@ -1,16 +1,16 @@
 """Section 1: when a contact stays fully stuck."""
 
-from sympy import Expr, S, Symbol, pi
+from sympy import Expr, Integral, S, Symbol, log, pi, symbols
 from sympy import sign as sgn
 
 from derive.paper import anybody
-from derive.paper.andresen2020.symbols import a, dM, dP, dQ, dsigma
+from derive.paper.andresen2020.symbols import R, a, dM, dP, dQ, dsigma, xi
 from derive.paper.anybody import K_left, K_right, left, right
 from derive.paper.bodies import hertz
-from derive.paper.claim import SIGNED, Claim, Meaning, Relation, Verdict
+from derive.paper.claim import SIGNED, Claim, Meaning, Range, Relation, Verdict
+from derive.symbols import E_star, f, x
 from derive.symbols import dQ as change_of_shear
 from derive.symbols import dsigma as change_of_tension
-from derive.symbols import f
 
 _u, _v = Symbol("u", positive=True), Symbol("v", positive=True)
 """How far the left and the right edge move outward."""
@@ -27,7 +27,7 @@ _STEPS = (
 def claims() -> tuple[Claim, ...]:
     """Both signs of eq. (1)."""
     anybody.demand_proven()
-    return (*_in_the_sense_of_shear(), *_in_either_sense())
+    return (*_in_the_sense_of_shear(), *_in_either_sense(), _linear_strain())
 
 
 def _in_the_sense_of_shear() -> tuple[Claim, ...]:
@@ -99,3 +99,34 @@ def _shear_at_slip(side: str, strength: Expr) -> Expr:
     coefficient = hertz(f"K_T_{side}", left, left)
     rate = coefficient.diff(change_of_shear)
     return (strength - coefficient.subs(change_of_shear, 0)) / rate
+
+
+_half, _place = Symbol("l", positive=True), Symbol("mu", real=True)
+_strain, _gradient = symbols("strain gradient")
+
+
+def _linear_strain() -> Claim:
+    """What is said of Cattaneo's solution: (1/pi) PV int f p/(x - xi) dxi is proportional to x.
+
+    The singularity is taken off: PV int dxi/(x - xi) over [-l, l] is log((l + x)/(l - x)).
+    """
+    here, there = (
+        f * hertz("pressure", _half, _half).subs(x, place) for place in (_half * _place, xi)
+    )
+    regular = Integral((there - here) / (_half * _place - xi), (xi, -_half, _half))
+    singular = here * log((1 + _place) / (1 - _place))
+    return Claim(
+        label="section 1/Cattaneo",
+        place="section 1, second paragraph",
+        says="sliding of a cylinder strains the surface in proportion to x",
+        left=_strain,
+        right=_gradient * x,
+        meaning={
+            _strain: (regular + singular) / pi,
+            _gradient: f * E_star / (2 * R),
+            x: _half * _place,
+        },
+        against="(1/pi) PV int f p/(x - xi) dxi of the cylinder's pressure, by quadrature",
+        ranges={_place: Range(-0.9, 0.9)},
+        expected=Verdict.NUMERICAL,
+    )
