@@ -35,7 +35,7 @@ _FEW = 4
 _QUICK = 16
 """Digits by which candidates are told apart at first."""
 _INSIDE = 3
-"""An integrand is evaluated to so many times the digits of its integral."""
+"""The ends of an integral are evaluated to so many times the digits of the integral."""
 
 _GUARD = 10
 """Digits that an integrand has beyond its integral, where nothing cancels."""
@@ -119,16 +119,26 @@ def _bound(claim: Claim) -> set[Symbol]:
     )
 
 
+class _Numbers(dict[Symbol, mpf]):
+    """Numbers for our symbols, and for the source's once they are asked for."""
+
+    def __init__(self, known: Point, meaning: Meaning) -> None:
+        super().__init__(known)
+        self._known, self._meaning = known, meaning
+
+    def __missing__(self, symbol: Symbol) -> Value:
+        if symbol not in self._meaning:
+            raise Undecided(f"nothing says what {symbol} is")
+        self[symbol] = evaluated(self._meaning[symbol], self._known)
+        return self[symbol]
+
+
 def numbers(claim: Claim, meaning: Meaning, point: Point) -> Point:
     """Numbers for our symbols and for the source's at one point."""
     known = dict(point)
     for symbol, sample in claim.samples.items():
         known[symbol] = sample(point)
-    found = dict(known)
-    for symbol, expr in meaning.items():
-        if expr.free_symbols <= known.keys():
-            found[symbol] = evaluated(expr, known)
-    return found
+    return _Numbers(_Numbers(known, {}), meaning)
 
 
 def apart(left: Expr, right: Expr, value: Callable[[], Point], point: Point) -> Pair | None:
@@ -166,7 +176,8 @@ def near(left: Expr, right: Expr, value: Callable[[], Point]) -> bool:
     with mpmath.workdps(_QUICK):
         numbers = value()
         try:
-            plain = {symbol: complex(number) for symbol, number in numbers.items()}
+            held = left.free_symbols | right.free_symbols
+            plain = {symbol: complex(numbers[symbol]) for symbol in held}
             first, second = approximately(left, plain), approximately(right, plain)
         except Unknown:
             first, second = evaluated(left, numbers), evaluated(right, numbers)
@@ -185,8 +196,6 @@ def _tiny(before: tuple[Value, Value], now: tuple[Value, Value]) -> bool:
 def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf]) -> Value:
     """`expr` at the working precision, its integrals by quadrature."""
     function, held, integrals = _compiled(expr)
-    if missing := [symbol for symbol in held if symbol not in numbers]:
-        raise Undecided(f"nothing says what {missing[0]} is")
     given = [numbers[symbol] for symbol in held]
     try:
         found = [_quadrature(each, numbers) for each in integrals]
@@ -227,11 +236,18 @@ def _quadrature(over: Integral, numbers: Mapping[Symbol, mpf]) -> Value:
             inside = [evaluated(place, numbers) for place in _singular(core)]
         cuts = [start, *sorted({place for place in inside if start < place < end}), end]
         along = _integrand(core.function, variable, numbers)
-        _KNOWN[key] = sum(_part(along, *ends, inside) for ends in pairwise(cuts))
+        steep = _is_steep(core.function)
+        _KNOWN[key] = sum(_part(along, *ends, inside, steep) for ends in pairwise(cuts))
     return evaluated(factor, numbers) * _KNOWN[key]
 
 
 _KNOWN: dict[tuple[Integral, tuple[mpf, ...], int], Value] = {}
+
+
+@cache
+def _is_steep(integrand: Expr) -> bool:
+    """Whether it holds one over a root."""
+    return any(p.exp.is_Rational and p.exp.q == 2 and p.exp < 0 for p in integrand.atoms(Pow))
 
 
 @cache
@@ -247,7 +263,7 @@ def _integrand(
     function, held, inner = _compiled(expr)
     if inner:
         return lambda place: evaluated(expr, {**numbers, variable: place})
-    given = [numbers.get(symbol) for symbol in held]
+    given = [None if symbol == variable else numbers[symbol] for symbol in held]
     spot = held.index(variable) if variable in held else None
 
     def at(place: mpf) -> Value:
@@ -258,7 +274,9 @@ def _integrand(
     return at
 
 
-def _part(along: Callable[[mpf], Value], start: mpf, end: mpf, singular: list[mpf]) -> Value:
+def _part(
+    along: Callable[[mpf], Value], start: mpf, end: mpf, singular: list[mpf], steep: bool
+) -> Value:
     """From end to end with s = start + (end - start) sin(t)**2.
 
     Where roots vanish or are infinite at both ends, the integrand is then even and periodic, and
@@ -276,7 +294,7 @@ def _part(along: Callable[[mpf], Value], start: mpf, end: mpf, singular: list[mp
         value = _gauss(along, start, end)
         if value is not None:
             return value
-    return _crowded(along, start, end)
+    return _crowded(along, start, end, steep)
 
 
 _SAME = mpf(10) ** -12
@@ -316,8 +334,10 @@ def _gauss(along: Callable[[mpf], Value], start: mpf, end: mpf) -> Value | None:
     return value if error <= abs(value) * mpf(10) ** (_SPARE - digits) else None
 
 
-def _crowded(along: Callable[[mpf], Value], start: mpf, end: mpf) -> Value:
-    around = _by_angle(along, start, end, _INSIDE * mpmath.mp.dps)
+def _crowded(along: Callable[[mpf], Value], start: mpf, end: mpf, steep: bool) -> Value:
+    """Nodes that crowd at both ends; twice the digits where the integrand is infinite there."""
+    digits = mpmath.mp.dps * (2 if steep else 1) + _GUARD
+    around = _by_angle(along, start, end, digits)
     return mpmath.quad(around, [mpf(0), mpmath.pi / 2], method="tanh-sinh")
 
 
@@ -330,6 +350,8 @@ def _by_angle(
             try:
                 value = along(start + (end - start) * sine**2)
             except (ZeroDivisionError, ValueError):
+                value = mpmath.inf
+            if not mpmath.isfinite(value):
                 return mpf(0)  # the very end, where the node has no weight
             return 2 * (end - start) * sine * cosine * value
 

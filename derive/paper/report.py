@@ -203,7 +203,17 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
     return "\n".join(lines)
 
 
-_ESCAPED = {"_": r"\_", "&": r"\&", "%": r"\%", "#": r"\#", "$": r"\$", "^": r"\^{}", "~": r"\~{}"}
+_ESCAPED = {
+    "_": r"\_",
+    "&": r"\&",
+    "%": r"\%",
+    "#": r"\#",
+    "$": r"\$",
+    "^": r"\^{}",
+    "~": r"\~{}",
+    "{": r"\{",
+    "}": r"\}",
+}
 
 
 def _plain(text: str) -> str:

@@ -221,7 +221,7 @@ def _varying_load() -> tuple[Claim, ...]:
         Claim(
             label="section 5.2/error",
             place="section 5.2: the error is below 5 %",
-            says="relative error of the slip zone at Delta Q = f P, Delta P = 0.15 P, either end",
+            says="relative error of the slip zone at Delta Q = f P, Delta P = 0.15 P, minimum load",
             left=_large,
             right=S(5) / 100,
             relation=Relation.BELOW,
