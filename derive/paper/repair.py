@@ -3,7 +3,7 @@
     kind       what is tried
     --------   ------------------------------------------------------------------
     sign       of the whole, and of every term
-    factor     2, 3, 4, pi and 2 pi, or one over them, on the whole, a term, a number
+    factor     2, 3, 4, 8, pi and 2 pi, or one over them, on the whole; 2, 4, pi on a term
     swap       one symbol for another, everywhere or in one place, or both exchanged;
                one over it; the mean of it and another
     exponent   of every power: its sign, twice, half, 3/2 and 2/3 of it, one more, one less
@@ -23,6 +23,7 @@ KINDS = ("sign", "factor", "swap", "exponent", "term", "modulus")
 """In the order in which they are tried."""
 
 _FACTORS = tuple(f for n in (S(2), pi, S(4), S(3), 2 * pi, S(8)) for f in (n, 1 / n))
+_OF_A_TERM = _FACTORS[:6]
 
 
 @dataclass(frozen=True)
@@ -101,7 +102,7 @@ def _whole_factors(expr: Expr) -> Iterator[Edit]:
 def _factors(expr: Expr) -> Iterator[Edit]:
     for total in _places(expr, Add):
         for term in total.args:
-            for factor in _FACTORS:
+            for factor in _OF_A_TERM:
                 changed = _put(expr, total, total + (factor - 1) * term)
                 yield Edit("factor", f"{factor} on {term}", changed)
 
