@@ -8,6 +8,7 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +20,7 @@ from derive.errors import NotProven, UserError
 
 if TYPE_CHECKING:
     from derive.body import Body
+    from derive.paper.claim import Paper
     from derive.pipeline import Order
 
 _WIDE = 10_000
@@ -150,6 +152,66 @@ def generate(
     changed = order.write(bodies)
     _print(view.summary(bodies))
     _print(f"{'Wrote' if changed else 'Nothing to change in'} {_shown(order.target)}")
+
+
+@main.command()
+@click.argument("file", required=False, type=click.Path(path_type=Path))
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["table", "json", "markdown", "latex"]),
+    default="table",
+    help="How the findings are written.",
+)
+@click.option("--explain", metavar="LABEL", help="One claim: the steps and the numbers.")
+def check(file: Path | None, form: str, explain: str | None) -> None:
+    """Check a paper's algebra: what is printed against what follows, claim by claim.
+
+    Without FILE the paper by Andresen, Fleury, Moore and Hills (2020); FILE is a claims file of
+    one's own in TOML, as in examples/.  Leaves with 1 if a verdict is not the one expected.
+    """
+    from derive import view
+    from derive.paper import report
+    from derive.paper.verdict import check as judged
+
+    paper = _paper(file, explain)
+    with _progress(len(paper.claims), ("checking",)) as step:
+        findings = []
+        for claim in paper.claims:
+            step(claim.label, "checking")
+            findings.append(judged(claim))
+            step(claim.label, "")
+    if form == "json":
+        click.echo(report.as_json(findings))
+    elif form == "markdown":
+        click.echo(report.as_markdown(paper, findings))
+    elif form == "latex":
+        click.echo(report.as_latex(paper, findings))
+    elif explain is not None:
+        _print(view.explained(findings[0]))
+    else:
+        _print(view.checked(paper, findings))
+    wrong = report.unexpected(findings)
+    if wrong:
+        labels = ", ".join(finding.claim.label for finding in wrong)
+        _complain("Not as expected", labels)
+        sys.exit(FELL_SHORT)
+
+
+def _paper(file: Path | None, label: str | None) -> "Paper":
+    """The claims of a paper, or the one claim of it that is asked for."""
+    from derive.errors import UnknownClaim
+    from derive.paper.andresen2020 import paper
+    from derive.paper.userfile import read_claims
+
+    with _console(stderr=True).status("deriving what the paper is compared with"):
+        source = paper() if file is None else read_claims(file)
+    if label is None:
+        return source
+    labels = tuple(claim.label for claim in source.claims)
+    if label not in labels:
+        raise UnknownClaim(label, labels)
+    return replace(source, claims=(source[label],))
 
 
 def _built(order: "Order", jobs: int | None, fresh: bool) -> "list[Body]":

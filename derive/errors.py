@@ -5,6 +5,7 @@ message alone and leaves with status 2.
 """
 
 from dataclasses import dataclass, fields
+from difflib import get_close_matches
 
 
 class NotProven(Exception):
@@ -304,4 +305,76 @@ class BadTarget(UserError):
         return (
             f"{self.given} {self.why}; nothing was written: choose a new file by "
             "--out, a directory that exists or a path that ends in .py"
+        )
+
+
+@dataclass
+class UnknownClaim(UserError):
+    """A label that no claim of the source bears."""
+
+    given: str
+    known: tuple[str, ...]
+
+    _NEAREST = 8
+    """Labels that a message shows."""
+
+    @property
+    def message(self) -> str:
+        """Which labels come nearest."""
+        alike = get_close_matches(self.given, self.known, n=self._NEAREST, cutoff=0.3)
+        shown = ", ".join(alike or self.known[: self._NEAREST])
+        return (
+            f"there is no claim {self.given!r} among {len(self.known)}; the nearest are {shown}: "
+            "name one of them, `derive check` lists all"
+        )
+
+
+@dataclass
+class BadClaimsFile(UserError):
+    """A claims file that cannot be read, or says something of a claim that it cannot."""
+
+    given: str
+    why: str
+    remedy: str
+
+    @property
+    def message(self) -> str:
+        """What is wrong with the file, and where."""
+        return f"{self.given}: {self.why}; {self.remedy}"
+
+
+@dataclass
+class BadFormula(UserError):
+    """A formula of a claims file that cannot be read, or can be read in two ways."""
+
+    where: str
+    given: str
+    column: int
+    why: str
+    remedy: str
+
+    @property
+    def message(self) -> str:
+        """What is wrong, and a caret under it."""
+        shown = "".join(_visible(character) for character in self.given)
+        caret = " " * self.column + "^"
+        return f"{self.where}: {self.why}: {self.remedy}\n    {shown}\n    {caret}"
+
+
+@dataclass
+class NotAccepted(UserError):
+    """LaTeX whose reading the claims file does not accept."""
+
+    where: str
+    understood: str
+    accepted: str
+
+    @property
+    def message(self) -> str:
+        """What was understood, and how to accept it."""
+        said = f"the file accepts `{self.accepted}`" if self.accepted else "the file accepts none"
+        return (
+            f"{self.where}: the LaTeX was understood as\n    {self.understood}\n"
+            f"and {said}; if that is what is printed, write\n"
+            f'    understood = "{self.understood}"'
         )

@@ -1,12 +1,12 @@
 """What the commands print: tables and formula sheets in a terminal.
 
-In:  sheets, bodies, differences.
+In:  sheets, bodies, differences, findings.
 Out: renderables of rich.
 
 SymPy is imported by what shows formulas, not by what shows bodies.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
@@ -18,6 +18,8 @@ from derive.proof.verdict import Verdict
 
 if TYPE_CHECKING:
     from derive.codegen.publish import Difference
+    from derive.paper.claim import Paper
+    from derive.paper.verdict import Finding
     from derive.sheet import FormulaSheet
 
 
@@ -98,3 +100,58 @@ def drift(found: "Iterable[Difference]") -> Group:
 
 
 _DIFF = {"+": "green", "-": "red", "@": "cyan"}
+
+
+_VERDICTS = {
+    "holds": "green",
+    "numerical": "yellow",
+    "convention": "magenta",
+    "fails": "bold red",
+    "unchecked": "blue",
+}
+
+
+def checked(paper: "Paper", findings: "Sequence[Finding]") -> Group:
+    """What was found of every claim of a paper, which sign each section takes, and its errata."""
+    from derive.paper import report
+
+    table = Table("claim", "place", "verdict", "says")
+    for finding, row in zip(findings, report.rows(findings), strict=True):
+        verdict = Text(str(row.verdict), style=_VERDICTS[row.verdict])
+        if not row.expected:
+            verdict.append(" (unexpected)", style="bold red")
+        table.add_row(Text(row.label, style="cyan"), row.place, verdict, finding.claim.says)
+    parts: list[RenderableType] = [table]
+    parts += [Text(f"sign of the {line}", style="dim") for line in report.signs(paper, findings)]
+    parts += map(_erratum, report.errata(findings))
+    return Group(*parts, Text(report.summary(findings), style="bold"))
+
+
+def _erratum(finding: "Finding") -> Group:
+    """One error: as printed, as corrected, why, and what it does."""
+    from derive.paper import report
+
+    verdict = Text(str(finding.verdict), style=_VERDICTS[finding.verdict])
+    head = Text.assemble("\n", verdict, (f"  {finding.claim.place}", "bold"))
+    lines = [
+        Text.assemble((f"  {heading:12}", "cyan"), text)
+        for heading, text in (
+            ("printed", report.printed(finding.claim)),
+            ("corrected", report.corrected(finding)),
+            ("evidence", report.evidence(finding)),
+            ("consequence", report.consequence(finding)),
+        )
+        if text
+    ]
+    return Group(head, *lines)
+
+
+def explained(finding: "Finding") -> Group:
+    """One claim: what it was compared with, by which steps, and the numbers."""
+    from derive.paper import report
+
+    parts: list[RenderableType] = [Text(finding.claim.label, style="bold cyan")]
+    for heading, lines in report.explanation(finding):
+        parts.append(Text(heading, style="bold"))
+        parts += [Text(f"    {line}") for line in lines]
+    return Group(*parts)

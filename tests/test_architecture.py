@@ -137,6 +137,13 @@ def test_data_flows_one_way(package: str) -> None:
         assert not wrong, f"{name} imports {wrong}"
 
 
+def test_only_the_commands_read_the_paper() -> None:
+    users = {name for name in members("derive") if inside(imported(name), "derive.paper")}
+    assert {u for u in users if not inside([u], "derive.paper")} == {"derive.cli", "derive.view"}
+    for name in members("derive.paper"):
+        assert not inside(imported(name), "derive.cli", "derive.view", "derive.codegen")
+
+
 def test_only_the_command_line_prints() -> None:
     users = {name for name in members("derive") if inside(imported(name), "click", "rich")}
     assert users <= {"derive.cli", "derive.view"}

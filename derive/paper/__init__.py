@@ -1,0 +1,19 @@
+"""Checks a paper's algebra: what is printed against what follows.
+
+    module       in                          out
+    ----------   -------------------------   ---------------------------------------------------
+    claim                                    a printed equation as data
+    numbers      an expression, a point      its value to 30 digits that are known to be right
+    zero         an expression               whether it vanishes identically, by exact steps alone
+    repair       a printed equation          others that a slip of the pen could have made of it
+    exact        a contact and its loads     the permanent stick zone, from its two conditions
+    verdict      a claim                     Finding: verdict, evidence, the corrected equation
+    report       findings                    rows, JSON, Markdown, LaTeX, the errata
+    formula      a user's text               an equation; only what the white list knows
+    latex        a user's LaTeX              an equation, if it can be read in one way only
+    userfile     a claims file in TOML       the claims in it
+    andresen2020                             the paper that the method of this project is from
+
+Nothing but the command line imports this package.  No verdict is typed in: `expected` in a claim
+is compared with what was found, and decides the exit status alone.
+"""

@@ -1,0 +1,73 @@
+"""Formulas of proven sheets, in variables of which every root comes out.
+
+A wedge's contact is written by its size r = sqrt(a c) and its skewness t = sqrt(c/a):
+a = r/t, c = r t.  Every size and every tilt of the body has one such pair, and the tilt is
+alpha = phi (1 - (4/pi) atan t).
+"""
+
+from functools import cache
+
+from sympy import Abs, Expr, Symbol, atan, atan2, powsimp
+
+from derive.derivation import derive_sheet
+from derive.errors import NotProven
+from derive.library import load_geometry
+from derive.proof.numerical import NumericalRoutes
+from derive.proof.symbolic import symbolic_proof
+from derive.sheet import FormulaSheet
+from derive.symbols import a, c
+
+r = Symbol("r", positive=True)
+t = Symbol("t", positive=True)
+y = Symbol("y", positive=True)
+"""sqrt((c - x)/(a + x)): zero at the right edge, infinite at the left."""
+
+
+@cache
+def _sheet(body: str) -> tuple[FormulaSheet, NumericalRoutes]:
+    sheet = derive_sheet(load_geometry(body))
+    return sheet, NumericalRoutes(sheet)
+
+
+@cache
+def formula(body: str, name: str) -> Expr:
+    """A formula of a body of the library, proven symbolically, else to 30 digits.
+
+    Raises NotProven.  Both routes of every formula are gone through when modules are generated.
+    """
+    sheet, routes = _sheet(body)
+    proof = symbolic_proof(sheet, name) or routes.proof(name)
+    if proof is None or not proof.holds:
+        raise NotProven(f"{name} of {body!r}: {proof}")
+    return sheet.flat(name)
+
+
+def parameter_of(body: str, name: str) -> Symbol:
+    """The symbol of a body's parameter."""
+    return _sheet(body)[0].geometry.quantities[name].symbol
+
+
+def at(expr: Expr, left: Expr, right: Expr) -> Expr:
+    """`expr` of the contact [-left, right], its angles as plain arcs."""
+    placed = expr.subs({a: left, c: right}, simultaneous=True)
+    return placed.replace(atan2, lambda over, under: atan(powsimp(over / under)))
+
+
+def wedge(name: str, size: Expr = r, skew: Expr = t) -> Expr:
+    """A formula of the wedge on the contact [-size/skew, size skew]."""
+    return at(formula("wedge", name), size / skew, size * skew)
+
+
+def hertz(name: str, left: Expr, right: Expr) -> Expr:
+    """A formula of the cylinder on the contact [-left, right]."""
+    return at(formula("hertz", name), left, right)
+
+
+def between(left: Expr, right: Expr) -> Expr:
+    """The x at which sqrt((right - x)/(left + x)) is y."""
+    return (right - left * y**2) / (1 + y**2)
+
+
+def without_modulus(expr: Expr) -> Expr:
+    """log f for log|f|, for derivatives and limits, which do not mind the sign of f."""
+    return expr.replace(Abs, lambda argument: argument)

@@ -1,0 +1,50 @@
+"""A few digits of an expression in no time, to tell candidates apart that are far from right."""
+
+import cmath
+from collections.abc import Callable, Mapping
+from functools import cache
+from math import prod
+
+from sympy import Abs, Add, Expr, Mul, Pow, Symbol, acos, asin, atan, cos, exp, log, sign, sin, tan
+
+
+class Unknown(Exception):
+    """No rule for a function, or no number at this place."""
+
+
+def approximately(expr: Expr, numbers: Mapping[Symbol, complex]) -> complex:
+    """`expr` in double precision; raises Unknown."""
+    try:
+        return _value(expr, numbers)
+    except (ZeroDivisionError, OverflowError, ValueError, KeyError) as error:
+        raise Unknown(str(expr)) from error
+
+
+def _value(expr: Expr, numbers: Mapping[Symbol, complex]) -> complex:
+    if isinstance(expr, Symbol):
+        return numbers[expr]
+    if expr.is_number:
+        return _constant(expr)
+    rule = _RULES.get(expr.func)
+    if rule is None:
+        raise Unknown(str(expr.func))
+    return rule([_value(arg, numbers) for arg in expr.args])
+
+
+@cache
+def _constant(expr: Expr) -> complex:
+    return complex(expr)
+
+
+def _of_one(function: Callable[[complex], complex]) -> Callable[[list[complex]], complex]:
+    return lambda values: function(values[0])
+
+
+_RULES: dict[type, Callable[[list[complex]], complex]] = {
+    Add: sum,
+    Mul: prod,
+    Pow: lambda values: values[0] ** values[1],
+    Abs: _of_one(lambda value: complex(abs(value))),
+    sign: _of_one(lambda value: value / abs(value)),
+    **{f: _of_one(getattr(cmath, f.__name__)) for f in (sin, cos, tan, asin, acos, atan, exp, log)},
+}

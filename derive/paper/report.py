@@ -1,0 +1,309 @@
+"""Findings as rows, JSON, Markdown and LaTeX; the errata, and the explanation of one claim.
+
+A printed or a corrected equation is rendered from its expression and never typed.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import mpmath
+from sympy import Expr, Symbol
+
+from derive.notation import latex_of, text_of
+from derive.paper.claim import Claim, Paper, Relation, Verdict
+from derive.paper.verdict import Finding, Repair
+
+_SIGNS = {"<=": r"\le", "~": r"\sim"}
+
+
+def printed(claim: Claim) -> str:
+    """The printed equation as text; empty for a claim without one."""
+    return "" if claim.unchecked else _text(claim, claim.relation)
+
+
+def _text(equation: Claim | Repair, relation: Relation) -> str:
+    return f"{text_of(equation.left)} {relation} {text_of(equation.right)}"
+
+
+def _latex(equation: Claim | Repair, relation: Relation) -> str:
+    sign = _SIGNS.get(relation, relation)
+    return rf"{_of(equation.left)} {sign} {_of(equation.right)}"
+
+
+def _of(expr: Expr) -> str:
+    """`expr` in LaTeX, Delta_Q as a difference and g_prime with its prime."""
+    return latex_of(expr.xreplace({s: Symbol(_spelled(s.name)) for s in expr.free_symbols}))
+
+
+def _spelled(name: str) -> str:
+    """Braces keep SymPy from spelling a name its own way."""
+    stem, _, rest = name.partition("_")
+    if stem == "Delta" and rest:
+        inner, _, index = rest.partition("_")
+        letter = rf"\{inner}" if len(inner) > 1 else inner
+        return rf"{{\Delta {letter}{f'_{{{index}}}' if index else ''}}}"
+    return f"{{{stem}'}}" if rest == "prime" else name
+
+
+def corrected(finding: Finding) -> str | None:
+    """The corrected equation as text, if one was found."""
+    repair = finding.repair
+    return _text(repair, repair.relation) if repair else None
+
+
+def evidence(finding: Finding) -> str:
+    """What the verdict rests on, in one paragraph."""
+    claim = finding.claim
+    if claim.unchecked:
+        return finding.judged.why
+    parts = [f"compared with {claim.against}: {finding.judged.why}"]
+    if finding.convention and finding.under:
+        parts.append(
+            f"with {finding.convention.what} {finding.under.why}; "
+            f"this contradicts {finding.convention.contradicts}"
+        )
+    if finding.repair:
+        parts.append(f"corrected ({_changes(finding.repair)}): {finding.repair.judged.why}")
+    if finding.tried:
+        parts.append(f"tried: {_tried(finding.tried)}")
+    return "; ".join(parts)
+
+
+def _changes(repair: Repair) -> str:
+    also = f", as would {' or '.join(repair.also)}" if repair.also else ""
+    return f"{repair.kind} {repair.what}{also}"
+
+
+def _tried(tried: Counter[str]) -> str:
+    return ", ".join(f"{count} by {kind}" for kind, count in sorted(tried.items()))
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the table."""
+
+    label: str
+    place: str
+    verdict: Verdict
+    expected: bool
+    equation: str
+    note: str
+
+
+def rows(findings: Iterable[Finding]) -> list[Row]:
+    """The table: what was found of every claim."""
+    return [
+        Row(
+            finding.claim.label,
+            finding.claim.place,
+            finding.verdict,
+            finding.as_expected,
+            printed(finding.claim),
+            corrected(finding) or finding.judged.why,
+        )
+        for finding in findings
+    ]
+
+
+def summary(findings: Sequence[Finding]) -> str:
+    """How many claims have which verdict."""
+    counted = Counter(finding.verdict for finding in findings)
+    told = ", ".join(f"{counted[verdict]} {verdict}" for verdict in Verdict if counted[verdict])
+    return f"{len(findings)} claims: {told}"
+
+
+def unexpected(findings: Iterable[Finding]) -> list[Finding]:
+    """Verdicts that differ from those that were recorded, or errors nobody has seen yet."""
+    return [finding for finding in findings if not finding.as_expected]
+
+
+def errata(findings: Iterable[Finding]) -> list[Finding]:
+    """Claims that do not hold as they are printed."""
+    wrong = (Verdict.CONVENTION, Verdict.FAILS)
+    return [finding for finding in findings if finding.verdict in wrong]
+
+
+def consequence(finding: Finding) -> str:
+    """What the error does to a user's numbers; computed when it is asked for."""
+    tell = finding.claim.consequence
+    return tell() if tell else ""
+
+
+_SENSES = {
+    Verdict.HOLDS: "one sign",
+    Verdict.NUMERICAL: "one sign",
+    Verdict.CONVENTION: "the opposite sign",
+    Verdict.FAILS: "neither",
+}
+
+
+def signs(paper: Paper, findings: Iterable[Finding]) -> list[str]:
+    """For each quantity: the places that agree, those that turn it round, those that do neither."""
+    found = {finding.claim.label: finding for finding in findings}
+    lines = []
+    for quantity, labels in paper.signs.items():
+        senses: dict[str, list[str]] = {}
+        for label in labels:
+            if label in found:
+                sense = _SENSES.get(found[label].verdict, "unchecked")
+                senses.setdefault(sense, []).append(found[label].claim.place)
+        if senses:
+            told = "; ".join(f"{sense} in {', '.join(p)}" for sense, p in senses.items())
+            lines.append(f"{quantity}: {told}")
+    return lines
+
+
+def as_json(findings: Iterable[Finding]) -> str:
+    """A list of objects, one a claim."""
+    told = [
+        {
+            "label": finding.claim.label,
+            "place": finding.claim.place,
+            "equation": finding.claim.equation or None,
+            "says": finding.claim.says,
+            "verdict": str(finding.verdict),
+            "expected": finding.as_expected,
+            "printed": printed(finding.claim),
+            "corrected": corrected(finding),
+            "evidence": evidence(finding),
+            "consequence": consequence(finding) or None,
+        }
+        for finding in findings
+    ]
+    return json.dumps(told, indent=2, ensure_ascii=False)
+
+
+# ------------------------------------------------------------------ documents
+
+
+def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
+    """A table of all verdicts, the signs section by section, and the errata."""
+    lines = [f"# {paper.title}", "", summary(findings) + ".", ""]
+    lines += ["| claim | place | says | verdict |", "| --- | --- | --- | --- |"]
+    for finding in findings:
+        claim = finding.claim
+        cells = (f"`{claim.label}`", claim.place, claim.says, str(finding.verdict))
+        lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
+    if told_signs := signs(paper, findings):
+        lines += ["", "## Signs, section by section", ""]
+        lines += [f"- {line}" for line in told_signs]
+    lines += ["", "## Errata", ""]
+    for finding in errata(findings):
+        lines += [f"### {finding.claim.place}: {finding.claim.says}", ""]
+        lines += [f"{finding.verdict}, `{finding.claim.label}`.", ""]
+        lines += [f"- printed: ${_latex(finding.claim, finding.claim.relation)}$"]
+        if finding.repair:
+            lines.append(f"- corrected: ${_latex(finding.repair, finding.repair.relation)}$")
+        lines.append(f"- evidence: {evidence(finding)}")
+        if told := consequence(finding):
+            lines.append(f"- consequence: {told}")
+        lines.append("")
+    return "\n".join(lines)
+
+
+_ESCAPED = {
+    "_": r"\_",
+    "&": r"\&",
+    "%": r"\%",
+    "#": r"\#",
+    "$": r"\$",
+    "^": r"\^{}",
+    "~": r"\~{}",
+    "{": r"\{",
+    "}": r"\}",
+}
+
+
+def _plain(text: str) -> str:
+    """Text for LaTeX."""
+    without = text.replace("\\", r"\textbackslash ")
+    return "".join(_ESCAPED.get(character, character) for character in without)
+
+
+def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
+    """A document: a long table of all verdicts, the signs section by section, and the errata."""
+    lines = [
+        r"\documentclass{article}",
+        r"\usepackage{amsmath,longtable}",
+        r"\begin{document}",
+        rf"\section*{{{_plain(paper.title)}}}",
+        f"{_plain(summary(findings))}.",
+        r"\begin{longtable}{p{0.3\linewidth}p{0.45\linewidth}l}",
+        r"place & says & verdict \\ \hline",
+    ]
+    for finding in findings:
+        claim = finding.claim
+        lines.append(rf"{_plain(claim.place)} & {_plain(claim.says)} & {finding.verdict} \\")
+    lines.append(r"\end{longtable}")
+    if told_signs := signs(paper, findings):
+        lines.append(r"\section*{Signs, section by section}")
+        lines += [rf"\noindent {_plain(line)}\par" for line in told_signs]
+    lines.append(r"\section*{Errata}")
+    for finding in errata(findings):
+        lines += [rf"\subsection*{{{_plain(finding.claim.place)}: {_plain(finding.claim.says)}}}"]
+        lines += [f"{finding.verdict}. Printed:", *_display(finding.claim, finding.claim.relation)]
+        if finding.repair:
+            lines += ["Corrected:", *_display(finding.repair, finding.repair.relation)]
+        lines.append(rf"Evidence: {_plain(evidence(finding))}.")
+        if told := consequence(finding):
+            lines.append(rf"\par Consequence: {_plain(told)}.")
+    return "\n".join([*lines, r"\end{document}", ""])
+
+
+def _display(equation: Claim | Repair, relation: Relation) -> list[str]:
+    return [r"\begin{equation*}", _latex(equation, relation), r"\end{equation*}"]
+
+
+# ------------------------------------------------------------------ for a reader who doubts
+
+_SHOWN = 6
+"""Points that an explanation shows."""
+
+
+def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
+    """Headings and lines: what was compared, by which steps, and the numbers."""
+    claim = finding.claim
+    told = [
+        ("says", [claim.says, claim.place]),
+        ("printed", [printed(claim) or "no equation"]),
+        ("compared with", [claim.against] if claim.against else []),
+        ("steps", list(claim.steps)),
+        ("symbols", [f"{s} = {text_of(expr)}" for s, expr in claim.meaning.items()]),
+        ("numbers", _numbers(finding)),
+        ("verdict", [f"{finding.verdict}: {finding.judged.why}"]),
+        ("convention", _convention(finding)),
+        ("corrected", _correction(finding)),
+        ("consequence", [consequence(finding)]),
+    ]
+    return [(heading, lines) for heading, lines in told if any(lines)]
+
+
+def _numbers(finding: Finding) -> list[str]:
+    """Both sides at the first points, then at those of the corrected equation."""
+    lines = []
+    for pair in finding.judged.pairs[:_SHOWN]:
+        where = ", ".join(f"{s} = {mpmath.nstr(v, 6)}" for s, v in pair.point.items())
+        left, right = (mpmath.nstr(side, 34) for side in (pair.left, pair.right))
+        lines += [f"at {where}", f"    left  {left}", f"    right {right}"]
+    more = len(finding.judged.pairs) - _SHOWN
+    return [*lines, f"and at {more} more points"] if more > 0 else lines
+
+
+def _convention(finding: Finding) -> list[str]:
+    if finding.convention is None or finding.under is None:
+        return []
+    return [
+        f"with {finding.convention.what}: {finding.under.verdict}, {finding.under.why}",
+        f"contradicts {finding.convention.contradicts}",
+    ]
+
+
+def _correction(finding: Finding) -> list[str]:
+    told = [f"tried: {_tried(finding.tried)}"] if finding.tried else []
+    if finding.repair is None:
+        return told and [*told, "none of these is true"]
+    repair = finding.repair
+    equation = _text(repair, repair.relation)
+    return [equation, _changes(repair), f"{repair.judged.verdict}: {repair.judged.why}", *told]

@@ -1,0 +1,295 @@
+"""A claims file in TOML: data only, of which nothing is ever executed.
+
+    title = "..."
+    body = "hertz"                    # whose sheet's formulas may be called, load(a, c) say
+
+    [variables]                       # drawn at random; all else is written in them
+    l = "half-width"                  # positive
+    mu = { meaning = "x/l", low = -0.9, high = 0.9 }
+
+    [symbols]                         # what the source's symbols are
+    P = "load(l, l)"
+
+    [latex]                           # spellings, where they are not the names
+    "E^*" = "E_star"
+
+    [[claims]]
+    label = "half-width"
+    place = "eq. (3)"
+    printed = "a**2 = 4*P*R/(pi*E_star)"       # or latex = '...' and understood = "..."
+    expected = "fails"                         # if it is known
+    symbols = { M = "-moment(l, l)" }          # for this claim alone
+    conventions = [{ what = "...", symbols = { ... }, contradicts = "..." }]
+
+The body's parameters, E_star and f are variables from the start, x, s and xi places.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeGuard
+
+from sympy import Expr, Symbol
+from sympy.core.function import AppliedUndef
+
+from derive.derivation import derive_sheet
+from derive.errors import BadClaimsFile, NotAccepted
+from derive.library import is_in_library, library
+from derive.paper.bodies import at, formula
+from derive.paper.claim import Claim, Convention, Meaning, Paper, Range, Verdict
+from derive.paper.formula import Names, equation, usable
+from derive.paper.formula import formula as read_formula
+from derive.paper.latex import Latex
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, f, x
+
+_LARGEST = 200_000
+"""Bytes of a claims file."""
+_MOST = 500
+"""Claims of a file."""
+_PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
+_KEYS = frozenset({"title", "body", "variables", "symbols", "latex", "claims"})
+_OF_A_CLAIM = frozenset(
+    ("label", "place", "says", "printed", "latex", "understood", "expected", "symbols")
+) | {"conventions", "unchecked"}
+
+
+def read_claims(path: Path) -> Paper:
+    """The claims of a file; raises BadClaimsFile, BadFormula or NotAccepted."""
+    return _File(str(path), _toml(path)).paper()
+
+
+def _toml(path: Path) -> dict[str, Any]:
+    remedy = "give a claims file as in examples/cattaneo_mindlin.toml"
+    try:
+        if path.stat().st_size > _LARGEST:
+            raise BadClaimsFile(str(path), f"is larger than {_LARGEST} bytes", "split it")
+        return tomllib.loads(path.read_bytes().decode())
+    except tomllib.TOMLDecodeError as error:
+        raise BadClaimsFile(str(path), f"is no TOML ({error})", remedy) from error
+    except UnicodeDecodeError as error:
+        raise BadClaimsFile(str(path), "is no text in UTF-8", remedy) from error
+    except (OSError, ValueError, RecursionError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise BadClaimsFile(str(path), f"cannot be read ({why})", remedy) from error
+
+
+@dataclass
+class _File:
+    """A claims file as it is read."""
+
+    name: str
+    data: Mapping[str, Any]
+    ranges: dict[Symbol, Range] = field(default_factory=dict)
+    variables: dict[str, Expr] = field(default_factory=dict)
+
+    def paper(self) -> Paper:
+        """All claims."""
+        self._demand_known(self.data, _KEYS, "the file")
+        self.sheet = self._sheet()
+        self.variables = {**_PLACES, "E_star": E_star, "f": f, **self._parameters()}
+        for name, said in self._table("variables").items():
+            self._declare(name, said)
+        given = self.data.get("claims", [])
+        if not isinstance(given, list) or not given or len(given) > _MOST:
+            raise self._bad("has no [[claims]]", f"write one to {_MOST} of them")
+        claims = tuple(self._claim(number, each) for number, each in enumerate(given, start=1))
+        labels = [claim.label for claim in claims]
+        for label in labels:
+            if labels.count(label) > 1:
+                raise self._bad(f"two claims have the label {label!r}", "name each once")
+        return Paper(str(self.data.get("title", self.name)), claims)
+
+    def _sheet(self) -> FormulaSheet | None:
+        from derive.library import load_geometry
+
+        body = self.data.get("body")
+        if body is None:
+            return None
+        if not isinstance(body, str) or not is_in_library(body):
+            known = ", ".join(library())
+            raise self._bad(f"body = {body!r} is not in the library", f"name one of {known}")
+        return derive_sheet(load_geometry(body))
+
+    def _parameters(self) -> dict[str, Expr]:
+        if self.sheet is None:
+            return {}
+        return {q.name: q.symbol for q in self.sheet.geometry.parameters}
+
+    def _declare(self, name: str, said: object) -> None:
+        where = f"variable {name!r}"
+        self._demand_name(name, self.variables)
+        if isinstance(said, str):
+            self.variables[name] = Symbol(name, positive=True)
+            return
+        given: dict[str, Any] = said if isinstance(said, dict) else {}
+        low, high = given.get("low"), given.get("high")
+        if not (_is_bound(low) and _is_bound(high)) or low >= high:
+            raise self._bad(f"{where} has no range", "write { low = 0.1, high = 0.9 }, or a text")
+        symbol = Symbol(name, positive=True) if low >= 0 else Symbol(name, real=True)
+        self.variables[name] = symbol
+        self.ranges[symbol] = Range(float(low), float(high))
+
+    def _claim(self, number: int, given: object) -> Claim:
+        if not isinstance(given, dict):
+            raise self._bad(f"claim {number} is no table", "write [[claims]] before each")
+        self._demand_known(given, _OF_A_CLAIM, f"claim {number}")
+        label = self._text(given, "label", f"claim {number}")
+        where = f"{self.name}, claim {label!r}"
+        common: dict[str, Any] = {
+            "label": label,
+            "place": str(given.get("place", self.name)),
+            "says": str(given.get("says", label)),
+            "expected": self._verdict(given, where),
+        }
+        if "unchecked" in given:
+            return Claim(unchecked=self._text(given, "unchecked", where), **common)
+        symbols = {**self._table("symbols"), **self._inner(given, "symbols", where)}
+        names = self._names(where, symbols)
+        left, relation, right = equation(self._printed(given, where, names), names)
+        return Claim(
+            left=left,
+            right=right,
+            relation=relation,
+            meaning=self._meaning(where, symbols),
+            against=f"the formulas of {self.name}"
+            + (f" and the sheet of {self.sheet.geometry.name}" if self.sheet else ""),
+            ranges=self.ranges,
+            conventions=self._conventions(given, where),
+            swaps=tuple(Symbol(name) for name in symbols if _held(name, left, right)),
+            **common,
+        )
+
+    def _names(self, where: str, symbols: Mapping[str, Any]) -> Names:
+        """What a printed equation may hold: the source's symbols, and the variables."""
+        for name in symbols:
+            self._demand_name(name, ())
+        return Names(where, {**self.variables, **{name: Symbol(name) for name in symbols}}, {})
+
+    def _printed(self, given: Mapping[str, Any], where: str, names: Names) -> str:
+        if ("printed" in given) == ("latex" in given):
+            raise self._bad(f"{where} has not one of printed and latex", "give one of them")
+        if "printed" in given:
+            return self._text(given, "printed", where)
+        spellings = {**{n: n for n in names.symbols}, **_usual(names), **self._spellings(names)}
+        understood = Latex(where, self._text(given, "latex", where), spellings).understood()
+        accepted = str(given.get("understood", ""))
+        if not accepted or equation(accepted, names) != equation(understood, names):
+            raise NotAccepted(where, understood, accepted)
+        return accepted
+
+    def _spellings(self, names: Names) -> dict[str, str]:
+        found = self._table("latex")
+        for spelling, name in found.items():
+            if name not in names.symbols:
+                why = f"[latex] {spelling!r} = {name!r} is no declared name"
+                raise self._bad(why, "declare it")
+        return found
+
+    def _meaning(self, where: str, symbols: Mapping[str, Any]) -> Meaning:
+        calls = {name: len(formula_.arguments) for name, formula_ in (self.sheet or {}).items()}
+        names = Names(where, self.variables, calls)
+        return {
+            Symbol(name): self._put_in(read_formula(str(text), names))
+            for name, text in symbols.items()
+        }
+
+    def _put_in(self, expr: Expr) -> Expr:
+        """Calls of the sheet's formulas replaced by what they stand for, each proven."""
+        while calls := expr.atoms(AppliedUndef):
+            call = min(calls, key=lambda c: (len(str(c)), str(c)))
+            assert self.sheet is not None
+            sheet = self.sheet[call.func.__name__]
+            body = formula(self.sheet.geometry.name, sheet.name)
+            table = dict(zip(sheet.arguments, call.args, strict=True))
+            expr = expr.xreplace({call: at(body.subs(table, simultaneous=True), *_EDGES)})
+        return expr
+
+    def _conventions(self, given: Mapping[str, Any], where: str) -> tuple[Convention, ...]:
+        made = []
+        listed = given.get("conventions", [])
+        if not isinstance(listed, list):
+            raise self._bad(f"{where}: conventions is no list", "write [{ what = ... }]")
+        for each in listed:
+            if not isinstance(each, dict):
+                raise self._bad(f"{where}: a convention is no table", "write { what = ... }")
+            what = self._text(each, "what", where)
+            against = self._text(each, "contradicts", where)
+            symbols = self._inner(each, "symbols", where)
+            made.append(Convention(what, self._meaning(where, symbols), against))
+        return tuple(made)
+
+    def _verdict(self, given: Mapping[str, Any], where: str) -> Verdict | None:
+        if "expected" not in given:
+            return None
+        try:
+            return Verdict(given["expected"])
+        except ValueError:
+            known = ", ".join(Verdict)
+            raise self._bad(
+                f"{where}: expected = {given['expected']!r} is no verdict", f"write one of {known}"
+            ) from None
+
+    # -------------------------------------------------------------- reading the data
+
+    def _table(self, key: str) -> dict[str, Any]:
+        return self._inner(self.data, key, "the file")
+
+    def _inner(self, data: Mapping[str, Any], key: str, where: str) -> dict[str, Any]:
+        found = data.get(key, {})
+        if not isinstance(found, dict):
+            raise self._bad(f"{key} of {where} is no table", f"write [{key}] and names below it")
+        return found
+
+    def _text(self, data: Mapping[str, Any], key: str, where: str) -> str:
+        found = data.get(key)
+        if not isinstance(found, str) or not found.strip():
+            raise self._bad(f"{where} has no {key}", f'write {key} = "..."')
+        return found
+
+    def _demand_known(self, data: Mapping[str, Any], known: frozenset[str], where: str) -> None:
+        for key in data:
+            if key not in known:
+                allowed = ", ".join(sorted(known))
+                why = f"{where} has {key!r}, which means nothing here"
+                raise self._bad(why, f"known: {allowed}")
+
+    def _demand_name(self, name: str, taken: object) -> None:
+        if not usable(name):
+            raise self._bad(f"{name!r} cannot be a name", "use letters, digits and _")
+        if name in taken:  # type: ignore[operator]
+            raise self._bad(f"{name!r} is declared twice", "choose another name")
+
+    def _bad(self, why: str, remedy: str) -> BadClaimsFile:
+        return BadClaimsFile(self.name, why, remedy)
+
+
+_EDGES = (Symbol("a", real=True), Symbol("c", real=True))
+
+
+def _is_bound(given: object) -> TypeGuard[float]:
+    return isinstance(given, int | float) and abs(given) < _FAR
+
+
+_FAR = 1e6
+"""Bound of a variable's range."""
+
+
+def _held(name: str, *sides: Expr) -> bool:
+    return any(side.has(Symbol(name)) for side in sides)
+
+
+def _usual(names: Names) -> dict[str, str]:
+    r"""How a name is usually spelled: a_1 as a_{1}, alpha as \alpha, alpha_0 as \alpha_0."""
+    found = {}
+    for name in names.symbols:
+        stem, _, index = name.partition("_")
+        letter = stem if len(stem) == 1 else rf"\{stem}"
+        if index:
+            found[f"{letter}_{{{index}}}"] = name
+            if len(index) == 1:
+                found[f"{letter}_{index}"] = name
+        else:
+            found[letter] = name
+    return found

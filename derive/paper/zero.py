@@ -1,0 +1,123 @@
+"""Whether an expression vanishes identically, by exact steps alone.
+
+Each step keeps the value, so a zero at its end is a proof; no zero at the end says nothing.  There
+is no time limit, by which the answer would depend on the machine: what is too long is left alone.
+"""
+
+from collections.abc import Callable, Mapping
+
+from sympy import (
+    Abs,
+    Expr,
+    Integral,
+    Pow,
+    Symbol,
+    cancel,
+    count_ops,
+    diff,
+    expand,
+    expand_trig,
+    factor,
+    log,
+    powdenest,
+    radsimp,
+    simplify,
+    together,
+    trigsimp,
+)
+
+from derive.writing.limits import terms
+
+_LONGEST = 400
+"""Operations up to which an expression is worked on."""
+_MOST_TERMS = 50_000
+"""Terms that it may have when it is multiplied out, by a bound known before that is done."""
+_SHORT = 90
+"""Operations up to which SymPy's own search for a simpler form is tried."""
+
+
+def vanishes(expr: Expr, places: Mapping[Symbol, Expr]) -> str:
+    """How `expr` was shown to vanish; empty if it was not.
+
+    places: every variable with a value that it may have, preferably one at which roots come out.
+    """
+    if expr.has(Integral) or count_ops(expr) > _LONGEST or terms(expr) > _MOST_TERMS:
+        return ""
+    if _is_zero(expr):
+        return "the difference of both sides is zero"
+    for variable, place in places.items():
+        if expr.has(variable) and _is_zero(diff(_plain(expr), variable)):
+            held_at = expr.subs(variable, place)
+            if _is_zero(held_at):
+                return f"the difference does not change with {variable}, and is zero at {place}"
+            expr = held_at
+    return ""
+
+
+def _plain(expr: Expr) -> Expr:
+    """log f for log|f|: the derivative of both is f'/f."""
+    return expr.replace(
+        lambda n: isinstance(n, log) and isinstance(n.args[0], Abs),
+        lambda n: log(n.args[0].args[0]),
+    )
+
+
+def _is_zero(expr: Expr) -> bool:
+    for step in _STEPS:
+        if expr == 0:
+            return True
+        expr = step(expr)
+        if count_ops(expr) > 4 * _LONGEST:
+            return False
+    return bool(expr == 0)
+
+
+def _angles(expr: Expr) -> Expr:
+    """Sums inside functions opened, then functions of sums of angles."""
+    return expand_trig(
+        expr.replace(lambda n: n.is_Function, lambda n: n.func(*map(expand, n.args)))
+    )
+
+
+def _roots(expr: Expr) -> Expr:
+    """Every radicand as one factored quotient."""
+    return expr.replace(
+        lambda n: isinstance(n, Pow) and n.exp.is_Rational and n.exp.q == 2,
+        lambda n: powdenest(factor(cancel(together(n.base))) ** n.exp, force=False),
+    )
+
+
+def _functions(expr: Expr) -> Expr:
+    """Every argument of a function as one quotient, so that equal ones look equal."""
+    return expr.replace(
+        lambda n: n.is_Function and not n.is_Piecewise,
+        lambda n: n.func(*(factor(cancel(together(radsimp(_roots(arg))))) for arg in n.args)),
+    )
+
+
+def _quotient(expr: Expr) -> Expr:
+    return cancel(together(expr))
+
+
+def _rationalised(expr: Expr) -> Expr:
+    return expand(radsimp(expr))
+
+
+def _searched(expr: Expr) -> Expr:
+    return simplify(expr) if count_ops(expr) <= _SHORT else expr
+
+
+_STEPS: tuple[Callable[[Expr], Expr], ...] = (
+    _roots,
+    expand,
+    _angles,
+    _roots,
+    _quotient,
+    _roots,
+    _functions,
+    expand,
+    _rationalised,
+    _quotient,
+    lambda e: trigsimp(e) if count_ops(e) <= _SHORT else e,
+    _searched,
+)

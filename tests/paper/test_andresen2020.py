@@ -1,0 +1,208 @@
+"""The paper is complete, its verdicts are computed, and what holds holds for a reason."""
+
+from collections import Counter, defaultdict
+
+import mpmath
+import pytest
+
+from derive.paper import exact
+from derive.paper.andresen2020 import paper
+from derive.paper.claim import Verdict
+from derive.paper.numbers import DIGITS, LEAST
+from derive.paper.report import (
+    as_latex,
+    as_markdown,
+    consequence,
+    corrected,
+    errata,
+    evidence,
+    signs,
+)
+from derive.paper.verdict import Finding
+from tests.paper.displayed import DISPLAYED
+from tests.paper.mutants import FEWEST, mutants, survives
+
+pytestmark = pytest.mark.slow
+
+# What a person found with pencil and paper; the checker knows nothing of this list.
+WRONG = {
+    "eqn:consistencyab": "sqrt((a + s)*(c - s))",
+    "eqn:FIE": "E_star*g_prime/2",
+    "section 2/h": "x_1 = c",
+    "section 3/K_T/right": "K_T = Q",
+    "eq:CJshear": "dp_dP/dP_dQ",
+    "eq:CJshear2": "dp_dP/dP_dQ",
+    "eq:CJshear/sense": "Delta_Q",
+    "eq:asymTan1": "sqrt(a_1 - d_1 + x)",
+    "eq:DeltaQApprox": "Delta_q",
+    "eq:slipAsymptotes/1": "Delta_K_T/(K_N*f) - Delta_a/2",
+    "section 3.2/Delta_a": "-a_1 + a_2",
+    "alpha": "2*phi*asin",
+    "section 4.1/M/integral": "-Integral",
+    "K_T/tilted/left": "a + c",
+    "K_T/tilted/right": "a + c",
+    "inequalitywedge": "4 + 4/gamma",
+    "eq18": "-Delta_Q/2",
+    "eq26": "-Delta_Q/2",
+    "Hertz_shift_stick_zone": "e = Delta_sigma*R",
+    "eq25/parameter": "elliptic_k(chi**2)",
+}
+"""label: a part of the corrected equation."""
+
+SAME = {
+    (
+        "eq17",
+        "m and n exchanged",
+    ): "the condition of strain is symmetric in m and n where p is even",
+    ("appendix/definitions/chi", "of the whole"): "only the square of the modulus enters",
+}
+"""Changes that change nothing."""
+
+
+def test_no_displayed_equation_is_missing() -> None:
+    parts = Counter(claim.equation for claim in paper().claims if claim.equation)
+    expected = {number: count for number, _, _, count in DISPLAYED}
+    extra = {"(5)": 1}  # a second body for the same equation
+    assert {n: c - extra.get(n, 0) for n, c in parts.items()} == expected
+    assert len(DISPLAYED) == 49
+
+
+def test_labels_and_places_are_those_of_the_source() -> None:
+    by_number = defaultdict(list)
+    for claim in paper().claims:
+        by_number[claim.equation].append(claim)
+    for number, label, section, _ in DISPLAYED:
+        for claim in by_number[number]:
+            assert claim.label.startswith(label), claim.label
+            assert number.strip("()") in claim.place or number == "(47a)"
+            assert section in claim.place
+
+
+def test_every_verdict_is_the_expected_one_and_has_evidence(
+    timed: tuple[dict[str, Finding], float],
+) -> None:
+    findings, seconds = timed
+    for label, finding in findings.items():
+        assert finding.claim.expected is not None, label
+        assert finding.as_expected, f"{label}: {finding.verdict}"
+        assert evidence(finding), label
+        if finding.judged.good:
+            assert len(finding.judged.pairs) >= LEAST
+        if finding.verdict in (Verdict.HOLDS, Verdict.NUMERICAL):
+            strict = finding.claim.relation.is_strict
+            assert strict or min(p.digits for p in finding.judged.pairs) >= DIGITS
+    assert seconds < 60
+
+
+def test_what_is_wrong_is_what_a_person_found(findings: dict[str, Finding]) -> None:
+    for label, part in WRONG.items():
+        finding = findings[label]
+        assert finding.verdict in (Verdict.FAILS, Verdict.CONVENTION), label
+        told = corrected(finding)
+        assert told is not None
+        assert part in told, f"{label}: {told}"
+
+
+def test_every_corrected_equation_is_proven(findings: dict[str, Finding]) -> None:
+    wrong = errata(findings.values())
+    mended = [finding for finding in wrong if finding.repair]
+    assert all(finding.repair.judged.good for finding in mended if finding.repair)
+    without = {finding.claim.label for finding in wrong if finding.repair is None}
+    assert without == {"section 4.1/alpha_0(M_0, P_0)", "section 5.3/validity"}
+
+
+def test_a_convention_holds_under_its_map_and_names_the_place(
+    findings: dict[str, Finding],
+) -> None:
+    for finding in findings.values():
+        if finding.verdict == Verdict.CONVENTION:
+            assert finding.under is not None
+            assert finding.under.good
+            assert finding.convention is not None
+            assert "eq" in finding.convention.contradicts or "section" in (
+                finding.convention.contradicts
+            )
+
+
+def test_the_consequence_of_every_error_is_told(findings: dict[str, Finding]) -> None:
+    for finding in errata(findings.values()):
+        if finding.claim.label != "eqn:FIE/cylinder":
+            assert consequence(finding), finding.claim.label
+
+
+def test_documents_hold_every_error(findings: dict[str, Finding]) -> None:
+    found = list(findings.values())
+    for text in (as_markdown(paper(), found), as_latex(paper(), found)):
+        assert text.count("orrected: $") + text.count("Corrected:\n") == sum(
+            f.repair is not None for f in errata(found)
+        )
+    assert r"\begin{document}" in as_latex(paper(), found)
+
+
+def test_the_signs_of_the_sections_are_compared(findings: dict[str, Finding]) -> None:
+    told = {line.partition(":")[0]: line for line in signs(paper(), findings.values())}
+    assert told.keys() == {"moment", "tilt", "tension", "shear"}
+    assert "opposite" not in told["tilt"]
+    for number in ("(39)", "(44)", "(47)"):
+        assert number in told["tension"].partition("opposite sign in")[2]
+    for number in ("(23)", "(27), section 4.1, first part"):
+        assert number in told["moment"].partition("opposite sign in")[2]
+
+
+def test_broken_claims_are_found() -> None:
+    """At least five ways a claim; survivors are named with the reason, and are no errors."""
+    tried, surviving, few = 0, {}, {}
+    for claim in paper().claims:
+        true = claim.expected in (Verdict.HOLDS, Verdict.NUMERICAL)
+        if not true or claim.relation.is_strict:
+            continue  # an inequality that stays true is no error
+        broken = list(mutants(claim))
+        tried += len(broken)
+        if len(broken) < FEWEST:
+            few[claim.label] = len(broken)
+        for mutant in broken:
+            if survives(mutant):
+                surviving[claim.label, mutant.what] = mutant
+    assert set(surviving) <= SAME.keys(), surviving.keys() - SAME.keys()
+    assert set(few) == {"section 4.1/no moment/alpha", "section 4.1/no moment/gamma"}  # 0 and 1
+    assert tried > 500
+
+
+# ------------------------------------------------------------------ consequences by hand
+
+
+def test_slip_zones_of_a_tilted_wedge_without_tension() -> None:
+    """gamma = (1 - sin 27 deg)/(1 + sin 27 deg) = tan(31.5 deg)**2; exact d = (dQ/2fP) a, printed
+    times sqrt((1 + gamma)/2) at the left and sqrt((1 + 1/gamma)/2) at the right edge."""
+    skew = exact.skewness(mpmath.mpf("0.3"))
+    gamma = skew**2
+    assert mpmath.almosteq(gamma, mpmath.tan(mpmath.radians(31.5)) ** 2, 1e-14)
+    shear = mpmath.mpf("0.3")
+    left, right = exact.leading_as_printed(skew, shear, mpmath.mpf(0))
+    assert mpmath.almosteq(left, 0.15 / skew * mpmath.sqrt((1 + gamma) / 2), 1e-12)
+    assert mpmath.almosteq(right, 0.15 * skew * mpmath.sqrt((1 + 1 / gamma) / 2), 1e-12)
+    m, n = exact.moderate(skew, shear, mpmath.mpf(0))
+    for mended, true in zip(
+        exact.leading(skew, shear, mpmath.mpf(0)), (1 / skew - m, skew - n), strict=True
+    ):
+        assert mpmath.almosteq(mended, true, 1e-13)
+
+
+def test_large_tension_is_the_published_example() -> None:
+    """dQ = 0.3 f P, twice the threshold: edge terms are 23 % and 39 % too large."""
+    shear, skew = mpmath.mpf("0.3"), mpmath.mpf(1)
+    tension = 2 * exact.threshold(skew, shear)
+    m, n = exact.large(skew, shear, tension)
+    errors = [
+        float(100 * (mended / (1 - edge) - 1))
+        for mended, edge in zip(exact.leading(skew, shear, tension), (m, n), strict=True)
+    ]
+    assert errors == pytest.approx([23.4, 39.2], abs=0.1)
+
+
+def test_both_regimes_meet_at_the_threshold() -> None:
+    """n = c there by the moderate solution, and the large one tends to nearly that."""
+    shear, skew = mpmath.mpf("0.3"), exact.skewness(mpmath.mpf("0.2"))
+    tension = exact.threshold(skew, shear)
+    _, n = exact.moderate(skew, shear, tension)
+    assert mpmath.almosteq(n, skew, 1e-14)

@@ -1,0 +1,273 @@
+"""The parts of the checker, on claims small enough to judge by eye."""
+
+import mpmath
+import pytest
+from mpmath import mpf
+from sympy import (
+    Abs,
+    Expr,
+    Integral,
+    S,
+    Symbol,
+    asin,
+    atan,
+    cos,
+    exp,
+    log,
+    pi,
+    sin,
+    sqrt,
+    symbols,
+    zoo,
+)
+
+from derive.paper import anybody
+from derive.paper.claim import FRACTION, SIGNED, Claim, Convention, Paper, Range, Relation, Verdict
+from derive.paper.numbers import DIGITS, Undecided, both, evaluated, points, variables
+from derive.paper.quick import Unknown, approximately
+from derive.paper.repair import edits
+from derive.paper.verdict import check
+from derive.paper.zero import vanishes
+
+a, b, c = symbols("a b c")
+u, v = symbols("u v", positive=True)
+s = Symbol("s", real=True)
+
+
+def claim(left: object, right: object, **more: object) -> Claim:
+    made = {"label": "it", "place": "here", "says": "so", **more}
+    return Claim(left=left, right=right, **made)  # type: ignore[arg-type]
+
+
+# ------------------------------------------------------------------ verdicts
+
+
+def test_what_is_equal_holds() -> None:
+    finding = check(claim(a, b**2, meaning={a: u**2, b: u}))
+    assert finding.verdict == Verdict.HOLDS
+    assert len(finding.judged.pairs) >= 20
+    assert finding.as_expected
+
+
+def test_what_is_equal_by_quadrature_is_numerical() -> None:
+    finding = check(claim(a, Integral(sqrt(u**2 - s**2), (s, -u, u)), meaning={a: pi * u**2 / 2}))
+    assert finding.verdict == Verdict.NUMERICAL
+    assert min(pair.digits for pair in finding.judged.pairs) >= DIGITS
+
+
+@pytest.mark.parametrize(
+    ("printed", "kind"),
+    [
+        (-(b**2), "sign"),
+        (2 * b**2, "factor"),
+        (b**2 / pi, "factor"),
+        (c**2, "swap"),
+        (b**4, "exponent"),
+        (b**2 + c, "term"),
+        (Abs(b) ** 2 * 3, "factor"),
+    ],
+)
+def test_a_slip_is_found_and_mended(printed: object, kind: str) -> None:
+    finding = check(claim(a, printed, meaning={a: u**2, b: u, c: v}, swaps=(b, c)))
+    assert finding.verdict == Verdict.FAILS
+    assert not finding.as_expected
+    assert finding.repair is not None
+    assert finding.repair.kind == kind
+    assert finding.repair.judged.verdict == Verdict.HOLDS
+    assert finding.tried
+
+
+def test_two_slips_are_found_together() -> None:
+    finding = check(claim(a, b - 2 * c, meaning={a: u + 2 / v, b: u, c: v}, swaps=(c,)))
+    assert finding.repair is not None
+    assert finding.repair.kind == "sign and swap"
+
+
+def test_what_cannot_be_mended_fails_all_the_same() -> None:
+    finding = check(claim(a, exp(b), meaning={a: sin(u), b: u}))
+    assert (finding.verdict, finding.repair) == (Verdict.FAILS, None)
+
+
+def test_a_map_of_signs_makes_a_convention() -> None:
+    turned = Convention("a downward", {a: -u}, "eq. (0), where a is upward")
+    finding = check(claim(a, -b, meaning={a: u, b: u}, conventions=(turned,)))
+    assert finding.verdict == Verdict.CONVENTION
+    assert finding.convention is turned
+    assert finding.repair is not None
+
+
+def test_a_map_that_does_not_help_is_no_convention() -> None:
+    turned = Convention("a downward", {a: -u}, "eq. (0)")
+    finding = check(claim(a, 3 * b, meaning={a: u, b: u}, conventions=(turned,)))
+    assert finding.verdict == Verdict.FAILS
+
+
+def test_a_difference_in_a_late_digit_is_found() -> None:
+    assert check(claim(a, b + b / 10**25, meaning={a: u, b: u})).verdict == Verdict.FAILS
+
+
+def test_what_gives_no_number_is_unchecked() -> None:
+    for printed in (log(b - c), 1 / (b - c), zoo * b):
+        finding = check(claim(a, printed, meaning={a: u, b: u, c: u}))
+        assert finding.verdict == Verdict.UNCHECKED, printed
+
+
+def test_cancellation_beyond_all_digits_is_unchecked_and_never_holds() -> None:
+    """(1 + b/10**200) - 1 is b/10**200, of which no digit is left at 80 working digits."""
+    lost = (c + b / 10**200 - c) * 10**200
+    printed = (sqrt((1 + b / 10**200) ** 2) - 1) * 10**200
+    assert lost == b
+    finding = check(claim(a, printed, meaning={a: u, b: u}))
+    assert finding.verdict == Verdict.UNCHECKED
+
+
+def test_a_reason_makes_a_claim_unchecked() -> None:
+    finding = check(claim(a, b, unchecked="no equation"))
+    assert finding.verdict == Verdict.UNCHECKED
+    assert not finding.as_expected
+
+
+def test_a_definition_is_judged_where_it_stands() -> None:
+    through = (c, 3 * a)
+    finding = check(claim(a, b**3, meaning={b: u, c: 3 * u**2}, through=through))
+    assert finding.verdict == Verdict.FAILS
+    assert finding.repair is not None
+    assert finding.repair.right == b**2
+
+
+@pytest.mark.parametrize(
+    ("relation", "verdict"),
+    [(Relation.BELOW, Verdict.NUMERICAL), (Relation.ABOVE, Verdict.FAILS)],
+)
+def test_inequalities(relation: Relation, verdict: Verdict) -> None:
+    finding = check(claim(a, b, meaning={a: u, b: 2 * u}, relation=relation))
+    assert finding.verdict == verdict
+    if verdict == Verdict.FAILS:
+        assert finding.repair is not None
+        assert finding.repair.relation == Relation.BELOW
+
+
+def test_equal_sides_are_neither_above_nor_below() -> None:
+    finding = check(claim(a, b, meaning={a: u, b: u}, relation=Relation.BELOW))
+    assert finding.verdict == Verdict.FAILS
+    assert finding.repair is not None
+    assert finding.repair.relation == Relation.EQUAL
+
+
+def test_a_modulus_is_put_in_and_taken_out() -> None:
+    w = Symbol("w", real=True)
+    signed = {"ranges": {w: SIGNED}}
+    without = check(claim(a, b, meaning={a: Abs(w), b: w}, **signed))
+    assert without.repair is not None
+    assert without.repair.kind == "modulus"
+    one_too_many = check(claim(a, Abs(b), meaning={a: w, b: w}, **signed))
+    assert one_too_many.repair is not None
+    assert one_too_many.repair.kind == "modulus"
+
+
+def test_two_claims_of_one_label_are_refused() -> None:
+    with pytest.raises(AssertionError):
+        Paper("title", (claim(a, b), claim(a, c)))
+
+
+# ------------------------------------------------------------------ numbers
+
+
+def test_points_are_the_same_on_every_machine() -> None:
+    one = claim(a, b, meaning={a: u, b: v}, ranges={v: FRACTION})
+    assert list(points(one)) == list(points(one))
+    assert all(0.05 <= point[v] <= 0.95 for point in points(one))
+
+
+def test_variables_of_integration_are_not_drawn() -> None:
+    one = claim(a, Integral(b * s, (s, 0, c)), meaning={a: u, b: s**2, c: v})
+    assert variables(one) == [u, v]
+
+
+@pytest.mark.parametrize(
+    ("integrand", "low", "high", "value"),
+    [
+        (1 / sqrt((1 + s) * (2 - s)), -1, 2, pi),
+        (sqrt(4 - s**2), -2, 2, 2 * pi),
+        (log(Abs(s)), -1, 1, S(-2)),
+        (1 / sqrt(3 - s), 0, 3, 2 * sqrt(3)),
+        (s**5, 0, 2, S(32) / 3),
+    ],
+)
+def test_integrals(integrand: Expr, low: int, high: int, value: Expr) -> None:
+    with mpmath.workdps(36):
+        found = evaluated(Integral(integrand, (s, low, high)), {})
+        assert mpmath.almosteq(found, evaluated(value, {}), mpf(10) ** -31)
+
+
+def test_digits_that_cancel_are_computed_again() -> None:
+    tiny = (1 + b) - 1
+    pair = both(tiny, b, lambda: {b: mpf(2) ** -60}, {})
+    assert pair.agree
+
+
+def test_a_sum_that_cancels_wholly_is_zero() -> None:
+    pair = both(a, sqrt(b) ** 2 - b, lambda: {a: mpf(0), b: mpf(3)}, {})
+    assert pair.agree
+
+
+def test_what_is_not_finite_is_undecided() -> None:
+    with pytest.raises(Undecided):
+        both(a, 1 / (b - b * a), lambda: {a: mpf(1), b: mpf(3)}, {})
+
+
+def test_a_few_digits_in_no_time() -> None:
+    assert approximately(sqrt(a) + sin(b) ** 2, {a: 4, b: 0}) == 2
+    with pytest.raises(Unknown):
+        approximately(Integral(s, (s, 0, a)), {a: 1})
+    with pytest.raises(Unknown):
+        approximately(1 / a, {a: 0})
+
+
+# ------------------------------------------------------------------ exact zeros
+
+
+@pytest.mark.parametrize(
+    "expr",
+    [
+        (u + v) ** 2 - u**2 - 2 * u * v - v**2,
+        cos(2 * atan(u)) - (1 - u**2) / (1 + u**2),
+        asin((1 - u**2) / (1 + u**2)) - pi / 2 + 2 * atan(u),
+        log(Abs((u + v) / (u - v))) - log(Abs((v + u) / (v - u))),
+        sqrt(u**2 * v + v**3) - sqrt(v) * sqrt(u**2 + v**2),
+    ],
+)
+def test_identities_vanish(expr: Expr) -> None:
+    assert vanishes(expr, {u: S.One, v: S.One})
+
+
+@pytest.mark.parametrize(
+    "expr", [u - v, sin(u) - u, asin(u) - atan(u), Integral(s, (s, 0, u)) - u**2 / 2, u / 10**30]
+)
+def test_what_is_not_shown_to_vanish_does_not(expr: Expr) -> None:
+    assert vanishes(expr, {u: S.One, v: S.One}) == ""
+
+
+# ------------------------------------------------------------------ repairs and lemmas
+
+
+def test_every_edit_changes_and_none_comes_twice() -> None:
+    printed = a * sqrt(b + c) - 2 * Integral(s * a, (s, 0, b))
+    found = [edit.expr for edit in edits(printed, (a, b))]
+    assert printed not in found
+    assert len(found) == len(set(found))
+    assert {edit.kind for edit in edits(printed, (a, b))} >= {"sign", "factor", "swap", "exponent"}
+
+
+def test_the_order_of_edits_does_not_change() -> None:
+    printed = a * sqrt(b + c) - a**2 + b
+    assert [e.what for e in edits(printed, (a, b))] == [e.what for e in edits(printed, (a, b))]
+
+
+def test_the_rates_of_any_body_are_proven() -> None:
+    anybody.demand_proven()
+
+
+def test_a_range_has_a_simple_place() -> None:
+    assert Range(0, 0.5).place == S(1) / 4
+    assert SIGNED.place == 1

@@ -1,0 +1,312 @@
+"""A user's own claims: what is read, what is refused and how, in which formats it is told."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from sympy import Integral, Symbol, elliptic_k, pi, sqrt, symbols
+
+from derive.cli import main
+from derive.errors import BadClaimsFile, BadFormula, NotAccepted, UserError
+from derive.paper.formula import Names, equation, formula
+from derive.paper.latex import Latex
+from derive.paper.userfile import read_claims
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "cattaneo_mindlin.toml"
+NEEDS_LARK = pytest.mark.skipif(
+    importlib.util.find_spec("lark") is None, reason="LaTeX is read by way of lark"
+)
+
+HEAD = """
+title = "A disc"
+[variables]
+r = "radius"
+k = { low = 0.1, high = 0.9 }
+[symbols]
+R = "r"
+A = "pi*r**2"
+"""
+CIRCLE = HEAD + '[[claims]]\nlabel = "area"\nprinted = "A = pi*R**2"\n'
+WRONG = HEAD + '[[claims]]\nlabel = "area"\nprinted = "A = 2*pi*R**2"\n'
+
+
+def run(*arguments: str) -> Result:
+    return CliRunner().invoke(main, ["check", *arguments], catch_exceptions=False)
+
+
+def written(folder: Path, text: str) -> str:
+    path = folder / "claims.toml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+# ------------------------------------------------------------------ the command
+
+
+def test_claims_that_hold_leave_with_zero(tmp_path: Path) -> None:
+    done = run(written(tmp_path, CIRCLE))
+    assert (done.exit_code, "1 claims: 1 holds" in done.output) == (0, True)
+
+
+def test_an_unexpected_verdict_leaves_with_one(tmp_path: Path) -> None:
+    done = run(written(tmp_path, WRONG))
+    assert done.exit_code == 1
+    assert "A = pi*R**2" in done.output.replace("  ", " ")
+    assert "Not as expected: area" in done.stderr
+
+
+def test_an_error_that_is_expected_leaves_with_zero(tmp_path: Path) -> None:
+    assert run(written(tmp_path, WRONG + 'expected = "fails"\n')).exit_code == 0
+
+
+def test_an_expected_error_that_is_none_leaves_with_one(tmp_path: Path) -> None:
+    assert run(written(tmp_path, CIRCLE + 'expected = "fails"\n')).exit_code == 1
+
+
+def test_json_has_what_the_contract_says(tmp_path: Path) -> None:
+    done = run(written(tmp_path, WRONG), "--format", "json")
+    (told,) = json.loads(done.stdout)
+    assert {"label", "verdict", "printed", "corrected", "evidence"} <= told.keys()
+    assert (told["label"], told["verdict"]) == ("area", "fails")
+    assert told["printed"] == "A = 2*pi*R**2"
+    assert told["corrected"] == "A = pi*R**2"
+
+
+def test_json_of_what_holds_has_no_correction(tmp_path: Path) -> None:
+    (told,) = json.loads(run(written(tmp_path, CIRCLE), "--format", "json").stdout)
+    assert told["corrected"] is None
+
+
+@pytest.mark.parametrize(
+    ("form", "part"), [("markdown", "## Errata"), ("latex", r"\end{document}")]
+)
+def test_documents(tmp_path: Path, form: str, part: str) -> None:
+    done = run(written(tmp_path, WRONG), "--format", form)
+    assert part in done.stdout
+    assert r"A = \pi R^{2}" in done.stdout
+
+
+def test_one_claim_is_explained(tmp_path: Path) -> None:
+    done = run(written(tmp_path, WRONG), "--explain", "area")
+    for heading in ("printed", "compared with", "symbols", "numbers", "verdict", "corrected"):
+        assert heading in done.stdout
+    assert "tried" in done.stdout
+
+
+def test_a_convention_of_one_s_own(tmp_path: Path) -> None:
+    text = HEAD + (
+        '[[claims]]\nlabel = "area"\nprinted = "-A = pi*R**2"\nexpected = "convention"\n'
+        'conventions = [{ what = "area downward", symbols = { A = "-pi*r**2" }, '
+        'contradicts = "eq. (0)" }]\n'
+    )
+    done = run(written(tmp_path, text))
+    assert done.exit_code == 0, done.output
+    assert "area downward" in done.output
+
+
+def test_an_unchecked_claim_has_its_reason(tmp_path: Path) -> None:
+    text = HEAD + '[[claims]]\nlabel = "x"\nunchecked = "no equation"\nexpected = "unchecked"\n'
+    assert run(written(tmp_path, text)).exit_code == 0
+
+
+@pytest.mark.slow
+@NEEDS_LARK
+def test_the_worked_example() -> None:
+    done = run(str(EXAMPLE), "--format", "json")
+    assert done.exit_code == 0, done.output
+    verdicts = {told["label"]: told["verdict"] for told in json.loads(done.stdout)}
+    assert list(verdicts.values()).count("fails") == 1
+    assert verdicts["stick zone"] == "fails"
+    told = {claim["label"]: claim for claim in json.loads(done.stdout)}["stick zone"]
+    assert told["corrected"] == "c = a*sqrt(1 - Q/(P*f))"
+
+
+def test_the_readme_shows_the_example() -> None:
+    shown = (ROOT / "README.md").read_text(encoding="utf-8").split("```toml\n")[1].split("```")[0]
+    written = EXAMPLE.read_text(encoding="utf-8")
+    for line in filter(None, (line.partition("   #")[0].strip() for line in shown.splitlines())):
+        assert line in written, line
+
+
+# ------------------------------------------------------------------ what is refused
+
+BAD = {
+    "no TOML": ("title = ", "no TOML"),
+    "no claims": (HEAD, "no [[claims]]"),
+    "claims no list": (HEAD + "\n[claims]\n", "no [[claims]]"),
+    "unknown key": ('colour = "red"\n' + CIRCLE, "'colour'"),
+    "unknown key of a claim": (CIRCLE + 'colour = "red"\n', "'colour'"),
+    "no label": (HEAD + '[[claims]]\nprinted = "A = R"\n', "no label"),
+    "no equation": (HEAD + '[[claims]]\nlabel = "x"\n', "printed and latex"),
+    "no relation": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A"\n', "no relation"),
+    "two relations": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = R = 1"\n', "two relations"),
+    "unknown name": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = Z"\n', "what Z is"),
+    "unknown function": (
+        HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = eval(R)"\n',
+        "no function",
+    ),
+    "attribute": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = R.__class__"\n', "attributes"),
+    "text": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = \'R\'"\n', "quotes"),
+    "large power": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = 9**9**9**9"\n', "too large"),
+    "deep": (HEAD + f'[[claims]]\nlabel = "x"\nprinted = "A = {"(" * 60}R"\n', "too deep"),
+    "unknown body": ('body = "sphere"\n' + CIRCLE, "not in the library"),
+    "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "no verdict"),
+    "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "cannot be a name"),
+    "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no range"),
+    "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
+    "conventions": (CIRCLE + "conventions = 3\n", "no list"),
+    "bad symbol": (CIRCLE.replace('A = "pi*r**2"', 'A = "pi*q"'), "what q is"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_is_one_message_and_status_two(case: str, tmp_path: Path) -> None:
+    text, part = BAD[case]
+    done = run(written(tmp_path, text))
+    assert done.exit_code == 2, done.output
+    assert part in done.stderr
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+
+
+def test_powers_of_powers_end_in_time(tmp_path: Path) -> None:
+    """(r + k)**60 to the 90th is nothing to multiply out."""
+    text = HEAD.replace("[symbols]", '[symbols]\nB = "(r + k)**60"')
+    text += '[[claims]]\nlabel = "B"\nprinted = "B**90 = (B*B)**45"\n'
+    assert run(written(tmp_path, text)).exit_code == 0
+
+
+@pytest.mark.parametrize("given", ["nowhere.toml", ".", "a" * 300])
+def test_a_file_that_is_none(given: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(given).exit_code == 2
+
+
+def test_bytes_are_no_claims(tmp_path: Path) -> None:
+    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe\x00")
+    assert "UTF-8" in run(str(tmp_path / "bytes.toml")).stderr
+
+
+def test_an_unknown_label_shows_the_nearest(tmp_path: Path) -> None:
+    done = run(written(tmp_path, CIRCLE), "--explain", "aera")
+    assert (done.exit_code, "area" in done.stderr) == (2, True)
+
+
+# ------------------------------------------------------------------ formulas
+
+a, c = symbols("a c")
+NAMES = Names("here", {"a": a, "c": c, "s": Symbol("s", real=True)}, {"load": 2})
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("a + c*2", a + 2 * c),
+        ("-a**2", -(a**2)),
+        ("a**-1/2", 1 / a / 2),
+        ("sqrt(a)*pi", sqrt(a) * pi),
+        ("0.5*a", a / 2),
+        ("elliptic_k(a**2)", elliptic_k(a**2)),
+        ("integral(s*a, s, 0, c)", Integral(NAMES.symbols["s"] * a, (NAMES.symbols["s"], 0, c))),
+    ],
+)
+def test_formulas(text: str, value: object) -> None:
+    assert formula(text, NAMES) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "column"),
+    [
+        ("a + ", 4),
+        ("a c", 2),
+        ("a + z", 4),
+        ("load(a)", 0),
+        ("sqrt(a, c)", 0),
+        ("(a", 2),
+        ("a$", 1),
+    ],
+)
+def test_a_message_points_to_the_place(text: str, column: int) -> None:
+    with pytest.raises(BadFormula) as caught:
+        formula(text, NAMES)
+    assert caught.value.column == column
+    assert caught.value.message.splitlines()[-1].index("^") == column + 4
+
+
+def test_the_right_side_keeps_its_column() -> None:
+    with pytest.raises(BadFormula) as caught:
+        equation("a = c + z", NAMES)
+    assert caught.value.column == 8
+
+
+# ------------------------------------------------------------------ LaTeX
+
+SPELLINGS = {"a": "a", "c": "c", "P": "P", "f": "f", "Q": "Q", "E^*": "E_star", r"\Delta Q": "dQ"}
+
+
+def latex(text: str) -> str:
+    return Latex("here", text, SPELLINGS).understood()
+
+
+@NEEDS_LARK
+@pytest.mark.parametrize(
+    ("text", "understood"),
+    [
+        (r"c = a \sqrt{1 - \frac{Q}{f P}}", "c = a*sqrt(-Q/(P*f) + 1)"),
+        (r"c = a\,(1 + Q)", "c = a*(Q + 1)"),
+        (r"c = \frac{\pi E^*}{2} a", "c = E_star*pi*a/2"),
+        (r"c \le \Delta Q", "c <= dQ"),
+        (r"c = \left(1 - a\right)^{\frac{1}{3}}", "c = (1 - a)**(1/3)"),
+    ],
+)
+def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
+    names = Names("here", {n: Symbol(n) for n in set(SPELLINGS.values())}, {})
+    assert equation(latex(text), names) == equation(understood, names)
+
+
+@NEEDS_LARK
+@pytest.mark.parametrize(
+    ("text", "part", "column"),
+    [
+        (r"c = a \gamma", r"\gamma is no declared symbol", 6),
+        (r"c = a'(c)", "' is no declared symbol", 5),
+        (r"c = a = P", "two relations", 6),
+        (r"c", "no relation", 1),
+        (r"c = a^2 P", "cannot be read", 8),
+        (r"c = \int_0^1 a", r"\int is no declared symbol", 4),
+        (r"c = \input{file}", r"\input is no declared symbol", 4),
+        ("c = " + "a" * 500, "too long", 400),
+    ],
+)
+def test_what_cannot_be_read_is_shown(text: str, part: str, column: int) -> None:
+    with pytest.raises(BadFormula) as caught:
+        latex(text)
+    assert part in caught.value.message
+    assert caught.value.column == column
+
+
+@NEEDS_LARK
+def test_what_was_understood_must_be_accepted(tmp_path: Path) -> None:
+    claim = "[[claims]]\nlabel = 'area'\nlatex = 'A = \\pi R^2'\n"
+    path = Path(written(tmp_path, HEAD + claim))
+    with pytest.raises(NotAccepted) as caught:
+        read_claims(path)
+    assert "A = " in caught.value.understood
+    path.write_text(HEAD + claim + f"understood = '{caught.value.understood}'\n")
+    assert run(str(path)).exit_code == 0
+    path.write_text(HEAD + claim + "understood = 'A = 2*pi*R**2'\n")
+    assert run(str(path)).exit_code == 2
+
+
+def test_without_lark_the_message_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("derive.paper.latex.find_spec", lambda name: None)
+    path = Path(written(tmp_path, HEAD + "[[claims]]\nlabel = 'x'\nlatex = 'A = R'\n"))
+    with pytest.raises(BadClaimsFile, match="lark"):
+        read_claims(path)
+
+
+def test_every_mistake_is_a_user_s() -> None:
+    assert all(issubclass(kind, UserError) for kind in (BadClaimsFile, BadFormula, NotAccepted))
