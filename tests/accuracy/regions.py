@@ -41,7 +41,7 @@ class Regions:
                 yield from self.at_tilt()
             case "pressure":
                 yield from self.inside()
-            case "K_T":
+            case "K_T" | "L_T" | "stick_margin":
                 yield "bulk", self.sheared(self.contacts(0, (-2, 0)))
                 yield "extreme loads", self.sheared(self.contacts(EXPONENTS["loads"], (-8, 8)))
             case _:
@@ -83,7 +83,10 @@ class Regions:
         """Contacts with changes of shear and tension of comparable effect."""
         shear = self.decades(-6, 6)
         tension = self.signs * shear / (given["a"] + given["c"]) * self.decades(-3, 3)
-        return given | {"dQ": shear, "dsigma": tension}
+        turn = self.signs * shear * (given["a"] + given["c"]) * self.decades(-3, 3)
+        more = self.signs * shear * self.decades(-3, 3)
+        friction = self.decades(-1, 0)
+        return given | {"dQ": shear, "dsigma": tension, "dP": more, "dM": turn, "f": friction}
 
     # ------------------------------------------------------------------ corners
 

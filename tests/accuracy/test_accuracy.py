@@ -16,8 +16,8 @@ CANCELLING = {
     # given numbers shows in it however it is computed.
     ("hertz", "contact"),  # a, c = half-width +- M/P
     ("hertz", "contact_at_tilt"),  # a, c = half-width +- R alpha
-    ("hertz", "K_T"),  # dQ/pi +- dsigma h/8
-    ("wedge", "K_T"),
+    # dQ/pi +- dsigma h/8, and more such sums of given numbers
+    *((body, name) for body in BODIES for name in ("K_T", "L_T", "stick_margin")),
 }
 """Here the error is held against the conditioning of the problem."""
 

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from derive.codegen.cycle import CYCLE
+
 Function = Callable[..., Any]
 
 # A contact of every body whose own lengths and slopes are PARAMETER; all exact in binary.
@@ -26,10 +28,16 @@ VALUES: Mapping[str, float] = {
     "alpha": 0.0625,
     "dQ": 0.5,
     "dsigma": 0.25,
+    "dP": 0.375,
+    "dM": -0.125,
+    "f": 0.5,
     "E_star": 1.25,
 }
 PARAMETER = 0.375
-WHOLE = {"x": 7, "a": 120, "c": 110, "P": 100, "M": 90, "alpha": 0, "dQ": 80, "dsigma": 70}
+WHOLE = {"x": 7, "a": 120, "c": 110, "P": 100, "M": 90, "alpha": 0, "dQ": 80, "dsigma": 70} | {
+    "dP": 60,
+    "dM": 50,
+}
 """Whole numbers that overflow an int8 as soon as two of them are added or multiplied."""
 WHOLE_CONSTANT = 100
 POSITIONAL = {
@@ -42,12 +50,14 @@ POSITIONAL = {
     "K_N": "a, c",
     "L_N": "a, c",
     "K_T": "a, c, dQ, dsigma",
+    "L_T": "a, c, dQ, dsigma",
+    "stick_margin": "a, c, dP, dM, dQ, dsigma",
 }
 """The contract, written out: names, order and defaults."""
 RESULTS = {
     "contact": ("a", "c", "alpha"),
     "contact_at_tilt": ("a", "c", "alpha"),
-    **dict.fromkeys(("K_N", "L_N", "K_T"), ("left", "right")),
+    **dict.fromkeys(("K_N", "L_N", "K_T", "L_T", "stick_margin"), ("left", "right")),
 }
 
 INF, NAN = np.inf, np.nan
@@ -58,8 +68,7 @@ NEVER = {
     "a": (NAN, INF, -INF, -1.5, -2.0, -1e300),
     "c": (NAN, INF, -INF, -2.0, -2.5, -1e300),
     "x": (NAN,),
-    "dQ": (NAN,),
-    "dsigma": (NAN,),
+    **dict.fromkeys(("dQ", "dsigma", "dP", "dM"), (NAN,)),
 }
 """Values of one argument with which no state exists, whatever the body; a = -1.5 is no width."""
 NEVER_CONSTANT = (0.0, -0.0, -1.0, -5e-324, NAN, -INF)
@@ -71,9 +80,12 @@ OWN = {
     }
 }
 """More of them by body: the wedge's tilt ends at its own slope, its contact spans the apex."""
-ALWAYS = {("K_T", "a"), ("K_T", "c")}
+ALWAYS = {(name, edge) for name in ("K_T", "L_T", "stick_margin") for edge in "ac"}
 """What needs no more than a width: full stick knows nothing of the body."""
 
+
+CYCLES = {cycle.name for cycle in CYCLE}
+"""Functions of a whole cycle: they take contacts, and are tested in files of their own."""
 
 KINDS = ("hertz", "wedge", "unequal_wedge")
 """Closed with a kink and without; test_library has what is solved and integrated."""
@@ -83,7 +95,7 @@ FUNCTIONS: dict[str, Function] = {
     f"{body}.{name}": getattr(module, name)
     for body, module in MODULES.items()
     for name in module.__all__
-    if not inspect.isclass(getattr(module, name))
+    if not inspect.isclass(getattr(module, name)) and name not in CYCLES
 }
 EACH = pytest.mark.parametrize("name", FUNCTIONS)
 

@@ -36,6 +36,9 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
     "K_N": ("left", "right"),
     "L_N": ("left", "right"),
     "K_T": ("left", "right"),
+    "L_T": ("left", "right"),
+    "stick_margin": ("left", "right"),
+    "slip_zones": ("left", "right"),
 }
 
 COLUMNS = ["inputs", "expected", "working"]
