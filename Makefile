@@ -1,9 +1,10 @@
-# make        derives and proves every geometry, regenerates generated/, ends with the table;
+# make        derives and proves every geometry, regenerates generated/, checks the paper;
 #             nothing is taken from an earlier run, so that every proof and time is of this one
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that take no long
 # make bench  speed, as ratios measured in one run; bench-inverse: of the way from loads to contacts;
 #             bench-slip: of stick zones
+# make solver    what the independent solver finds: tests/reference/FINDINGS.md; a quarter of an hour
 # make series    errors of the series of the slip zones, order by order: notebooks/series.md
 # make accuracy  worst error of every generated function, in units in the last place
 # make picture   draws the README's picture
@@ -13,10 +14,11 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test quick bench bench-inverse bench-slip series accuracy picture clean
+.PHONY: all test quick bench bench-inverse bench-slip series solver accuracy picture clean
 
 all: $(STAMP)
 	$(BIN)/derive generate --fresh
+	$(BIN)/derive check
 
 test: $(STAMP)
 	$(BIN)/ruff check .
@@ -38,6 +40,9 @@ bench-slip: $(STAMP)
 
 series: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.series
+
+solver: $(STAMP)
+	$(BIN)/python -m tests.reference
 
 accuracy: $(STAMP)
 	$(BIN)/python -m tests.accuracy.report

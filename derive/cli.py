@@ -62,10 +62,11 @@ def main() -> None:
 @main.command("list")
 def list_() -> None:
     """Every geometry, its g(x), what is closed form and what is numerical."""
-    from derive import derive_sheet, load_geometry, view
+    from derive import load_geometry, view
+    from derive.derivation import derive_law
     from derive.library import library
 
-    _print(view.listing(derive_sheet(load_geometry(name)) for name in library()))
+    _print(view.listing(derive_law(load_geometry(name)) for name in library()))
 
 
 @main.command()

@@ -4,7 +4,7 @@ In:  Geometry.
 Out: FormulaSheet without proofs.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from sympy import Expr, Symbol, pi, sqrt
 from sympy.logic.boolalg import Boolean
@@ -25,6 +25,9 @@ from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
 from derive.theory.frame import Frame
 from derive.theory.pressure import pressure
 
+Stage = Callable[[FormulaSheet], Iterator[Formula]]
+"""Formulas that follow from those already on a sheet."""
+
 _PAPER = "Andresen, Fleury, Moore & Hills 2020"
 _CLASSIC = "singular integral equation of the half-plane, pressure bounded at both edges"
 
@@ -37,8 +40,16 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
     >>> sheet.flat("load")
     E_star*phi*sqrt(a*c)
     """
+    return _derived(geometry, _CLOSED if geometry.slope.is_polynomial else _SUPERPOSED)
+
+
+def derive_law(geometry: Geometry) -> FormulaSheet:
+    """Load, moment and tilt of a contact, and the contact from the loads where it is a formula."""
+    return _derived(geometry, _LAW if geometry.slope.is_polynomial else (_superposed,))
+
+
+def _derived(geometry: Geometry, stages: Iterable[Stage]) -> FormulaSheet:
     sheet = FormulaSheet(geometry, Frame(geometry.slope))
-    stages = _CLOSED if geometry.slope.is_polynomial else _SUPERPOSED
     for stage in stages:
         for formula in stage(sheet):
             sheet = sheet.plus(formula)
@@ -279,6 +290,9 @@ _CLOSED = (
     *(_stick, _slip, _inverses, _moderate),
 )
 """Stages for a body whose integrals are elementary."""
+
+_LAW = (_equilibrium, _inverses)
+"""Of these, the stages of the contact law alone."""
 
 _SUPERPOSED = (_superposed, _stick, _slip)
 """Stages for any other body."""

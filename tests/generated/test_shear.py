@@ -61,7 +61,7 @@ def test_it_carries_the_shear_load(name: str, tension: float) -> None:
 
 @pytest.mark.parametrize("name", CLOSED)
 @pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
-@pytest.mark.parametrize("moved", [0.0, 0.01])
+@pytest.mark.parametrize("moved", [0.0, pytest.param(0.01, marks=pytest.mark.slow)])
 def test_its_strain_in_the_stick_zone_is_that_of_the_tension(
     name: str, tension: float, moved: float
 ) -> None:

@@ -52,14 +52,23 @@ def bound_of_tension() -> str:
 
 
 def validity_of_the_bound() -> str:
-    """Where the moderate solution stops being exact, and where the paper puts it."""
+    """Where the moderate solution stops being exact, and where the paper puts it.
+
+    Slip that reverses at the right edge reaches a + n0 = 8 dQ/(pi dsigma) at once; the moderate
+    solution is exact as long as its own n lies further in.
+    """
     upper = exact.threshold(mpf(1), _SHEAR)
-    width = mpf(2)
-    first = 8 * _SHEAR / (mpmath.pi * width)
+    first = 8 * _SHEAR / (mpmath.pi * 2)
+
+    def room(tension: mpf) -> mpf:
+        _, n = exact.moderate(mpf(1), _SHEAR, tension)
+        return 8 * _SHEAR / (mpmath.pi * tension) - (1 + n)
+
+    last = mpmath.findroot(room, (first, upper), solver="anderson", tol=mpf(10) ** -20)
     return (
         "untilted wedge, dQ = 0.3 f P: slip at the right edge first reverses inside the "
-        f"half-cycle at {_short(first / upper)} of the threshold; from there on n is not that of "
-        "eq. (28)"
+        f"half-cycle at {_short(first / upper)} of the threshold; from {_short(last / upper)} on n "
+        "is not that of eq. (28)"
     )
 
 
