@@ -5,6 +5,7 @@
 # make bench  speed, as ratios measured in one run; bench-inverse: of the way from loads to contacts;
 #             bench-slip: of stick zones
 # make solver    what the independent solver finds: tests/reference/FINDINGS.md; a quarter of an hour
+# make comparison  that solver, exact conditions and series, cycle by cycle: notebooks/comparison.md
 # make series    errors of the series of the slip zones, order by order: notebooks/series.md
 # make accuracy  worst error of every generated function, in units in the last place
 # make picture   draws the README's picture
@@ -14,7 +15,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test quick bench bench-inverse bench-slip series solver accuracy picture clean
+.PHONY: all test quick bench bench-inverse bench-slip series solver comparison accuracy picture clean
 
 all: $(STAMP)
 	$(BIN)/derive generate --fresh
@@ -43,6 +44,9 @@ series: $(STAMP)
 
 solver: $(STAMP)
 	$(BIN)/python -m tests.reference
+
+comparison: $(STAMP)
+	$(BIN)/python -m tests.comparison
 
 accuracy: $(STAMP)
 	$(BIN)/python -m tests.accuracy.report

@@ -1,0 +1,186 @@
+"""Cycles for the comparison: the paper's result cases, and bodies and loads that it has not.
+
+E* = 1 and f = 1/2 throughout.  Loads of the wedge are told in P and in the tension that closes a
+slip zone, as the paper does.
+"""
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from types import ModuleType
+
+import numpy as np
+
+from generated._types import Contact
+from tests.reference.loads import State
+from tests.reference.mesh import Floats
+from tests.reference.normal import Body
+from tests.reference.solver import Case
+
+F = 0.5
+
+
+@dataclass(frozen=True)
+class Compared:
+    """One cycle of one body.
+
+    P, M     normal load and moment at both ends of the half-cycle
+    dQ       change of shear over f times the mean load
+    tension  change of tension over 8 dQ/(pi h), h the width at the mean loads
+    """
+
+    name: str
+    body: str
+    profile: Callable[[Floats], Floats]
+    own: dict[str, float]
+    P: tuple[float, float]
+    M: tuple[float, float]
+    dQ: float
+    tension: float
+    kinks: tuple[float, ...] = field(default=())
+
+    @property
+    def module(self) -> ModuleType:
+        """The generated functions of the body."""
+        return importlib.import_module(f"generated.{self.body}")
+
+    @property
+    def law(self) -> dict[str, float]:
+        """Its constants."""
+        return {"E_star": 1.0, **self.own}
+
+    @property
+    def contacts(self) -> tuple[Contact, Contact]:
+        """Contacts at both ends."""
+        first, second = (
+            self.module.contact(P, M, **self.law) for P, M in zip(self.P, self.M, strict=True)
+        )
+        return first, second
+
+    @property
+    def changes(self) -> tuple[float, float]:
+        """dQ and dsigma."""
+        load = float(np.mean(self.P))
+        shear = self.dQ * F * load
+        mean = self.module.contact(load, float(np.mean(self.M)), **self.law)
+        return shear, self.tension * 8 * shear / (np.pi * float(mean.a + mean.c))
+
+    @property
+    def case(self) -> Case:
+        """The same for the solver."""
+        shear, tension = self.changes
+        first, second = (
+            State(P, M, sign * shear / 2, sign * tension / 2)
+            for P, M, sign in zip(self.P, self.M, (-1, 1), strict=True)
+        )
+        return Case(Body(self.profile, kinks=self.kinks), F, first, second)
+
+
+def _wedge(
+    name: str, dQ: float, tension: float, P: float = 0.0, M: tuple[float, float] = (0.0, 0.0)
+) -> Compared:
+    """g = |x|; P changes by a part P of its mean 1, M/P = (1/2) tan(pi alpha/2) at a tilt alpha."""
+    loads = 1 - P / 2, 1 + P / 2
+    turned = tuple(
+        np.tan(np.pi * tilt / 2) / 2 * load**2 for tilt, load in zip(M, loads, strict=True)
+    )
+    return Compared(
+        name, "wedge", np.abs, {"phi": 1.0}, loads, (turned[0], turned[1]), dQ, tension, (0.0,)
+    )
+
+
+def _flat(x: Floats) -> Floats:
+    return np.maximum(np.abs(x) - 0.5, 0.0) ** 2 / 2
+
+
+def _two_radii(x: Floats) -> Floats:
+    return np.where(x < 0, x**2 / 1.5, x**2 / 3)
+
+
+PAPER = (
+    _wedge("5.1 constant loads", 1.0, 0.0),
+    _wedge("5.2 varying normal load", 1.0, 0.0, P=0.15),
+    _wedge("5.3 moderate tension", 0.3, 0.5),
+    _wedge("5.3 large tension", 0.3, 2.0),
+    _wedge("5.4 tilted", 0.3, 0.0, M=(0.3, 0.3)),
+    _wedge("5.5 varying moment, large tension", 0.3, 2.0, M=(0.28, 0.32)),
+)
+
+
+def _parabola(x: Floats) -> Floats:
+    return x**2 / 2
+
+
+def _quartic(x: Floats) -> Floats:
+    return x**4 / 4
+
+
+def _hyperbola(x: Floats) -> Floats:
+    return np.sqrt(x**2 + 0.25)
+
+
+def _catenary(x: Floats) -> Floats:
+    return np.cosh(x) - 1
+
+
+def _own(
+    name: str,
+    shape: tuple[str, Callable[[Floats], Floats], dict[str, float]],
+    P: tuple[float, float],
+    M: tuple[float, float],
+    changes: tuple[float, float],
+    kinks: tuple[float, ...] = (),
+) -> Compared:
+    """A cycle of a body that is told by its module, its profile and its constants."""
+    body, profile, own = shape
+    return Compared(name, body, profile, own, P, M, *changes, kinks)
+
+
+OURS = (
+    _own(
+        "cylinder, P and M vary, large",
+        ("hertz", _parabola, {"R": 1.0}),
+        (0.75, 0.8),
+        (-0.01, 0.01),
+        (0.3, 3.0),
+    ),
+    _own(
+        "flat with rounded edges, tilted, large",
+        ("flat_rounded", _flat, {"R": 1.0, "b": 0.5}),
+        (1.0, 1.0),
+        (0.1, 0.1),
+        (0.4, -2.5),
+        (-0.5, 0.5),
+    ),
+    _own(
+        "two radii, P varies, moderate",
+        ("two_radii", _two_radii, {"R_1": 0.75, "R_2": 1.5}),
+        (0.95, 1.05),
+        (0.0, 0.0),
+        (0.5, 0.5),
+        (0.0,),
+    ),
+    _own(
+        "quartic, M varies, large",
+        ("quartic", _quartic, {"L": 1.0}),
+        (0.5, 0.5),
+        (-0.005, 0.005),
+        (0.3, 2.5),
+    ),
+    _own(
+        "hyperbola, tilted, moderate",
+        ("hyperbola", _hyperbola, {"b": 0.5, "phi": 1.0}),
+        (1.0, 1.0),
+        (-0.1, -0.1),
+        (0.5, -0.5),
+    ),
+    _own(
+        "catenary, P varies, large",
+        ("catenary", _catenary, {"R": 1.0, "b": 1.0}),
+        (0.95, 1.0),
+        (0.0, 0.0),
+        (0.3, 3.0),
+    ),
+)
+
+EVERY = PAPER + OURS

@@ -1,0 +1,100 @@
+"""Solver, exact conditions and series, cycle by cycle."""
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from generated._types import Contact
+from tests.comparison.cases import Compared, F
+from tests.reference.solver import reference
+
+COUNTS, STEPS = (16, 32, 64), (8, 16, 32)
+"""Elements between breaks, and load steps a half-cycle, of the solver's meshes."""
+
+
+class Row(NamedTuple):
+    """Slip zones as the contact at the end of the half-cycle has them, left and right.
+
+    error    the solver's estimate of its own error
+    printed  first order with K_T of a symmetric contact of half-width a or c, as the paper has it
+    """
+
+    case: Compared
+    solver: tuple[float, float]
+    error: tuple[float, float]
+    exact: tuple[float, float]
+    printed: tuple[float, float]
+    first: tuple[float, float]
+    second: tuple[float, float]
+
+
+def row(case: Compared, counts: Sequence[int] = COUNTS, steps: Sequence[int] = STEPS) -> Row:
+    """One cycle by all of them."""
+    found = reference(case.case, counts, steps)
+    first, second = case.contacts
+    shear, tension = case.changes
+    given = {"f": F, **case.law}
+    zone = case.module.stick_zone(first, second, shear, tension, **given)
+    moved = {"da": second.a - first.a, "dc": second.c - first.c}
+    orders = [
+        case.module.slip_zones(second.a, second.c, shear, tension, **given, **moved, order=order)
+        for order in (1, 2)
+    ]
+    edges = np.array([second.a, second.c])
+    series = [(float(d.left), float(d.right)) for d in orders]
+    return Row(
+        case,
+        _pair(edges - np.array(found.zone)),
+        _pair(found.error),
+        _pair(edges - np.array([zone.m, zone.n])),
+        _pair(_printed(case, second, shear, tension) + np.array(list(moved.values())) / 2),
+        *series,
+    )
+
+
+def _pair(values: Iterable[float]) -> tuple[float, float]:
+    left, right = values
+    return float(left), float(right)
+
+
+def _printed(case: Compared, at: Contact, shear: float, tension: float) -> np.ndarray:
+    """|K_T|/(f K_N), K_T with h = 2 a at the left edge and 2 c at the right one."""
+    widths = 2 * np.array([at.a, at.c])
+    K_T = (shear / np.pi + np.array([1, -1]) * tension * widths / 8) / np.sqrt(widths)
+    K_N = np.array(case.module.K_N(at.a, at.c, **case.law))
+    return np.abs(K_T) / (F * K_N)
+
+
+def markdown(rows: Iterable[Row]) -> str:
+    """The table; what stands behind the exact slip zone is off from it, in per cent."""
+    lines = [
+        "# Slip zones by the independent solver, by the exact conditions, and by series",
+        "",
+        "Made by `make comparison`.  The solver (tests/reference) shares no line with the package;",
+        "`+-` is its own estimate of its error.  Slip zones are those of the contact at the end of",
+        "the half-cycle; the series' columns tell by how much they are off from the exact one.",
+        "`printed` is the first order with the K_T of a symmetric contact, as the paper prints it.",
+        "",
+        "| cycle | edge | solver | +- | exact | solver off | printed | order 1 | order 2 |",
+        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
+    ]
+    for of in rows:
+        for i, edge in enumerate(("left", "right")):
+            exact = of.exact[i]
+            series = (of.printed[i], of.first[i], of.second[i])
+            off = " | ".join(f"{100 * (d / exact - 1):.2g} %" for d in series)
+            lines.append(
+                f"| {of.case.name} | {edge} | {of.solver[i]:.5f} | {of.error[i]:.1e} | "
+                f"{exact:.5f} | {abs(of.solver[i] - exact):.1e} | {off} |"
+            )
+    return "\n".join(lines) + "\n"
+
+
+def table(cases: Iterable[Compared], done: Callable[[str], None]) -> str:
+    """All of them; `done` is told the name of each."""
+    rows = []
+    for case in cases:
+        rows.append(row(case))
+        done(case.name)
+    return markdown(rows)
