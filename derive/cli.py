@@ -72,8 +72,17 @@ def list_() -> None:
 @main.command()
 @click.argument("name")
 @click.option("--latex", is_flag=True, help="As one LaTeX display.")
-def show(name: str, latex: bool) -> None:
+@click.option(
+    "--slip",
+    type=click.IntRange(1, 4),
+    metavar="ORDER",
+    help="The series of its slip zones to this order instead, kappa being the senses of slip.",
+)
+def show(name: str, latex: bool, slip: int | None) -> None:
     """The derived and proven formula sheet of NAME, a geometry or a geometry file."""
+    if slip:
+        _show_slip(name, slip)
+        return
     from derive import derive_sheet, load_geometry, prove_sheet, view
 
     geometry = load_geometry(name)
@@ -83,6 +92,24 @@ def show(name: str, latex: bool) -> None:
         click.echo(sheet.latex)
     else:
         _print(view.formulas(sheet))
+
+
+def _show_slip(name: str, order: int) -> None:
+    """The terms of both slip zones, one under the other."""
+    from derive import derive_sheet, load_geometry
+    from derive.derivation import slip_terms
+    from derive.notation import text_of
+    from derive.theory.edges import Edge
+    from derive.theory.slip import senses
+
+    sheet = derive_sheet(load_geometry(name))
+    for edge in Edge:
+        try:
+            terms = slip_terms(sheet, edge, order, senses)
+        except ValueError as error:
+            raise click.BadParameter(str(error), param_hint="--slip") from None
+        for number, term in enumerate(terms, 1):
+            click.echo(f"d_{edge.name.lower()}, order {number}: {text_of(term)}")
 
 
 @main.command(cls=_WithFormula)

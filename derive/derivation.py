@@ -6,7 +6,7 @@ Out: FormulaSheet without proofs.
 
 from collections.abc import Callable, Iterable, Iterator
 
-from sympy import Expr, Symbol, pi, sqrt
+from sympy import Expr, S, Symbol, factor, pi, sqrt
 from sympy.logic.boolalg import Boolean
 
 from derive.geometry import Geometry
@@ -46,6 +46,44 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
 def derive_law(geometry: Geometry) -> FormulaSheet:
     """Load, moment and tilt of a contact, and the contact from the loads where it is a formula."""
     return _derived(geometry, _LAW if geometry.slope.is_polynomial else (_superposed,))
+
+
+def slip_terms(
+    sheet: FormulaSheet, edge: Edge, order: int, kappa: tuple[Expr, Expr] = (S.One, S.One)
+) -> tuple[Expr, ...]:
+    """Terms of order 1, 2, ... of one body's slip zone under constant loads; it is their sum.
+
+    kappa: senses of slip at the left and the right edge; 1 and -1 under large, rising tension.
+
+    Raises ValueError for an order below 1, or beyond what is known of a body that is integrated.
+
+    >>> from derive.library import load_geometry
+    >>> sheet = derive_sheet(load_geometry("wedge"))
+    >>> slip_terms(sheet, Edge.RIGHT, 1)[0]
+    -c*(pi*a*dsigma + pi*c*dsigma - 8*dQ)/(16*E_star*f*phi*sqrt(a*c))
+    """
+    if order < 1:
+        raise ValueError(f"a series has an order of 1 or more; got {order}")
+    known: dict[Expr, Expr] = dict(zip(slip.senses, kappa, strict=True))
+    for side in Edge:
+        name = side.name.lower()
+        known[slip.stuck_edge(side)] = sheet[f"K_T_{name}"].expr
+        series = _pressure_terms(sheet, side, order)
+        known |= dict(zip(slip.coefficients(name, order), series, strict=True))
+    found = [term.xreplace(known) for term in slip.terms(order)[edge is Edge.RIGHT]]
+    if len(sheet.frame.kinks) < 2:  # more make sums that are too long to factor
+        found = [factor(term) for term in found]
+    return tuple(sheet.frame.flat(term) for term in found)
+
+
+def _pressure_terms(sheet: FormulaSheet, edge: Edge, order: int) -> list[Expr]:
+    """K_N, L_N, ... of a body; integrals that are left to quadrature end with L_N."""
+    if sheet.geometry.slope.is_polynomial:
+        return pressure_series(sheet.frame, edge, order)
+    names = [f"{name}_{edge.name.lower()}" for name, *_ in _EDGE_COEFFICIENTS]
+    if order > len(names):
+        raise ValueError(f"{sheet.geometry.name!r} has a series to order {len(names)}, not {order}")
+    return [sheet[name].expr for name in names[:order]]
 
 
 def _derived(geometry: Geometry, stages: Iterable[Stage]) -> FormulaSheet:

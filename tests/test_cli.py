@@ -909,3 +909,24 @@ def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) ->
         "c: reading g(x), 1 more at work",
         "b: proving, 1 more at work",
     ]
+
+
+class TestSlip:
+    """`derive show NAME --slip ORDER`."""
+
+    def test_it_prints_the_terms_of_both_edges(self) -> None:
+        done = CliRunner().invoke(main, ["show", "hertz", "--slip", "2"])
+        lines = done.output.splitlines()
+        assert done.exit_code == 0
+        assert [line.split(":")[0] for line in lines] == [
+            f"d_{side}, order {order}" for side in ("left", "right") for order in (1, 2)
+        ]
+        assert "kappa_left" in lines[0]
+
+    @pytest.mark.parametrize(
+        ("name", "order"), [("hertz", "0"), ("hertz", "x"), ("hyperbola", "3")]
+    )
+    def test_an_order_that_there_is_not(self, name: str, order: str) -> None:
+        done = CliRunner().invoke(main, ["show", name, "--slip", order])
+        assert done.exit_code == 2
+        assert "--slip" in done.output

@@ -15,6 +15,7 @@ than the powers written out, which `terms` gives for constant loads.
 """
 
 from collections.abc import Sequence
+from functools import cache
 
 from sympy import (
     Abs,
@@ -40,12 +41,18 @@ HALF = Rational(1, 2)
 d_left, d_right = symbols("d_left d_right", positive=True)
 K_T_left, K_T_right = symbols("K_T_left K_T_right", real=True)
 kappa_left, kappa_right = symbols("kappa_left kappa_right", real=True)
-"""Senses of slip: +1 forward, -1 backward."""
+senses = kappa_left, kappa_right
+"""Of slip: +1 forward, -1 backward."""
 
 
 def coefficients(side: str, order: int) -> tuple[Symbol, ...]:
     """K_N, L_N and the next coefficients of the pressure at one edge."""
     return symbols(f"C_{side}_0:{order}", positive=True)
+
+
+def stuck_edge(edge: Edge) -> Symbol:
+    """K_T of full stick at an edge, as the series hold it."""
+    return K_T_left if edge is Edge.LEFT else K_T_right
 
 
 def near(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
@@ -97,6 +104,7 @@ def conditions(order: int) -> tuple[Expr, Expr]:
     return scale * at_left - K_T_left + shrunk, scale * at_right - K_T_right - shrunk
 
 
+@cache
 def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
     """The slip zones at constant loads as sums: terms of order 1, 2, ... at the left and the right.
 
@@ -123,11 +131,10 @@ def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
 
 def slip_zone(edge: Edge, K_T: Expr, K_N: Expr) -> Expr:
     """The slip zone at `edge` to the first order, whatever the sense of slip."""
-    sides = {Edge.LEFT: (K_T_left, kappa_left), Edge.RIGHT: (K_T_right, kappa_right)}
-    K_T_edge, kappa = sides[edge]
+    kappa = senses[edge is Edge.RIGHT]
     (first,) = terms(1)[edge is Edge.RIGHT]
     (K_N_edge,) = coefficients(edge.name.lower(), 1)
-    return first.subs({K_T_edge: Abs(K_T), kappa: S.One, K_N_edge: K_N})
+    return first.subs({stuck_edge(edge): Abs(K_T), kappa: S.One, K_N_edge: K_N})
 
 
 def pressure_next(coefficient: Expr, rate: Expr, order: int, K: Expr) -> Expr:

@@ -83,12 +83,16 @@ def markdown(rows: Iterable[Row]) -> str:
         for i, edge in enumerate(("left", "right")):
             exact = of.exact[i]
             series = (of.printed[i], of.first[i], of.second[i])
-            off = " | ".join(f"{100 * (d / exact - 1):.2g} %" for d in series)
+            off = " | ".join(_percent(d / exact - 1) for d in series)
             lines.append(
                 f"| {of.case.name} | {edge} | {of.solver[i]:.5f} | {of.error[i]:.1e} | "
                 f"{exact:.5f} | {abs(of.solver[i] - exact):.1e} | {off} |"
             )
     return "\n".join(lines) + "\n"
+
+
+def _percent(part: float) -> str:
+    return f"{100 * part:.2g} %" if abs(part) > 1e-9 else "0 %"
 
 
 def table(cases: Iterable[Compared], done: Callable[[str], None]) -> str:
