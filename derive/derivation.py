@@ -256,12 +256,11 @@ def _slip(sheet: FormulaSheet) -> Iterator[Formula]:
     source = f"both conditions for a bounded change of shear, first order; cf. {_PAPER}, section 3"
     for edge in Edge:
         side = edge.name.lower()
-        K_T, K_N = sheet[f"K_T_{side}"].expr, sheet[f"K_N_{side}"].expr
         yield Formula(
             f"slip_{side}",
             Symbol(f"d_{side}"),
             (a, c, dQ, dsigma),
-            slip.slip_zone(edge, K_T, K_N),
+            slip.slip_zone(edge, stick.pull(edge), sheet[f"K_N_{side}"].expr),
             f"slip zone at the {side} edge under constant normal loads, first order",
             "m",
             source,

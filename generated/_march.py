@@ -8,7 +8,7 @@ Since the last of these, slip has grown as in a half-cycle that ends now.
 import numpy as np
 
 from ._arrays import Array, Flat
-from ._slip import slip_zones_of
+from ._slip import ORDERS, demand_order, slip_zones_of
 from ._stick import Law, stick_zone_of
 from ._types import Contact, March, Regime
 
@@ -37,8 +37,11 @@ def march_of(
     order: 0 for the exact conditions, else the order of the series.
     """
     given = Flat({"P": P, "M": M, "Q": Q, "sigma": sigma}, {"E_star": E_star, **own}, {"f": f})
-    if not given.shape:
-        raise ValueError("the loads of a cycle are arrays, its instants along the last axis")
+    demand_order(order, (0, *ORDERS))
+    if not given.shape or given.shape[-1] < 2:
+        raise ValueError(
+            f"a cycle has two instants or more, along the last axis; got shape {given.shape}"
+        )
     loads = np.stack([v.reshape(given.shape) for v in given.values[:4]])
     friction = given.values[4].reshape(given.shape)
     constants = {n: v.reshape(given.shape) if v.ndim else v for n, v in given.constants.items()}
@@ -46,7 +49,7 @@ def march_of(
     contact = law.contact(*loads[:2], **constants)
     begun = Contact(*(np.take_along_axis(v, start, axis=-1) for v in contact))
     sense = np.where(forward, 1, -1)
-    dQ, dsigma = (sense * (v - np.take_along_axis(v, start, axis=-1)) for v in loads[2:])
+    dQ, dsigma = (sense * _rise(v, start) for v in loads[2:])
     given_now = {"f": friction, **constants}
     if order:
         zones = slip_zones_of(
@@ -61,6 +64,12 @@ def march_of(
         opposite = np.abs(np.pi * (contact.a + contact.c) * dsigma / 8) > dQ
         known = np.isfinite(m) & np.isfinite(n)
         regime = np.where(known, np.where(opposite, Regime.LARGE, Regime.MODERATE), Regime.NONE)
+        limit = friction * (loads[0] + np.take_along_axis(loads[0], start, axis=-1))
+        regime = np.where(dQ >= limit, Regime.SLIDING, regime)
+        still = (dQ == 0) & (dsigma == 0) & np.isfinite(contact.a)
+        regime = np.where(still, Regime.FULL_STICK, regime)
+        m = np.where(still, np.minimum(contact.a, begun.a), m)
+        n = np.where(still, np.minimum(contact.c, begun.c), n)
     else:
         m, n, regime = stick_zone_of(law, begun, contact, dQ, dsigma, **given_now)
     m, n = np.where(in_phase, m, np.nan), np.where(in_phase, n, np.nan)
@@ -72,23 +81,45 @@ def march_of(
     return March(contact.a, contact.c, m, n, left, right, regime)
 
 
+def _rise(load: Array, start: Array) -> Array:
+    """What a load has gained since the half-cycle began; nothing if rounding alone changes it."""
+    rise = load - np.take_along_axis(load, start, axis=-1)
+    size = np.max(np.abs(load), axis=-1, keepdims=True)
+    return np.where(np.abs(rise) <= ROUNDING * size, 0.0, rise)
+
+
 def _phases(loads: Array) -> tuple[Array, Array, Array]:
     """When the half-cycle of each instant began, whether it raises Q, and which are in phase.
 
-    The first load that changes, of Q, sigma, P and M, says how far the others must have come.
+    The first load that changes, of Q, sigma, P and M, says how far the others must have come.  It
+    must rise all the way to its greatest value and fall all the way back; while it rests at
+    either, the half-cycle that led there is at its end.
     """
     P, M, Q, sigma = loads
-    changes = [np.ptp(v, axis=-1, keepdims=True) > 0 for v in (Q, sigma, P)]
+    rounding = ROUNDING * np.max(np.abs(loads), axis=-1, keepdims=True)
+    spans = np.ptp(loads, axis=-1, keepdims=True) > 2 * rounding
+    changes = [spans[2], spans[3], spans[0]]
     measure = np.select(changes, [Q, sigma, P], M)
-    low: Array = np.argmin(measure, axis=-1, keepdims=True)
-    high: Array = np.argmax(measure, axis=-1, keepdims=True)
-    instants = np.arange(measure.shape[-1])
-    since_low, since_high = (instants - low) % instants.size, (instants - high) % instants.size
+    allowed = ROUNDING * np.max(np.abs(measure), axis=-1, keepdims=True)
+    low, high = (_last_of(sign * measure, allowed) for sign in (1, -1))
+    count = measure.shape[-1]
+    instants = np.arange(count)
+    since_low, since_high = (instants - low) % count, (instants - high) % count
     forward = (since_low > 0) & ((since_low < since_high) | (since_high == 0))
     first, last = (np.take_along_axis(loads, np.stack([i] * 4), axis=-1) for i in (low, high))
     least, most = (np.take_along_axis(measure, i, axis=-1) for i in (low, high))
-    with np.errstate(all="ignore"):
-        part = np.where(most > least, (measure - least) / (most - least), 0.0)
+    part = np.where(most - least > 2 * allowed, (measure - least) / (most - least), 0.0)
     off = np.abs(loads - (first + part * (last - first)))
-    allowed = IN_PHASE * np.abs(last - first) + ROUNDING * np.abs(first)
-    return np.where(forward, low, high), forward, np.all(off <= allowed, axis=0)
+    on_the_way = np.all(off <= IN_PHASE * np.abs(last - first) + rounding, axis=0)
+    step = measure - np.roll(measure, 1, axis=-1)
+    turned = np.where(forward, step < -allowed, step > allowed)
+    broken = [np.any(turned & way, axis=-1, keepdims=True) for way in (forward, ~forward)]
+    broken_here = np.where(forward, *broken)
+    return np.where(forward, low, high), forward, on_the_way & ~broken_here
+
+
+def _last_of(values: Array, allowed: Array) -> Array:
+    """The last of the instants at which the values rest at their least."""
+    rests = values <= np.min(values, axis=-1, keepdims=True) + allowed
+    leaves = rests & ~np.roll(rests, -1, axis=-1)
+    return np.argmax(leaves, axis=-1, keepdims=True)

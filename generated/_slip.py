@@ -56,8 +56,7 @@ def slip_zones_of(
     **own: Array,
 ) -> Edges:
     """Slip zones to an order, as seen from the contact [-a, c]."""
-    if order not in ORDERS or isinstance(order, bool):
-        raise ValueError(f"order must be 1, 2 or 3; got {order!r:.60}")
+    demand_order(order, ORDERS)
     task = _Task(law, a, c, dQ, dsigma, f, E_star, da, dc, own)
     left, right = task.first_order()
     if order > 1:
@@ -69,11 +68,18 @@ def slip_zones_of(
 
 def slip_error_of(law: Any, *args: Array, order: int, **given: Array) -> Edges:
     """By how much the next order changes the slip zones."""
-    if order not in ORDERS[:-1] or isinstance(order, bool):
-        raise ValueError(f"order must be 1 or 2; got {order!r:.60}")
+    demand_order(order, ORDERS[:-1])
     now = slip_zones_of(law, *args, order=order, **given)
     following = slip_zones_of(law, *args, order=order + 1, **given)
     return Edges(*(np.abs(v - w) for v, w in zip(now, following, strict=True)))
+
+
+def demand_order(order: Any, allowed: tuple[int, ...]) -> None:
+    """Raises ValueError for an order that there is not."""
+    whole = isinstance(order, int | np.integer) and not isinstance(order, bool)
+    if not whole or order not in allowed:
+        words = f"{', '.join(map(str, allowed[:-1]))} or {allowed[-1]}"
+        raise ValueError(f"order must be {words}; got {order!r:.60}")
 
 
 class _Task:

@@ -27,10 +27,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._arrays import Array, Flat, at_rows
+from ._arrays import Array, Flat, at_rows, contact_edges
 from ._roots import around, increasing_root
 from ._types import Contact, Regime, StickZone, Threshold
-from ._zones import Task, bounded_change, stick_between
+from ._zones import Task, bounded_change, force_rates, stick_between
 
 PARTS = 8
 """Parts of a half-cycle at which the growth of slip is tested."""
@@ -191,7 +191,8 @@ class _Cycle:
     def exists(self) -> Array:
         """Whether there is such a cycle."""
         numbers = np.isfinite(self.load).all(axis=0) & np.isfinite(self.tilt).all(axis=0)
-        return numbers & (self.dQ >= 0) & (self.dQ < np.inf) & np.isfinite(self.dsigma)
+        numbers = numbers & (self.f > 0) & np.isfinite(self.dsigma)
+        return numbers & (self.dQ >= 0) & (self.dQ < np.inf)
 
     @property
     def steady(self) -> Array:
@@ -273,14 +274,8 @@ def _cycle(
     E_star: Array,
     own: dict[str, Array],
 ) -> tuple[_Cycle, Flat]:
-    values = {
-        "first.a": first.a,
-        "first.c": first.c,
-        "second.a": second.a,
-        "second.c": second.c,
-        "dQ": dQ,
-        "dsigma": dsigma,
-    }
+    edges = contact_edges(first, "first") | contact_edges(second, "second")
+    values = {**edges, "dQ": dQ, "dsigma": dsigma}
     given = Flat(values, {"E_star": E_star, **own}, {"f": f})
     a_1, c_1, a_2, c_2, dQ, dsigma, f = given.values
     a, c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
@@ -303,17 +298,21 @@ def _sliding(cycle: _Cycle) -> Found:
 
 
 def _full_stick(cycle: _Cycle) -> Found:
+    """An edge that turns back on the way, lead = 0, could not bear any shear there."""
     a, c = np.minimum(*cycle.a), np.minimum(*cycle.c)
-    sticks = (cycle.dQ == 0) & (cycle.dsigma == 0)
-    rows = np.flatnonzero(~(sticks | cycle.steady))
+    unloaded = (cycle.dQ == 0) & (cycle.dsigma == 0)
+    sticks = unloaded.copy()
+    rows = np.flatnonzero(~cycle.steady)
     if rows.size:
         there = cycle.on(rows)
         edges = there.contacts()
         h = edges[0] + edges[1]
-        pairs = zip(there.pulls(h), there.leads(h, *edges), strict=True)
-        held = [np.abs(pull) <= there.f * np.abs(lead) for pull, lead in pairs]
-        sticks[rows] = np.all(held[0] & held[1], axis=0)
-    return sticks, a, c
+        held = True
+        for pull, lead in zip(there.pulls(h), there.leads(h, *edges), strict=True):
+            held = held & (np.abs(pull) <= there.f * np.abs(lead)) & (lead * lead[0] >= 0)
+        sticks[rows] |= np.all(held, axis=0)
+        a[rows], c[rows] = np.min(edges[0], axis=0), np.min(edges[1], axis=0)
+    return sticks & (a + c > 0), a, c
 
 
 def _moderate(cycle: _Cycle) -> Found:
@@ -421,13 +420,38 @@ def _grows_apart(cycle: _Cycle, m: Array, n: Array) -> Array:
             now = _solved(cycle, *ends, part)
             for edge, last, limit in zip(now, before, (a[k], c[k]), strict=True):
                 grows &= (edge <= last) & (edge <= limit)
+            grows &= _still_driven(cycle, now, a[k], c[k], 1 if end == 0 else -1)
             rows = np.flatnonzero(grows)
             task = _task(cycle, *ends, part).on(rows)
             now_here, whole = (tuple(v[rows] for v in zone) for zone in (now, (m, n)))
             grows[rows] &= _within_friction(task, now_here, whole)
             before = now
         grows &= (m <= before[0]) & (n <= before[1])
+        last = (a[-1], c[-1], 1) if end == 0 else (a[0], c[0], -1)
+        grows &= _still_driven(cycle, (m, n), *last)
     return grows & (m <= np.minimum(*cycle.a)) & (n <= np.minimum(*cycle.c))
+
+
+def _still_driven(
+    cycle: _Cycle, zone: tuple[Array, Array], a: Array, c: Array, sense: int
+) -> Array:
+    """Whether both slip zones of large tension are growing, at a contact on the way.
+
+    The shear that comes in with the next step, dQ, dsigma and +/- f dp in the slip zones, would
+    be singular at the ends of the stick zone; it drives slip on there if it has the slip's sign.
+    """
+    m, n = zone
+    stuck, kappa = m + n, np.where(cycle.dsigma < 0, -1.0, 1.0)
+    pulls, leads = cycle.pulls(stuck), cycle.leads(a + c, a, c)
+    rates = [
+        force_rates(slip, stuck, a + c, own, other)
+        for slip, own, other in ((a - m, *leads), (c - n, *leads[::-1]))
+    ]
+    (near_left, far_left), (near_right, far_right) = rates
+    moving = sense * cycle.f * kappa
+    left = pulls[0] - moving * (near_left - far_right)
+    right = pulls[1] - moving * (far_left - near_right)
+    return (kappa * left >= 0) & (kappa * right <= 0)
 
 
 def _within_friction(task: Task, zone: tuple[Array, Array], whole: tuple[Array, Array]) -> Array:

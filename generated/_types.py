@@ -66,7 +66,7 @@ class March(NamedTuple):
     a, c         the contact [-a, c]
     m, n         what has not slipped since the loads last turned, [-m, n]
     left, right  sense of slip at either edge: +1 forward, -1 in reverse, 0 none
-    regime       a code of Regime
+    regime       a code of Regime; by the signs of K_T where m and n are those of a series
     """
 
     a: Array

@@ -184,7 +184,9 @@ def _slip(sheet: FormulaSheet, name: str) -> str | None:
     weight = integrate(2 * sin(t) ** 2, (t, 0, pi / 2)) * length
     K_T, K_N = (sheet[f"{K}_{side}"].expr for K in ("K_T", "K_N"))
     (found,) = solve(2 * f * weight - pi * Symbol("ratio"), length)
-    off = sheet[name].expr - found.subs(Symbol("ratio"), Abs(K_T) / K_N)
+    width = Symbol("h", positive=True)
+    ratio = Abs(simplify(K_T.subs(c, width - a))) / K_N.subs(c, width - a)
+    off = sheet[name].expr.subs(c, width - a) - found.subs(Symbol("ratio"), ratio)
     return "the first power of d in both conditions" if simplify(off) == 0 else None
 
 

@@ -129,12 +129,15 @@ def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
     return tuple(known[pair[0]] for pair in unknown), tuple(known[pair[1]] for pair in unknown)
 
 
-def slip_zone(edge: Edge, K_T: Expr, K_N: Expr) -> Expr:
-    """The slip zone at `edge` to the first order, whatever the sense of slip."""
+def slip_zone(edge: Edge, pull: Expr, K_N: Expr) -> Expr:
+    """The slip zone at `edge` to the first order, whatever the sense of slip.
+
+    pull: pi sqrt(h) K_T.
+    """
     kappa = senses[edge is Edge.RIGHT]
     (first,) = terms(1)[edge is Edge.RIGHT]
     (K_N_edge,) = coefficients(edge.name.lower(), 1)
-    return first.subs({stuck_edge(edge): Abs(K_T), kappa: S.One, K_N_edge: K_N})
+    return first.subs({stuck_edge(edge): Abs(pull) / (pi * sqrt(h)), kappa: S.One, K_N_edge: K_N})
 
 
 def pressure_next(coefficient: Expr, rate: Expr, order: int, K: Expr) -> Expr:

@@ -87,5 +87,51 @@ def test_loads_out_of_phase_have_no_stick_zone() -> None:
 
 
 def test_a_cycle_is_an_array() -> None:
-    with pytest.raises(ValueError, match="instants along the last axis"):
-        wedge.march(1.0, 0.0, 0.1, 0.0, **LAW)
+    for Q in (0.1, np.array([0.1]), np.array([])):
+        with pytest.raises(ValueError, match="two instants or more, along the last axis"):
+            wedge.march(1.0, 0.0, Q, 0.0, **LAW)
+
+
+@pytest.mark.parametrize("order", [4, -1, 1.0, None, "", True])
+def test_no_other_order(order: object) -> None:
+    with pytest.raises(ValueError, match="order must be 0, 1, 2 or 3; got"):
+        wedge.march(*loads(0.0), **LAW, order=order)
+
+
+def test_loads_that_turn_inside_a_half_cycle_are_refused() -> None:
+    """There alone; the other half-cycle is as it was."""
+    P, _, Q, _ = loads(0.0)
+    turned = Q.copy()
+    turned[[1, 2]] = turned[[2, 1]]
+    cycle, whole = wedge.march(P, 0.0, turned, 0.0, **LAW), wedge.march(P, 0.0, Q, 0.0, **LAW)
+    assert np.all(cycle.regime[UP] == Regime.NONE) and np.all(np.isnan(cycle.m[UP]))
+    assert np.array_equal(cycle.m[DOWN], whole.m[DOWN])
+
+
+@pytest.mark.parametrize("shift", range(0, 16, 3))
+def test_where_the_array_starts_does_not_matter(shift: int) -> None:
+    """Loads that rest at both turns, too: while they do, the half-cycle is at its end."""
+    P = wedge.load(1.5, 1.0, **OWN)
+    for Q in (np.sin(T), np.clip(1.5 * np.sin(T), -1, 1)):
+        whole = wedge.march(P, 0.0, 0.1 * P * Q, 0.0, **LAW)
+        rolled = wedge.march(P, 0.0, np.roll(0.1 * P * Q, shift), 0.0, **LAW)
+        for before, after in zip(whole, rolled, strict=True):
+            assert np.array_equal(np.roll(after, -shift), before)
+    assert np.ptp(whole.m[3:6]) == 0 and whole.m[3] == np.min(whole.m)
+
+
+def test_shear_that_rounding_alone_changes_is_constant() -> None:
+    P = wedge.load(1.5, 1.0, **OWN)
+    Q = 0.1 * P * (np.sin(T) ** 2 + np.cos(T) ** 2)
+    cycle = wedge.march(P, 0.0, Q, 0.1 * np.sin(T), **LAW)
+    assert np.all(cycle.regime == Regime.LARGE)
+
+
+@pytest.mark.parametrize("order", [0, 1, 2])
+def test_no_shear_and_sliding_are_told_by_series_too(order: int) -> None:
+    P, M, Q, _ = loads(0.0, 0.05)
+    still = wedge.march(P, M, 0 * Q, 0.0, **LAW, order=order)
+    assert np.all(still.regime == Regime.FULL_STICK)
+    assert np.all(still.left == 0) and np.all(still.m <= still.a)
+    slides = wedge.march(P, M, 30 * Q, 0.0, **LAW, order=order)
+    assert slides.regime[4] == Regime.SLIDING and np.isnan(slides.m[4])

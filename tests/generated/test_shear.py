@@ -172,6 +172,14 @@ def test_outside_and_unknown() -> None:
     assert np.all(none == 0)
 
 
+@pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
+def test_it_is_finite_at_the_apex(tension: float) -> None:
+    """The pressures' logarithms cancel in the stick zone."""
+    case = Case("wedge", tension)
+    here, beside = case.change(0.0), case.change(1e-7)
+    assert_allclose(here, beside, rtol=1e-4)
+
+
 def test_part_of_the_way() -> None:
     """dq until then: the same with what has changed until then, growing nowhere backwards."""
     case, x = Case("hertz", 0.6), np.linspace(-1.5, 1.0, 26)

@@ -443,3 +443,122 @@ def test_hertz_in_complete_elliptic_integrals(a: float, c: float, pull: float) -
         off_right = scale * (far_left - near) - shear + by_tension
         off_left = scale * (near_left - far) - shear - by_tension
         assert max(abs(off_right), abs(off_left)) < 1e-14 * shear
+
+
+# ---------------------------------------------------------------------- what a reviewer found
+
+
+def zone_of(first: tuple[float, float], second: tuple[float, float], *changes: float) -> Any:
+    law = {"f": 0.5, "E_star": 1.25, "phi": 0.125}
+    return wedge.stick_zone(Contact(*first, 0.0), Contact(*second, 0.0), *changes, **law)
+
+
+def test_slip_that_reverses_in_the_last_part_is_mixed() -> None:
+    """n of partial half-cycles, by another solution of both conditions: .8390676, .8388734 and
+    .8390422 at 0.9, 0.95 and 1 of the way; and, from the other end, 1.2298205 before 1.2298618."""
+    first, second = (0.9590816789757743, 0.9479879606987551), (0.7990046787420241, 1.09962651082512)
+    assert zone_of(first, second, 0.05442706874750769, 0.14820628201450847).regime == Regime.MIXED
+    first, second = (
+        (0.8556127822250846, 1.3091974733932152),
+        (0.9076921804629886, 1.2464969630399891),
+    )
+    assert zone_of(first, second, 0.026197074452919515, 0.04174648043667833).regime == Regime.MIXED
+
+
+def test_nothing_sticks_between_contacts_that_do_not_overlap() -> None:
+    first, second = Contact(1.0, 1.0, 0.0), Contact(3.0, -1.5, 0.0)
+    zone = hertz.stick_zone(first, second, 0.1, 0.0, f=0.5, E_star=1.0, R=1.0)
+    assert zone.regime == Regime.MIXED and np.isnan(zone.m)
+
+
+def test_an_edge_that_turns_back_bears_no_shear() -> None:
+    """a falls to 0.99392 half way between 1.02406 and 1.03484; where it turns, slip begins."""
+    ends = (1.0240551543860947, 0.947572418117979), (1.0348358267867994, 0.47898550643684384)
+    assert zone_of(*ends, 0.0008759183100983148, -0.0007269853164816122).regime == Regime.MIXED
+    still = zone_of(*ends, 0.0, 0.0)
+    assert still.regime == Regime.FULL_STICK and still.m < 0.995
+
+
+@pytest.mark.parametrize("friction", [np.nan, -1.0, 0.0, np.inf])
+def test_no_friction_is_no_cycle(friction: float) -> None:
+    here = Contact(1.0, 1.0, 0.0)
+    zone = wedge.stick_zone(here, here, 0.01, 0.0, f=friction, E_star=1.0, phi=0.125)
+    assert zone.regime == Regime.NONE
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1e-3, 1e5, 1e6])
+@pytest.mark.parametrize("name", ["rounded_wedge", "flat_rounded", "two_radii"])
+def test_any_size(name: str, scale: float) -> None:
+    """Lengths by a factor: kinks inside slip zones, where a distance is zero."""
+    lengths = ("R", "b", "R_1", "R_2")
+    own = {k: v * scale if k in lengths else v for k, v in OWN[name].items()}
+    body, a, c = module(name), 1.305, 1.561
+    small, here = Contact(a, c, 0.0), Contact(a * scale, c * scale, 0.0)
+    shear = 0.25 * F * body.load(a, c, E_star=E_STAR, **OWN[name])
+    tension = 4 * 8 * shear / (np.pi * (a + c))
+    zone = body.stick_zone(small, small, shear, tension, f=F, E_star=E_STAR, **OWN[name])
+    other = body.stick_zone(here, here, shear * scale, tension, f=F, E_star=E_STAR, **own)
+    assert zone.regime == other.regime == Regime.LARGE
+    assert_allclose((other.m / scale, other.n / scale), (zone.m, zone.n), rtol=1e-10)
+    x = np.array([-1.2, 0.0, 1.5])
+    slip = body.slip_range(x, small, small, shear, tension, f=F, E_star=E_STAR, **OWN[name])
+    larger = body.slip_range(
+        x * scale, here, here, shear * scale, tension, f=F, E_star=E_STAR, **own
+    )
+    assert_allclose(larger / scale, slip, rtol=1e-8, atol=1e-12)
+
+
+def test_what_is_no_contact() -> None:
+    with pytest.raises(TypeError, match="first must be a Contact, as contact"):
+        wedge.stick_zone((1.0, 1.0), Contact(1, 1, 0), 0.1, 0.0, f=1.0, E_star=1.0, phi=0.1)
+
+
+@settings(max_examples=8)
+@given(a=size, c=size, share=st.floats(0.01, 0.4), pull=tension, da=nudge, dc=nudge)
+def test_the_mirror_of_everything_else(
+    a: float, c: float, share: float, pull: float, da: float, dc: float
+) -> None:
+    """x -> -x, dsigma and M turned, the unequal flanks swapped: edges change places."""
+    slopes, swapped = {"phi_1": 0.25, "phi_2": 0.375}, {"phi_1": 0.375, "phi_2": 0.25}
+    shear, dsigma = one_cycle(unequal_wedge, slopes, a, c, share, pull)
+    near = {"rtol": 1e-9, "atol": 1e-9 * shear}
+    here, there = Contact(a, c, 0.0), Contact(c, a, 0.0)
+    law, turned = ({"f": F, "E_star": E_STAR, **own} for own in (slopes, swapped))
+    moved, back = {"da": a * da, "dc": c * dc}, {"da": c * dc, "dc": a * da}
+    for order in (1, 2, 3):
+        zones = unequal_wedge.slip_zones(a, c, shear, dsigma, **law, **moved, order=order)
+        mirror = unequal_wedge.slip_zones(c, a, shear, -dsigma, **turned, **back, order=order)
+        assert_allclose(zones, mirror[::-1], **near)
+    closing = unequal_wedge.closing_tension(here, here, shear, **law)
+    mirror = unequal_wedge.closing_tension(there, there, shear, **turned)
+    assert_allclose(closing, (-mirror.upper, -mirror.lower), **near)
+    x = np.linspace(-a, c, 7)
+    for of in ("shear_change", "slip_range"):
+        first = getattr(unequal_wedge, of)(x, here, here, shear, dsigma, **law)
+        second = getattr(unequal_wedge, of)(-x, there, there, shear, -dsigma, **turned)
+        assert_allclose(first, second, rtol=1e-6, atol=1e-7 * np.nanmax([1e-9, *np.abs(first)]))
+    for of, loads_here in (("K_T", ()), ("L_T", ()), ("stick_margin", (da, dc * a))):
+        friction = {"f": F} if loads_here else {}
+        reversed_loads = (loads_here[0], -loads_here[1]) if loads_here else ()
+        first = getattr(unequal_wedge, of)(a, c, *loads_here, shear, dsigma, **friction)
+        second = getattr(unequal_wedge, of)(c, a, *reversed_loads, shear, -dsigma, **friction)
+        assert_allclose(first, second[::-1], **near)
+    turn = np.array([0.0, 0.5, 1.0, 0.5])
+    P = unequal_wedge.load(a, c, E_star=E_STAR, **slopes)
+    M = unequal_wedge.moment(a, c, E_star=E_STAR, **slopes)
+    march = unequal_wedge.march(P, M, shear * turn, dsigma * turn, **law)
+    mirror = unequal_wedge.march(P, -M, shear * turn, -dsigma * turn, **turned)
+    for field, other in (("a", "c"), ("m", "n"), ("left", "right"), ("regime", "regime")):
+        assert_allclose(getattr(march, field), getattr(mirror, other), **near)
+
+
+def test_partial_half_cycles_of_constant_loads_only_grow() -> None:
+    """The premise itself, a fifth of the way at a time, where a number is given without doubt."""
+    a, c, shear, dsigma, _ = random_cycles(400, 3)
+    parts = np.linspace(0.2, 1.0, 5)[:, None]
+    m, n, regime = steady(wedge, a, c, parts * shear, parts * dsigma, phi=0.25)
+    for code in (Regime.MODERATE, Regime.LARGE):
+        whole = regime[-1] == code
+        assert np.all(regime[:, whole] == code)
+        assert np.all(np.diff(m[:, whole], axis=0) < 1e-12)
+        assert np.all(np.diff(n[:, whole], axis=0) < 1e-12)

@@ -23,8 +23,8 @@ Far below 128 KiB (16,384 elements), from where common allocators ask the system
 anew and hand it back at once; that costs more than the arithmetic.
 """
 
-TINY = 5e-324
-"""The smallest positive number."""
+TINY = 1e-150
+"""What stands for a distance of zero where a quotient must stay finite."""
 
 LEAST, MOST = 1e-75, 1e75
 """The shortest and the longest length, in metres, whose products stay well inside float64."""
@@ -127,6 +127,19 @@ class Flat:
     def shaped(self, value: Any) -> Any:
         """A result in the shape of the arguments."""
         return value.reshape(self.shape)[()]
+
+
+def contact_edges(contact: Any, label: str) -> dict[str, Any]:
+    """The edges of a Contact by their names in messages.
+
+    Raises TypeError for what is no Contact.
+    """
+    try:
+        return {f"{label}.a": contact.a, f"{label}.c": contact.c}
+    except AttributeError:
+        raise TypeError(
+            f"{label} must be a Contact, as contact(...) gives it; got {contact!r:.60}"
+        ) from None
 
 
 def at_rows(rows: Any, constants: Mapping[str, Any]) -> dict[str, Any]:

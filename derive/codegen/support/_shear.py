@@ -21,13 +21,16 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import Array, Flat, at_rows
+from ._arrays import Array, Flat, at_rows, contact_edges
 from ._stick import Law, stick_zone_of
 from ._types import Contact, Regime
 from ._zones import Task, bounded_change, parts_of
 
 LEVEL = 5
 """Steps of the quadrature are 2**-LEVEL: enough however close a place is to the stick zone."""
+
+BESIDE = 1e-12
+"""How far a place in the stick zone is kept from a kink, in parts of its width."""
 
 TOGETHER = 500
 """Elements that are computed in one piece."""
@@ -84,12 +87,11 @@ class _Known:
         E_star: Array,
         own: dict[str, Array],
     ) -> None:
+        edges = contact_edges(first, "first") | contact_edges(second, "second")
+        values = {"x": x, **edges, "dQ": dQ, "dsigma": dsigma}
+        Flat(values, {"E_star": E_star, **own}, {"f": f})  # what does not broadcast is told here
         zone = stick_zone_of(law, first, second, dQ, dsigma, f=f, E_star=E_star, **own)
-        values = {
-            "x": x,
-            **{"first.a": first.a, "first.c": first.c, "second.a": second.a, "second.c": second.c},
-            **{"dQ": dQ, "dsigma": dsigma, "m": zone.m, "n": zone.n, "regime": zone.regime},
-        }
+        values |= {"m": zone.m, "n": zone.n, "regime": zone.regime}
         self.law, self.given = law, Flat(values, {"E_star": E_star, **own}, {"f": f})
         self.x, a_1, c_1, a_2, c_2, self.dQ, self.dsigma, *known = self.given.values
         self.m, self.n, self.regime, self.f = known
@@ -131,7 +133,8 @@ class _Known:
 
     def change(self, rows: Array) -> Array:
         """dq at x."""
-        x, m, n, regime = self.x[rows], self.m[rows], self.n[rows], self.regime[rows]
+        m, n, regime = self.m[rows], self.n[rows], self.regime[rows]
+        x = self._beside_kinks(rows)
         side = np.where(x < (n - m) / 2, -1, 1)
         slips = (x >= n) | (x <= -m)
         kappa = np.where(side > 0, self.kappa(1, rows), self.kappa(-1, rows))
@@ -144,7 +147,17 @@ class _Known:
         still = (regime == Regime.FULL_STICK) & alike[rows]  # there is no shear at all
         found = np.where(slips, sliding, stuck)
         known = (regime == Regime.MODERATE) | (regime == Regime.LARGE)
-        return np.where(still, 0.0 * x, np.where(known, found, np.nan))
+        return np.where(still, 0.0, np.where(known, found, np.nan))
+
+    def _beside_kinks(self, rows: Array) -> Array:
+        """x, moved off a corner in the stick zone: p is infinite there, dq is not."""
+        x, m, n = self.x[rows], self.m[rows], self.n[rows]
+        held = at_rows(rows, self.constants)
+        held.pop("E_star")
+        for place in self.law.kinks(**held):
+            there = (np.abs(x - place) < BESIDE * (m + n)) & (x > -m) & (x < n)
+            x = np.where(there, place + BESIDE * (m + n), x)
+        return x
 
     def _bounded(self, rows: Array) -> Array:
         """dq in the stick zone of large tension."""
@@ -170,7 +183,7 @@ class _Known:
         sticks = ((x >= -m) & (x <= n)) | (regime == Regime.FULL_STICK)
         a, c = np.min(self.a[:, rows], axis=0), np.min(self.c[:, rows], axis=0)
         inside = (x >= -a) & (x <= c)
-        found = np.where(sticks, 0.0 * x, np.where(known, np.abs(total), np.nan))
+        found = np.where(sticks, 0.0, np.where(known, np.abs(total), np.nan))
         return np.where(inside & (regime > 0), found, np.nan)
 
     def _slipped(self, side: int, rows: Array) -> Array:
@@ -197,7 +210,7 @@ def _between(y: Array, other: Array, stuck: Array) -> Array:
     root = np.sqrt(other * (other + stuck))
     r, s = np.sqrt(other * (y + stuck)), np.sqrt(y * (other + stuck))
     # |r - s| = stuck |other - y|/(r + s)
-    logarithm = np.log((r + s) ** 2 / np.maximum(stuck * np.abs(other - y), 1e-300))
+    logarithm = 2 * np.log(r + s) - np.log(np.maximum(stuck * np.abs(other - y), 1e-300))
     return root * logarithm - _smooth(y, other, stuck)
 
 

@@ -58,6 +58,9 @@ TURNS = 40
 SMALLEST = 1e-12
 """Both zones rest when a turn changes them by less, in parts of their own."""
 
+MET = 1e-7
+"""Both conditions are met if they are off by less, in parts of what they ask for."""
+
 TOGETHER = 2_000
 """Elements that are solved in one piece."""
 
@@ -145,7 +148,7 @@ class Task(NamedTuple):
 
 
 def stick_between(task: Task, K_left: Array, K_right: Array) -> Pair:
-    """m and n, NaN where the iteration does not end.
+    """m and n, NaN where the iteration does not end, infinite where there are none.
 
     K_left, K_right: means of both contacts' edge coefficients, to start from.
     """
@@ -159,7 +162,7 @@ def stick_between(task: Task, K_left: Array, K_right: Array) -> Pair:
         agreed = np.abs(left - last_left) <= AGREED * left + rounding
         agreed &= np.abs(right - last_right) <= AGREED * right + rounding
         agreed &= level > COARSEST
-        agreed |= here.width - left - right < here.least_stuck
+        agreed |= here.width - left - right < here.least_stuck  # or infinite slip zones
         found_left[rows[agreed]], found_right[rows[agreed]] = left[agreed], right[agreed]
         on = ~agreed & np.isfinite(left) & np.isfinite(right)
         rows, left, right = rows[on], left[on], right[on]
@@ -243,7 +246,10 @@ def _moved(width: Array, left: Array, right: Array, by_left: Array, by_right: Ar
 
 
 def _by_turns(task: Task, level: int) -> Pair:
-    """Each slip zone from its own condition while the other one rests, turn by turn."""
+    """Each slip zone from its own condition while the other one rests, turn by turn.
+
+    Infinite where both conditions are met nowhere inside both contacts.
+    """
     width = task.width
     found_left, found_right = np.full(width.shape, np.nan), np.full(width.shape, np.nan)
     rows, left, right = np.arange(width.size), width / 4, width / 4
@@ -272,7 +278,11 @@ def _by_turns(task: Task, level: int) -> Pair:
         rows, left, right = rows[on], left[on], right[on]
         if not rows.size:
             break
-    return found_left, found_right
+    now = _conditions(task, found_left, found_right, level)
+    scale = task.dQ + np.pi * now.stuck * np.abs(task.dsigma) / 8
+    met = (now.miss <= (MET * scale) ** 2) | (now.stuck < task.least_stuck)
+    nowhere = np.where(np.isnan(now.miss), np.nan, np.inf)
+    return np.where(met, found_left, nowhere), np.where(met, found_right, nowhere)
 
 
 class _Conditions(NamedTuple):
@@ -363,6 +373,20 @@ def bounded_change(task: Task, m: Array, n: Array, x: Array, level: int) -> Arra
             force = weight * task.sum_of_pressures(side * (start + y))
             total = total - side * np.sum(force / (np.sqrt(y * (y + stuck)) * (y + away)), axis=0)
     return task.sense * task.f * np.sqrt((x + m) * (n - x)) / np.pi * total
+
+
+def force_rates(slip: Array, stuck: Array, h: Array, own: Array, other: Array) -> Pair:
+    """int dp sqrt((stuck + y)/y) dy and int dp sqrt(y/(stuck + y)) dy over one slip zone.
+
+    dp = (own (h - s) + other s)/(pi h sqrt(s (h - s))) as the loads go on, s the distance from the
+    zone's edge; `own` and `other` say how fast this edge and the other one are driven.
+    """
+    q, weight = _rule(FINEST - 1)
+    y, s = slip * q, slip * q[::-1]
+    dp = (own * (h - s) + other * s) / (np.pi * h * np.sqrt(s * (h - s)))
+    force = weight * slip * dp
+    near = np.sum(force * np.sqrt((stuck + y) / y), axis=0)
+    return near, np.sum(force * np.sqrt(y / (stuck + y)), axis=0)
 
 
 def parts_of(end: Array, cuts: list[Array], level: int) -> Iterator[tuple[Array, Array]]:
