@@ -211,6 +211,11 @@ def test_a_sum_that_cancels_wholly_is_zero() -> None:
     assert pair.agree
 
 
+def test_an_integral_over_two_variables_is_undecided() -> None:
+    twice = Integral(s * u, (s, 0, 1), (u, 0, 1))
+    assert check(claim(a, twice, meaning={a: S(1)})).verdict == Verdict.UNCHECKED
+
+
 def test_what_is_not_finite_is_undecided() -> None:
     with pytest.raises(Undecided):
         both(a, 1 / (b - b * a), lambda: {a: mpf(1), b: mpf(3)}, {})

@@ -158,6 +158,13 @@ BAD = {
     "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
     "conventions": (CIRCLE + "conventions = 3\n", "no list"),
+    "no spelling": (CIRCLE.replace("printed", "latex") + '[latex]\n"x" = ["a"]\n', "no declared name"),
+    "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ says nothing"),
+    "key of a range": (CIRCLE.replace("high = 0.9", "high = 0.9, step = 1"), "'step'"),
+    "key of a convention": (
+        CIRCLE + 'conventions = [{ what = "w", contradicts = "c", symbol = 1 }]\n',
+        "'symbol'",
+    ),
     "bad symbol": (CIRCLE.replace('A = "pi*r**2"', 'A = "pi*q"'), "what q is"),
 }
 
@@ -193,6 +200,81 @@ def test_bytes_are_no_claims(tmp_path: Path) -> None:
 def test_an_unknown_label_shows_the_nearest(tmp_path: Path) -> None:
     done = run(written(tmp_path, CIRCLE), "--explain", "aera")
     assert (done.exit_code, "area" in done.stderr) == (2, True)
+
+
+# ------------------------------------------------------------------ verdicts
+
+TWO = """
+[variables]
+a = { low = 1, high = 2 }
+b = { low = 1, high = 2 }
+[symbols]
+B = "integral(s*a, s, 0, b)"
+"""
+
+
+def verdict(folder: Path, printed: str) -> tuple[str, str]:
+    """The verdict on one equation, and how it was printed back."""
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    (told,) = json.loads(run(written(folder, TWO + claim), "--format", "json").stdout)
+    return told["verdict"], told["printed"]
+
+
+@pytest.mark.parametrize(
+    ("printed", "expected"),
+    [
+        ("cosh(40*a)**2 - sinh(40*a)**2 = 1", {"holds"}),
+        ("sqrt(10**26 + a**2) - 10**13 = a**2/(sqrt(10**26 + a**2) + 10**13)", {"holds"}),
+        ("sqrt(1 + exp(-2000*a)) - 1 = sqrt(1 + exp(-3000*a)) - 1", {"unchecked"}),
+        (
+            "10**(-40)*(1 - 1/(1 + 10**(-20)*a)) = 10**(-40)*(1 - 1/(1 + 10**(-20)*b))",
+            {"fails", "unchecked"},
+        ),
+        ("exp(exp(exp(exp(a*9)))) = 1", {"unchecked"}),
+        ("abs(x) = x", {"fails"}),
+        ("sqrt(x) < 3", {"unchecked"}),
+    ],
+)
+def test_lost_digits_decide_nothing(tmp_path: Path, printed: str, expected: set[str]) -> None:
+    assert verdict(tmp_path, printed)[0] in expected
+
+
+@pytest.mark.parametrize(
+    ("printed", "expected"),
+    [
+        ("a <= a + b", "numerical"),
+        ("a >= a", "holds"),
+        ("a >= a + b", "fails"),
+        ("a > a", "fails"),
+    ],
+)
+def test_inequalities_mean_what_they_say(tmp_path: Path, printed: str, expected: str) -> None:
+    assert verdict(tmp_path, printed) == (expected, printed)
+
+
+@pytest.mark.parametrize(
+    "printed",
+    ["integral(integral(s*xi, s, 0, xi), xi, 0, 1) = a", "a = integral(B*xi, xi, 0, 1)"],
+)
+def test_an_integral_inside_another_is_refused(tmp_path: Path, printed: str) -> None:
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    done = run(written(tmp_path, TWO + claim))
+    assert (done.exit_code, "integral inside an integral" in done.stderr) == (2, True)
+
+
+def test_a_place_may_have_a_range(tmp_path: Path) -> None:
+    claim = "x = { low = 0, high = 1 }\n[[claims]]\nlabel = 'it'\nprinted = 'abs(x) = x'\n"
+    assert run(written(tmp_path, "[variables]\n" + claim)).exit_code == 0
+
+
+def test_a_byte_order_mark_is_no_mistake(tmp_path: Path) -> None:
+    (tmp_path / "bom.toml").write_bytes(b"\xef\xbb\xbf" + CIRCLE.encode())
+    assert run(str(tmp_path / "bom.toml")).exit_code == 0
+
+
+def test_the_place_is_no_path(tmp_path: Path) -> None:
+    (told,) = json.loads(run(written(tmp_path, CIRCLE), "--format", "json").stdout)
+    assert told["place"] == "claims.toml"
 
 
 # ------------------------------------------------------------------ formulas
