@@ -158,7 +158,10 @@ BAD = {
     "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
     "conventions": (CIRCLE + "conventions = 3\n", "no list"),
-    "no spelling": (CIRCLE.replace("printed", "latex") + '[latex]\n"x" = ["a"]\n', "no declared name"),
+    "no spelling": (
+        CIRCLE.replace("printed", "latex") + '[latex]\n"x" = ["a"]\n',
+        "no declared name",
+    ),
     "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ says nothing"),
     "key of a range": (CIRCLE.replace("high = 0.9", "high = 0.9, step = 1"), "'step'"),
     "key of a convention": (
@@ -342,6 +345,10 @@ def latex(text: str) -> str:
         (r"c = \frac{\pi E^*}{2} a", "c = E_star*pi*a/2"),
         (r"c \le \Delta Q", "c <= dQ"),
         (r"c = \left(1 - a\right)^{\frac{1}{3}}", "c = (1 - a)**(1/3)"),
+        (r"c \geq (\sin(a)) Q", "c >= sin(a)*Q"),
+        (r"c = \sin(a) \cdot Q + \ln\frac{a}{Q}", "c = sin(a)*Q + log(a/Q)"),
+        (r"c = \sin^2(\exp(a Q)) + \cos^{2} a", "c = sin(exp(a*Q))**2 + cos(a)**2"),
+        ("c = " + r"\sin a+" * 10 + "a", "c = 10*sin(a) + a"),
     ],
 )
 def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
@@ -361,6 +368,21 @@ def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
         (r"c = \int_0^1 a", r"\int is no declared symbol", 4),
         (r"c = \input{file}", r"\input is no declared symbol", 4),
         ("c = " + "a" * 500, "too long", 400),
+        (r"c = \sin(a) Q", "argument of the function ends", 12),
+        (r"c = \exp(-Q) a", "argument of the function ends", 13),
+        (r"c = \log{a} Q", "argument of the function ends", 12),
+        (r"c = \tan\frac{a}{Q} Q", "argument of the function ends", 20),
+        (r"c = \sin(a)^2", "argument of the function ends", 11),
+        (r"c = \sin^{-1} Q", "may mean its inverse", 8),
+        (r"c = \sin", "no argument", 8),
+        (r"c = Q^12", "one character", 6),
+        (r"c = a^\Delta Q", "one character", 6),
+        (r"c = a^Q^2", "a power of a power", 7),
+        (r"c = a^{Q}^{2}", "a power of a power", 9),
+        (r"c = 2 3 a", "two numbers", 6),
+        (r"c = a^{Q", "not closed", 6),
+        (r"c \sim a", r"\sim is no declared symbol", 2),
+        (r"c = " + "a(Q)+" * 20 + "a", "too many readings", 4),
     ],
 )
 def test_what_cannot_be_read_is_shown(text: str, part: str, column: int) -> None:
