@@ -5,8 +5,9 @@ So the text is first cut into symbols that the claims file declares, numbers, an
 everything else is refused where it stands.  Each symbol and number becomes a plain x_{aa}, which
 SymPy's parser (by lark) reads; a reading in which a declared quantity is called as a function is
 no reading.  Where the argument of a function or a power ends must be plain from the print: a
-function with its argument is read first, and is one symbol to the parser.  If exactly one is left it is printed as text, and read once more by derive.paper.
-formula: what goes on is that text, which the claims file must accept.
+function with its argument is read first, and is one symbol to the parser.  If exactly one reading
+is left it is printed as text, and read once more by derive.paper.formula: what goes on is that
+text, which the claims file must accept.
 """
 
 import re

@@ -103,6 +103,21 @@ def test_what_is_wrong_is_what_a_person_found(findings: dict[str, Finding]) -> N
         assert part in told, f"{label}: {told}"
 
 
+def test_the_larger_shear_is_that_of_the_traction_called_first(
+    findings: dict[str, Finding],
+) -> None:
+    assert corrected(findings["eq:CJshear/sense"]) == "q_1 - q_2 = Delta_Q"
+
+
+def test_the_error_falls_only_relatively_and_where_a_zone_has_just_opened(
+    findings: dict[str, Finding],
+) -> None:
+    said = {label: found.verdict for label, found in findings.items() if "/accuracy/" in label}
+    assert len(said) == 4
+    wrong = [label for label, verdict in said.items() if verdict == Verdict.FAILS]
+    assert wrong == ["section 5.3/accuracy/right/relative"]
+
+
 def test_every_corrected_equation_is_proven(findings: dict[str, Finding]) -> None:
     wrong = errata(findings.values())
     mended = [finding for finding in wrong if finding.repair]
