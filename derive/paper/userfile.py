@@ -26,7 +26,7 @@ both sides of zero where [variables] gives them no range of their own.
 """
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeGuard
@@ -98,6 +98,9 @@ class _File:
 
     def paper(self) -> Paper:
         """All claims."""
+        for text in _texts(self.data):
+            if not text.replace("\n", "").replace("\t", "").isprintable():
+                raise self._bad(f"{text!r} holds a control character", "leave it out")
         self._demand_known(self.data, _KEYS, "the file")
         self.sheet = self._sheet()
         self.variables = {**_PLACES, "E_star": E_star, "f": f, **self._parameters()}
@@ -311,6 +314,19 @@ def _is_bound(given: object) -> TypeGuard[float]:
 
 _FAR = 1e6
 """Bound of a variable's range."""
+
+
+def _texts(data: object) -> Iterator[str]:
+    """All keys and texts of a file."""
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, Mapping):
+        for key, value in data.items():
+            yield key
+            yield from _texts(value)
+    elif isinstance(data, list):
+        for each in data:
+            yield from _texts(each)
 
 
 def _held(name: str, *sides: Expr) -> bool:

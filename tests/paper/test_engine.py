@@ -61,6 +61,7 @@ def test_what_is_equal_by_quadrature_is_numerical() -> None:
         (-(b**2), "sign"),
         (2 * b**2, "factor"),
         (b**2 / pi, "factor"),
+        (sqrt(2) * b**2, "factor"),
         (c**2, "swap"),
         (b**4, "exponent"),
         (b**2 + c, "term"),

@@ -158,6 +158,7 @@ BAD = {
     "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
     "conventions": (CIRCLE + "conventions = 3\n", "no list"),
+    "control character": (CIRCLE.replace('"area"', '"a\\u001b[2J"'), "control character"),
     "no spelling": (
         CIRCLE.replace("printed", "latex") + '[latex]\n"x" = ["a"]\n',
         "no declared name",
