@@ -22,16 +22,13 @@ from sympy import (
     Expr,
     Integral,
     Mul,
-    Number,
     Pow,
     S,
     Symbol,
-    exp,
     lambdify,
     log,
     nan,
     oo,
-    preorder_traversal,
     sign,
     zoo,
 )
@@ -217,32 +214,47 @@ def _settled(
     if _is_known(side, *found[-2:]):
         return found[-1]
     shrinks = all(abs(v) < mpf(10) ** (_NOISE - d) for v, d in zip(found, steps, strict=True))
-    with mpmath.workdps(_WORKING[0]):
-        lost = not shrinks or _is_extreme(side, value())
-    if lost:
+    if not shrinks or _is_extreme(side, value):
         raise Undecided(f"cancellation leaves fewer than {DIGITS} digits of {steps[-1]}")
     return mpf(0)
 
 
-def _is_extreme(side: Expr, numbers: Point) -> bool:
+def _is_extreme(side: Expr, value: Callable[[], Point]) -> bool:
     """Whether a part is so large, or so small, that a number could be lost beside it."""
-    if isinstance(numbers, _Numbers):
-        side = side.xreplace(dict(numbers.meaning))
-    if any(_is_far(abs(evaluated(number, {}))) for number in side.atoms(Number)):
-        return True
-    parts, floor = preorder_traversal(side), mpf(10) ** (_NOISE - mpmath.mp.dps)
-    for part in parts:
-        if isinstance(part, Integral):
-            parts.skip()
-        size = abs(evaluated(part, numbers))
-        noise = size <= floor and part.has(Add) and not isinstance(part, exp)
-        if _is_far(size) and not noise:
-            return True
-    return False
+    less, more = (_sizes(side, value, working) for working in _WORKING[:2])
+    floor = mpf(10) ** (_NOISE - _WORKING[0])
+    return any(
+        size != 0
+        and abs(mpmath.log10(size)) > _MODERATE
+        and not (size <= floor and agreement(size, again) < _FEW)  # noise, and no number
+        for size, again in zip(less, more, strict=True)
+    )
 
 
-def _is_far(size: mpf) -> bool:
-    return bool(size != 0 and abs(mpmath.log10(size)) > _MODERATE)
+def _sizes(side: Expr, value: Callable[[], Point], working: int) -> list[mpf]:
+    with mpmath.workdps(working):
+        numbers = value()
+        if isinstance(numbers, _Numbers):
+            side = side.xreplace(dict(numbers.meaning))
+        return list(_parts(side, {s: numbers[s] for s in _free(side)}))
+
+
+def _free(side: Expr) -> list[Symbol]:
+    return sorted(side.free_symbols, key=_order)
+
+
+def _parts(side: Expr, numbers: Point) -> Iterator[mpf]:
+    """Sizes of an expression and all parts of it; under an integral, at one place inside."""
+    yield abs(evaluated(side, numbers))
+    if not isinstance(side, Integral):
+        for part in side.args:
+            yield from _parts(part, numbers)
+        return
+    variable, low, high = side.limits[0]
+    yield from (*_parts(low, numbers), *_parts(high, numbers))
+    ends = evaluated(low, numbers), evaluated(high, numbers)
+    place = ends[0] + (ends[1] - ends[0]) * mpf(3) / 8
+    yield from _parts(side.function, {**numbers, variable: place})
 
 
 def near(left: Expr, right: Expr, value: Callable[[], Point]) -> bool:
