@@ -31,19 +31,38 @@ class Verdict(StrEnum):
 class Relation(StrEnum):
     """What stands between the two sides.
 
-    A bound is judged where it is reached, a likeness by the term that leads; both are equations.
+    A likeness is judged by the term that leads, as an equation.
     """
 
     EQUAL = "="
-    BOUND = "<="
     LIKE = "~"
     BELOW = "<"
+    AT_MOST = "<="
     ABOVE = ">"
+    AT_LEAST = ">="
 
     @property
     def is_strict(self) -> bool:
         """Whether one side must be larger, not equal."""
         return self in (Relation.BELOW, Relation.ABOVE)
+
+    @property
+    def is_ordered(self) -> bool:
+        """Whether one side must be no smaller than the other."""
+        return self in _TURNED
+
+    @property
+    def turned(self) -> "Relation":
+        """The opposite inequality."""
+        return _TURNED[self]
+
+
+_TURNED = {
+    Relation.BELOW: Relation.ABOVE,
+    Relation.ABOVE: Relation.BELOW,
+    Relation.AT_MOST: Relation.AT_LEAST,
+    Relation.AT_LEAST: Relation.AT_MOST,
+}
 
 
 @dataclass(frozen=True)
@@ -92,6 +111,7 @@ class Claim:
     says         what it says, in words
     left, right  the printed sides, in the source's symbols
     relation     between them
+    reached      a bound that is judged where it is reached, as an equation
     meaning      what the symbols stand for, in ours
     against      what it is compared with, in words
     ranges       where ours are drawn; those not named are positive and drawn by SCALE
@@ -113,6 +133,7 @@ class Claim:
     left: Expr = S.Zero
     right: Expr = S.Zero
     relation: Relation = Relation.EQUAL
+    reached: bool = False
     equation: str = ""
     meaning: Meaning = field(default_factory=dict)
     against: str = ""
@@ -133,6 +154,11 @@ class Claim:
             return left, right
         replaced = {left: right}
         return self.through[0].xreplace(replaced), self.through[1].xreplace(replaced)
+
+    @property
+    def is_inequality(self) -> bool:
+        """Whether it is judged by which side is larger."""
+        return self.relation.is_ordered and not self.reached
 
     @property
     def has_modulus(self) -> bool:

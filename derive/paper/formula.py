@@ -1,6 +1,6 @@
 """Reads an equation that a user typed; nothing of it is executed.
 
-    equation  ::= sum ("=" | "==" | "<" | "<=" | ">" | "~") sum
+    equation  ::= sum ("=" | "==" | "<" | "<=" | ">" | ">=") sum
     sum       ::= product (("+" | "-") product)*
     product   ::= unary (("*" | "/") unary)*
     unary     ::= ("+" | "-")* power
@@ -50,7 +50,7 @@ _OF_SYMPY: dict[str, tuple[Callable[..., Expr], int]] = {
 """Functions and how many arguments they take; elliptic integrals take the parameter m = k**2."""
 
 _RELATION = re.compile(r"<=|>=|==|=|<|>|~")
-_MEANT = {"==": "=", ">=": ">"}
+_MEANT = {"==": "="}
 
 
 @dataclass(frozen=True)
@@ -75,6 +75,9 @@ def equation(text: str, names: Names) -> tuple[Expr, Relation, Expr]:
         why = "there are two relations here" if found else "there is no relation here"
         raise BadFormula(names.where, text, column, why, "write left = right, once")
     start, end = found[0].span()
+    if found[0].group() == "~":
+        why = "~ says nothing that could be wrong"
+        raise BadFormula(names.where, text, start, why, "write the leading terms with =")
     relation = Relation(_MEANT.get(found[0].group(), found[0].group()))
     left = formula(text[:start], names)
     return left, relation, formula(" " * end + text[end:], names)
@@ -196,6 +199,9 @@ class _Reader:
         if not isinstance(along, Symbol):
             why = "the second argument is no variable"
             raise self._refusal(why, "write integral(f, s, low, high)", name)
+        if any(part.has(Integral) for part in (over, low, high)):
+            why = "an integral inside an integral is not computed"
+            raise self._refusal(why, "do one of them by hand", name)
         return Integral(over, (along, low, high))
 
     def _close(self) -> None:

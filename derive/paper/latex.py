@@ -4,14 +4,17 @@ LaTeX is no formula: `f(x)` may be a call or a product, and a parser that must n
 So the text is first cut into symbols that the claims file declares, numbers, and a few commands;
 everything else is refused where it stands.  Each symbol and number becomes a plain x_{aa}, which
 SymPy's parser (by lark) reads; a reading in which a declared quantity is called as a function is
-no reading.  If exactly one is left it is printed as text, and read once more by derive.paper.
-formula: what goes on is that text, which the claims file must accept.
+no reading.  Where the argument of a function or a power ends must be plain from the print: a
+function with its argument is read first, and is one symbol to the parser.  If exactly one reading
+is left it is printed as text, and read once more by derive.paper.formula: what goes on is that
+text, which the claims file must accept.
 """
 
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
+from itertools import pairwise
 
 from sympy import Expr, Symbol, sstr
 from sympy.core.function import AppliedUndef
@@ -26,10 +29,20 @@ _TOKEN = re.compile(
     r"\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|[A-Za-z]|[-+*/=<>()\[\]{}^_|']|\s+|.", re.DOTALL
 )
 _SPACES = frozenset((r"\,", r"\;", r"\:", r"\!", r"\ ", r"\quad", r"\qquad", r"\left", r"\right"))
-_CIRCULAR = (r"\sin", r"\cos", r"\tan", r"\arcsin", r"\arccos", r"\arctan")
-_OTHER = (r"\sinh", r"\cosh", r"\tanh", r"\exp", r"\log", r"\ln", r"\sqrt", r"\cdot", r"\times")
+_FUNCTIONS = {
+    rf"\{name}": name for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")
+} | {r"\arcsin": "asin", r"\arccos": "acos", r"\arctan": "atan", r"\ln": "log"}
 _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac", r"\nicefrac")
-_COMMANDS = frozenset((*_CIRCULAR, *_OTHER, *_FRACTIONS))
+_COMMANDS = frozenset((*_FUNCTIONS, *_FRACTIONS, r"\sqrt", r"\cdot", r"\times"))
+_CLOSING = {"(": ")", "{": "}", "[": "]"}
+_ENDS = frozenset(("+", "-", ")", "}", "]", "|"))
+"""What may follow the argument of a function."""
+_OPERATORS = frozenset(("*", "/", r"\cdot", r"\times"))
+"""What may, too, where parentheses show the end of the argument."""
+_CALLS = 12
+"""Symbols before a parenthesis, each of which may be called or multiplied."""
+_TOLD = 3
+"""Readings that a message shows."""
 _PLAIN = frozenset("-+*/(){}^|[]")
 _RELATIONS = {
     "=": "=",
@@ -37,17 +50,31 @@ _RELATIONS = {
     ">": ">",
     r"\le": "<=",
     r"\leq": "<=",
-    r"\sim": "~",
-    r"\approx": "~",
+    r"\ge": ">=",
+    r"\geq": ">=",
 }
 
 
 @dataclass(frozen=True)
 class _Piece:
-    """A token of LaTeX with its column."""
+    """A declared symbol, a number, or a token of LaTeX, with its column.
+
+    size: of how many tokens it is made; TeX takes one where there are no braces.
+    """
 
     text: str
     column: int
+    size: int = 1
+
+    @property
+    def is_mark(self) -> bool:
+        """Whether it is a symbol or a number."""
+        return self.text.startswith("=") and self.text != "="
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is a number."""
+        return self.is_mark and self.text[1].isdigit()
 
 
 @dataclass(frozen=True)
@@ -69,6 +96,8 @@ class Latex:
         if len(self.text) > _LONGEST:
             raise self._refusal(_LONGEST, "the equation is too long", f"stay below {_LONGEST}")
         sides, relation = self._halves(self._marked())
+        for side in sides:
+            self._demand_plain(side)
         left, right = (self._side(side) for side in sides)
         return f"{left} {relation} {right}"
 
@@ -83,7 +112,7 @@ class Latex:
         while place < len(pieces):
             length, name = self._longest(pieces, place)
             if length:
-                marked.append(_Piece(f"={name}", pieces[place].column))
+                marked.append(_Piece(f"={name}", pieces[place].column, length))
                 place += length
                 continue
             marked.append(self._known(pieces[place]))
@@ -107,7 +136,7 @@ class Latex:
     def _known(self, piece: _Piece) -> _Piece:
         text = piece.text
         if text[0].isdigit():
-            return _Piece(f"={text}", piece.column)
+            return _Piece(f"={text}", piece.column, len(text))
         if text == r"\pi":
             return _Piece("=pi", piece.column)
         if text in _COMMANDS or text in _PLAIN or text in _RELATIONS:
@@ -126,24 +155,117 @@ class Latex:
         relation = Relation(_RELATIONS[pieces[at].text])
         return (pieces[:at], pieces[at + 1 :]), relation
 
+    def _demand_plain(self, pieces: list[_Piece]) -> None:
+        """No power, root or product that looks unlike what it says."""
+        ends = _Piece("", len(self.text))
+        for place, piece in enumerate(pieces):
+            after = pieces[place + 1] if place + 1 < len(pieces) else ends
+            if piece.text == "^":
+                self._demand_exponent(pieces, place + 1, after)
+            if piece.text == r"\sqrt" and after.text not in ("{", "[") and not _is_one(after):
+                raise self._refusal(after.column, "where this root ends is unclear", "use braces")
+            if piece.is_number and after.is_number:
+                why = "two numbers stand side by side"
+                raise self._refusal(after.column, why, "put \\cdot between them")
+            if piece.is_mark and after.text == "(":
+                calls = sum(p.is_mark and q.text == "(" for p, q in pairwise(pieces))
+                if calls > _CALLS:
+                    why = f"more than {_CALLS} symbols before a parenthesis have too many readings"
+                    raise self._refusal(piece.column, why, "put \\cdot between factors")
+
+    def _demand_exponent(self, pieces: list[_Piece], place: int, after: _Piece) -> None:
+        if after.text != "{" and not _is_one(after):
+            why = "TeX takes one character as the exponent where there are no braces"
+            raise self._refusal(after.column, why, "put the exponent into braces")
+        end = self._group(pieces, place)
+        if end < len(pieces) and pieces[end].text == "^":
+            why = "a power of a power without braces"
+            raise self._refusal(pieces[end].column, why, "put one of them into braces")
+
+    def _group(self, pieces: list[_Piece], start: int) -> int:
+        """Where the symbol, or the group in brackets, that starts here ends."""
+        opened = pieces[start].text
+        if opened not in _CLOSING:
+            return start + 1
+        depth = 0
+        for place in range(start, len(pieces)):
+            depth += pieces[place].text == opened
+            depth -= pieces[place].text == _CLOSING[opened]
+            if depth == 0:
+                return place + 1
+        raise self._refusal(pieces[start].column, "this is not closed", f"add {_CLOSING[opened]}")
+
+    def _applied(self, pieces: list[_Piece]) -> list[_Piece]:
+        """The pieces with every function and its argument as one symbol."""
+        made, place = [], 0
+        while place < len(pieces):
+            piece, end = pieces[place], place + 1
+            if piece.text in _FUNCTIONS:
+                piece, end = self._application(pieces, place)
+            made.append(piece)
+            place = end
+        return made
+
+    def _application(self, pieces: list[_Piece], place: int) -> tuple[_Piece, int]:
+        """A function with its argument, and where it ends."""
+        head, (power, start) = pieces[place], self._power(pieces, place + 1)
+        if start == len(pieces):
+            raise self._refusal(len(self.text), f"{head.text} has no argument", "write it")
+        end = self._argument(pieces, start)
+        inner = pieces[start:end]
+        if inner[0].text in ("(", "{"):
+            inner = inner[1:-1]
+        if not inner:
+            raise self._refusal(head.column, f"{head.text} has no argument", "write it")
+        return _Piece(f"={_FUNCTIONS[head.text]}({self._side(inner)}){power}", head.column), end
+
+    def _power(self, pieces: list[_Piece], place: int) -> tuple[str, int]:
+        """The power of a function that stands before its argument: a whole number from 2 on."""
+        if place == len(pieces) or pieces[place].text != "^":
+            return "", place
+        end = self._group(pieces, place + 1)
+        inner = [piece for piece in pieces[place + 1 : end] if piece.text not in ("{", "}")]
+        if len(inner) != 1 or not inner[0].text[1:].isdigit() or int(inner[0].text[1:]) < 2:
+            why = "this power of a function may mean its inverse"
+            raise self._refusal(pieces[place].column, why, "write \\arcsin, or a fraction")
+        return f"**{inner[0].text[1:]}", end
+
+    def _argument(self, pieces: list[_Piece], start: int) -> int:
+        """Where the argument of a function ends; raises BadFormula where that is unclear."""
+        first = pieces[start]
+        if first.text in _FRACTIONS and start + 1 < len(pieces):
+            end = self._group(pieces, start + 1)
+            end = self._group(pieces, end) if end < len(pieces) else end
+        elif first.text in ("(", "{") or first.is_mark:
+            end = self._group(pieces, start)
+        else:
+            raise self._refusal(first.column, "this is no argument of a function", "add ( and )")
+        allowed = _ENDS | _OPERATORS if first.text == "(" else _ENDS
+        if end < len(pieces) and pieces[end].text not in allowed:
+            why = "where the argument of the function ends is unclear"
+            remedy = "put the function and its argument into parentheses, as in (\\sin(a)) b"
+            raise self._refusal(pieces[end].column, why, remedy)
+        return end
+
     def _side(self, pieces: list[_Piece]) -> str:
         """One side as text."""
         marks: dict[str, str] = {}
         columns: list[tuple[int, int]] = []
         text = ""
-        for piece in pieces:
+        for piece in self._applied(pieces):
             columns.append((len(text), piece.column))
-            if piece.text.startswith("="):
+            if piece.is_mark:
                 mark = f"x_{{{_letters(len(marks))}}}"
                 marks[mark] = piece.text[1:]
                 text += f"{mark} "
             else:
                 text += f"{piece.text} "
-        reading = self._reading(text, columns)
         names = {Symbol(mark): Symbol(_grouped(name)) for mark, name in marks.items()}
-        return str(sstr(reading.xreplace(names)))
+        return str(sstr(self._reading(text, columns, names)))
 
-    def _reading(self, text: str, columns: list[tuple[int, int]]) -> Expr:
+    def _reading(
+        self, text: str, columns: list[tuple[int, int]], names: Mapping[Symbol, Symbol]
+    ) -> Expr:
         """The only reading; raises BadFormula if there is none, or another."""
         from lark.exceptions import LarkError, UnexpectedInput
         from sympy.parsing.latex import parse_latex
@@ -156,10 +278,10 @@ class Latex:
         except (LarkError, TypeError, ValueError, AttributeError) as error:
             raise self._unread(columns[0][1] if columns else 0) from error
         readings = {r for r in _alternatives(found) if isinstance(r, Expr)}
-        readings = {r for r in readings if not r.atoms(AppliedUndef)}
+        readings = {r.xreplace(names) for r in readings if not r.atoms(AppliedUndef)}
         if len(readings) != 1:
             start = columns[0][1] if columns else 0
-            told = " or ".join(sorted(map(str, readings))) or "only as calls of quantities"
+            told = " or ".join(sorted(map(str, readings))[:_TOLD]) or "only as calls of quantities"
             raise self._refusal(start, f"this can be read {told}", "write \\cdot for a product")
         return readings.pop()
 
@@ -183,7 +305,12 @@ def _letters(number: int) -> str:
 
 def _grouped(name: str) -> str:
     """A number in parentheses where it is no plain integer, so that no power mistakes it."""
-    return name if re.fullmatch(r"[A-Za-z_]\w*|[0-9]+", name) else f"({name})"
+    return name if re.fullmatch(r"[A-Za-z_]\w*|[0-9]+|[a-z]+\(.*\)", name) else f"({name})"
+
+
+def _is_one(piece: _Piece) -> bool:
+    """Whether TeX takes it as a whole where there are no braces."""
+    return piece.is_mark and piece.size == 1
 
 
 def _alternatives(found: object) -> Iterator[object]:

@@ -15,7 +15,23 @@ from typing import TypeAlias
 
 import mpmath
 from mpmath import mpc, mpf
-from sympy import Abs, Dummy, Expr, Integral, Mul, Pow, S, Symbol, lambdify, log, nan, oo, sign, zoo
+from sympy import (
+    Abs,
+    Add,
+    Dummy,
+    Expr,
+    Integral,
+    Mul,
+    Pow,
+    S,
+    Symbol,
+    lambdify,
+    log,
+    nan,
+    oo,
+    sign,
+    zoo,
+)
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from derive.paper.claim import SCALE, Claim, Meaning, Point, Range
@@ -29,6 +45,12 @@ LEAST = 20
 """Points where an integral is in it; below that nothing is decided."""
 _WORKING = (36, 44, 80)
 """Working digits, tried in this order."""
+_MORE = (160, 240)
+"""Those after them, where no integral is to be computed."""
+_NOISE = 12
+"""Digits by which what is left of a sum that vanishes may exceed its last digit."""
+_MODERATE = 30
+"""Digits before or after the point that a part of a sum may have which is taken to vanish."""
 _COARSE = (16, 24)
 _FEW = 4
 """Digits: two sides that share no more of them differ."""
@@ -114,9 +136,8 @@ def _order(symbol: Symbol) -> tuple[str, str]:
 def _bound(claim: Claim) -> set[Symbol]:
     """Variables of integration; a sheet's own place x is one only where it is integrated over."""
     exprs = [*claim.sides(claim.left, claim.right), *claim.meaning.values()]
-    return {over.limits[0][0] for expr in exprs for over in expr.atoms(Integral)} - set(
-        claim.ranges
-    )
+    integrals = {over for expr in exprs for over in expr.atoms(Integral)}
+    return {limit[0] for over in integrals for limit in over.limits} - set(claim.ranges)
 
 
 class _Numbers(dict[Symbol, mpf]):
@@ -124,12 +145,12 @@ class _Numbers(dict[Symbol, mpf]):
 
     def __init__(self, known: Point, meaning: Meaning) -> None:
         super().__init__(known)
-        self._known, self._meaning = known, meaning
+        self._known, self.meaning = known, meaning
 
     def __missing__(self, symbol: Symbol) -> Value:
-        if symbol not in self._meaning:
+        if symbol not in self.meaning:
             raise Undecided(f"nothing says what {symbol} is")
-        self[symbol] = evaluated(self._meaning[symbol], self._known)
+        self[symbol] = evaluated(self.meaning[symbol], self._known)
         return self[symbol]
 
 
@@ -150,25 +171,90 @@ def apart(left: Expr, right: Expr, value: Callable[[], Point], point: Point) -> 
             found.append((evaluated(left, numbers), evaluated(right, numbers)))
         if not all(mpmath.isfinite(number) for number in found[-1]) or agreement(*found[-1]) > _FEW:
             return None
+    if any(map(_may_be_lost, (left, right), found[-1])):
+        return None
     stable = all(agreement(*values) > 2 * _FEW for values in zip(*found, strict=True))
     return Pair(*found[-1], point) if stable else None
 
 
 def both(left: Expr, right: Expr, value: Callable[[], Point], point: Point) -> Pair:
     """Both sides with digits that are known to be right; raises Undecided."""
-    previous: tuple[Value, Value] | None = None
-    for working in _WORKING:
+    sides, found = (left, right), list[tuple[Value, Value]]()
+    steps = _WORKING if left.has(Integral) or right.has(Integral) else _WORKING + _MORE
+    for working in steps:
         with mpmath.workdps(working):
             numbers = value()
-            now = evaluated(left, numbers), evaluated(right, numbers)
-        if not all(mpmath.isfinite(number) for number in now):
+            found.append((evaluated(left, numbers), evaluated(right, numbers)))
+        if not all(mpmath.isfinite(number) for number in found[-1]):
             raise Undecided("no finite number")
-        if previous and all(agreement(p, n) >= DIGITS for p, n in zip(previous, now, strict=True)):
-            return Pair(*now, point)
-        if previous and _tiny(previous, now):
-            return Pair(mpf(0), mpf(0), point)
-        previous = now
-    raise Undecided(f"cancellation leaves fewer than {DIGITS} digits of {_WORKING[-1]}")
+        if found[1:] and all(map(_is_known, sides, *found[-2:])):
+            return Pair(*found[-1], point)
+    left_found, right_found = zip(*found, strict=True)
+    values = (
+        _settled(left, left_found, steps, value),
+        _settled(right, right_found, steps, value),
+    )
+    return Pair(*values, point)
+
+
+def _is_known(side: Expr, before: Value, now: Value) -> bool:
+    """Whether enough digits of a side are right."""
+    return agreement(before, now) >= DIGITS and not _may_be_lost(side, now)
+
+
+def _may_be_lost(side: Expr, now: Value) -> bool:
+    """Whether a zero may be all that cancellation left of a number."""
+    return bool(now == 0) and side.has(Add, Integral, Symbol)
+
+
+def _settled(
+    side: Expr, found: tuple[Value, ...], steps: tuple[int, ...], value: Callable[[], Point]
+) -> Value:
+    """The last of the values if it is known, zero if the side vanishes; raises Undecided."""
+    if _is_known(side, *found[-2:]):
+        return found[-1]
+    shrinks = all(abs(v) < mpf(10) ** (_NOISE - d) for v, d in zip(found, steps, strict=True))
+    if not shrinks or _is_extreme(side, value):
+        raise Undecided(f"cancellation leaves fewer than {DIGITS} digits of {steps[-1]}")
+    return mpf(0)
+
+
+def _is_extreme(side: Expr, value: Callable[[], Point]) -> bool:
+    """Whether a part is so large, or so small, that a number could be lost beside it."""
+    less, more = (_sizes(side, value, working) for working in _WORKING[:2])
+    floor = mpf(10) ** (_NOISE - _WORKING[0])
+    return any(
+        size != 0
+        and abs(mpmath.log10(size)) > _MODERATE
+        and not (size <= floor and agreement(size, again) < _FEW)  # noise, and no number
+        for size, again in zip(less, more, strict=True)
+    )
+
+
+def _sizes(side: Expr, value: Callable[[], Point], working: int) -> list[mpf]:
+    with mpmath.workdps(working):
+        numbers = value()
+        if isinstance(numbers, _Numbers):
+            side = side.xreplace(dict(numbers.meaning))
+        return list(_parts(side, {s: numbers[s] for s in _free(side)}))
+
+
+def _free(side: Expr) -> list[Symbol]:
+    return sorted(side.free_symbols, key=_order)
+
+
+def _parts(side: Expr, numbers: Point) -> Iterator[mpf]:
+    """Sizes of an expression and all parts of it; under an integral, at one place inside."""
+    yield abs(evaluated(side, numbers))
+    if not isinstance(side, Integral):
+        for part in side.args:
+            yield from _parts(part, numbers)
+        return
+    variable, low, high = side.limits[0]
+    yield from (*_parts(low, numbers), *_parts(high, numbers))
+    ends = evaluated(low, numbers), evaluated(high, numbers)
+    place = ends[0] + (ends[1] - ends[0]) * mpf(3) / 8
+    yield from _parts(side.function, {**numbers, variable: place})
 
 
 def near(left: Expr, right: Expr, value: Callable[[], Point]) -> bool:
@@ -187,12 +273,6 @@ def near(left: Expr, right: Expr, value: Callable[[], Point]) -> bool:
         return bool(abs(first - second) < scale * mpf(10) ** -7)
 
 
-def _tiny(before: tuple[Value, Value], now: tuple[Value, Value]) -> bool:
-    """Whether both sides are zero: they shrink as digits are added."""
-    bound = mpf(10) ** (-_WORKING[0] + 10)
-    return max(map(abs, before)) < bound and max(map(abs, now)) < bound**1.3
-
-
 def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf]) -> Value:
     """`expr` at the working precision, its integrals by quadrature."""
     function, held, integrals = _compiled(expr)
@@ -200,7 +280,7 @@ def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf]) -> Value:
     try:
         found = [_quadrature(each, numbers) for each in integrals]
         return mpmath.mpmathify(function(*given, *found))
-    except (ZeroDivisionError, ValueError, TypeError) as error:
+    except (ArithmeticError, MemoryError, ValueError, TypeError) as error:
         raise Undecided(f"no number comes out ({type(error).__name__}: {error})") from error
 
 
@@ -208,6 +288,8 @@ def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf]) -> Value:
 def _compiled(expr: Expr) -> tuple[Callable[..., Value], list[Symbol], list[Integral]]:
     if expr.has(zoo, nan, oo):
         raise Undecided(f"{expr} is no number")
+    if any(len(over.limits) > 1 for over in expr.atoms(Integral)):
+        raise Undecided("an integral over several variables is not computed")
     outer = [i for i in expr.atoms(Integral) if not _is_inner(i, expr)]
     integrals = sorted(outer, key=str)
     stand_ins = {found: Dummy("I") for found in integrals}

@@ -3,7 +3,7 @@
     kind       what is tried
     --------   ------------------------------------------------------------------
     sign       of the whole, and of every term
-    factor     2, 3, 4, 8, pi and 2 pi, or one over them, on the whole; 2, 4, pi on a term
+    factor     2, 3, 4, 8, sqrt 2, pi and 2 pi, or one over them, on the whole; 2, 4, pi on a term
     swap       one symbol for another, everywhere or in one place, or both exchanged;
                one over it; the mean of it and another
     exponent   of every power: its sign, twice, half, 3/2 and 2/3 of it, one more, one less
@@ -17,12 +17,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain, permutations
 
-from sympy import Abs, Add, Expr, Integral, Mul, Number, Pow, Rational, S, Symbol, pi
+from sympy import Abs, Add, Expr, Integral, Mul, Number, Pow, Rational, S, Symbol, pi, sqrt
 
 KINDS = ("sign", "factor", "swap", "exponent", "term", "modulus")
 """In the order in which they are tried."""
 
-_FACTORS = tuple(f for n in (S(2), pi, S(4), S(3), 2 * pi, S(8)) for f in (n, 1 / n))
+_FACTORS = tuple(f for n in (S(2), pi, S(4), S(3), 2 * pi, S(8), sqrt(2)) for f in (n, 1 / n))
 _OF_A_TERM = _FACTORS[:6]
 
 

@@ -15,7 +15,7 @@ from derive.notation import latex_of, text_of
 from derive.paper.claim import Claim, Paper, Relation, Verdict
 from derive.paper.verdict import Finding, Repair
 
-_SIGNS = {"<=": r"\le", "~": r"\sim"}
+_SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
 
 
 def printed(claim: Claim) -> str:

@@ -21,23 +21,33 @@
     symbols = { M = "-moment(l, l)" }          # for this claim alone
     conventions = [{ what = "...", symbols = { ... }, contradicts = "..." }]
 
-The body's parameters, E_star and f are variables from the start, x, s and xi places.
+The body's parameters, E_star and f are variables from the start; x, s and xi are places, drawn on
+both sides of zero where [variables] gives them no range of their own.
 """
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeGuard
 
-from sympy import Expr, Symbol
+from sympy import Expr, Integral, Symbol
 from sympy.core.function import AppliedUndef
 
 from derive.derivation import derive_sheet
 from derive.errors import BadClaimsFile, NotAccepted
 from derive.library import is_in_library, library
 from derive.paper.bodies import at, formula
-from derive.paper.claim import Claim, Convention, Meaning, Paper, Range, Verdict
+from derive.paper.claim import (
+    SCALE,
+    SIGNED,
+    Claim,
+    Convention,
+    Meaning,
+    Paper,
+    Range,
+    Verdict,
+)
 from derive.paper.formula import Names, equation, usable
 from derive.paper.formula import formula as read_formula
 from derive.paper.latex import Latex
@@ -50,6 +60,8 @@ _MOST = 500
 """Claims of a file."""
 _PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
 _KEYS = frozenset({"title", "body", "variables", "symbols", "latex", "claims"})
+_OF_A_VARIABLE = frozenset({"meaning", "low", "high"})
+_OF_A_CONVENTION = frozenset({"what", "symbols", "contradicts"})
 _OF_A_CLAIM = frozenset(
     ("label", "place", "says", "printed", "latex", "understood", "expected", "symbols")
 ) | {"conventions", "unchecked"}
@@ -65,7 +77,7 @@ def _toml(path: Path) -> dict[str, Any]:
     try:
         if path.stat().st_size > _LARGEST:
             raise BadClaimsFile(str(path), f"is larger than {_LARGEST} bytes", "split it")
-        return tomllib.loads(path.read_bytes().decode())
+        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))
     except tomllib.TOMLDecodeError as error:
         raise BadClaimsFile(str(path), f"is no TOML ({error})", remedy) from error
     except UnicodeDecodeError as error:
@@ -86,6 +98,9 @@ class _File:
 
     def paper(self) -> Paper:
         """All claims."""
+        for text in _texts(self.data):
+            if not text.replace("\n", "").replace("\t", "").isprintable():
+                raise self._bad(f"{text!r} holds a control character", "leave it out")
         self._demand_known(self.data, _KEYS, "the file")
         self.sheet = self._sheet()
         self.variables = {**_PLACES, "E_star": E_star, "f": f, **self._parameters()}
@@ -119,17 +134,24 @@ class _File:
 
     def _declare(self, name: str, said: object) -> None:
         where = f"variable {name!r}"
-        self._demand_name(name, self.variables)
+        self._demand_name(name, self.variables.keys() - _PLACES.keys())
         if isinstance(said, str):
-            self.variables[name] = Symbol(name, positive=True)
+            self._drawn(name, SCALE, positive=True)
             return
         given: dict[str, Any] = said if isinstance(said, dict) else {}
+        self._demand_known(given, _OF_A_VARIABLE, where)
         low, high = given.get("low"), given.get("high")
         if not (_is_bound(low) and _is_bound(high)) or low >= high:
             raise self._bad(f"{where} has no range", "write { low = 0.1, high = 0.9 }, or a text")
-        symbol = Symbol(name, positive=True) if low >= 0 else Symbol(name, real=True)
+        self._drawn(name, Range(float(low), float(high)), positive=low >= 0)
+
+    def _drawn(self, name: str, span: Range, positive: bool) -> None:
+        """A variable with where it is drawn; a place stays the sheet's own symbol."""
+        known = Symbol(name, positive=True) if positive else Symbol(name, real=True)
+        symbol = _PLACES.get(name, known)
         self.variables[name] = symbol
-        self.ranges[symbol] = Range(float(low), float(high))
+        if span != SCALE or name in _PLACES:
+            self.ranges[symbol] = span
 
     def _claim(self, number: int, given: object) -> Claim:
         if not isinstance(given, dict):
@@ -139,7 +161,7 @@ class _File:
         where = f"{self.name}, claim {label!r}"
         common: dict[str, Any] = {
             "label": label,
-            "place": str(given.get("place", self.name)),
+            "place": str(given.get("place", Path(self.name).name)),
             "says": str(given.get("says", label)),
             "expected": self._verdict(given, where),
         }
@@ -148,14 +170,16 @@ class _File:
         symbols = {**self._table("symbols"), **self._inner(given, "symbols", where)}
         names = self._names(where, symbols)
         left, relation, right = equation(self._printed(given, where, names), names)
+        meaning = self._meaning(where, symbols)
+        self._demand_single(where, left, right, meaning)
         return Claim(
             left=left,
             right=right,
             relation=relation,
-            meaning=self._meaning(where, symbols),
+            meaning=meaning,
             against=f"the formulas of {self.name}"
             + (f" and the sheet of {self.sheet.geometry.name}" if self.sheet else ""),
-            ranges=self.ranges,
+            ranges={**_places(left, right, meaning), **self.ranges},
             conventions=self._conventions(given, where),
             swaps=tuple(Symbol(name) for name in symbols if _held(name, left, right)),
             **common,
@@ -182,7 +206,7 @@ class _File:
     def _spellings(self, names: Names) -> dict[str, str]:
         found = self._table("latex")
         for spelling, name in found.items():
-            if name not in names.symbols:
+            if not isinstance(name, str) or name not in names.symbols:
                 why = f"[latex] {spelling!r} = {name!r} is no declared name"
                 raise self._bad(why, "declare it")
         return found
@@ -194,6 +218,15 @@ class _File:
             Symbol(name): self._put_in(read_formula(str(text), names))
             for name, text in symbols.items()
         }
+
+    def _demand_single(self, where: str, left: Expr, right: Expr, meaning: Meaning) -> None:
+        """No integral inside another, once the symbols are put in."""
+        for side in (left, right):
+            for over in side.xreplace(dict(meaning)).atoms(Integral):
+                inside = [over.function, *over.limits[0][1:]]
+                if len(over.limits) > 1 or any(part.has(Integral) for part in inside):
+                    why = f"{where}: an integral inside an integral is not computed"
+                    raise self._bad(why, "do one of them by hand")
 
     def _put_in(self, expr: Expr) -> Expr:
         """Calls of the sheet's formulas replaced by what they stand for, each proven."""
@@ -214,6 +247,7 @@ class _File:
         for each in listed:
             if not isinstance(each, dict):
                 raise self._bad(f"{where}: a convention is no table", "write { what = ... }")
+            self._demand_known(each, _OF_A_CONVENTION, f"{where}: a convention")
             what = self._text(each, "what", where)
             against = self._text(each, "contradicts", where)
             symbols = self._inner(each, "symbols", where)
@@ -262,10 +296,16 @@ class _File:
             raise self._bad(f"{name!r} is declared twice", "choose another name")
 
     def _bad(self, why: str, remedy: str) -> BadClaimsFile:
-        return BadClaimsFile(self.name, why, remedy)
+        return BadClaimsFile(self.name, why.removeprefix(f"{self.name}, "), remedy)
 
 
 _EDGES = (Symbol("a", real=True), Symbol("c", real=True))
+
+
+def _places(left: Expr, right: Expr, meaning: Meaning) -> dict[Symbol, Range]:
+    """Places that nobody gave a range are drawn on both sides of zero."""
+    held = set().union(*(side.xreplace(dict(meaning)).free_symbols for side in (left, right)))
+    return {place: SIGNED for place in _PLACES.values() if place in held}
 
 
 def _is_bound(given: object) -> TypeGuard[float]:
@@ -274,6 +314,19 @@ def _is_bound(given: object) -> TypeGuard[float]:
 
 _FAR = 1e6
 """Bound of a variable's range."""
+
+
+def _texts(data: object) -> Iterator[str]:
+    """All keys and texts of a file."""
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, Mapping):
+        for key, value in data.items():
+            yield key
+            yield from _texts(value)
+    elif isinstance(data, list):
+        for each in data:
+            yield from _texts(each)
 
 
 def _held(name: str, *sides: Expr) -> bool:

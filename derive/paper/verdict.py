@@ -124,7 +124,7 @@ def judge(claim: Claim, left: Expr, right: Expr, meaning: Meaning) -> Judged:
         return Judged(Verdict.UNCHECKED, str(error), tuple(found))
     if len(found) < LEAST:
         return Judged(Verdict.UNCHECKED, f"only {len(found)} points were drawn", tuple(found))
-    if claim.relation.is_strict:
+    if claim.is_inequality and not all(pair.agree for pair in found):
         return Judged(Verdict.NUMERICAL, f"true at {len(found)} points", tuple(found))
     return _proven(claim, left, right, meaning, tuple(found))
 
@@ -157,12 +157,15 @@ def _at(claim: Claim, left: Expr, right: Expr, meaning: Meaning, point: Point, f
 
 
 def _stands(claim: Claim, pair: Pair) -> bool:
-    if not claim.relation.is_strict:
+    if not claim.is_inequality:
         return pair.agree
     if pair.agree:
-        return False  # two equal numbers are neither above nor below each other
-    difference = mpmath.re(pair.left - pair.right)
-    return bool(difference < 0 if claim.relation == Relation.BELOW else difference > 0)
+        return not claim.relation.is_strict
+    difference = pair.left - pair.right
+    if mpmath.im(difference) != 0:
+        raise Undecided("complex numbers are neither above nor below each other")
+    below = claim.relation in (Relation.BELOW, Relation.AT_MOST)
+    return bool(mpmath.re(difference) < 0) == below
 
 
 def _example(claim: Claim, pair: Pair) -> str:
@@ -179,7 +182,7 @@ def repaired(claim: Claim) -> tuple[Repair | None, Counter[str]]:
 
     One change at a time; where none does, two, a sign or a swap before any other.
     """
-    if claim.relation.is_strict:
+    if claim.is_inequality:
         return _other_relation(claim)
     tried: Counter[str] = Counter()
     screened = _Screen(claim)
@@ -202,8 +205,7 @@ def repaired(claim: Claim) -> tuple[Repair | None, Counter[str]]:
 def _other_relation(claim: Claim) -> tuple[Repair | None, Counter[str]]:
     """Whether the sides of an inequality are equal, or the other way round."""
     tried: Counter[str] = Counter()
-    turned = Relation.ABOVE if claim.relation == Relation.BELOW else Relation.BELOW
-    for relation in (Relation.EQUAL, turned):
+    for relation in (Relation.EQUAL, claim.relation.turned):
         tried["relation"] += 1
         judged = judge(replace(claim, relation=relation), claim.left, claim.right, claim.meaning)
         if judged.good:

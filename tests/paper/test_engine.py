@@ -61,6 +61,7 @@ def test_what_is_equal_by_quadrature_is_numerical() -> None:
         (-(b**2), "sign"),
         (2 * b**2, "factor"),
         (b**2 / pi, "factor"),
+        (sqrt(2) * b**2, "factor"),
         (c**2, "swap"),
         (b**4, "exponent"),
         (b**2 + c, "term"),
@@ -209,6 +210,11 @@ def test_digits_that_cancel_are_computed_again() -> None:
 def test_a_sum_that_cancels_wholly_is_zero() -> None:
     pair = both(a, sqrt(b) ** 2 - b, lambda: {a: mpf(0), b: mpf(3)}, {})
     assert pair.agree
+
+
+def test_an_integral_over_two_variables_is_undecided() -> None:
+    twice = Integral(s * u, (s, 0, 1), (u, 0, 1))
+    assert check(claim(a, twice, meaning={a: S(1)})).verdict == Verdict.UNCHECKED
 
 
 def test_what_is_not_finite_is_undecided() -> None:

@@ -158,6 +158,17 @@ BAD = {
     "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
     "conventions": (CIRCLE + "conventions = 3\n", "no list"),
+    "control character": (CIRCLE.replace('"area"', '"a\\u001b[2J"'), "control character"),
+    "no spelling": (
+        CIRCLE.replace("printed", "latex") + '[latex]\n"x" = ["a"]\n',
+        "no declared name",
+    ),
+    "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ says nothing"),
+    "key of a range": (CIRCLE.replace("high = 0.9", "high = 0.9, step = 1"), "'step'"),
+    "key of a convention": (
+        CIRCLE + 'conventions = [{ what = "w", contradicts = "c", symbol = 1 }]\n',
+        "'symbol'",
+    ),
     "bad symbol": (CIRCLE.replace('A = "pi*r**2"', 'A = "pi*q"'), "what q is"),
 }
 
@@ -193,6 +204,84 @@ def test_bytes_are_no_claims(tmp_path: Path) -> None:
 def test_an_unknown_label_shows_the_nearest(tmp_path: Path) -> None:
     done = run(written(tmp_path, CIRCLE), "--explain", "aera")
     assert (done.exit_code, "area" in done.stderr) == (2, True)
+
+
+# ------------------------------------------------------------------ verdicts
+
+TWO = """
+[variables]
+a = { low = 1, high = 2 }
+b = { low = 1, high = 2 }
+[symbols]
+B = "integral(s*a, s, 0, b)"
+"""
+
+
+def verdict(folder: Path, printed: str) -> tuple[str, str]:
+    """The verdict on one equation, and how it was printed back."""
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    (told,) = json.loads(run(written(folder, TWO + claim), "--format", "json").stdout)
+    return told["verdict"], told["printed"]
+
+
+@pytest.mark.parametrize(
+    ("printed", "expected"),
+    [
+        ("cosh(40*a)**2 - sinh(40*a)**2 = 1", {"holds"}),
+        ("sqrt(10**26 + a**2) - 10**13 = a**2/(sqrt(10**26 + a**2) + 10**13)", {"holds"}),
+        ("sqrt(1 + exp(-2000*a)) - 1 = sqrt(1 + exp(-3000*a)) - 1", {"unchecked"}),
+        (
+            "10**(-40)*(1 - 1/(1 + 10**(-20)*a)) = 10**(-40)*(1 - 1/(1 + 10**(-20)*b))",
+            {"fails", "unchecked"},
+        ),
+        ("exp(exp(exp(exp(a*9)))) = 1", {"unchecked"}),
+        ("integral(sqrt(1 + exp(-2000*s)) - 1, s, 1, 2) = 0", {"unchecked"}),
+        ("integral(sin(s), s, -a, a) = 0", {"numerical", "holds"}),
+        ("sqrt(a**2 + 2*a*b + b**2) - a - b = 1", {"fails"}),
+        ("abs(x) = x", {"fails"}),
+        ("sqrt(x) < 3", {"unchecked"}),
+    ],
+)
+def test_lost_digits_decide_nothing(tmp_path: Path, printed: str, expected: set[str]) -> None:
+    assert verdict(tmp_path, printed)[0] in expected
+
+
+@pytest.mark.parametrize(
+    ("printed", "expected"),
+    [
+        ("a <= a + b", "numerical"),
+        ("a >= a", "holds"),
+        ("a >= a + b", "fails"),
+        ("a > a", "fails"),
+    ],
+)
+def test_inequalities_mean_what_they_say(tmp_path: Path, printed: str, expected: str) -> None:
+    assert verdict(tmp_path, printed) == (expected, printed)
+
+
+@pytest.mark.parametrize(
+    "printed",
+    ["integral(integral(s*xi, s, 0, xi), xi, 0, 1) = a", "a = integral(B*xi, xi, 0, 1)"],
+)
+def test_an_integral_inside_another_is_refused(tmp_path: Path, printed: str) -> None:
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    done = run(written(tmp_path, TWO + claim))
+    assert (done.exit_code, "integral inside an integral" in done.stderr) == (2, True)
+
+
+def test_a_place_may_have_a_range(tmp_path: Path) -> None:
+    claim = "x = { low = 0, high = 1 }\n[[claims]]\nlabel = 'it'\nprinted = 'abs(x) = x'\n"
+    assert run(written(tmp_path, "[variables]\n" + claim)).exit_code == 0
+
+
+def test_a_byte_order_mark_is_no_mistake(tmp_path: Path) -> None:
+    (tmp_path / "bom.toml").write_bytes(b"\xef\xbb\xbf" + CIRCLE.encode())
+    assert run(str(tmp_path / "bom.toml")).exit_code == 0
+
+
+def test_the_place_is_no_path(tmp_path: Path) -> None:
+    (told,) = json.loads(run(written(tmp_path, CIRCLE), "--format", "json").stdout)
+    assert told["place"] == "claims.toml"
 
 
 # ------------------------------------------------------------------ formulas
@@ -260,6 +349,10 @@ def latex(text: str) -> str:
         (r"c = \frac{\pi E^*}{2} a", "c = E_star*pi*a/2"),
         (r"c \le \Delta Q", "c <= dQ"),
         (r"c = \left(1 - a\right)^{\frac{1}{3}}", "c = (1 - a)**(1/3)"),
+        (r"c \geq (\sin(a)) Q", "c >= sin(a)*Q"),
+        (r"c = \sin(a) \cdot Q + \ln\frac{a}{Q}", "c = sin(a)*Q + log(a/Q)"),
+        (r"c = \sin^2(\exp(a Q)) + \cos^{2} a", "c = sin(exp(a*Q))**2 + cos(a)**2"),
+        ("c = " + r"\sin a+" * 10 + "a", "c = 10*sin(a) + a"),
     ],
 )
 def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
@@ -279,6 +372,21 @@ def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
         (r"c = \int_0^1 a", r"\int is no declared symbol", 4),
         (r"c = \input{file}", r"\input is no declared symbol", 4),
         ("c = " + "a" * 500, "too long", 400),
+        (r"c = \sin(a) Q", "argument of the function ends", 12),
+        (r"c = \exp(-Q) a", "argument of the function ends", 13),
+        (r"c = \log{a} Q", "argument of the function ends", 12),
+        (r"c = \tan\frac{a}{Q} Q", "argument of the function ends", 20),
+        (r"c = \sin(a)^2", "argument of the function ends", 11),
+        (r"c = \sin^{-1} Q", "may mean its inverse", 8),
+        (r"c = \sin", "no argument", 8),
+        (r"c = Q^12", "one character", 6),
+        (r"c = a^\Delta Q", "one character", 6),
+        (r"c = a^Q^2", "a power of a power", 7),
+        (r"c = a^{Q}^{2}", "a power of a power", 9),
+        (r"c = 2 3 a", "two numbers", 6),
+        (r"c = a^{Q", "not closed", 6),
+        (r"c \sim a", r"\sim is no declared symbol", 2),
+        (r"c = " + "a(Q)+" * 20 + "a", "too many readings", 4),
     ],
 )
 def test_what_cannot_be_read_is_shown(text: str, part: str, column: int) -> None:

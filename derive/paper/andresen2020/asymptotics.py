@@ -194,29 +194,34 @@ def _tractions() -> tuple[Claim, ...]:
 
 def _sense() -> Claim:
     first, second = (Symbol(f"P_{i}", positive=True) for i in (1, 2))
-    printed = f * (first - _permanent) - (-f * (second - _permanent))
+    locked = Symbol("Q_Z", real=True)
+    larger = locked + f * (first - _permanent)
+    smaller = locked - f * (second - _permanent)
     return Claim(
         label="eq:CJshear/sense",
         place="section 3.1, eqs. (12) and (14), with the ends named as in figure 2",
-        says="Q_2 - Q_1 of the two tractions is the range of the shear load",
+        says="Q_2 - Q_1, the resultants of the two tractions, is the range of the shear load",
         left=q_2 - q_1,
         right=Delta_Q,
         meaning={
-            q_1: printed,
-            q_2: S.Zero,
+            q_1: larger,
+            q_2: smaller,
             Delta_Q: 2 * f * ((first + second) / 2 - _permanent),
         },
         against="eq. (28): the permanent stick zone carries P_0 - Delta Q/(2 f)",
+        ranges={locked: SIGNED},
         conventions=(
             Convention(
                 "the tractions of ends 1 and 2 exchanged, or shear with the opposite sign",
-                {q_1: S.Zero, q_2: printed},
+                {q_1: smaller, q_2: larger},
                 "section 1 and figure 2, where 2 is the end of the largest loads",
             ),
         ),
         steps=(
-            "At both ends P_S = P_Z; the resultants differ by f (P_1 + P_2 - 2 P_Z).",
-            "So Q_1 - Q_2 = Delta Q > 0: the traction called q_1 is that of the larger shear load.",
+            "At both ends P_S = P_Z: the resultants are Q_Z + f (P_1 - P_Z) by eq. (12) and "
+            "Q_Z - f (P_2 - P_Z) by eq. (14), Q_Z what is locked in.",
+            "They differ by f (P_1 + P_2 - 2 P_Z) = Delta Q > 0: the traction called q_1 is that "
+            "of the larger shear load.",
         ),
         expected=Verdict.CONVENTION,
         consequence=lambda: "the plotted shear traction has the wrong sign; slip zones keep theirs",

@@ -20,7 +20,6 @@ from derive.paper.andresen2020.symbols import (
     P_0,
     Delta_Q,
     Delta_sigma,
-    Delta_sigma_th,
     P,
     R,
     a,
@@ -33,7 +32,7 @@ from derive.paper.andresen2020.symbols import (
     s,
 )
 from derive.paper.bodies import hertz
-from derive.paper.claim import FRACTION, Claim, Convention, Meaning, Range, Verdict
+from derive.paper.claim import FRACTION, Claim, Convention, Meaning, Range, Relation, Verdict
 from derive.symbols import E_star, f, x
 
 _size = Symbol("l", positive=True)
@@ -204,16 +203,18 @@ def _moderate() -> tuple[Claim, ...]:
             equation="(45)",
             place="eq. (45), appendix",
             says="the tension at which the slip zone of the right edge closes",
-            left=Delta_sigma_th,
+            left=Delta_sigma,
+            relation=Relation.AT_MOST,
+            reached=True,
             right=4 * E_star * f / R * (a - sqrt(a**2 - 2 * R * Delta_Q / (pi * E_star * f))),
             meaning={
                 a: _size,
                 Delta_Q: 2
                 * f
                 * (hertz("load", _size, _size) - hertz("load", _part * _size, _part * _size)),
-                Delta_sigma_th: -4 * f * E_star * hertz("tilt", closing, _size),
+                Delta_sigma: -4 * f * E_star * hertz("tilt", closing, _size),
             },
-            against="eqs. (43) and (44), as corrected, at n = a",
+            against="eqs. (43) and (44), as corrected, at n = a, where the bound is reached",
             ranges={_part: FRACTION},
             expected=Verdict.HOLDS,
         ),

@@ -356,7 +356,7 @@ def _conditions() -> tuple[Claim, ...]:
     changes = {k: v.subs(swapped, simultaneous=True) for k, v in _CHANGES.items()}
     stick = {k: v.subs(swapped, simultaneous=True) for k, v in STICK.items()}
     given = {**stick, **changes}
-    edges = {m: _edge_printed(m).subs(given), n: _edge_printed(n).subs(given)}
+    edges = {m: edge_printed(m).subs(given), n: edge_printed(n).subs(given)}
     ranges = {s_: Range(1.5, 3) for s_ in wide} | {s_: Range(0.8, 1.25) for s_ in turned}
     made = []
     for name, power, right in (
@@ -391,7 +391,7 @@ _WIDE = tuple(
 )
 
 
-def _edge_printed(which: Symbol) -> Expr:
+def edge_printed(which: Symbol) -> Expr:
     """Eq. (28) with eq. (29) put in."""
     carried = (P_0 - Delta_Q / (2 * f)) / (E_star * phi)
     skew = sqrt(1 / GAMMA_T) if which == m else sqrt(GAMMA_T)
