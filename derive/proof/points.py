@@ -103,9 +103,16 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
 
     def at(point: Point) -> mpf:
         given = [point[symbol] for symbol in held]
-        return mpf(function(*given, *(value(point) for value in values)))
+        return _real(function(*given, *(value(point) for value in values)))
 
     return at
+
+
+def _real(value: mpf) -> mpf:
+    """Where a kink lies on an edge, rounding may leave the root of less than nothing."""
+    if isinstance(value, mpmath.mpc) and abs(value.imag) < mpf(10) ** -15 * abs(value.real):
+        return value.real
+    return mpf(value)
 
 
 def over_contact(over: Integral) -> Callable[[Point], mpf]:
