@@ -8,6 +8,9 @@ from tests.reference.explore import at_constant_loads, cycle, explored, threshol
 from tests.reference.kernel import Surface
 from tests.reference.solver import level, reference
 
+pytestmark = pytest.mark.slow
+
+
 COUNTS, STEPS = (12, 24, 48), (8, 12, 16)
 
 
@@ -39,7 +42,6 @@ def test_where_the_premise_fails_the_conditions_do(
     assert point.off(point.large.zone) > 2 * point.error
 
 
-@pytest.mark.slow
 def test_where_only_one_half_cycle_turns_round_its_smallest_zone_is_exact() -> None:
     point = explored(cycle(3 * threshold(), (0.0, 0.2)), (16, 32, 64), (8, 16, 16))
     assert point.large.shrinks
