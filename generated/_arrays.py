@@ -5,7 +5,7 @@ A formula's temporaries are as large as its argument.  Evaluated over blocks tha
 processor's cache they cost little; over a whole large array they cost more than the arithmetic.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import wraps
 from inspect import Parameter, signature
 from itertools import product
@@ -120,14 +120,25 @@ class Flat:
         held = {name: np.asarray(_float64(value, name)) for name, value in given.items()}
         for name, value in {**(positive or {}), **constants}.items():
             held[name] = np.asarray(_positive(_float64(value, name)))
-        self.shape = _broadcast(held)
-        flat = {name: np.broadcast_to(value, self.shape).ravel() for name, value in held.items()}
-        self.values = [flat[name] for name in (*given, *(positive or {}))]
-        self.constants = {n: flat[n] if held[n].ndim else held[n][()] for n in constants}
+        _broadcast(held)  # what does not is told by its name
+        values = [held[name] for name in (*given, *(positive or {}))]
+        own = {name: held[name][()] for name in constants}
+        self.values, self.constants, self.shape = flattened(values, own)
 
     def shaped(self, value: Any) -> Any:
         """A result in the shape of the arguments."""
         return value.reshape(self.shape)[()]
+
+
+def flattened(
+    values: Sequence[Any], constants: Mapping[str, Any]
+) -> tuple[list[Any], dict[str, Any], Shape]:
+    """Arrays along one dimension, constants too if they vary, and the shape they had together."""
+    varying = {name: v for name, v in constants.items() if np.ndim(v)}
+    shape = np.broadcast_shapes(*map(np.shape, (*values, *varying.values())))
+    flat = [np.broadcast_to(v, shape).ravel() for v in (*values, *varying.values())]
+    own = dict(zip(varying, flat[len(values) :], strict=True))
+    return flat[: len(values)], {**constants, **own}, shape
 
 
 def contact_edges(contact: Any, label: str) -> dict[str, Any]:

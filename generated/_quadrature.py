@@ -26,9 +26,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ._arrays import Array, at_rows, flattened
 from ._state import State
-
-Array = Any
 
 COARSEST, FINEST = 1, 9
 """Steps of the rule are 2**-COARSEST at first and 2**-FINEST at last."""
@@ -221,7 +220,7 @@ def mended(
     given = _Flat(a, c, constants, x, scale, rough, *values)
     x, scale, rough, *values = given.also
     rows = np.flatnonzero(rough)
-    held = _on(rows, given.constants)
+    held = at_rows(rows, given.constants)
     a, c = given.a[rows], given.c[rows]
     if "p" in fields:
         found: Any = (pressure_at(body, x[rows], a, c, **held),)
@@ -301,11 +300,6 @@ def _corners(
     for place, jump in zip(places, jumps, strict=True):
         if np.ndim(jump) or jump != 0:
             yield place, jump, np.maximum(a + place, 0.0), np.maximum(c - place, 0.0)
-
-
-def _on(rows: Any, constants: dict[str, Array]) -> dict[str, Array]:
-    """The constants of some elements."""
-    return {n: v[rows] if np.ndim(v) else v for n, v in constants.items()}
 
 
 # ---------------------------------------------------------------------- the rule
@@ -388,7 +382,7 @@ class _Contact(NamedTuple):
 
     def on(self, rows: Any) -> "_Contact":
         """The same for some elements."""
-        constants = _on(rows, self.constants)
+        constants = at_rows(rows, self.constants)
         return _Contact(
             self.body, constants, self.low[rows], self.high[rows], self.width[rows], rows
         )
@@ -477,14 +471,8 @@ class _Flat:
     """Arguments along one dimension, and the way back."""
 
     def __init__(self, a: Array, c: Array, constants: dict[str, Array], *also: Array) -> None:
-        varying = [n for n in constants if np.ndim(constants[n])]
-        given = (a, c, *also, *(constants[n] for n in varying))
-        self.shape = np.broadcast_shapes(*map(np.shape, given))
-        flat = [np.broadcast_to(v, self.shape).ravel() for v in given]
-        own = flat[2 + len(also) :]
-        self.a, self.c = flat[:2]
-        self.also = flat[2 : 2 + len(also)]
-        self.constants = constants | dict(zip(varying, own, strict=True))
+        flat, self.constants, self.shape = flattened((a, c, *also), constants)
+        self.a, self.c, *self.also = flat
 
     def shaped(self, value: Array) -> Array:
         """A result in the shape of the arguments."""

@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ._arrays import at_rows, flattened
 from ._nested import edges
 from ._roots import STEPS, Array, Rows, around, increasing_root
 from ._state import State
@@ -149,17 +150,12 @@ def _solved(
     also: tuple[Array, ...],
 ) -> Solution:
     """Broadcast, solve along one dimension, and give the result the broadcast shape."""
-    fixed = {n: v for n, v in constants.items() if not np.ndim(v)}
-    varying = [n for n in constants if n not in fixed]
-    given = (load, place, size, *also, *(constants[n] for n in varying), *breaks)
-    shape = np.broadcast_shapes(*map(np.shape, given))
-    load, place, size, *rest = (np.broadcast_to(v, shape).ravel() for v in given)
-    goal = condition(place, *rest[: len(also)])
-    arrays = dict(zip(varying, rest[len(also) :], strict=False))
-    cuts = rest[len(also) + len(varying) :]
+    flat, constants, shape = flattened((load, place, size, *also, *breaks), constants)
+    load, place, size, *rest = flat
+    goal, cuts = condition(place, *rest[: len(also)]), rest[len(also) :]
 
     def of(a: Array, c: Array, rows: Any) -> State:
-        return state(a, c, **fixed, **{n: v[rows] for n, v in arrays.items()})
+        return state(a, c, **at_rows(rows, constants))
 
     a, c = _newton(load, goal, size, of)
     now = of(a, c, slice(None))
@@ -267,13 +263,10 @@ def level(
     slope: g'(x) and g''(x), from x and the constants; g' grows with x.
     corners: places where g' jumps.
     """
-    given = (tilt, size, *corners, *constants.values())
-    shape = np.broadcast_shapes(*map(np.shape, given))
-    tilt, size, *rest = (np.broadcast_to(v, shape).ravel() for v in given)
-    places, held = rest[: len(corners)], dict(zip(constants, rest[len(corners) :], strict=True))
+    (tilt, size, *places), held, shape = flattened((tilt, size, *corners), constants)
 
     def excess(x: Array, rows: Rows) -> tuple[Array, Array]:
-        value, rate = slope(x, **{n: v[rows] for n, v in held.items()})
+        value, rate = slope(x, **at_rows(rows, held))
         return value + tilt[rows], rate
 
     everywhere = np.arange(tilt.size)
