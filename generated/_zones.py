@@ -140,12 +140,22 @@ class Task(NamedTuple):
         start, _ = self.slip_zone(side, slip)
         return [slip, *(side * place - start for place in self.kinks(self.rows))]
 
+    @property
+    def alike(self) -> Array:
+        """Whether the contact is the same at both ends of the cycle."""
+        return (self.a[0] == self.a[1]) & (self.c[0] == self.c[1])
+
     def sum_of_pressures(self, x: Array) -> Array:
         """p1 + p2; at a kink, where it may be infinite, nothing."""
         total = self.pressure(x, 0, self.rows)
-        alike = (self.a[0] == self.a[1]) & (self.c[0] == self.c[1])
-        total = 2 * total if np.all(alike) else total + self.pressure(x, 1, self.rows)
+        total = 2 * total if np.all(self.alike) else total + self.pressure(x, 1, self.rows)
         return np.where(total == np.inf, 0.0, total)
+
+
+def pulls(dQ: Array, dsigma: Array, stuck: Array) -> Pair:
+    """By how much shear and tension drive slip at both ends of what is stuck, its width given."""
+    by_tension = np.pi * stuck * dsigma / 8
+    return dQ + by_tension, dQ - by_tension
 
 
 def stick_between(task: Task, K_left: Array, K_right: Array) -> Pair:
@@ -174,12 +184,16 @@ def stick_between(task: Task, K_left: Array, K_right: Array) -> Pair:
 
 def _first_guess(task: Task, K_left: Array, K_right: Array) -> tuple[Array, Array]:
     """Slip zones K_T/(f K_N), drawn in so that they leave some stick between them."""
-    h, width = np.mean(task.a + task.c, axis=0), task.width
-    by_tension = np.pi * h * task.dsigma / 8
+    h = np.mean(task.a + task.c, axis=0)
     left, right = (
-        np.maximum(np.abs(pull) / (np.pi * np.sqrt(h) * task.f * K), LEAST_SLIP * width)
-        for pull, K in ((task.dQ + by_tension, K_left), (task.dQ - by_tension, K_right))
+        np.maximum(np.abs(pull) / (np.pi * np.sqrt(h) * task.f * K), LEAST_SLIP * task.width)
+        for pull, K in zip(pulls(task.dQ, task.dsigma, h), (K_left, K_right), strict=True)
     )
+    return drawn_in(task.width, left, right)
+
+
+def drawn_in(width: Array, left: Array, right: Array) -> Pair:
+    """Slip zones cut down in proportion, so that they leave some stick between them."""
     shrink = width / (width + left + right)
     return left * shrink, right * shrink
 
@@ -209,7 +223,7 @@ def _newton(task: Task, left: Array, right: Array, level: int) -> Pair:
     part, best = np.ones(rows.size), np.full(rows.size, np.inf)
     for _ in range(STEPS):
         here = task.on(rows)
-        tried = _moved(here.width, left, right, part * to_left, part * to_right)
+        tried = moved(here.width, left, right, part * to_left, part * to_right)
         now = _conditions(here, *tried, level)
         miss, (by_left, by_right) = now.miss, now.step(*tried)
         shrink = np.minimum(1, LONGEST / np.maximum(np.abs(by_left), np.abs(by_right)))
@@ -227,7 +241,7 @@ def _newton(task: Task, left: Array, right: Array, level: int) -> Pair:
         done = better & (length < np.maximum(SMALL, rounding))
         lost = stuck < here.least_stuck
         done, ahead = done | lost, np.where(lost, 0.0, 1.0)
-        last = _moved(here.width, left, right, ahead * to_left, ahead * to_right)
+        last = moved(here.width, left, right, ahead * to_left, ahead * to_right)
         found_left[rows[done]], found_right[rows[done]] = last[0][done], last[1][done]
         on = ~done & (best < np.inf) & (part > SHORTEST)
         rows, left, right, to_left, to_right, part, best = (
@@ -238,7 +252,7 @@ def _newton(task: Task, left: Array, right: Array, level: int) -> Pair:
     return found_left, found_right
 
 
-def _moved(width: Array, left: Array, right: Array, by_left: Array, by_right: Array) -> Pair:
+def moved(width: Array, left: Array, right: Array, by_left: Array, by_right: Array) -> Pair:
     """Slip zones whose logarithms over the stick zone have grown."""
     stuck = width - left - right
     over_left, over_right = left / stuck * np.exp(by_left), right / stuck * np.exp(by_right)
@@ -322,9 +336,9 @@ def _conditions(task: Task, left: Array, right: Array, level: int) -> _Condition
     at_left = _zone(task, -1, left, stuck, level)
     at_right = _zone(task, 1, right, stuck, level)
     kappa = task.sense * task.f
-    by_tension = np.pi * stuck * task.dsigma / 8
-    off_left = kappa * (at_left.near - at_right.far) - task.dQ - by_tension
-    off_right = kappa * (at_left.far - at_right.near) - task.dQ + by_tension
+    pull_left, pull_right = pulls(task.dQ, task.dsigma, stuck)
+    off_left = kappa * (at_left.near - at_right.far) - pull_left
+    off_right = kappa * (at_left.far - at_right.near) - pull_right
     skew = (off_right - off_left) / (2 * stuck)
     right_n = skew + stuck * kappa * (at_left.across - at_right.along) / 2
     left_m = -skew + stuck * kappa * (at_left.along - at_right.across) / 2

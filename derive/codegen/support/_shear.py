@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from ._arrays import Array, Flat, at_rows, contact_edges
-from ._stick import Law, stick_zone_of
+from ._stick import Law, stick_zone_of, task_between
 from ._types import Contact, Regime
 from ._zones import Task, bounded_change, parts_of
 
@@ -37,38 +37,16 @@ TOGETHER = 500
 
 
 @np.errstate(all="ignore")
-def shear_change_of(
-    law: Law,
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    **own: Array,
-) -> Array:
+def shear_change_of(law: Law, *args: Any, **given: Array) -> Array:
     """dq at x; zero outside both contacts, NaN where the stick zone is not known."""
-    cycle = _Known(law, x, first, second, dQ, dsigma, f, E_star, own)
+    cycle = _Known(law, *args, **given)
     return cycle.given.shaped(cycle.in_pieces(_Known.change))
 
 
 @np.errstate(all="ignore")
-def slip_range_of(
-    law: Law,
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    **own: Array,
-) -> Array:
+def slip_range_of(law: Law, *args: Any, **given: Array) -> Array:
     """How far the surfaces slip at x over the half-cycle; zero where they stick."""
-    cycle = _Known(law, x, first, second, dQ, dsigma, f, E_star, own)
+    cycle = _Known(law, *args, **given)
     return cycle.given.shaped(cycle.in_pieces(_Known.slip))
 
 
@@ -83,9 +61,10 @@ class _Known:
         second: Contact,
         dQ: Array,
         dsigma: Array,
+        *,
         f: Array,
         E_star: Array,
-        own: dict[str, Array],
+        **own: Array,
     ) -> None:
         edges = contact_edges(first, "first") | contact_edges(second, "second")
         values = {"x": x, **edges, "dQ": dQ, "dsigma": dsigma}
@@ -93,12 +72,10 @@ class _Known:
         zone = stick_zone_of(law, first, second, dQ, dsigma, f=f, E_star=E_star, **own)
         values |= {"m": zone.m, "n": zone.n, "regime": zone.regime}
         self.law, self.given = law, Flat(values, {"E_star": E_star, **own}, {"f": f})
-        self.x, a_1, c_1, a_2, c_2, self.dQ, self.dsigma, *known = self.given.values
-        self.m, self.n, self.regime, self.f = known
-        self.a, self.c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
-        self.opposite = self.regime == Regime.LARGE
-        self.sense = np.where(self.opposite & (self.dsigma < 0), -1.0, 1.0)
+        self.x, a_1, c_1, a_2, c_2, dQ, dsigma, self.m, self.n, self.regime, f = self.given.values
         self.constants = self.given.constants
+        a, c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
+        self.task = task_between(law, a, c, dQ, dsigma, f, self.constants)
 
     def in_pieces(self, of: Any) -> Array:
         """A result, so many elements at once."""
@@ -108,43 +85,29 @@ class _Known:
             found[rows] = of(self, rows)
         return found
 
-    def pressures(self, x: Array, rows: Array) -> Array:
-        """p1 + p2; at a kink, where it may be infinite, nothing."""
-        held = at_rows(rows, self.constants)
-        first, second = (
-            self.law.pressure(x, a[rows], c[rows], **held)
-            for a, c in zip(self.a, self.c, strict=True)
-        )
-        return np.where(first + second == np.inf, 0.0, first + second)
-
-    def kappa(self, side: int, rows: Array) -> Array:
+    def kappa(self, side: Array, rows: Array) -> Array:
         """Sense of slip on the left (side -1) or on the right (+1)."""
-        opposed = self.opposite[rows] & (side > 0)
-        return np.where(opposed, -self.sense[rows], self.sense[rows])
+        opposed = self.regime[rows] == Regime.LARGE
+        return np.where(opposed, -side * self.task.sense[rows], 1.0)
 
-    def zone(self, side: int, rows: Array) -> tuple[Array, Array, list[Array]]:
+    def zone(self, side: int, task: Task, rows: Array) -> tuple[Array, Array, list[Array]]:
         """Where a slip zone starts, outward; how long it is; where it is to be cut."""
-        start = (self.n if side > 0 else self.m)[rows]
-        edges = (self.c if side > 0 else self.a)[:, rows]
-        held = at_rows(rows, self.constants)
-        held.pop("E_star")
-        places = [side * place - start for place in self.law.kinks(**held)]
-        return start, np.max(edges, axis=0) - start, [*places, *(edges - start)]
+        end, smaller = (self.n, task.smaller_c) if side > 0 else (self.m, task.smaller_a)
+        slip = smaller - end[rows]
+        return *task.slip_zone(side, slip), task.cuts(side, slip)
 
     def change(self, rows: Array) -> Array:
         """dq at x."""
+        task, held = self.task.on(rows), at_rows(rows, self.constants)
         m, n, regime = self.m[rows], self.n[rows], self.regime[rows]
         x = self._beside_kinks(rows)
         side = np.where(x < (n - m) / 2, -1, 1)
         slips = (x >= n) | (x <= -m)
-        kappa = np.where(side > 0, self.kappa(1, rows), self.kappa(-1, rows))
-        sliding = kappa * self.f[rows] * self.pressures(x, rows)
-        held = at_rows(rows, self.constants)
-        patch = self.law.pressure(x, m, n, **held)
-        moderate = sliding - 2 * self.f[rows] * patch
-        stuck = np.where(regime == Regime.LARGE, self._bounded(rows), moderate)
-        alike = (self.a[0] == self.a[1]) & (self.c[0] == self.c[1])
-        still = (regime == Regime.FULL_STICK) & alike[rows]  # there is no shear at all
+        sliding = self.kappa(side, rows) * task.f * task.sum_of_pressures(x)
+        moderate = sliding - 2 * task.f * self.law.pressure(x, m, n, **held)
+        large = bounded_change(task, m, n, self.x[rows], LEVEL)
+        stuck = np.where(regime == Regime.LARGE, large, moderate)
+        still = (regime == Regime.FULL_STICK) & task.alike  # there is no shear at all
         found = np.where(slips, sliding, stuck)
         known = (regime == Regime.MODERATE) | (regime == Regime.LARGE)
         return np.where(still, 0.0, np.where(known, found, np.nan))
@@ -152,56 +115,39 @@ class _Known:
     def _beside_kinks(self, rows: Array) -> Array:
         """x, moved off a corner in the stick zone: p is infinite there, dq is not."""
         x, m, n = self.x[rows], self.m[rows], self.n[rows]
-        held = at_rows(rows, self.constants)
-        held.pop("E_star")
-        for place in self.law.kinks(**held):
+        for place in self.task.kinks(rows):
             there = (np.abs(x - place) < BESIDE * (m + n)) & (x > -m) & (x < n)
             x = np.where(there, place + BESIDE * (m + n), x)
         return x
 
-    def _bounded(self, rows: Array) -> Array:
-        """dq in the stick zone of large tension."""
-
-        def pressure(x: Array, of: int, some: Array) -> Array:
-            edges = self.a[of][some], self.c[of][some]
-            return self.law.pressure(x, *edges, **at_rows(some, self.constants))
-
-        def kinks(some: Array) -> tuple[Array, ...]:
-            held = at_rows(some, self.constants)
-            return self.law.kinks(**{name: v for name, v in held.items() if name != "E_star"})
-
-        a, c, dQ, dsigma = self.a[:, rows], self.c[:, rows], self.dQ[rows], self.dsigma[rows]
-        task = Task(a, c, dQ, dsigma, self.f[rows], rows, pressure, kinks)
-        return bounded_change(task, self.m[rows], self.n[rows], self.x[rows], LEVEL)
-
     def slip(self, rows: Array) -> Array:
         """Slip at x."""
+        task = self.task.on(rows)
         x, m, n, regime = self.x[rows], self.m[rows], self.n[rows], self.regime[rows]
         side = np.where(x < (n - m) / 2, -1, 1)
-        total = np.where(side > 0, self._slipped(1, rows), self._slipped(-1, rows))
+        total = np.where(side > 0, self._slipped(1, task, rows), self._slipped(-1, task, rows))
         known = (regime == Regime.MODERATE) | (regime == Regime.LARGE)
         sticks = ((x >= -m) & (x <= n)) | (regime == Regime.FULL_STICK)
-        a, c = np.min(self.a[:, rows], axis=0), np.min(self.c[:, rows], axis=0)
-        inside = (x >= -a) & (x <= c)
+        inside = (x >= -task.smaller_a) & (x <= task.smaller_c)
         found = np.where(sticks, 0.0, np.where(known, np.abs(total), np.nan))
         return np.where(inside & (regime > 0), found, np.nan)
 
-    def _slipped(self, side: int, rows: Array) -> Array:
+    def _slipped(self, side: int, task: Task, rows: Array) -> Array:
         """The integral of the rate of slip from the stick zone to x, to one side."""
         stuck = self.m[rows] + self.n[rows]
-        start, end, cuts = self.zone(side, rows)
+        start, end, cuts = self.zone(side, task, rows)
         there = np.clip(side * self.x[rows] - start, 0, end)
         total = 0.0
         for y, weight in parts_of(end, [*cuts, there], LEVEL):
-            force = self.kappa(side, rows) * self.pressures(side * (start + y), rows)
+            force = self.kappa(side, rows) * task.sum_of_pressures(side * (start + y))
             weighted = weight * force / np.sqrt(y * (y + stuck))
             total = total + np.sum(weighted * _between(there, y, stuck), axis=0)
-        start, end, cuts = self.zone(-side, rows)
+        start, end, cuts = self.zone(-side, task, rows)
         for y, weight in parts_of(end, cuts, LEVEL):
-            force = self.kappa(-side, rows) * self.pressures(-side * (start + y), rows)
+            force = self.kappa(-side, rows) * task.sum_of_pressures(-side * (start + y))
             weighted = weight * force / np.sqrt(y * (y + stuck))
             total = total - np.sum(weighted * _across(there, y, stuck), axis=0)
-        scale = 2 * self.f[rows] / (np.pi * at_rows(rows, self.constants)["E_star"])
+        scale = 2 * task.f / (np.pi * at_rows(rows, self.constants)["E_star"])
         return scale * total
 
 

@@ -12,12 +12,15 @@ has its own edges, so that varying loads need nothing more.  N follows from how 
 edge alone moves: N = -(2/5) (dL/dedge + K/(16 h**2)).
 """
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ._arrays import Array, Flat
+from ._stick import Law
 from ._types import Edges
+from ._zones import Pair, drawn_in, moved, pulls
 
 ORDERS = (1, 2, 3)
 
@@ -40,36 +43,18 @@ _EPS = 2.0**-52
 
 
 @np.errstate(all="ignore")
-def slip_zones_of(
-    law: Any,
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    da: Array,
-    dc: Array,
-    order: int,
-    **own: Array,
-) -> Edges:
+def slip_zones_of(law: Law, *args: Array, order: int, **given: Array) -> Edges:
     """Slip zones to an order, as seen from the contact [-a, c]."""
     demand_order(order, ORDERS)
-    task = _Task(law, a, c, dQ, dsigma, f, E_star, da, dc, own)
-    left, right = task.first_order()
-    if order > 1:
-        left, right = task.solved(left, right, order)
-    sound = task.exists & (left >= task.least_left) & (right >= task.least_right)
-    sound &= left + right < task.h
-    return Edges(*(task.given.shaped(np.where(sound, v, np.nan)) for v in (left, right)))
+    return _Series(law, *args, **given).zones(order)
 
 
-def slip_error_of(law: Any, *args: Array, order: int, **given: Array) -> Edges:
+@np.errstate(all="ignore")
+def slip_error_of(law: Law, *args: Array, order: int, **given: Array) -> Edges:
     """By how much the next order changes the slip zones."""
     demand_order(order, ORDERS[:-1])
-    now = slip_zones_of(law, *args, order=order, **given)
-    following = slip_zones_of(law, *args, order=order + 1, **given)
+    series = _Series(law, *args, **given)
+    now, following = series.zones(order), series.zones(order + 1)
     return Edges(*(np.abs(v - w) for v, w in zip(now, following, strict=True)))
 
 
@@ -81,28 +66,28 @@ def demand_order(order: Any, allowed: tuple[int, ...]) -> None:
         raise ValueError(f"order must be {words}; got {order!r:.60}")
 
 
-class _Task:
+class _Series:
     """One call: the contact as it is now, and as it is at the other end of the half-cycle."""
 
     def __init__(
         self,
-        law: Any,
+        law: Law,
         a: Array,
         c: Array,
         dQ: Array,
         dsigma: Array,
+        *,
         f: Array,
         E_star: Array,
         da: Array,
         dc: Array,
-        own: dict[str, Array],
+        **own: Array,
     ) -> None:
         values = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
         self.law = law
         self.given = Flat(values, {"E_star": E_star, **own}, {"f": f})
         self.a, self.c, self.dQ, self.dsigma, da, dc, self.f = self.given.values
         self.constants = self.given.constants
-        self.geometry = {n: v for n, v in self.constants.items() if n != "E_star"}
         self.da, self.dc, self.h = da, dc, self.a + self.c
         self.least_left, self.least_right = np.maximum(da, 0), np.maximum(dc, 0)
         self.varies = bool(np.any(da) or np.any(dc))
@@ -117,23 +102,36 @@ class _Task:
         return [now, (self.a - self.da, self.c - self.dc)] if self.varies else [now]
 
     @property
-    def pulls(self) -> tuple[Array, Array]:
+    def pulls(self) -> Pair:
         """pi sqrt(h) K_T at the left and the right edge."""
-        by_tension = np.pi * self.h * self.dsigma / 8
-        return self.dQ + by_tension, self.dQ - by_tension
+        return pulls(self.dQ, self.dsigma, self.h)
 
-    def first_order(self) -> tuple[Array, Array]:
+    def zones(self, order: int) -> Edges:
+        """To an order; NaN where slip does not reach in at both edges, or leaves no stick."""
+        left, right = self._first_order if order == 1 else self._solved(order)
+        sound = self.exists & (left >= self.least_left) & (right >= self.least_right)
+        sound &= left + right < self.h
+        return Edges(*(self.given.shaped(np.where(sound, v, np.nan)) for v in (left, right)))
+
+    @cached_property
+    def _K(self) -> list[Edges]:
+        return [self.law.K_N(*edges, **self.constants) for edges in self.contacts]
+
+    @cached_property
+    def _L(self) -> list[Edges]:
+        return [self.law.L_N(*edges, **self.constants) for edges in self.contacts]
+
+    @cached_property
+    def _first_order(self) -> Pair:
         """K_T/(f K_N), and half of what the contact has gained."""
-        K = self.law.K_N(self.a, self.c, **self.constants)
         scale = np.pi * np.sqrt(self.h) * self.f
-        left, right = (np.abs(v) / (scale * k) for v, k in zip(self.pulls, K, strict=True))
+        left, right = (np.abs(v) / (scale * k) for v, k in zip(self.pulls, self._K[0], strict=True))
         return left + self.da / 2, right + self.dc / 2
 
-    def coefficients(self, order: int) -> list[tuple[list[Array], list[Array]]]:
+    def _coefficients(self, order: int) -> list[tuple[list[Array], list[Array]]]:
         """K, L, ... at the left and the right edge, contact by contact."""
         found = []
-        for a, c in self.contacts:
-            K, L = (of(a, c, **self.constants) for of in (self.law.K_N, self.law.L_N))
+        for (a, c), K, L in zip(self.contacts, self._K, self._L, strict=True):
             left, right = [K.left, L.left], [K.right, L.right]
             if order > 2:
                 left.append(self._third(a, c, K.left, 0))
@@ -144,7 +142,7 @@ class _Task:
     def _third(self, a: Array, c: Array, K: Array, side: int) -> Array:
         h, place = a + c, (-a, c)[side]
         step = h
-        for kink in self.law.kinks(**self.geometry):
+        for kink in self.law.places(self.constants):
             step = np.minimum(step, np.abs(place - kink))
         step = APART * step
         more, less = (
@@ -153,16 +151,15 @@ class _Task:
         )
         return -0.4 * ((more[side] - less[side]) / (2 * step) + K / (16 * h**2))
 
-    def solved(self, left: Array, right: Array, order: int) -> tuple[Array, Array]:
+    def _solved(self, order: int) -> Pair:
         """Both conditions cut behind an order, by Newton's method from the first order."""
-        coefficients = self.coefficients(order)
+        coefficients, (left, right) = self._coefficients(order), self._first_order
         width = self.h - self.least_left - self.least_right
         kappa = [np.where(v < 0, -1.0, 1.0) * self.f for v in self.pulls]
         least = 1e-14 * width
         left = np.maximum(left - self.least_left, least)
         right = np.maximum(right - self.least_right, least)
-        shrink = width / (width + left + right)
-        left, right = left * shrink, right * shrink
+        left, right = drawn_in(width, left, right)
         done = np.full(left.shape, False)
         for _ in range(STEPS):
             stuck = width - left - right
@@ -175,10 +172,7 @@ class _Task:
             by_left, by_right = to_left / left + more, to_right / right + more
             length = np.maximum(np.abs(by_left), np.abs(by_right))
             shrink = np.minimum(1, LONGEST / length)
-            over_left = left / stuck * np.exp(shrink * by_left)
-            over_right = right / stuck * np.exp(shrink * by_right)
-            whole = 1 + over_left + over_right
-            left, right = width * over_left / whole, width * over_right / whole
+            left, right = moved(width, left, right, shrink * by_left, shrink * by_right)
             done = length < 1e-9 + 16 * _EPS * width / np.minimum(left, right)
             if np.all(done | ~np.isfinite(length)):
                 break
@@ -189,9 +183,8 @@ class _Task:
         self, coefficients: Any, kappa: list[Array], left: Array, right: Array, stuck: Array
     ) -> tuple[list[Array], list[list[Array]]]:
         """What is left over at both ends of the stick zone; its rates with both slip zones."""
-        by_tension = np.pi * stuck * self.dsigma / 8
         tension = np.pi * self.dsigma / 8
-        off = [-self.dQ - by_tension, -self.dQ + by_tension]
+        off = [-pull for pull in pulls(self.dQ, self.dsigma, stuck)]
         rates = [[tension, tension], [-tension, -tension]]
         share = 2 / len(coefficients)
         moves = [(self.least_left, self.least_right)]

@@ -29,7 +29,7 @@ import numpy as np
 from ._arrays import Array, Flat, at_rows, contact_edges
 from ._roots import around, increasing_root
 from ._types import Contact, Regime, StickZone, Threshold
-from ._zones import Task, bounded_change, force_rates, stick_between
+from ._zones import Task, bounded_change, force_rates, pulls, stick_between
 
 PARTS = 8
 """Parts of a half-cycle at which the growth of slip is tested."""
@@ -60,6 +60,18 @@ class Law(NamedTuple):
     L_N: Callable[..., Any]
     kinks: Callable[..., tuple[Array, ...]]
 
+    def tilt_of(self, a: Array, c: Array, constants: dict[str, Array]) -> Array:
+        """alpha; of all constants those that are the profile's."""
+        return self.tilt(a, c, **_profile(constants))
+
+    def places(self, constants: dict[str, Array]) -> tuple[Array, ...]:
+        """Where its kinks are."""
+        return self.kinks(**_profile(constants))
+
+
+def _profile(constants: dict[str, Array]) -> dict[str, Array]:
+    return {name: value for name, value in constants.items() if name != "E_star"}
+
 
 @np.errstate(all="ignore")
 def stick_zone_of(
@@ -78,7 +90,7 @@ def stick_zone_of(
     regime = np.full(cycle.dQ.shape, Regime.NONE)
     m, n = np.full(regime.shape, np.nan), np.full(regime.shape, np.nan)
 
-    open_ = cycle.exists
+    cycle, open_ = cycle.followed(), cycle.exists
     regime[open_] = Regime.MIXED
     for code, found in (
         (Regime.SLIDING, _sliding),
@@ -114,11 +126,12 @@ def tension_threshold_of(
     """The changes of tension between which the moderate solution is exact."""
     cycle, given = _cycle(law, first, second, dQ, 0.0, f, E_star, own)
     lower, upper = cycle.tensions_at_the_start
-    good = cycle.exists & (lower <= upper) & (cycle.dQ < cycle.f * np.sum(cycle.load, axis=0))
+    good = cycle.exists & (lower <= upper) & (cycle.dQ < cycle.limit)
     lower, upper = np.where(good, lower, np.nan), np.where(good, upper, np.nan)
     rows = np.flatnonzero(good & ~cycle.steady)
     if rows.size:
-        lower[rows], upper[rows] = _narrowed(cycle.on(rows), lower[rows], upper[rows])
+        there = cycle.on(rows).followed()
+        lower[rows], upper[rows] = _narrowed(there, lower[rows], upper[rows])
     return Threshold(given.shaped(lower), given.shaped(upper))
 
 
@@ -141,7 +154,7 @@ def closing_tension_of(
     for edge, sense in ((np.min(cycle.a, axis=0), -1), (np.min(cycle.c, axis=0), 1)):
         width = _width_under(cycle, load, edge, sense)
         a, c = (width - edge, edge) if sense > 0 else (edge, width - edge)
-        leaning = law.tilt(a, c, **cycle.geometry)
+        leaning = law.tilt_of(a, c, cycle.constants)
         found.append(4 * cycle.f * cycle.constants["E_star"] * (tilt - leaning))
     lower, upper = (np.where(cycle.exists & (load > 0), v, np.nan) for v in found)
     return Threshold(given.shaped(lower), given.shaped(upper))
@@ -168,6 +181,7 @@ class _Cycle:
     """A body, two contacts, and the changes of shear and tension from the first to the second.
 
     a, c: edges, two rows, one a contact; all arrays have one length.
+    way: a, c and tilt at every part of the way, once it is followed.
     """
 
     law: Law
@@ -180,11 +194,7 @@ class _Cycle:
     load: Array
     moment: Array
     tilt: Array
-
-    @property
-    def geometry(self) -> dict[str, Array]:
-        """The body's own constants."""
-        return {name: value for name, value in self.constants.items() if name != "E_star"}
+    way: Array
 
     @property
     def exists(self) -> Array:
@@ -196,18 +206,27 @@ class _Cycle:
     @property
     def steady(self) -> Array:
         """Whether the contact is the same at both ends."""
-        return (self.a[0] == self.a[1]) & (self.c[0] == self.c[1])
+        return self.task.alike
+
+    @property
+    def limit(self) -> Array:
+        """The change of shear from which on all slides."""
+        return self.f * (self.load[0] + self.load[1])
+
+    @property
+    def task(self) -> Task:
+        """It as the solver of large tension is told of it."""
+        return task_between(self.law, self.a, self.c, self.dQ, self.dsigma, self.f, self.constants)
 
     def on(self, rows: Array) -> "_Cycle":
         """The same for some elements."""
-        arrays = ("a", "c", "dQ", "dsigma", "f", "load", "moment", "tilt")
+        arrays = ("a", "c", "dQ", "dsigma", "f", "load", "moment", "tilt", "way")
         picked = {name: getattr(self, name)[..., rows] for name in arrays}
         return replace(self, constants=at_rows(rows, self.constants), **picked)
 
     def pulls(self, stuck: Array) -> tuple[Array, Array]:
         """By how much shear and tension drive slip at the left and the right edge."""
-        by_tension = np.pi * stuck * self.dsigma / 8
-        return self.dQ + by_tension, self.dQ - by_tension
+        return pulls(self.dQ, self.dsigma, stuck)
 
     def leads(self, stuck: Array, a: Array, c: Array) -> tuple[Array, Array]:
         """By how much the loads drive the left and the right edge of the contact [-a, c]."""
@@ -250,17 +269,17 @@ class _Cycle:
         (left_1, right_1), (left_2, right_2) = bounds
         return -np.minimum(left_1, left_2), np.minimum(right_1, right_2)
 
-    def contacts(self) -> tuple[Array, Array]:
-        """Edges at every part of the way, those of the ends as given."""
-        part = np.linspace(0, 1, PARTS + 1)[:, None]
-        inside = part[1:-1]
-        loads = self.load[0] + inside * (self.load[1] - self.load[0])
-        moments = self.moment[0] + inside * (self.moment[1] - self.moment[0])
-        found = self.law.contact(loads, moments, **self.constants)
-        return tuple(
-            np.concatenate([v[:1], between, v[1:]])
-            for v, between in ((self.a, found.a), (self.c, found.c))
-        )  # type: ignore[return-value]
+    def followed(self) -> "_Cycle":
+        """The same with the contacts on its way, where they vary."""
+        rows = np.flatnonzero(~self.steady)
+        if not rows.size:
+            return self
+        part = np.linspace(0, 1, PARTS + 1)[1:-1, None]
+        P, M = (v[0, rows] + part * (v[1] - v[0])[rows] for v in (self.load, self.moment))
+        way = np.full((3, PARTS + 1, self.dQ.size), np.nan)
+        way[:, 1:-1, rows] = self.law.contact(P, M, **at_rows(rows, self.constants))
+        way[:, [0, -1]] = self.a, self.c, self.tilt
+        return replace(self, way=way)
 
 
 def _cycle(
@@ -280,8 +299,8 @@ def _cycle(
     a, c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
     constants = given.constants
     load, moment = law.load(a, c, **constants), law.moment(a, c, **constants)
-    tilt = law.tilt(a, c, **{name: value for name, value in constants.items() if name != "E_star"})
-    return _Cycle(law, a, c, dQ, dsigma, f, constants, load, moment, tilt), given
+    tilt, way = law.tilt_of(a, c, constants), np.empty((3, 0, dQ.size))
+    return _Cycle(law, a, c, dQ, dsigma, f, constants, load, moment, tilt, way), given
 
 
 # ---------------------------------------------------------------------- the regimes
@@ -291,20 +310,18 @@ Found = tuple[Array, Array, Array]
 
 
 def _sliding(cycle: _Cycle) -> Found:
-    limit = cycle.f * (cycle.load[0] + cycle.load[1])
-    nowhere = np.full_like(limit, np.nan)
-    return ~(cycle.dQ < limit), nowhere, nowhere
+    nowhere = np.full_like(cycle.dQ, np.nan)
+    return ~(cycle.dQ < cycle.limit), nowhere, nowhere
 
 
 def _full_stick(cycle: _Cycle) -> Found:
     """An edge that turns back on the way, lead = 0, could not bear any shear there."""
     a, c = np.minimum(*cycle.a), np.minimum(*cycle.c)
-    unloaded = (cycle.dQ == 0) & (cycle.dsigma == 0)
-    sticks = unloaded.copy()
+    sticks = (cycle.dQ == 0) & (cycle.dsigma == 0)
     rows = np.flatnonzero(~cycle.steady)
     if rows.size:
         there = cycle.on(rows)
-        edges = there.contacts()
+        edges = there.way[:2]
         h = edges[0] + edges[1]
         held = True
         for pull, lead in zip(there.pulls(h), there.leads(h, *edges), strict=True):
@@ -333,8 +350,7 @@ def _patch(cycle: _Cycle, loads: Any, tilts: Any, part: Array) -> Contact:
 
 def _grows(cycle: _Cycle) -> Array:
     """Whether moderate slip goes on at every part of the way, from both ends."""
-    a, c = cycle.contacts()
-    tilt = cycle.law.tilt(a, c, **cycle.geometry)
+    a, c, tilt = cycle.way
     part = np.linspace(0, 1, PARTS + 1)[1:, None]
     grows = True
     for end, sense, there in ((0, 1, slice(1, None)), (1, -1, slice(-2, None, -1))):
@@ -361,7 +377,7 @@ def _large(cycle: _Cycle) -> Found:
     rows = np.flatnonzero(slips)
     if rows.size:
         there = cycle.on(rows)
-        m[rows], n[rows] = _solved(there, there.a, there.c, 1.0)
+        m[rows], n[rows] = _solved(there, there.task)
         stuck = m + n
         slips &= ~(np.pi * stuck * np.abs(cycle.dsigma) / 8 < cycle.dQ)
         slips &= ~np.isfinite(m) | cycle.holds_at_the_start(sense, -sense, m, n) | cycle.steady
@@ -386,44 +402,48 @@ def _overtaken(cycle: _Cycle) -> tuple[Array, Array]:
     return np.where(exact, patch.a, np.nan), np.where(exact, patch.c, np.nan)
 
 
-def _solved(cycle: _Cycle, a: Array, c: Array, part: float) -> tuple[Array, Array]:
-    """m and n of large tension between two contacts, at a part of the changes."""
-    K = cycle.law.K_N(a, c, **cycle.constants)
-    K_left, K_right = np.mean(K.left, axis=0), np.mean(K.right, axis=0)
-    return stick_between(_task(cycle, a, c, part), K_left, K_right)
+def _solved(cycle: _Cycle, task: Task) -> tuple[Array, Array]:
+    """m and n of large tension."""
+    K = cycle.law.K_N(task.a, task.c, **cycle.constants)
+    return stick_between(task, np.mean(K.left, axis=0), np.mean(K.right, axis=0))
 
 
-def _task(cycle: _Cycle, a: Array, c: Array, part: float) -> Task:
-    """What the solver of large tension is told."""
+def task_between(
+    law: Law, a: Array, c: Array, dQ: Array, dsigma: Array, f: Array, constants: dict[str, Array]
+) -> Task:
+    """Cycles between two contacts of a body, the rows of a and c."""
 
     def pressure(x: Array, of: int, rows: Array) -> Array:
-        edges = a[of][rows], c[of][rows]
-        return cycle.law.pressure(x, *edges, **at_rows(rows, cycle.constants))
+        return law.pressure(x, a[of][rows], c[of][rows], **at_rows(rows, constants))
 
     def kinks(rows: Array) -> tuple[Array, ...]:
-        return cycle.law.kinks(**at_rows(rows, cycle.geometry))
+        return law.places(at_rows(rows, constants))
 
-    dQ, dsigma = part * cycle.dQ, part * cycle.dsigma
-    return Task(a, c, dQ, dsigma, cycle.f, np.arange(dQ.size), pressure, kinks)
+    return Task(a, c, dQ, dsigma, f, np.arange(dQ.size), pressure, kinks)
 
 
 def _grows_apart(cycle: _Cycle, m: Array, n: Array) -> Array:
     """Whether slip of opposite signs goes on at every part of the way, from both ends."""
-    a, c = cycle.contacts()
+    a, c, _ = cycle.way
     grows = np.full(m.shape, True)
     for end, order in ((0, range(1, PARTS)), (-1, range(PARTS - 1, 0, -1))):
         before = a[end], c[end]
         for k in order:
             part = k / PARTS if end == 0 else 1 - k / PARTS
-            ends = np.stack([a[end], a[k]]), np.stack([c[end], c[k]])
-            now = _solved(cycle, *ends, part)
+            task = replace(
+                cycle,
+                a=a[[end, k]],
+                c=c[[end, k]],
+                dQ=part * cycle.dQ,
+                dsigma=part * cycle.dsigma,
+            ).task
+            now = _solved(cycle, task)
             for edge, last, limit in zip(now, before, (a[k], c[k]), strict=True):
                 grows &= (edge <= last) & (edge <= limit)
             grows &= _still_driven(cycle, now, a[k], c[k], 1 if end == 0 else -1)
             rows = np.flatnonzero(grows)
-            task = _task(cycle, *ends, part).on(rows)
             now_here, whole = (tuple(v[rows] for v in zone) for zone in (now, (m, n)))
-            grows[rows] &= _within_friction(task, now_here, whole)
+            grows[rows] &= _within_friction(task.on(rows), now_here, whole)
             before = now
         grows &= (m <= before[0]) & (n <= before[1])
         last = (a[-1], c[-1], 1) if end == 0 else (a[0], c[0], -1)
