@@ -100,7 +100,7 @@ _USED_BESIDES = (
         "mended",
         "now",
     ),
-    *("Array", "exists", "first", "second", "order"),
+    *("Array", "exists", "first", "second", "order", "mixed"),
     *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure"),
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),
     *("Contact", "Edges", "StickZone", "Threshold", "Regime", "March", "Law"),

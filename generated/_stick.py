@@ -29,6 +29,7 @@ import numpy as np
 
 from ._arrays import Array, Flat, at_rows, contact_edges
 from ._roots import around, increasing_root
+from ._turning import turning_zone
 from ._types import Contact, Regime, StickZone, Threshold
 from ._zones import Task, bounded_change, force_rates, pulls, stick_between
 
@@ -84,9 +85,13 @@ def stick_zone_of(
     *,
     f: Array,
     E_star: Array,
+    mixed: bool = False,
     **own: Array,
 ) -> StickZone:
-    """The stick zone of a cycle between two contacts of one body."""
+    """The stick zone of a cycle between two contacts of one body.
+
+    mixed: solve cycles in which slip turns round, too, if their normal loads are constant.
+    """
     cycle, given = _cycle(law, first, second, dQ, dsigma, f, E_star, own)
     regime = np.full(cycle.dQ.shape, Regime.NONE)
     m, n = np.full(regime.shape, np.nan), np.full(regime.shape, np.nan)
@@ -108,6 +113,9 @@ def stick_zone_of(
     rows = np.flatnonzero((regime == Regime.MIXED) & cycle.steady)
     if rows.size:
         m[rows], n[rows] = _overtaken(cycle.on(rows))
+    rows = rows[np.isnan(m[rows])] if mixed else rows[:0]
+    if rows.size:
+        m[rows], n[rows] = _turning(cycle.on(rows))
     unsolved = (regime == Regime.LARGE) & ~np.isfinite(m)
     regime[unsolved] = Regime.UNSOLVED
     return StickZone(*(given.shaped(v) for v in (m, n, regime)))
@@ -401,6 +409,24 @@ def _overtaken(cycle: _Cycle) -> tuple[Array, Array]:
     inside = (patch.a <= cycle.a[0]) & (patch.c <= cycle.c[0])
     exact = inside & (np.pi * whole * np.abs(cycle.dsigma) / 8 <= cycle.dQ)
     return np.where(exact, patch.a, np.nan), np.where(exact, patch.c, np.nan)
+
+
+def _turning(cycle: _Cycle) -> tuple[Array, Array]:
+    """m and n where slip turns round at constant loads; seen so that dsigma > 0."""
+    own, back = cycle.task, cycle.dsigma < 0
+    sense = np.where(back, -1.0, 1.0)
+
+    def pressure(x: Array, of: int, rows: Array) -> Array:
+        return own.pressure(sense[rows] * x, of, rows)
+
+    def kinks(rows: Array) -> tuple[Array, ...]:
+        return tuple(sense[rows] * place for place in own.kinks(rows))
+
+    a, c = np.where(back, own.c, own.a), np.where(back, own.a, own.c)
+    seen = own._replace(a=a, c=c, dsigma=np.abs(own.dsigma), pressure=pressure, kinks=kinks)
+    patch = _patch(cycle, cycle.load, cycle.tilt, 1.0)
+    left, right = turning_zone(seen, sense * (patch.c - patch.a) / 2)
+    return np.where(back, right, left), np.where(back, left, right)
 
 
 def _solved(cycle: _Cycle, task: Task) -> tuple[Array, Array]:

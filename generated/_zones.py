@@ -168,7 +168,7 @@ def stick_between(task: Task, K_left: Array, K_right: Array) -> Pair:
     rows = task.rows
     for level in range(COARSEST, FINEST + 1):
         here, last_left, last_right = task.on(rows), left, right
-        left, right = _by_one_rule(here, left, right, level)
+        left, right = _by_onerule(here, left, right, level)
         rounding = 16 * _EPS * here.width
         agreed = np.abs(left - last_left) <= AGREED * left + rounding
         agreed &= np.abs(right - last_right) <= AGREED * right + rounding
@@ -198,12 +198,12 @@ def drawn_in(width: Array, left: Array, right: Array) -> Pair:
     return left * shrink, right * shrink
 
 
-def _by_one_rule(task: Task, left: Array, right: Array, level: int) -> Pair:
+def _by_onerule(task: Task, left: Array, right: Array, level: int) -> Pair:
     """The slip zones by one rule: by Newton's method, else in turns; NaN if by neither."""
     left, right = left.copy(), right.copy()
     for start in range(0, left.size, TOGETHER):
         rows = np.arange(start, min(start + TOGETHER, left.size))
-        left[rows], right[rows] = _newton(task.on(rows), left[rows], right[rows], level)
+        left[rows], right[rows] = by_newton(task.on(rows), left[rows], right[rows], level)
     lost = np.flatnonzero(~np.isfinite(left))
     for start in range(0, lost.size, TOGETHER):
         rows = lost[start : start + TOGETHER]
@@ -211,7 +211,7 @@ def _by_one_rule(task: Task, left: Array, right: Array, level: int) -> Pair:
     return left, right
 
 
-def _newton(task: Task, left: Array, right: Array, level: int) -> Pair:
+def by_newton(task: Task, left: Array, right: Array, level: int) -> Pair:
     """The slip zones by Newton's method; NaN where the iteration does not end.
 
     A step is taken from `left` and `right` along `to_left` and `to_right`, rates of the logarithms
@@ -333,8 +333,8 @@ class _Conditions(NamedTuple):
 def _conditions(task: Task, left: Array, right: Array, level: int) -> _Conditions:
     """Both conditions at slip zones of these lengths."""
     stuck = task.width - left - right
-    at_left = _zone(task, -1, left, stuck, level)
-    at_right = _zone(task, 1, right, stuck, level)
+    at_left = integrals(task, -1, left, stuck, level)
+    at_right = integrals(task, 1, right, stuck, level)
     kappa = task.sense * task.f
     pull_left, pull_right = pulls(task.dQ, task.dsigma, stuck)
     off_left = kappa * (at_left.near - at_right.far) - pull_left
@@ -345,7 +345,7 @@ def _conditions(task: Task, left: Array, right: Array, level: int) -> _Condition
     return _Conditions(task.sense, stuck, off_left, off_right, skew, right_n, left_m)
 
 
-class _Zone(NamedTuple):
+class Zone(NamedTuple):
     """Integrals of p1 + p2 over one slip zone, y its distance from the stick zone.
 
     near    int p sqrt((h_s + y)/y) dy
@@ -360,7 +360,7 @@ class _Zone(NamedTuple):
     across: Array
 
 
-def _zone(task: Task, side: int, slip: Array, stuck: Array, level: int) -> _Zone:
+def integrals(task: Task, side: int, slip: Array, stuck: Array, level: int) -> Zone:
     """The integrals over the slip zone on the left (side -1) or on the right (+1)."""
     start, end = task.slip_zone(side, slip)
     at_start = task.sum_of_pressures(side * start) / np.sqrt(stuck)
@@ -375,18 +375,21 @@ def _zone(task: Task, side: int, slip: Array, stuck: Array, level: int) -> _Zone
         change = part / np.sqrt(beyond) - weight * at_start
         far_off = y > _NEAREST * end
         along = along + np.sum(np.where(far_off, change / (y * np.sqrt(y)), 0.0), axis=0)
-    return _Zone(near, far, along, across)
+    return Zone(near, far, along, across)
 
 
 def bounded_change(task: Task, m: Array, n: Array, x: Array, level: int) -> Array:
-    """dq at x in the stick zone [-m, n]:  sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi."""
+    """dq at x in the stick zone [-m, n]:  sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi.
+
+    x: a place of each element, or a column of them.
+    """
     total, stuck = 0.0, m + n
     for side, end, smaller in ((-1, m, task.smaller_a), (1, n, task.smaller_c)):
-        slip, away = smaller - end, end - side * x
+        slip, away = smaller - end, (end - side * x)[..., None, :]
         start, length = task.slip_zone(side, slip)
         for y, weight in parts_of(length, task.cuts(side, slip), level):
-            force = weight * task.sum_of_pressures(side * (start + y))
-            total = total - side * np.sum(force / (np.sqrt(y * (y + stuck)) * (y + away)), axis=0)
+            force = weight * task.sum_of_pressures(side * (start + y)) / np.sqrt(y * (y + stuck))
+            total = total - side * np.sum(force / (y + away), axis=-2)
     return task.sense * task.f * np.sqrt((x + m) * (n - x)) / np.pi * total
 
 
@@ -396,7 +399,7 @@ def force_rates(slip: Array, stuck: Array, h: Array, own: Array, other: Array) -
     dp = (own (h - s) + other s)/(pi h sqrt(s (h - s))) as the loads go on, s the distance from the
     zone's edge; `own` and `other` say how fast this edge and the other one are driven.
     """
-    q, weight = _rule(FINEST - 1)
+    q, weight = rule(FINEST - 1)
     y, s = slip * q, slip * q[::-1]
     dp = (own * (h - s) + other * s) / (np.pi * h * np.sqrt(s * (h - s)))
     force = weight * slip * dp
@@ -408,7 +411,7 @@ def parts_of(end: Array, cuts: list[Array], level: int) -> Iterator[tuple[Array,
     """Nodes, as columns, and weights of the rule on (0, end), part by part between the cuts."""
     inside = [np.clip(cut, 0, end) for cut in cuts]
     ends = np.sort(np.stack([0 * end, *inside, end]), axis=0)
-    q, weight = _rule(level)
+    q, weight = rule(level)
     for low, high in pairwise(ends):
         length = high - low
         if np.any(length > 0):
@@ -416,7 +419,7 @@ def parts_of(end: Array, cuts: list[Array], level: int) -> Iterator[tuple[Array,
 
 
 @cache
-def _rule(level: int) -> tuple[Array, Array]:
+def rule(level: int) -> tuple[Array, Array]:
     """Nodes q and weights on (0, 1) as columns: q = 1/(1 + exp(-pi sinh t))."""
     step = 2.0**-level
     count = int(REACH / step)

@@ -496,6 +496,7 @@ def stick_zone(
     E_star: Array,
     L: Array,
     k: Array,
+    mixed: bool = False,
 ) -> StickZone:
     """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
 
@@ -514,11 +515,13 @@ def stick_zone(
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
         k       exponent, above one [-]
+        mixed   whether to solve cycles in which slip turns round, too, to 1e-7 of the width; takes
+                far longer
 
     Returns StickZone(m [m], n [m], regime as a code of Regime).
     NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
-    MIXED, they are given if the loads are constant and forward slip overtakes it in the end; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
+    or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/power.py.
 
     >>> law = dict(E_star=1.0, L=1.0, k=2.0)
@@ -529,7 +532,7 @@ def stick_zone(
     >>> f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     '1.07718'
     """
-    return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, L=L, k=k)
+    return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, L=L, k=k, mixed=mixed)
 
 
 def tension_threshold(

@@ -461,6 +461,7 @@ def stick_zone(
     E_star: Array,
     phi_1: Array,
     phi_2: Array,
+    mixed: bool = False,
 ) -> StickZone:
     """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
 
@@ -479,11 +480,13 @@ def stick_zone(
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
+        mixed   whether to solve cycles in which slip turns round, too, to 1e-7 of the width; takes
+                far longer
 
     Returns StickZone(m [m], n [m], regime as a code of Regime).
     NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
-    MIXED, they are given if the loads are constant and forward slip overtakes it in the end; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
+    or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/unequal_wedge.py.
 
     >>> law = dict(E_star=1.0, phi_1=0.125, phi_2=0.125)
@@ -495,7 +498,7 @@ def stick_zone(
     '0.134093'
     """
     return stick_zone_of(
-        _LAW, first, second, dQ, dsigma, f=f, E_star=E_star, phi_1=phi_1, phi_2=phi_2
+        _LAW, first, second, dQ, dsigma, f=f, E_star=E_star, phi_1=phi_1, phi_2=phi_2, mixed=mixed
     )
 
 

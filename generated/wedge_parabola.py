@@ -623,6 +623,7 @@ def stick_zone(
     E_star: Array,
     R: Array,
     phi: Array,
+    mixed: bool = False,
 ) -> StickZone:
     """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
 
@@ -641,11 +642,13 @@ def stick_zone(
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature on the right [m]
         phi     slope of the left flank [rad]
+        mixed   whether to solve cycles in which slip turns round, too, to 1e-7 of the width; takes
+                far longer
 
     Returns StickZone(m [m], n [m], regime as a code of Regime).
     NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
-    MIXED, they are given if the loads are constant and forward slip overtakes it in the end; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
+    or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/wedge_parabola.py.
 
     >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
@@ -656,7 +659,9 @@ def stick_zone(
     >>> f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
     '0.467937'
     """
-    return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, phi=phi)
+    return stick_zone_of(
+        _LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, phi=phi, mixed=mixed
+    )
 
 
 def tension_threshold(

@@ -53,8 +53,13 @@ _MEANINGS = {
     "da": "how much further the left edge reaches than at the other end of the half-cycle [m]",
     "dc": "how much further the right edge reaches [m]",
     "order": "order of the series; march takes 0 for the exact conditions",
+    "mixed": "whether to solve cycles in which slip turns round, too, to 1e-7 of the width; takes "
+    "far longer",
 }
 """What is no symbol of the theory, in words."""
+
+_TYPES = {"order": "int", "mixed": "bool"}
+"""Options that are no arrays."""
 
 _BETWEEN: tuple[Symbol | str, ...] = ("first", "second", dQ, dsigma)
 _EDGES: tuple[Symbol | str, ...] = (a, c, dQ, dsigma)
@@ -74,8 +79,10 @@ CYCLE: tuple[CycleFunction, ...] = (
         ),
         "StickZone(m [m], n [m], regime as a code of Regime)",
         "the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle, "
-        "MIXED, they are given if the loads are constant and forward slip overtakes it in the end",
+        "MIXED, they are given if the normal loads are constant and forward slip overtakes it in "
+        "the end, or if `mixed` asks for them",
         "StickZone",
+        (("mixed", "False"),),
     ),
     CycleFunction(
         "tension_threshold",
@@ -179,8 +186,7 @@ class CycleText:
         kinds = ["Contact" if name in ("first", "second") else "Array" for name in names]
         taken = ", ".join(f"{n}: {kind}" for n, kind in zip(names, kinds, strict=True))
         optional = "".join(
-            f", {n}: {'int' if n == 'order' else 'Array'} = {default}"
-            for n, default in self.function.optional
+            f", {n}: {_TYPES.get(n, 'Array')} = {default}" for n, default in self.function.optional
         )
         passed = "".join(f", {n}={n}" for n, _ in self.function.optional)
         return "\n".join(

@@ -181,6 +181,21 @@ OURS = (
         (0.0, 0.0),
         (0.3, 3.0),
     ),
+    _own(
+        "cylinder, tilted, slip turns round",
+        ("hertz", _parabola, {"R": 1.0}),
+        (0.75, 0.75),
+        (0.1, 0.1),
+        (0.5, 1.1),
+    ),
+    _own(
+        "two radii, slip turns round",
+        ("two_radii", _two_radii, {"R_1": 0.75, "R_2": 1.5}),
+        (1.0, 1.0),
+        (0.0, 0.0),
+        (0.7, -1.1),
+        (0.0,),
+    ),
 )
 
 EVERY = PAPER + OURS

@@ -35,7 +35,7 @@ def row(case: Compared, counts: Sequence[int] = COUNTS, steps: Sequence[int] = S
     first, second = case.contacts
     shear, tension = case.changes
     given = {"f": F, **case.law}
-    zone = case.module.stick_zone(first, second, shear, tension, **given)
+    zone = case.module.stick_zone(first, second, shear, tension, **given, mixed=True)
     moved = {"da": second.a - first.a, "dc": second.c - first.c}
     orders = [
         case.module.slip_zones(second.a, second.c, shear, tension, **given, **moved, order=order)

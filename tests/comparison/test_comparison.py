@@ -14,7 +14,10 @@ EACH = pytest.mark.parametrize("case", EVERY, ids=lambda case: case.name)
 def test_the_regime_is_that_of_its_name(case: Compared) -> None:
     first, second = case.contacts
     zone = case.module.stick_zone(first, second, *case.changes, f=F, **case.law)
-    assert zone.regime == (Regime.LARGE if "large" in case.name else Regime.MODERATE)
+    known = {"large": Regime.LARGE, "turns round": Regime.MIXED}
+    named = [regime for words, regime in known.items() if words in case.name]
+    assert zone.regime == (named or [Regime.MODERATE])[0]
+    assert np.isnan(zone.m) == ("turns round" in case.name)
 
 
 @pytest.mark.slow
@@ -23,7 +26,8 @@ def test_solver_and_exact_conditions_agree(case: Compared) -> None:
     found = row(case, (12, 24, 48), (4, 8, 16))
     off = np.abs(np.subtract(found.solver, found.exact))
     assert np.all(off <= found.error)
-    assert np.all(np.array(found.error) < 1e-3)
+    fine = 1e-2 if "turns round" in case.name else 1e-3  # there one zone is a few elements long
+    assert np.all(np.array(found.error) < fine)
 
 
 @pytest.mark.slow

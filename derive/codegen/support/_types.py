@@ -28,8 +28,9 @@ class Regime(IntEnum):
     NONE        there is no such cycle, or one of its numbers is none
     MODERATE    forward slip at both edges: m and n are exact
     LARGE       slip of opposite signs at the edges: m and n are exact
-    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, but for
-                constant loads where forward slip overtakes it in the end: there they are exact
+    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, but exact
+                for constant loads where forward slip overtakes it in the end, or where
+                stick_zone is asked to solve these cycles, too
     SLIDING     nothing sticks: m and n are NaN
     FULL_STICK  nothing slips: m and n are those of the smaller contact
     UNSOLVED    the iteration did not end: m and n are NaN
