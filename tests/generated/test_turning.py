@@ -64,7 +64,7 @@ def test_another_solution_finds_the_same(
     shares no line with the package, and agrees with the boundary-element solver."""
     zone = zone_of(name, a, c, dQ, tension)
     assert zone.regime == Regime.MIXED
-    here, shear, change = cycle(name, a, c, dQ, tension)
+    _, shear, change = cycle(name, a, c, dQ, tension)
     body, law = module(name), {"E_star": E_STAR, **OWN[name]}
     patch = Patch(a, c, partial(body.pressure, a=a, c=c, **law))
     P, M = (float(of(a, c, **law)) for of in (body.load, body.moment))
