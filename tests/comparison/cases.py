@@ -181,6 +181,9 @@ OURS = (
         (0.0, 0.0),
         (0.3, 3.0),
     ),
+    _wedge("wedge, slip turns round, 1.02", 0.3, 1.02),
+    _wedge("wedge, slip turns round, 1.08", 0.3, 1.08),
+    _wedge("wedge, slip turns round, 1.15", 0.3, 1.15),
     _own(
         "cylinder, tilted, slip turns round",
         ("hertz", _parabola, {"R": 1.0}),

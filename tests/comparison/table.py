@@ -75,6 +75,8 @@ def markdown(rows: Iterable[Row]) -> str:
         "`+-` is its own estimate of its error.  Slip zones are those of the contact at the end of",
         "the half-cycle; the series' columns tell by how much they are off from the exact one.",
         "`printed` is the first order with the K_T of a symmetric contact, as the paper prints it.",
+        "Where slip turns round inside the half-cycle the series know nothing of it: they take it for",
+        "moderate or large tension, by the sign of K_T, and may have no solution.",
         "",
         "| cycle | edge | solver | +- | exact | solver off | printed | order 1 | order 2 |",
         "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
@@ -92,6 +94,8 @@ def markdown(rows: Iterable[Row]) -> str:
 
 
 def _percent(part: float) -> str:
+    if np.isnan(part):
+        return "none"
     return f"{100 * part:.2g} %" if abs(part) > 1e-9 else "0 %"
 
 
