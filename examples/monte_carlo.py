@@ -151,8 +151,9 @@ def write(counts: Counts, path: Path) -> None:
 def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
     """A cluster that is running, or processes of this machine."""
     if scheduler is None:
-        local = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None}
-        local["silence_logs"] = logging.CRITICAL  # what fails is raised here; the rest is their end
+        local: dict[str, Any] = {"n_workers": workers, "threads_per_worker": 1}
+        local["dashboard_address"] = "127.0.0.1:0"  # any free port: runs do not meet
+        local["silence_logs"] = logging.CRITICAL  # what fails is raised here
         with LocalCluster(**local) as cluster, Client(cluster) as client:
             yield client
         return
