@@ -3,12 +3,15 @@
 Everything here runs in this process; tests/generated/test_cluster.py has the distributed scheduler.
 """
 
+import doctest
 import importlib
 import inspect
 import pickle
+import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -48,8 +51,15 @@ def functions(body: str) -> list[str]:
 
 
 EVERY = [(body, name) for body in sorted(OWN) for name in functions(body)]
-SLOW = ("closing_tension", "shear_change", "slip_range")
+LONG = ("closing_tension", "shear_change", "slip_range")
 EACH = [(body, name) for body, name in EVERY if body in SOME]
+
+
+def marked(cases: list[tuple[str, str]], left_out: tuple[str, ...] = ()) -> list[Any]:
+    """Those of closed bodies are quick; of the others, some may be left out."""
+    quick = [case for case in cases if case[0] in CLOSED]
+    slow = [case for case in cases if case not in quick and case[1] not in left_out]
+    return [*quick, *(pytest.param(*case, marks=pytest.mark.slow) for case in slow)]
 
 
 def states(body: str, length: int = LENGTH) -> dict[str, Any]:
@@ -107,10 +117,7 @@ def parts() -> Iterator[slice]:
 # ------------------------------------------------------------------ the same numbers
 
 
-@pytest.mark.parametrize(
-    ("body", "name"),
-    [pytest.param(*f, marks=() if f in EACH else pytest.mark.slow) for f in EVERY],
-)
+@pytest.mark.parametrize(("body", "name"), marked(EVERY))
 def test_every_function_gives_what_numpy_gives_chunk_by_chunk(body: str, name: str) -> None:
     """To the last bit, of the same kind, shape and dtype, in the chunks that were given."""
     function, given = getattr(module(body), name), given_to(body, name)
@@ -152,7 +159,7 @@ def test_the_regime_is_a_whole_number() -> None:
 # ------------------------------------------------------------------ what may be mixed
 
 
-@pytest.mark.parametrize(("body", "name"), [f for f in EACH if f[1] not in SLOW])
+@pytest.mark.parametrize(("body", "name"), marked(EACH, left_out=LONG))
 def test_one_lazy_argument_among_arrays_is_enough(body: str, name: str) -> None:
     function, given = getattr(module(body), name), given_to(body, name)
     whole = fields(function(**given))
@@ -454,6 +461,22 @@ def test_what_else_is_refused_is_refused_at_the_call() -> None:
         "second must be a Contact",
         lambda: wedge.stick_zone(here, a, 0.1, 0.0, f=F, **LAW),
     )
+
+
+# ------------------------------------------------------------------ the page that tells of it
+
+PAGE = Path(__file__).parents[2] / "docs" / "arrays.md"
+
+
+def test_the_page_shows_what_happens() -> None:
+    failed, attempted = doctest.testfile(str(PAGE), module_relative=False)
+    assert (failed, attempted) == (0, 10)
+
+
+def test_every_link_of_the_page_leads_somewhere() -> None:
+    links = re.findall(r"\]\(([^)#:]+)\)", PAGE.read_text())
+    assert len(links) >= 4
+    assert all((PAGE.parent / link).exists() for link in links)
 
 
 # ------------------------------------------------------------------ without Dask

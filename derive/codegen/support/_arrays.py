@@ -157,9 +157,9 @@ class Flat:
         constants: Mapping[str, Any],
         positive: Mapping[str, Any] | None = None,
     ) -> None:
-        held = {name: np.asarray(_float64(value, name)) for name, value in given.items()}
+        held = {name: _numpy(_float64(value, name)) for name, value in given.items()}
         for name, value in {**(positive or {}), **constants}.items():
-            held[name] = np.asarray(_positive(_float64(value, name)))
+            held[name] = np.asarray(_positive(_numpy(_float64(value, name))))
         _broadcast(held)  # what does not is told by its name
         values = [held[name] for name in (*given, *(positive or {}))]
         own = {name: held[name][()] for name in constants}
@@ -174,11 +174,25 @@ def flattened(
     values: Sequence[Any], constants: Mapping[str, Any]
 ) -> tuple[list[Any], dict[str, Any], Shape]:
     """Arrays along one dimension, constants too if they vary, and the shape they had together."""
-    varying = {name: v for name, v in constants.items() if np.ndim(v)}
+    varying = {name: _numpy(v) for name, v in constants.items() if np.ndim(v)}
+    values = [_numpy(v) for v in values]
     shape = np.broadcast_shapes(*map(np.shape, (*values, *varying.values())))
     flat = [np.broadcast_to(v, shape).ravel() for v in (*values, *varying.values())]
     own = dict(zip(varying, flat[len(values) :], strict=True))
     return flat[: len(values)], {**constants, **own}, shape
+
+
+def _numpy(value: Any) -> Any:
+    """A number or an array, as a NumPy array.
+
+    Raises TypeError for an array of another library, where elements are solved for one by one.
+    """
+    if _is_foreign(value):
+        raise TypeError(
+            "what is solved or integrated takes NumPy and Dask arrays alone, explicit formulas "
+            f"others, too; got {type(value).__module__}.{type(value).__name__}"
+        )
+    return np.asarray(value)
 
 
 def contact_edges(contact: Any, label: str) -> dict[str, Any]:
@@ -205,6 +219,12 @@ def _numbers(*given: Iterable[Any]) -> Iterator[Any]:
         yield from (value.a, value.c) if hasattr(value, "a") else (value,)
 
 
+def _is_foreign(value: Any) -> bool:
+    """Whether it is an array of another library that follows NumPy's protocols."""
+    own = type(value) is np.ndarray or not hasattr(value, "__array_function__")
+    return not own and not isinstance(value, np.ndarray | np.generic)
+
+
 def _positive(value: Any) -> Any:
     """A constant of the material or the geometry, NaN unless it is positive and finite."""
     if type(value) is np.float64:
@@ -224,9 +244,9 @@ def _float64(value: Any, label: str) -> Any:
     if type(value) is float or type(value) is np.float64:
         return np.float64(value)
     demand_array(value, label)
-    own = not hasattr(value, "__array_function__") or isinstance(value, np.ndarray | np.generic)
+    foreign = _is_foreign(value)
     try:
-        array = np.asanyarray(value) if own else value
+        array = value if foreign else np.asanyarray(value)
         if array.dtype.kind not in "iuf":
             raise TypeError
         if is_lazy(array):
@@ -236,7 +256,7 @@ def _float64(value: Any, label: str) -> Any:
     except (AttributeError, TypeError, ValueError):
         found = f"{type(value).__name__} {value!r:.60}"
         raise TypeError(f"{label} must be a real number or an array of such; got {found}") from None
-    return np.asarray(np.ma.filled(numbers, np.nan))[()] if own else numbers
+    return numbers if foreign else np.asarray(np.ma.filled(numbers, np.nan))[()]
 
 
 def _broadcast(given: Mapping[str, Any]) -> Shape:
