@@ -86,11 +86,11 @@ def elementwise(function: Function) -> Function:
     return call  # type: ignore[return-value]
 
 
-def chunkwise(function: Function, whole: int = 0) -> Function:
+def chunkwise(function: Function, in_time: bool = False) -> Function:
     """Let a function of contacts and arrays take Dask arrays, too, and compute chunk by chunk.
 
     Arguments annotated as whole numbers are handed on as they are.
-    whole: how many of the last axes must lie in one chunk.
+    in_time: whether the last axis is time, and must lie in one chunk.
     """
     called = signature(function)
     parameters = called.parameters
@@ -110,14 +110,14 @@ def chunkwise(function: Function, whole: int = 0) -> Function:
             given |= contact_edges(value, name) if name in contacts else {name: value}
         numbers = {name: _float64(v, name) for name, v in given.items() if name not in literal}
         _broadcast(numbers)
-        return over_chunks(call, given | numbers, whole)
+        return over_chunks(call, given | numbers, in_time)
 
     return call  # type: ignore[return-value]
 
 
 def chunkwise_in_time(function: Function) -> Function:
     """The same, where the last axis is time and must lie in one chunk."""
-    return chunkwise(function, whole=1)
+    return chunkwise(function, in_time=True)
 
 
 def only_where(exists: Any, *values: Any) -> Any:

@@ -277,6 +277,15 @@ def test_one_cycle_may_be_lazy() -> None:
     assert_array_equal(cycle.m.compute(), hertz.march(1.0, 0.0, Q, 0.0, **law).m)
 
 
+def test_instants_may_be_unknown_in_number() -> None:
+    Q = np.array([0.0, 0.1, 0.2, 0.1, 9.0])
+    lazily = da.from_array(Q, chunks=5)
+    law = {"f": 0.5, "E_star": 1.0, "R": 1.0}
+    for P in (1.0, np.ones(1), np.ones((3, 1))):
+        cycle = hertz.march(P, 0.0, lazily[lazily < 1], 0.0, **law)
+        assert_array_equal(cycle.m.compute(), hertz.march(P, 0.0, Q[:4], 0.0, **law).m)
+
+
 # ------------------------------------------------------------------ lazily, and each chunk once
 
 
@@ -436,7 +445,7 @@ def test_what_is_lazy_and_no_array_is_not_computed() -> None:
 
 def test_chunks_along_time_are_refused() -> None:
     Q = da.ones((4, 10), chunks=(2, 5))
-    words = r"the last axis of Q must lie in one chunk.*\(5, 5\).*rechunk"
+    words = r"the last axis of Q is time and must lie in one chunk.*\(5, 5\).*rechunk"
     refused(ValueError, words, lambda: wedge.march(1.0, 0.0, Q, 0.0, f=F, **LAW))
     constant = da.ones((4, 1), chunks=(2, 1))
     assert wedge.march(constant, 0.0, np.arange(3.0), 0.0, f=F, **LAW).m.shape == (4, 3)

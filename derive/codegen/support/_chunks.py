@@ -44,20 +44,23 @@ def known_shape(value: Any) -> tuple[int, ...]:
     return tuple(1 if np.isnan(n) else n for n in value.shape)
 
 
-def over_chunks(function: Callable[..., Any], given: Mapping[str, Any], whole: int = 0) -> Any:
+def over_chunks(
+    function: Callable[..., Any], given: Mapping[str, Any], in_time: bool = False
+) -> Any:
     """What `function` makes of arguments some of which are lazy: lazy, and of the same kind.
 
     given: numbers and arrays that broadcast, by name; "first.a" is the field a of `first`.
-    whole: how many of the last axes must lie in one chunk.
+    in_time: whether the last axis is time, and must lie in one chunk.
 
     Chunks are unified as for Dask's own functions.  All fields of a chunk's result are one task.
     What `function` makes of no elements tells the kinds of its results, and what it refuses.
 
-    Raises ValueError for an axis that must lie in one chunk and does not.
+    Raises ValueError for time in several chunks.
     """
     names = tuple(given)
-    _demand_whole(given, whole)
-    sample = _on_chunk(*(_empty(v, whole) for v in given.values()), function=function, names=names)
+    instants = _instants(given) if in_time else 0
+    emptied = [_empty(v, instants) for v in given.values()]
+    sample = _on_chunk(*emptied, function=function, names=names)
     blockwise = sys.modules["dask.array"].blockwise
     axes = _axes(max(_ndim(v) for v in given.values()))
     pairs = [x for v in given.values() for x in (v, _axes(_ndim(v)) if _is_array(v) else None)]
@@ -107,19 +110,28 @@ def _axes(ndim: int) -> tuple[int, ...]:
     return tuple(reversed(range(ndim)))
 
 
-def _empty(value: Any, whole: int) -> Any:
-    """An array of no elements in its place; axes that must lie in one chunk are kept."""
+def _empty(value: Any, instants: int) -> Any:
+    """An array of no elements in its place; time is kept, unless there are no instants."""
     if not _is_array(value):
         return value
-    kept = value.shape[value.ndim - min(whole, value.ndim) :]
-    shape = (0,) * (value.ndim - len(kept)) + tuple(2 if np.isnan(n) else n for n in kept)
-    return np.zeros_like(value._meta if is_lazy(value) else value, shape=shape)
+    shape = [0] * value.ndim
+    if instants and shape:
+        shape[-1] = 1 if value.shape[-1] == 1 else instants
+    return np.zeros_like(value._meta if is_lazy(value) else value, shape=tuple(shape))
 
 
-def _demand_whole(given: Mapping[str, Any], whole: int) -> None:
+def _instants(given: Mapping[str, Any]) -> int:
+    """How many instants there are; two if that is not known yet.
+
+    Raises ValueError if they lie in several chunks.
+    """
+    lengths = [2]
     for name, value in given.items():
-        if is_lazy(value) and any(n > 1 for n in value.numblocks[value.ndim - whole :]):
+        if is_lazy(value) and any(n > 1 for n in value.numblocks[-1:]):
             raise ValueError(
-                f"the last axis of {name} must lie in one chunk, it is time; its chunks are "
+                f"the last axis of {name} is time and must lie in one chunk; its chunks are "
                 f"{value.chunks[-1]}: give {name}.rechunk({{-1: -1}})"
             )
+        if _ndim(value):
+            lengths += [n for n in value.shape[-1:] if n == n]
+    return max(lengths)
