@@ -28,6 +28,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import dask
 import dask.array as da
 import numpy as np
 from distributed import Client, LocalCluster, as_completed
@@ -51,6 +52,13 @@ STREAM = 50_000
 
 PORTION = 8
 """Chunks that are handed out together, as one Dask array."""
+
+SHORT = {
+    "distributed.diagnostics.computations.max-history": 1,
+    "distributed.admin.low-level-log-length": 100,
+    "distributed.admin.log-length": 100,
+}
+"""How much of what is done a local cluster remembers: else its memory grows a little all along."""
 
 BINS, LONGEST = 2_000, 500.0
 """Bins of the histogram, from zero to the longest slip zone [um]."""
@@ -126,7 +134,7 @@ def report(counts: Counts) -> Iterator[str]:
     yield f"{total:,} samples; slip zones in um, to {LONGEST / BINS:g}"
     yield "edge  " + "".join(f"{100 * q:7g} %" for q in QUANTILES) + "   not counted"
     for edge, found in zip(("left", "right"), counts[:2], strict=True):
-        rest = total - int(np.sum(found))  # nothing sticks, or beyond LONGEST
+        rest = total - int(np.sum(found))  # m and n are not known, or beyond LONGEST
         yield f"{edge:6}" + "".join(f"{v:9.1f}" for v in quantiles(found)) + f"{rest:14,}"
     for regime in wedge.Regime:
         if counts.regime[regime]:
@@ -154,7 +162,7 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
         local: dict[str, Any] = {"n_workers": workers, "threads_per_worker": 1}
         local["dashboard_address"] = "127.0.0.1:0"  # any free port: runs do not meet
         local["silence_logs"] = logging.CRITICAL  # what fails is raised here
-        with LocalCluster(**local) as cluster, Client(cluster) as client:
+        with dask.config.set(SHORT), LocalCluster(**local) as cluster, Client(cluster) as client:
             yield client
         return
     try:
