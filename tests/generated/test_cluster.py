@@ -118,9 +118,9 @@ def test_what_a_chunk_raises_is_raised_when_it_is_computed(client: Client) -> No
 def test_a_package_of_one_s_own(client: Client, packages: Path) -> None:
     """Found by its name, as long as the workers can import it."""
     text = (ROOT / "generated" / "hertz.py").read_text()
-    publish(package_files({"roller": text}), packages / "my_bodies")
+    publish(package_files({"roller": text}), packages / "bodies_on_workers")
     importlib.invalidate_caches()
-    roller = importlib.import_module("my_bodies.roller")
+    roller = importlib.import_module("bodies_on_workers.roller")
     P = np.linspace(1, 2, 6)
     state = roller.contact(da.from_array(P, chunks=2), 0.1, E_star=1.0, R=1.0)
     assert_array_equal(state.a.compute(), hertz.contact(P, 0.1, E_star=1.0, R=1.0).a)
