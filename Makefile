@@ -3,7 +3,8 @@
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that take no long
 # make bench  speed, as ratios measured in one run; bench-inverse: of the way from loads to contacts;
-#             bench-slip: of stick zones
+#             bench-slip: of stick zones; bench-monte-carlo: time and memory of the Monte Carlo
+#             of examples/, to 1e8 samples: notebooks/monte_carlo.md
 # make solver    what the independent solver finds: tests/reference/FINDINGS.md; a quarter of an hour
 # make comparison  that solver, exact conditions and series, cycle by cycle: notebooks/comparison.md
 # make series    errors of the series of the slip zones, order by order: notebooks/series.md
@@ -15,7 +16,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test quick bench bench-inverse bench-slip series solver comparison accuracy picture clean
+.PHONY: all test quick bench bench-inverse bench-slip bench-monte-carlo series solver comparison accuracy picture clean
 
 all: $(STAMP)
 	$(BIN)/derive generate --fresh
@@ -38,6 +39,9 @@ bench-inverse: $(STAMP)
 
 bench-slip: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.slip
+
+bench-monte-carlo: $(STAMP)
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.benchmarks.monte_carlo
 
 series: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.series

@@ -5,13 +5,16 @@ A formula's temporaries are as large as its argument.  Evaluated over blocks tha
 processor's cache they cost little; over a whole large array they cost more than the arithmetic.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import wraps
 from inspect import Parameter, signature
-from itertools import product
+from itertools import chain, product
 from typing import Any, TypeVar
 
 import numpy as np
+
+from ._chunks import any_lazy, demand_array, is_lazy, known_shape, over_chunks
+from ._types import Contact
 
 Array = Any
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -37,9 +40,10 @@ _NAN = np.float64(np.nan)
 def elementwise(function: Function) -> Function:
     """Let `function` take anything that broadcasts, and compute large arrays in blocks.
 
-    Numbers and NumPy arrays of any real type become float64; arrays of other libraries are passed
-    through as they are.  Keyword-only arguments are material and geometry: NaN unless positive and
-    finite.  No floating-point warning leaves the call: what does not exist is NaN.
+    Numbers and arrays of any real type become float64; Dask arrays stay lazy, and are computed
+    chunk by chunk; arrays of other libraries that follow NumPy's protocols are computed by these.
+    Keyword-only arguments are material and geometry: NaN unless positive and finite.  No
+    floating-point warning leaves the call: what does not exist is NaN.
 
     Raises TypeError for what is no real number, ValueError for shapes that do not broadcast.
     """
@@ -69,6 +73,9 @@ def elementwise(function: Function) -> Function:
                 size = max(size, value.size)
             elif type(value) is not np.float64:
                 foreign = True
+        if foreign and any_lazy(given.values()):
+            _broadcast(given)
+            return over_chunks(call, given)
         if foreign or (alike and size <= BLOCK):
             return quiet(**given)
         shape = _broadcast(given)
@@ -77,6 +84,40 @@ def elementwise(function: Function) -> Function:
         return quiet_blocks(function, given, shape)
 
     return call  # type: ignore[return-value]
+
+
+def chunkwise(function: Function, in_time: bool = False) -> Function:
+    """Let a function of contacts and arrays take Dask arrays, too, and compute chunk by chunk.
+
+    Arguments annotated as whole numbers are handed on as they are.
+    in_time: whether the last axis is time, and must lie in one chunk.
+    """
+    called = signature(function)
+    parameters = called.parameters
+    contacts = {name for name, p in parameters.items() if p.annotation is Contact}
+    literal = {name for name, p in parameters.items() if p.annotation is int}
+
+    @wraps(function)
+    def call(*args: Any, **kwargs: Any) -> Any:
+        if not any_lazy(_numbers(args, kwargs.values())):
+            return function(*args, **kwargs)
+        try:
+            bound = called.bind(*args, **kwargs).arguments
+        except TypeError:
+            return function(*args, **kwargs)  # Python's own message
+        given: dict[str, Any] = {}
+        for name, value in bound.items():
+            given |= contact_edges(value, name) if name in contacts else {name: value}
+        numbers = {name: _float64(v, name) for name, v in given.items() if name not in literal}
+        _broadcast(numbers)
+        return over_chunks(call, given | numbers, in_time)
+
+    return call  # type: ignore[return-value]
+
+
+def chunkwise_in_time(function: Function) -> Function:
+    """The same, where the last axis is time and must lie in one chunk."""
+    return chunkwise(function, in_time=True)
 
 
 def only_where(exists: Any, *values: Any) -> Any:
@@ -117,9 +158,9 @@ class Flat:
         constants: Mapping[str, Any],
         positive: Mapping[str, Any] | None = None,
     ) -> None:
-        held = {name: np.asarray(_float64(value, name)) for name, value in given.items()}
+        held = {name: _numpy(_float64(value, name)) for name, value in given.items()}
         for name, value in {**(positive or {}), **constants}.items():
-            held[name] = np.asarray(_positive(_float64(value, name)))
+            held[name] = np.asarray(_positive(_numpy(_float64(value, name))))
         _broadcast(held)  # what does not is told by its name
         values = [held[name] for name in (*given, *(positive or {}))]
         own = {name: held[name][()] for name in constants}
@@ -134,11 +175,25 @@ def flattened(
     values: Sequence[Any], constants: Mapping[str, Any]
 ) -> tuple[list[Any], dict[str, Any], Shape]:
     """Arrays along one dimension, constants too if they vary, and the shape they had together."""
-    varying = {name: v for name, v in constants.items() if np.ndim(v)}
+    varying = {name: _numpy(v) for name, v in constants.items() if np.ndim(v)}
+    values = [_numpy(v) for v in values]
     shape = np.broadcast_shapes(*map(np.shape, (*values, *varying.values())))
     flat = [np.broadcast_to(v, shape).ravel() for v in (*values, *varying.values())]
     own = dict(zip(varying, flat[len(values) :], strict=True))
     return flat[: len(values)], {**constants, **own}, shape
+
+
+def _numpy(value: Any) -> Any:
+    """A number or an array, as a NumPy array.
+
+    Raises TypeError for an array of another library, where elements are solved for one by one.
+    """
+    if _is_foreign(value):
+        raise TypeError(
+            "what is solved or integrated takes NumPy and Dask arrays alone, explicit formulas "
+            f"others, too; got {type(value).__module__}.{type(value).__name__}"
+        )
+    return np.asarray(value)
 
 
 def contact_edges(contact: Any, label: str) -> dict[str, Any]:
@@ -159,36 +214,55 @@ def at_rows(rows: Any, constants: Mapping[str, Any]) -> dict[str, Any]:
     return {name: v[rows] if np.ndim(v) else v for name, v in constants.items()}
 
 
+def _numbers(*given: Iterable[Any]) -> Iterator[Any]:
+    """What is given, of contacts the edges."""
+    for value in chain(*given):
+        yield from (value.a, value.c) if hasattr(value, "a") else (value,)
+
+
+def _is_foreign(value: Any) -> bool:
+    """Whether it is an array of another library that follows NumPy's protocols."""
+    own = type(value) is np.ndarray or not hasattr(value, "__array_function__")
+    return not own and not isinstance(value, np.ndarray | np.generic)
+
+
 def _positive(value: Any) -> Any:
     """A constant of the material or the geometry, NaN unless it is positive and finite."""
     if type(value) is np.float64:
         return value if 0 < value < np.inf else _NAN
+    if type(value) is not np.ndarray and is_lazy(value):
+        return value  # each chunk is tested when it is there
     return only_where((value > 0) & (value < np.inf), value)
 
 
 def _float64(value: Any, label: str) -> Any:
-    """A real number as np.float64, anything else as an array; masked elements are NaN."""
+    """A real number as np.float64, anything else as an array; masked elements are NaN.
+
+    A Dask array is left as it is: each chunk becomes float64 when it is there.
+    """
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.ndim:
         return value
-    if type(value) is float:
+    if type(value) is float or type(value) is np.float64:
         return np.float64(value)
-    if hasattr(value, "__array_function__") and not isinstance(value, np.ndarray | np.generic):
-        return value
+    demand_array(value, label)
+    foreign = _is_foreign(value)
     try:
-        array = np.asanyarray(value)
+        array = value if foreign else np.asanyarray(value)
         if array.dtype.kind not in "iuf":
             raise TypeError
+        if is_lazy(array):
+            return array
         with np.errstate(all="ignore"):
             numbers = array.astype(np.float64)
-    except (TypeError, ValueError):
+    except (AttributeError, TypeError, ValueError):
         found = f"{type(value).__name__} {value!r:.60}"
         raise TypeError(f"{label} must be a real number or an array of such; got {found}") from None
-    return np.asarray(np.ma.filled(numbers, np.nan))[()]
+    return numbers if foreign else np.asarray(np.ma.filled(numbers, np.nan))[()]
 
 
 def _broadcast(given: Mapping[str, Any]) -> Shape:
     try:
-        return np.broadcast_shapes(*(v.shape for v in given.values()))
+        return np.broadcast_shapes(*map(known_shape, given.values()))
     except ValueError:
         shapes = ", ".join(f"{name} {v.shape}" for name, v in given.items() if v.ndim)
         raise ValueError(

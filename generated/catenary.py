@@ -6,7 +6,7 @@ g(x) = b**2*(cosh(x/b) - 1)/R, from derive/geometries/catenary.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, pressure_at, second_of, slope_of, state_of
 from ._shear import shear_change_of, slip_range_of
@@ -462,6 +462,7 @@ def stick_margin(
 _LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
 
 
+@chunkwise
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -511,6 +512,7 @@ def stick_zone(
     return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b, mixed=mixed)
 
 
+@chunkwise
 def tension_threshold(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array, b: Array
 ) -> Threshold:
@@ -540,6 +542,7 @@ def tension_threshold(
     return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R, b=b)
 
 
+@chunkwise
 def closing_tension(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array, b: Array
 ) -> Threshold:
@@ -573,6 +576,7 @@ def closing_tension(
     return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R, b=b)
 
 
+@chunkwise
 def slip_zones(
     a: Array,
     c: Array,
@@ -621,6 +625,7 @@ def slip_zones(
     )
 
 
+@chunkwise
 def slip_error(
     a: Array,
     c: Array,
@@ -666,6 +671,7 @@ def slip_error(
     )
 
 
+@chunkwise
 def shear_change(
     x: Array,
     first: Contact,
@@ -709,6 +715,7 @@ def shear_change(
     return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b)
 
 
+@chunkwise
 def slip_range(
     x: Array,
     first: Contact,
@@ -751,6 +758,7 @@ def slip_range(
     return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b)
 
 
+@chunkwise_in_time
 def march(
     P: Array,
     M: Array,
@@ -769,6 +777,7 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
+    Of a Dask array, that axis must be one chunk.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         Q       shear load at every instant [N/m]

@@ -6,7 +6,7 @@ g(x) = R - sqrt(R**2 - x**2), from derive/geometries/circular_arc.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, pressure_at, second_of, slope_of, state_of
 from ._shear import shear_change_of, slip_range_of
@@ -461,6 +461,7 @@ def stick_margin(
 _LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
 
 
+@chunkwise
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -508,6 +509,7 @@ def stick_zone(
     return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, mixed=mixed)
 
 
+@chunkwise
 def tension_threshold(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array
 ) -> Threshold:
@@ -536,6 +538,7 @@ def tension_threshold(
     return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R)
 
 
+@chunkwise
 def closing_tension(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array
 ) -> Threshold:
@@ -568,6 +571,7 @@ def closing_tension(
     return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R)
 
 
+@chunkwise
 def slip_zones(
     a: Array,
     c: Array,
@@ -612,6 +616,7 @@ def slip_zones(
     return slip_zones_of(_LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, da=da, dc=dc, order=order)
 
 
+@chunkwise
 def slip_error(
     a: Array,
     c: Array,
@@ -653,6 +658,7 @@ def slip_error(
     return slip_error_of(_LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, da=da, dc=dc, order=order)
 
 
+@chunkwise
 def shear_change(
     x: Array,
     first: Contact,
@@ -694,6 +700,7 @@ def shear_change(
     return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R)
 
 
+@chunkwise
 def slip_range(
     x: Array,
     first: Contact,
@@ -734,6 +741,7 @@ def slip_range(
     return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R)
 
 
+@chunkwise_in_time
 def march(
     P: Array, M: Array, Q: Array, sigma: Array, *, f: Array, E_star: Array, R: Array, order: int = 0
 ) -> March:
@@ -743,6 +751,7 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
+    Of a Dask array, that axis must be one chunk.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         Q       shear load at every instant [N/m]

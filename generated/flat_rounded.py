@@ -6,7 +6,16 @@ g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, TINY, elementwise, only_where, select
+from ._arrays import (
+    LEAST,
+    MOST,
+    TINY,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    only_where,
+    select,
+)
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, mended
 from ._shear import shear_change_of, slip_range_of
@@ -699,6 +708,7 @@ def stick_margin(
 _LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
 
 
+@chunkwise
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -748,6 +758,7 @@ def stick_zone(
     return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b, mixed=mixed)
 
 
+@chunkwise
 def tension_threshold(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array, b: Array
 ) -> Threshold:
@@ -777,6 +788,7 @@ def tension_threshold(
     return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R, b=b)
 
 
+@chunkwise
 def closing_tension(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array, b: Array
 ) -> Threshold:
@@ -810,6 +822,7 @@ def closing_tension(
     return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R, b=b)
 
 
+@chunkwise
 def slip_zones(
     a: Array,
     c: Array,
@@ -858,6 +871,7 @@ def slip_zones(
     )
 
 
+@chunkwise
 def slip_error(
     a: Array,
     c: Array,
@@ -903,6 +917,7 @@ def slip_error(
     )
 
 
+@chunkwise
 def shear_change(
     x: Array,
     first: Contact,
@@ -946,6 +961,7 @@ def shear_change(
     return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b)
 
 
+@chunkwise
 def slip_range(
     x: Array,
     first: Contact,
@@ -988,6 +1004,7 @@ def slip_range(
     return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b)
 
 
+@chunkwise_in_time
 def march(
     P: Array,
     M: Array,
@@ -1006,6 +1023,7 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
+    Of a Dask array, that axis must be one chunk.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         Q       shear load at every instant [N/m]

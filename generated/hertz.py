@@ -6,7 +6,7 @@ g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -391,6 +391,7 @@ def _breaks(*, R: Array) -> tuple[Array, ...]:
 _LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
 
 
+@chunkwise
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -438,6 +439,7 @@ def stick_zone(
     return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, mixed=mixed)
 
 
+@chunkwise
 def tension_threshold(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array
 ) -> Threshold:
@@ -466,6 +468,7 @@ def tension_threshold(
     return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R)
 
 
+@chunkwise
 def closing_tension(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array
 ) -> Threshold:
@@ -498,6 +501,7 @@ def closing_tension(
     return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R)
 
 
+@chunkwise
 def slip_zones(
     a: Array,
     c: Array,
@@ -542,6 +546,7 @@ def slip_zones(
     return slip_zones_of(_LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, da=da, dc=dc, order=order)
 
 
+@chunkwise
 def slip_error(
     a: Array,
     c: Array,
@@ -583,6 +588,7 @@ def slip_error(
     return slip_error_of(_LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, da=da, dc=dc, order=order)
 
 
+@chunkwise
 def shear_change(
     x: Array,
     first: Contact,
@@ -624,6 +630,7 @@ def shear_change(
     return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R)
 
 
+@chunkwise
 def slip_range(
     x: Array,
     first: Contact,
@@ -664,6 +671,7 @@ def slip_range(
     return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R)
 
 
+@chunkwise_in_time
 def march(
     P: Array, M: Array, Q: Array, sigma: Array, *, f: Array, E_star: Array, R: Array, order: int = 0
 ) -> March:
@@ -673,6 +681,7 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
+    Of a Dask array, that axis must be one chunk.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         Q       shear load at every instant [N/m]

@@ -6,7 +6,7 @@ g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -485,6 +485,7 @@ def _breaks(*, L: Array, R: Array) -> tuple[Array, ...]:
 _LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
 
 
+@chunkwise
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -534,6 +535,7 @@ def stick_zone(
     return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, L=L, R=R, mixed=mixed)
 
 
+@chunkwise
 def tension_threshold(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, L: Array, R: Array
 ) -> Threshold:
@@ -563,6 +565,7 @@ def tension_threshold(
     return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, L=L, R=R)
 
 
+@chunkwise
 def closing_tension(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, L: Array, R: Array
 ) -> Threshold:
@@ -596,6 +599,7 @@ def closing_tension(
     return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, L=L, R=R)
 
 
+@chunkwise
 def slip_zones(
     a: Array,
     c: Array,
@@ -644,6 +648,7 @@ def slip_zones(
     )
 
 
+@chunkwise
 def slip_error(
     a: Array,
     c: Array,
@@ -689,6 +694,7 @@ def slip_error(
     )
 
 
+@chunkwise
 def shear_change(
     x: Array,
     first: Contact,
@@ -732,6 +738,7 @@ def shear_change(
     return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, L=L, R=R)
 
 
+@chunkwise
 def slip_range(
     x: Array,
     first: Contact,
@@ -774,6 +781,7 @@ def slip_range(
     return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, L=L, R=R)
 
 
+@chunkwise_in_time
 def march(
     P: Array,
     M: Array,
@@ -792,6 +800,7 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
+    Of a Dask array, that axis must be one chunk.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         Q       shear load at every instant [N/m]

@@ -6,7 +6,7 @@ g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -438,6 +438,7 @@ def _breaks(*, L: Array) -> tuple[Array, ...]:
 _LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
 
 
+@chunkwise
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -485,6 +486,7 @@ def stick_zone(
     return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, L=L, mixed=mixed)
 
 
+@chunkwise
 def tension_threshold(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, L: Array
 ) -> Threshold:
@@ -513,6 +515,7 @@ def tension_threshold(
     return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, L=L)
 
 
+@chunkwise
 def closing_tension(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, L: Array
 ) -> Threshold:
@@ -545,6 +548,7 @@ def closing_tension(
     return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, L=L)
 
 
+@chunkwise
 def slip_zones(
     a: Array,
     c: Array,
@@ -589,6 +593,7 @@ def slip_zones(
     return slip_zones_of(_LAW, a, c, dQ, dsigma, f=f, E_star=E_star, L=L, da=da, dc=dc, order=order)
 
 
+@chunkwise
 def slip_error(
     a: Array,
     c: Array,
@@ -630,6 +635,7 @@ def slip_error(
     return slip_error_of(_LAW, a, c, dQ, dsigma, f=f, E_star=E_star, L=L, da=da, dc=dc, order=order)
 
 
+@chunkwise
 def shear_change(
     x: Array,
     first: Contact,
@@ -671,6 +677,7 @@ def shear_change(
     return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, L=L)
 
 
+@chunkwise
 def slip_range(
     x: Array,
     first: Contact,
@@ -711,6 +718,7 @@ def slip_range(
     return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, L=L)
 
 
+@chunkwise_in_time
 def march(
     P: Array, M: Array, Q: Array, sigma: Array, *, f: Array, E_star: Array, L: Array, order: int = 0
 ) -> March:
@@ -720,6 +728,7 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
+    Of a Dask array, that axis must be one chunk.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         Q       shear load at every instant [N/m]

@@ -7,7 +7,16 @@ g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), fro
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, TINY, elementwise, only_where, select
+from ._arrays import (
+    LEAST,
+    MOST,
+    TINY,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    only_where,
+    select,
+)
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, mended
 from ._shear import shear_change_of, slip_range_of
@@ -733,6 +742,7 @@ def stick_margin(
 _LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
 
 
+@chunkwise
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -784,6 +794,7 @@ def stick_zone(
     )
 
 
+@chunkwise
 def tension_threshold(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, b: Array, phi: Array
 ) -> Threshold:
@@ -813,6 +824,7 @@ def tension_threshold(
     return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, b=b, phi=phi)
 
 
+@chunkwise
 def closing_tension(
     first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, b: Array, phi: Array
 ) -> Threshold:
@@ -846,6 +858,7 @@ def closing_tension(
     return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, b=b, phi=phi)
 
 
+@chunkwise
 def slip_zones(
     a: Array,
     c: Array,
@@ -894,6 +907,7 @@ def slip_zones(
     )
 
 
+@chunkwise
 def slip_error(
     a: Array,
     c: Array,
@@ -939,6 +953,7 @@ def slip_error(
     )
 
 
+@chunkwise
 def shear_change(
     x: Array,
     first: Contact,
@@ -982,6 +997,7 @@ def shear_change(
     return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, b=b, phi=phi)
 
 
+@chunkwise
 def slip_range(
     x: Array,
     first: Contact,
@@ -1024,6 +1040,7 @@ def slip_range(
     return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, b=b, phi=phi)
 
 
+@chunkwise_in_time
 def march(
     P: Array,
     M: Array,
@@ -1042,6 +1059,7 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
+    Of a Dask array, that axis must be one chunk.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         Q       shear load at every instant [N/m]

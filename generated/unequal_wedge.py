@@ -6,7 +6,7 @@ g(x) = Piecewise((-phi_1*x, x < 0), (phi_2*x, True)), from derive/geometries/une
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -451,6 +451,7 @@ def _breaks(*, phi_1: Array, phi_2: Array) -> tuple[Array, ...]:
 _LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
 
 
+@chunkwise
 def stick_zone(
     first: Contact,
     second: Contact,
@@ -502,6 +503,7 @@ def stick_zone(
     )
 
 
+@chunkwise
 def tension_threshold(
     first: Contact,
     second: Contact,
@@ -540,6 +542,7 @@ def tension_threshold(
     )
 
 
+@chunkwise
 def closing_tension(
     first: Contact,
     second: Contact,
@@ -580,6 +583,7 @@ def closing_tension(
     return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, phi_1=phi_1, phi_2=phi_2)
 
 
+@chunkwise
 def slip_zones(
     a: Array,
     c: Array,
@@ -639,6 +643,7 @@ def slip_zones(
     )
 
 
+@chunkwise
 def slip_error(
     a: Array,
     c: Array,
@@ -695,6 +700,7 @@ def slip_error(
     )
 
 
+@chunkwise
 def shear_change(
     x: Array,
     first: Contact,
@@ -740,6 +746,7 @@ def shear_change(
     )
 
 
+@chunkwise
 def slip_range(
     x: Array,
     first: Contact,
@@ -784,6 +791,7 @@ def slip_range(
     )
 
 
+@chunkwise_in_time
 def march(
     P: Array,
     M: Array,
@@ -802,6 +810,7 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
+    Of a Dask array, that axis must be one chunk.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         Q       shear load at every instant [N/m]

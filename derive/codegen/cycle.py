@@ -189,8 +189,10 @@ class CycleText:
             f", {n}: {_TYPES.get(n, 'Array')} = {default}" for n, default in self.function.optional
         )
         passed = "".join(f", {n}={n}" for n, _ in self.function.optional)
+        way = "chunkwise_in_time" if self.function.name == "march" else "chunkwise"
         return "\n".join(
             [
+                f"@{way}",
                 f"def {self.function.name}({taken}, *, f: Array, E_star: Array{own}{optional}) "
                 f"-> {self.function.kind or 'Array'}:",
                 textwrap.indent(self._docstring, " " * 4),
@@ -209,6 +211,7 @@ class CycleText:
         lines += ["", "Arguments broadcast; results are float64 of the broadcast shape."]
         if self.function.name == "march":
             lines[-1] = "Arguments broadcast; the instants of a cycle lie along the last axis."
+            lines.append("Of a Dask array, that axis must be one chunk.")
         lines += self._arguments
         lines += ["", *textwrap.wrap(f"Returns {self.function.returns}.", LINE - 4)]
         lines += textwrap.wrap(

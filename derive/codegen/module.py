@@ -29,7 +29,10 @@ from derive.sheet import FormulaSheet
 from derive.symbols import alpha
 
 _HELPERS = {
-    "_arrays": ("LEAST", "MOST", "TINY", "elementwise", "only_where", "select"),
+    "_arrays": (
+        *("LEAST", "MOST", "TINY"),
+        *("chunkwise", "chunkwise_in_time", "elementwise", "only_where", "select"),
+    ),
     "_march": ("march_of",),
     "_quadrature": (
         *("Curve", "Piece", "Profile"),

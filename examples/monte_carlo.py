@@ -1,0 +1,227 @@
+"""How far a wedge slips when its loads and its friction are scattered: a Monte Carlo.
+
+    python examples/monte_carlo.py                               1e7 samples, on this machine
+    python examples/monte_carlo.py --samples 1e8 --out slip.csv  more, and the histogram as a file
+    python examples/monte_carlo.py --scheduler tcp://host:8786   on a cluster that is running
+
+Needs `pip install 'contact-derive[cluster]'`.  Nothing here is special to Dask but how samples are
+drawn and counted: `slip_zones` below takes NumPy arrays just as well.
+
+Samples are drawn, evaluated and counted chunk by chunk, and portions of so many chunks are handed
+out as others are done: memory does not grow with the number of samples.  Every STREAM samples have
+a seed of their own; the result is the same to the last count whatever the chunks, the workers and
+their order.
+
+A cluster of your own: start `dask scheduler` on one machine, `dask worker tcp://host:8786` on each,
+and give that address; clusters of batch systems and clouds have an address, too.  The package
+`generated` is sent there; NumPy, SciPy and Dask must be there, in the versions that are here.
+"""
+
+import argparse
+import csv
+import logging
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from itertools import islice
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import dask
+import dask.array as da
+import numpy as np
+from distributed import Client, LocalCluster, as_completed
+from rich.progress import Progress
+
+import generated
+from generated import wedge
+
+WEDGE = {"E_star": 60e9, "phi": 0.05}  # Pa, rad
+DQ, DSIGMA = 3e5, 400e6  # change of shear [N/m] and of bulk tension [Pa] over the half-cycle
+
+SCATTER: Mapping[str, Callable[[np.random.Generator, int], Any]] = {
+    "P": lambda rng, n: rng.normal(2e6, 2e5, n),  # N/m
+    "M": lambda rng, n: rng.normal(100.0, 30.0, n),  # N
+    "f": lambda rng, n: rng.lognormal(np.log(0.5), 0.15, n),
+}
+"""What is not known exactly: change this to your own."""
+
+STREAM = 50_000
+"""Samples that share a seed."""
+
+PORTION = 8
+"""Chunks that are handed out together, as one Dask array."""
+
+SHORT = {
+    "distributed.diagnostics.computations.max-history": 1,
+    "distributed.admin.low-level-log-length": 100,
+    "distributed.admin.log-length": 100,
+}
+"""How much of what is done a local cluster remembers: else its memory grows a little all along."""
+
+BINS, LONGEST = 2_000, 500.0
+"""Bins of the histogram, from zero to the longest slip zone [um]."""
+
+QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
+
+
+class Counts(NamedTuple):
+    """How many samples fall into each bin of the left and the right slip zone, and each regime."""
+
+    left: Any
+    right: Any
+    regime: Any
+
+
+def drawn(name: str, seed: int, start: int, stop: int) -> Any:
+    """Samples from `start` to `stop` of one quantity; `start` is the first of a stream."""
+    place = [*SCATTER].index(name)
+    streams = range(start // STREAM, -(-stop // STREAM))
+    rows = [SCATTER[name](np.random.default_rng([seed, place, s]), STREAM) for s in streams]
+    return np.concatenate(rows)[: stop - start]
+
+
+def slip_zones(P: Any, M: Any, f: Any) -> tuple[Any, Any, Any]:
+    """Slip zones at the left and the right edge [um], and the regime."""
+    state = wedge.contact(P, M, **WEDGE)
+    zone = wedge.stick_zone(state, state, DQ, DSIGMA, f=f, **WEDGE)
+    return 1e6 * (state.a - zone.m), 1e6 * (state.c - zone.n), zone.regime
+
+
+def counted(start: int, stop: int, chunk: int, seed: int) -> da.Array:
+    """Counts of some samples, one behind the other; lazily: nothing is drawn yet."""
+    whole, rest = divmod(stop - start, chunk)
+    sizes = (*[chunk] * whole, *([rest] if rest else []))
+
+    def some(name: str, block_info: Any = None) -> Any:
+        first, last = block_info[None]["array-location"][0]
+        return drawn(name, seed, start + first, start + last)
+
+    P, M, f = (da.map_blocks(some, name, chunks=(sizes,), dtype=float) for name in SCATTER)
+    left, right, regime = slip_zones(P, M, f)
+    bins = {"bins": BINS, "range": (0.0, LONGEST)}
+    counts = [da.histogram(zone, **bins)[0] for zone in (left, right)]
+    return da.concatenate([*counts, da.bincount(regime, minlength=len(wedge.Regime))])
+
+
+def summed(client: Client, samples: int, chunk: int, seed: int) -> Counts:
+    """The counts of all samples; a few portions are under way at once, however many there are."""
+    starts = range(0, samples, PORTION * chunk)
+    portions = (counted(s, min(s + PORTION * chunk, samples), chunk, seed) for s in starts)
+    ahead = 1 + sum(client.nthreads().values())
+    running = as_completed(map(client.compute, islice(portions, ahead)))
+    total = np.zeros(2 * BINS + len(wedge.Regime), dtype=np.int64)
+    with Progress() as bar:
+        task = bar.add_task("portions of samples", total=len(starts))
+        for future in running:
+            total += future.result().astype(np.int64)
+            running.update(map(client.compute, islice(portions, 1)))
+            bar.advance(task)
+    return Counts(*np.split(total, [BINS, 2 * BINS]))
+
+
+def quantiles(counts: Any) -> list[float]:
+    """Lengths [um] that the given parts of what was counted do not exceed, to a bin's width."""
+    below = np.concatenate([[0], np.cumsum(counts)])
+    edges = np.linspace(0.0, LONGEST, BINS + 1)
+    return [float(v) for v in np.interp(np.multiply(QUANTILES, below[-1]), below, edges)]
+
+
+def report(counts: Counts) -> Iterator[str]:
+    """Quantiles, regimes and a rough histogram, line by line."""
+    total = int(np.sum(counts.regime))
+    yield f"{total:,} samples; slip zones in um, to {LONGEST / BINS:g}"
+    yield "edge  " + "".join(f"{100 * q:7g} %" for q in QUANTILES) + "   not counted"
+    for edge, found in zip(("left", "right"), counts[:2], strict=True):
+        rest = total - int(np.sum(found))  # m and n are not known, or beyond LONGEST
+        yield f"{edge:6}" + "".join(f"{v:9.1f}" for v in quantiles(found)) + f"{rest:14,}"
+    for regime in wedge.Regime:
+        if counts.regime[regime]:
+            yield f"{regime.name:11} {100 * counts.regime[regime] / total:8.4f} %"
+    rough = counts.left.reshape(50, -1).sum(axis=1)
+    used = np.flatnonzero(rough >= 0.001 * rough.max())
+    for i in range(used.min(), used.max() + 1) if used.size else ():
+        bar = "#" * round(60 * rough[i] / rough.max())
+        yield f"left {LONGEST * i / 50:5.0f} to {LONGEST * (i + 1) / 50:3.0f} um  {bar}"
+
+
+def write(counts: Counts, path: Path) -> None:
+    """The histogram as CSV."""
+    edges = np.linspace(0.0, LONGEST, BINS + 1)
+    with path.open("w", newline="", encoding="utf-8") as file:
+        out = csv.writer(file)
+        out.writerow(["from [um]", "to [um]", "left", "right"])
+        out.writerows(zip(edges, edges[1:], counts.left, counts.right, strict=False))
+
+
+@contextmanager
+def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
+    """A cluster that is running, or processes of this machine."""
+    if scheduler is None:
+        local: dict[str, Any] = {"n_workers": workers, "threads_per_worker": 1}
+        local["dashboard_address"] = "127.0.0.1:0"  # any free port: runs do not meet
+        local["silence_logs"] = logging.CRITICAL  # what fails is raised here
+        with dask.config.set(SHORT), LocalCluster(**local) as cluster, Client(cluster) as client:
+            yield client
+        return
+    try:
+        client = Client(scheduler, timeout="10s")
+    except (OSError, ValueError) as error:
+        raise SystemExit(f"no cluster answers at {scheduler}: {error}") from None
+    with client, tempfile.TemporaryDirectory() as folder:
+        home = Path(generated.__file__).parent
+        package = shutil.make_archive(f"{folder}/generated", "zip", home.parent, home.name)
+        client.upload_file(package)
+        try:
+            client.wait_for_workers(1, timeout=60)
+        except TimeoutError:
+            raise SystemExit(
+                f"no worker came to {scheduler} within a minute: start `dask worker {scheduler}`"
+            ) from None
+        yield client
+
+
+def number(text: str) -> int:
+    """A whole number, 1e8 or 100000000."""
+    with suppress(ValueError, OverflowError):
+        if float(text) >= 1 and float(text) == int(float(text)):
+            return int(float(text))
+    raise argparse.ArgumentTypeError(f"must be a whole number, 1e8 or 100000000, got {text}")
+
+
+def arguments() -> argparse.Namespace:
+    """What the command line says."""
+    said = argparse.ArgumentParser(description="Distribution of a wedge's slip zones.")
+    said.add_argument("--samples", type=number, default=10**7, help="how many; 1e7 unless given")
+    said.add_argument(
+        "--chunk", type=number, default=5 * STREAM, help=f"at once, a multiple of {STREAM}"
+    )
+    said.add_argument("--seed", type=int, default=0, help="of the random numbers, >= 0")
+    said.add_argument("--workers", type=number, help="processes of this machine; one a core")
+    said.add_argument(
+        "--scheduler", metavar="ADDRESS", help="of a running cluster, tcp://host:8786"
+    )
+    said.add_argument("--out", type=Path, metavar="FILE", help="the histogram, as CSV")
+    given = said.parse_args()
+    if given.chunk % STREAM:
+        said.error(f"--chunk must be a multiple of {STREAM}, got {given.chunk}")
+    if given.seed < 0:
+        said.error(f"--seed must not be negative, got {given.seed}")
+    if given.out and not given.out.parent.is_dir():
+        said.error(f"--out: there is no directory {given.out.parent}")
+    return given
+
+
+def main() -> None:
+    """Draw, evaluate, count, report."""
+    given = arguments()
+    with connected(given.scheduler, given.workers) as client:
+        counts = summed(client, given.samples, given.chunk, given.seed)
+    print("\n".join(report(counts)))
+    if given.out:
+        write(counts, given.out)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,251 @@
+"""The distributed scheduler on a cluster of processes of this machine: nothing leaves loopback."""
+
+import importlib
+import logging
+import os
+import subprocess
+import sys
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import dask
+import dask.array as da
+import numpy as np
+import pytest
+from distributed import Client, LocalCluster
+from numpy.testing import assert_array_equal
+
+from derive.codegen.publish import package_files, publish
+from generated import flat_rounded, hertz, wedge
+from tests.generated.test_dask import given_to, lazy
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "monte_carlo.py"
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def packages(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A directory on the path of this process and of the workers."""
+    folder = tmp_path_factory.mktemp("packages")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(folder))
+        yield folder
+
+
+@pytest.fixture(scope="module")
+def client(packages: Path) -> Iterator[Client]:
+    with (
+        LocalCluster(
+            n_workers=2,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address="127.0.0.1:0",
+            silence_logs=logging.CRITICAL,
+            local_directory=str(packages),
+        ) as cluster,
+        Client(cluster) as client,
+    ):
+        yield client
+
+
+@pytest.mark.parametrize("name", ["contact", "pressure", "stick_zone", "slip_zones", "march"])
+@pytest.mark.parametrize("body", ["wedge", "flat_rounded", "hyperbola"])
+def test_processes_give_what_numpy_gives(client: Client, body: str, name: str) -> None:
+    """Chunks of one element: exactly what calls with one element give."""
+    function, given = (
+        getattr(importlib.import_module(f"generated.{body}"), name),
+        given_to(body, name),
+    )
+    found = function(**{k: lazy(v, chunk=1) for k, v in given.items()})
+    with dask.config.set(scheduler="synchronous"):
+        wanted = dask.compute(*found) if isinstance(found, tuple) else (found.compute(),)
+    computed = dask.compute(*found) if isinstance(found, tuple) else (found.compute(),)
+    for value, other in zip(computed, wanted, strict=True):
+        assert_array_equal(value, other)
+    whole = function(**given)
+    for value, other in zip(computed, whole if isinstance(whole, tuple) else (whole,), strict=True):
+        assert value.dtype == other.dtype
+        np.testing.assert_allclose(value, other, rtol=1e-12, atol=1e-15)
+
+
+def test_a_million_elements_give_the_same_in_processes(client: Client) -> None:
+    """Closed formulas, whose values do not depend on the chunks: to the last bit."""
+    rng = np.random.default_rng(5)
+    P, M, f = rng.uniform(1, 2, 10**6), rng.uniform(-0.2, 0.2, 10**6), rng.uniform(0.4, 0.6, 10**6)
+
+    def zone(P: Any, M: Any, f: Any) -> Any:
+        state = wedge.contact(P, M, E_star=1.0, phi=0.25)
+        return wedge.stick_zone(state, state, 0.2, 0.005, f=f, E_star=1.0, phi=0.25)
+
+    with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1GB"}):
+        found = dask.compute(*zone(*(da.from_array(v, chunks=10**5) for v in (P, M, f))))
+    for one, other in zip(found, zone(P, M, f), strict=True):
+        assert_array_equal(one, other)
+
+
+def counted(block: Any, folder: str) -> Any:
+    """The block as it is, and a file that says so."""
+    number = len([*Path(folder).iterdir()])
+    Path(folder, f"{number}-{os.getpid()}-{block[0]:.6f}-{block.size}").touch()
+    return block
+
+
+def test_each_chunk_is_computed_once_and_alone(client: Client, tmp_path: Path) -> None:
+    """Draws, contact and slip zones of a chunk feed three results; no block is larger than it."""
+    P = da.linspace(1, 2, 40, chunks=10).map_blocks(counted, str(tmp_path), dtype=float)
+    state = hertz.contact(P, 0.1, E_star=1.0, R=1.0)
+    zone = hertz.stick_zone(state, state, 0.1, 0.0, f=0.5, E_star=1.0, R=1.0)
+    dask.compute((state.a - zone.m).max(), (state.c - zone.n).max(), zone.regime.min())
+    seen = [path.name.split("-")[2:] for path in tmp_path.iterdir()]
+    assert len(seen) == len({start for start, _ in seen}) == 4
+    assert {size for _, size in seen} == {"10"}
+
+
+def test_what_a_chunk_raises_is_raised_when_it_is_computed(client: Client) -> None:
+    def broken(block: Any) -> Any:
+        raise ArithmeticError("of one chunk")
+
+    P = da.ones(6, chunks=3).map_blocks(broken, dtype=float)
+    state = flat_rounded.contact(P, 0.1, E_star=1.0, R=1.0, b=0.5)
+    with pytest.raises(ArithmeticError, match="of one chunk"):
+        state.a.compute()
+
+
+def test_a_package_of_one_s_own(client: Client, packages: Path) -> None:
+    """Found by its name, as long as the workers can import it."""
+    text = (ROOT / "generated" / "hertz.py").read_text()
+    publish(package_files({"roller": text}), packages / "bodies_on_workers")
+    importlib.invalidate_caches()
+    roller = importlib.import_module("bodies_on_workers.roller")
+    P = np.linspace(1, 2, 6)
+    state = roller.contact(da.from_array(P, chunks=2), 0.1, E_star=1.0, R=1.0)
+    assert_array_equal(state.a.compute(), hertz.contact(P, 0.1, E_star=1.0, R=1.0).a)
+
+
+# ------------------------------------------------------------------ the Monte Carlo
+
+
+@pytest.fixture(scope="module")
+def monte_carlo() -> Any:
+    """The example as a module."""
+    spec = importlib.util.spec_from_file_location("monte_carlo", EXAMPLE)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-W", "error", str(EXAMPLE), *arguments]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, env=environment())
+
+
+def environment() -> dict[str, str]:
+    return os.environ | {"PYTHONPATH": str(ROOT)}
+
+
+def expected(of: Any, samples: int) -> Any:
+    """The same by NumPy alone, all samples at once."""
+    P, M, f = (of.drawn(name, 0, 0, samples) for name in of.SCATTER)
+    left, right, regime = of.slip_zones(P, M, f)
+    bins = {"bins": of.BINS, "range": (0.0, of.LONGEST)}
+    counts = [np.histogram(zone, **bins)[0] for zone in (left, right)]
+    return of.Counts(*counts, np.bincount(regime, minlength=len(wedge.Regime)))
+
+
+def test_the_monte_carlo_counts_what_numpy_counts(monte_carlo: Any, tmp_path: Path) -> None:
+    """Whatever the chunks and the workers: 120,000 samples, the last stream of them not whole."""
+    samples = 2 * monte_carlo.STREAM + 20_000
+    wanted = expected(monte_carlo, samples)
+    lines = [*monte_carlo.report(wanted)]
+    for chunk, workers in ((1, 2), (2, 1), (5, 1)):
+        done = run(
+            f"--samples={samples}",
+            f"--chunk={chunk * monte_carlo.STREAM}",
+            f"--workers={workers}",
+            f"--out={tmp_path / 'slip.csv'}",
+        )
+        assert done.returncode == 0, done.stderr
+        assert done.stderr == ""
+        rows = np.genfromtxt(tmp_path / "slip.csv", delimiter=",", skip_header=1)
+        assert_array_equal(rows[:, 2], wanted.left)
+        assert_array_equal(rows[:, 3], wanted.right)
+        assert done.stdout.splitlines()[-len(lines) :] == lines
+        assert "100%" in done.stdout
+
+
+def test_the_quantiles_are_those_of_the_samples(monte_carlo: Any) -> None:
+    samples = 100_000
+    P, M, f = (monte_carlo.drawn(name, 0, 0, samples) for name in monte_carlo.SCATTER)
+    left, _, _ = monte_carlo.slip_zones(P, M, f)
+    found = monte_carlo.quantiles(expected(monte_carlo, samples).left)
+    width = monte_carlo.LONGEST / monte_carlo.BINS
+    assert np.all(np.abs(found - np.nanquantile(left, monte_carlo.QUANTILES)) < width)
+
+
+def test_the_samples_are_spread_as_they_are_said_to_be(monte_carlo: Any) -> None:
+    """Means and deviations to four standard errors, and no two quantities alike."""
+    count = 200_000
+    drawn = {name: monte_carlo.drawn(name, 0, 0, count) for name in monte_carlo.SCATTER}
+    for name, mean, deviation in (("P", 2e6, 2e5), ("M", 100.0, 30.0)):
+        assert abs(drawn[name].mean() - mean) < 4 * deviation / np.sqrt(count)
+        assert abs(drawn[name].std() / deviation - 1) < 4 / np.sqrt(2 * count)
+    assert abs(np.log(drawn["f"]).mean() - np.log(0.5)) < 4 * 0.15 / np.sqrt(count)
+    assert np.all(np.abs(np.corrcoef([*drawn.values()]) - np.eye(3)) < 4 / np.sqrt(count))
+
+
+SERVED = """
+    import sys
+    from distributed import LocalCluster
+
+    if __name__ == "__main__":
+        with LocalCluster(n_workers=1, threads_per_worker=1, host="127.0.0.1",
+                          dashboard_address="127.0.0.1:0", silence_logs=50) as cluster:
+            print(cluster.scheduler_address, flush=True)
+            sys.stdin.read()
+"""
+
+
+def test_the_monte_carlo_runs_on_a_cluster_that_is_there(tmp_path: Path) -> None:
+    """One that was started elsewhere, and is sent the package."""
+    script = tmp_path / "served.py"
+    script.write_text(textwrap.dedent(SERVED))
+    with subprocess.Popen(
+        [sys.executable, str(script)],
+        cwd=tmp_path,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as cluster:
+        assert cluster.stdout is not None and cluster.stdin is not None
+        address = cluster.stdout.readline().strip()
+        there = run("--samples=60000", "--chunk=50000", f"--scheduler={address}")
+        cluster.stdin.close()
+    here = run("--samples=60000", "--chunk=50000", "--workers=1")
+    assert there.returncode == 0, there.stderr
+    assert there.stdout.splitlines()[1:] == here.stdout.splitlines()[1:]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "words"),
+    [
+        (["--samples=0"], 2, "must be a whole number, 1e8 or 100000000, got 0"),
+        (["--samples=1.5"], 2, "got 1.5"),
+        (["--samples=many"], 2, "got many"),
+        (["--samples=1e400"], 2, "got 1e400"),
+        (["--chunk=7"], 2, "--chunk must be a multiple of 50000, got 7"),
+        (["--seed=-1"], 2, "--seed must not be negative"),
+        (["--out=nowhere/slip.csv"], 2, "there is no directory nowhere"),
+        (["--scheduler=tcp://127.0.0.1:1"], 1, "no cluster answers at tcp://127.0.0.1:1"),
+        (["--scheduler=post://host"], 1, "no cluster answers at post://host"),
+    ],
+)
+def test_the_monte_carlo_says_what_is_wrong(arguments: list[str], status: int, words: str) -> None:
+    done = run(*arguments)
+    assert done.returncode == status
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
