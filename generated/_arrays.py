@@ -89,13 +89,13 @@ def elementwise(function: Function) -> Function:
 def chunkwise(function: Function, in_time: bool = False) -> Function:
     """Let a function of contacts and arrays take Dask arrays, too, and compute chunk by chunk.
 
-    Arguments annotated as whole numbers are handed on as they are.
+    Options, annotated as whole numbers or truth values, are handed on as they are.
     in_time: whether the last axis is time, and must lie in one chunk.
     """
     called = signature(function)
     parameters = called.parameters
     contacts = {name for name, p in parameters.items() if p.annotation is Contact}
-    literal = {name for name, p in parameters.items() if p.annotation is int}
+    literal = {name for name, p in parameters.items() if p.annotation in (int, bool)}
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:

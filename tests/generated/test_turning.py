@@ -138,3 +138,15 @@ def test_varying_loads_stay_unknown() -> None:
     law = {"f": F, "E_star": E_STAR, "phi": 0.25}
     zone = wedge.stick_zone(first, second, shear, change, **law, mixed=True)
     assert zone.regime == Regime.MIXED and np.isnan(zone.m)
+
+
+def test_a_cycle_may_be_lazy() -> None:
+    array = pytest.importorskip("dask.array")
+    tension = np.linspace(1.02, 1.1, 4)
+    here, shear, change = cycle("wedge", 1.5, 1.25, 0.2, tension)
+    law = {"f": F, "E_star": E_STAR, "phi": 0.25}
+    lazy = wedge.stick_zone(
+        here, here, shear, array.from_array(change, chunks=2), **law, mixed=True
+    )
+    known = wedge.stick_zone(here, here, shear, change, **law, mixed=True)
+    assert_allclose(lazy.n.compute(), known.n, rtol=1e-9)
