@@ -196,7 +196,8 @@ def check(file: Path | None, form: str, explain: str | None) -> None:
     """Check a paper's algebra: what is printed against what follows, claim by claim.
 
     Without FILE the paper by Andresen, Fleury, Moore and Hills (2020); FILE is a claims file of
-    one's own in TOML, as in examples/.  Leaves with 1 if a verdict is not the one expected.
+    one's own in TOML, as in examples/; docs/claims.md lists what it may hold.  Leaves with 1 if a
+    verdict is not the one expected.
     """
     from derive import view
     from derive.paper import report

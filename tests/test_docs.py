@@ -1,0 +1,39 @@
+"""What the pages of docs/ list is what there is."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from derive.derivation import derive_sheet
+from derive.library import load_geometry
+from derive.paper.claim import Verdict
+from derive.paper.userfile import read_claims
+
+CLAIMS = (Path(__file__).parents[1] / "docs" / "claims.md").read_text()
+
+
+def test_the_formulas_listed_are_those_of_the_sheet() -> None:
+    sheet = derive_sheet(load_geometry("hertz"))
+    listed = re.findall(r"^\| `(\w+)\((.*?)\)` \| (.*?) \| (.*?) \|$", CLAIMS, re.M)
+    assert len(listed) > 15
+    for name, arguments, meaning, unit in listed:
+        formula = sheet[name]
+        assert ", ".join(map(str, formula.arguments)) == arguments
+        assert (str(formula.meaning), str(formula.unit)) == (meaning, unit)
+        if name.endswith("_left"):
+            assert name.replace("_left", "_right") in sheet
+
+
+def test_the_file_shown_is_read(tmp_path: Path) -> None:
+    shown = re.search(r"```toml\n(.*?)```", CLAIMS, re.S)
+    assert shown is not None
+    path = tmp_path / "note.toml"
+    path.write_text(shown.group(1))
+    (claim,) = read_claims(path).claims
+    assert claim.expected is Verdict.HOLDS
+
+
+@pytest.mark.parametrize("verdict", list(Verdict))
+def test_every_verdict_is_told(verdict: Verdict) -> None:
+    assert f"| {verdict} |" in CLAIMS
