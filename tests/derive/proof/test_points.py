@@ -9,7 +9,7 @@ from pathlib import Path
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Rational, Symbol, sqrt
+from sympy import Integral, Rational, Symbol, sqrt, symbols
 
 from derive.proof.points import Point, contacts, draws, holds, loads, named, numeric
 from derive.proof.verdict import POINTS
@@ -126,6 +126,27 @@ def test_a_formula_becomes_a_function_of_a_point() -> None:
     assert numeric(Rational(1, 4) * P)(point) == mpf("0.5")
     with mpmath.workdps(50):
         assert numeric(sqrt(P))(point) == mpmath.sqrt(2)
+
+
+@pytest.mark.parametrize("edge", [a, c])
+def test_a_power_has_no_value_beyond_its_break_and_needs_none(edge: Symbol) -> None:
+    """int (|x| - b)**(k - 2) dx from a break at |x| = b to an edge is reach**(k - 1)/(k - 1).
+
+    The points have more digits than they are asked with.
+    """
+    b, k = symbols("b k", positive=True)
+    left = Integral((-(b + x)) ** k / (b + x) ** 2, (x, -a, -b))
+    right = Integral((-(b - x)) ** k / (b - x) ** 2, (x, b, c))
+    value = numeric(left if edge == a else right)
+    rng = random.Random(0)
+    for _ in range(6):
+        with mpmath.workdps(40):
+            reach, rest, place = (mpf(2) ** rng.uniform(-2, 2) for _ in range(3))
+            power = mpf(rng.uniform(1.4, 1.9))
+            point: Point = {b: place, k: power, a: rest - place, c: rest - place}
+            point[edge] = place + reach
+            wanted = reach ** (power - 1) / (power - 1)
+        assert mpmath.almosteq(value(point), wanted, rel_eps=mpf(10) ** -13)
 
 
 def test_conditions_are_decided_at_a_point() -> None:
