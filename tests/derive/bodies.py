@@ -152,13 +152,29 @@ def _function(expr: Expr) -> tuple[tuple[str, ...], Callable[..., mpf]]:
     return tuple(symbol.name for symbol in held), lambdify(held, expr, modules="mpmath")
 
 
+def number(expr: Expr, **given: float | mpf) -> mpf:
+    """An expression in numbers, at VALUES where nothing else is given; compiled once."""
+    numbers = VALUES | given
+    held, function = _function(expr)
+    return mpf(function(*(mpf(numbers[symbol]) for symbol in held)))
+
+
+_FLAT: dict[tuple[int, str], tuple[FormulaSheet, Expr]] = {}
+"""Formulas written out, by sheet and name; a sheet that is held keeps its identity."""
+
+
+def _flat(of: FormulaSheet, formula: str) -> Expr:
+    key = id(of), formula
+    if key not in _FLAT:
+        _FLAT[key] = of, of.flat(formula)
+    return _FLAT[key][1]
+
+
 def evaluated(of: FormulaSheet, formula: str, **given: float | mpf) -> mpf:
     """One formula in numbers, at VALUES where nothing else is given; e stands for M/P."""
-    numbers = VALUES | given
-    if "P" in numbers and "M" in numbers:
-        numbers["e"] = mpf(numbers["M"]) / numbers["P"]
-    held, function = _function(of.flat(formula))
-    return mpf(function(*(mpf(numbers[symbol]) for symbol in held)))
+    if "P" in given and "M" in given:
+        given["e"] = mpf(given["M"]) / given["P"]
+    return number(_flat(of, formula), **given)
 
 
 def value(name: str, formula: str, **given: float | mpf) -> mpf:
