@@ -30,7 +30,7 @@ from derive.pipeline import DONE, GENERATED, KEPT, STAGES
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
 from derive.view import summary
-from tests.derive.bodies import sheet
+from tests.derive.bodies import assumed, sheet
 
 ROOT = Path(__file__).parents[1]
 
@@ -151,12 +151,6 @@ MISUSED = [
 def words(given: tuple[str, ...] | str) -> str:
     """Arguments and words as the name of a test."""
     return (given if isinstance(given, str) else " ".join(given))[:50]
-
-
-def assumed(of: FormulaSheet) -> FormulaSheet:
-    """The sheet as if every formula were proven, for tests of what comes after the proof."""
-    proof = Proof(Verdict.PROVED, "assumed by a test")
-    return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})
 
 
 def written(folder: Path) -> Path:
