@@ -48,8 +48,8 @@ def text(body: str) -> str:
     return module_text(assumed(sheet(body)), f"{body}.py")
 
 
-def text_of_body(g: Expr, title: str = "A body.") -> str:
-    geometry = Geometry("body", g=g).described(title)
+def text_of_body(g: Expr) -> str:
+    geometry = Geometry("body", g=g).described("A body.")
     return module_text(assumed(derive_sheet(geometry)), "body.py")
 
 
@@ -240,7 +240,8 @@ def test_nothing_of_the_machine_or_the_day_is_in_a_file(path: Path) -> None:
     ],
 )
 def test_any_title_is_kept_word_by_word(title: str) -> None:
-    text = text_of_body(x**2 / (2 * parameter("R", "radius")), title)
+    of = assumed(sheet("hertz"))
+    text = module_text(replace(of, geometry=of.geometry.described(title)), "body.py")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         tree = ast.parse(text)
