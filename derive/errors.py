@@ -239,16 +239,18 @@ class BadText(UserError):
     @property
     def message(self) -> str:
         """What is wrong, a caret under it, and what is allowed."""
-        start = max(0, self.column - self._BEFORE)
-        end = self.column + self._AFTER
-        left = "..." if start else ""
-        right = "..." if end < len(self.given) else ""
-        shown = "".join(_visible(character) for character in self.given[start:end])
-        caret = " " * (len(left) + self.column - start) + "^"
-        return (
-            f"{self.why}: {self.remedy}\n    {left}{shown}{right}\n    {caret}\n"
-            f"allowed in g(x): {self.allowed}"
-        )
+        start, end = max(0, self.column - self._BEFORE), self.column + self._AFTER
+        place = _marked(self.given, self.column, start, end)
+        return f"{self.why}: {self.remedy}\n{place}\nallowed in g(x): {self.allowed}"
+
+
+def _marked(text: str, column: int, start: int = 0, end: int | None = None) -> str:
+    """A text, or the part of it from `start` to `end`, and a caret under the column."""
+    left = "..." if start else ""
+    right = "..." if end is not None and end < len(text) else ""
+    shown = "".join(_visible(character) for character in text[start:end])
+    caret = " " * (len(left) + column - start) + "^"
+    return f"    {left}{shown}{right}\n    {caret}"
 
 
 def _visible(character: str) -> str:
@@ -356,9 +358,7 @@ class BadFormula(UserError):
     @property
     def message(self) -> str:
         """What is wrong, and a caret under it."""
-        shown = "".join(_visible(character) for character in self.given)
-        caret = " " * self.column + "^"
-        return f"{self.where}: {self.why}: {self.remedy}\n    {shown}\n    {caret}"
+        return f"{self.where}: {self.why}: {self.remedy}\n{_marked(self.given, self.column)}"
 
 
 @dataclass

@@ -530,17 +530,20 @@ def _samples(symbols: list[Symbol]) -> Iterator[dict[Symbol, Rational]]:
         yield {p: Rational(rng.randint(10, 99), 10) ** rng.choice((1, -1)) for p in symbols}
 
 
-def _needs(values: dict[Symbol, Rational]) -> str:
+def _not_convex(name: str, how: str, values: dict[Symbol, Rational]) -> BadProfile:
     given = ", ".join(f"{k} = {v}" for k, v in values.items())
-    return f"the contact could break into several patches (seen with {given}); make it convex"
+    remedy = f"the contact could break into several patches (seen with {given}); make it convex"
+    return BadProfile(name, f"is not convex: {how}", remedy)
+
+
+def _negative_at(place: Expr) -> str:
+    return f"its curvature is negative near x = {float(place):.3g}"
 
 
 def _demand_steps(name: str, pieces: list[Piece], values: dict[Symbol, Rational]) -> None:
     for left, right in pairwise(pieces):
         if _step(left, right) < 0:
-            raise BadProfile(
-                name, f"is not convex: its slope falls at x = {right.lower}", _needs(values)
-            )
+            raise _not_convex(name, f"its slope falls at x = {right.lower}", values)
 
 
 def _demand_curved(
@@ -564,11 +567,7 @@ def _demand_curved(
                     "write it so that it is real wherever the body can touch",
                 )
             if mpmath.re(value) < 0:
-                raise BadProfile(
-                    name,
-                    f"is not convex: its curvature is negative near x = {float(place):.3g}",
-                    _needs(values),
-                )
+                raise _not_convex(name, _negative_at(place), values)
 
 
 def _places(piece: Piece) -> Iterator[mpf]:
@@ -596,11 +595,7 @@ def _demand_rising(name: str, pieces: list[Piece], values: dict[Symbol, Rational
         upper = piece.upper if piece.upper != oo else None
         for at in _probes(curvature, lower, upper):
             if curvature.eval(at) < 0:
-                raise BadProfile(
-                    name,
-                    f"is not convex: its curvature is negative near x = {float(at):.3g}",
-                    _needs(values),
-                )
+                raise _not_convex(name, _negative_at(at), values)
 
 
 def _probes(curvature: Poly, lower: Expr | None, upper: Expr | None) -> list[Rational]:

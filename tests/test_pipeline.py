@@ -57,7 +57,7 @@ def files(tmp_path: Path) -> list[str]:
 @pytest.mark.slow
 def test_several_processes_build_what_one_builds() -> None:
     """Byte for byte; the second time in the opposite order."""
-    names = ("hertz", "quartic", "wedge")
+    names = ("hertz", "quartic")
     alone = [build(name) for name in names]
     together = build_all(names[::-1], jobs=2, fresh=True)[::-1]
     assert [body.text.encode() for body in together] == [body.text.encode() for body in alone]
@@ -70,8 +70,7 @@ def test_several_processes_build_what_one_builds() -> None:
 
 def test_every_formula_comes_with_its_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     """The record of a body, without the seconds that its proofs take."""
-    from tests.derive.bodies import sheet
-    from tests.test_cli import assumed
+    from tests.derive.bodies import assumed, sheet
 
     monkeypatch.setattr("derive.proof.prove.prove_sheet", assumed)
     body = build("hertz")

@@ -162,13 +162,20 @@ def numbers(claim: Claim, meaning: Meaning, point: Point) -> Point:
     return _Numbers(_Numbers(known, {}), meaning)
 
 
+def _sides(
+    left: Expr, right: Expr, value: Callable[[], Point], working: int
+) -> tuple[Value, Value]:
+    """Both sides, and what they are made of, with so many digits."""
+    with mpmath.workdps(working):
+        numbers = value()
+        return evaluated(left, numbers), evaluated(right, numbers)
+
+
 def apart(left: Expr, right: Expr, value: Callable[[], Point], point: Point) -> Pair | None:
     """Both sides where a few digits, that do not change with more of them, tell them apart."""
     found = []
     for working in _COARSE:
-        with mpmath.workdps(working):
-            numbers = value()
-            found.append((evaluated(left, numbers), evaluated(right, numbers)))
+        found.append(_sides(left, right, value, working))
         if not all(mpmath.isfinite(number) for number in found[-1]) or agreement(*found[-1]) > _FEW:
             return None
     if any(map(_may_be_lost, (left, right), found[-1])):
@@ -182,9 +189,7 @@ def both(left: Expr, right: Expr, value: Callable[[], Point], point: Point) -> P
     sides, found = (left, right), list[tuple[Value, Value]]()
     steps = _WORKING if left.has(Integral) or right.has(Integral) else _WORKING + _MORE
     for working in steps:
-        with mpmath.workdps(working):
-            numbers = value()
-            found.append((evaluated(left, numbers), evaluated(right, numbers)))
+        found.append(_sides(left, right, value, working))
         if not all(mpmath.isfinite(number) for number in found[-1]):
             raise Undecided("no finite number")
         if found[1:] and all(map(_is_known, sides, *found[-2:])):

@@ -103,16 +103,9 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
 
     def at(point: Point) -> mpf:
         given = [point[symbol] for symbol in held]
-        return _real(function(*given, *(value(point) for value in values)))
+        return mpf(function(*given, *(value(point) for value in values)))
 
     return at
-
-
-def _real(value: mpf) -> mpf:
-    """Where a kink lies on an edge, rounding may leave the root of less than nothing."""
-    if isinstance(value, mpmath.mpc) and abs(value.imag) < mpf(10) ** -15 * abs(value.real):
-        return value.real
-    return mpf(value)
 
 
 def over_contact(over: Integral) -> Callable[[Point], mpf]:
@@ -121,7 +114,8 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
     Along the angle of the half circle, so that roots that vanish at the edges do no harm.  Nodes
     crowd at the ends of the part; where a power is infinite there, once more by
     t**3/(t**3 + (1 - t)**3).  The integrand is evaluated to so many digits that its differences
-    next to an end keep theirs.
+    next to an end keep theirs.  No node leaves the part, whatever rounding says: beyond an end a
+    power may have no real value.
     """
     variable, low, high = over.limits[0]
     held = sorted(over.free_symbols, key=str)
@@ -133,7 +127,8 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
     def at(point: Point) -> mpf:
         given = tuple(point[symbol] for symbol in held)
         if given not in known:
-            start, end = ends(*given)
+            with mpmath.workdps(_INSIDE):
+                start, end = ends(*given)
             known[given] = integrated(point[a], point[c], start, end, given)
         return known[given]
 
@@ -149,7 +144,8 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
                 near, far = t**power, (1 - t) ** power
                 theta = (angles[0] * far + angles[1] * near) / (near + far)
                 rate = (t * (1 - t)) ** (power - 1) / (near + far) ** 2
-                value = integrand(middle + half * mpmath.cos(theta), *given)
+                place = max(start, min(end, middle + half * mpmath.cos(theta)))
+                value = integrand(place, *given)
                 return value * half * mpmath.sin(theta) * rate
 
         with mpmath.workdps(_OUTSIDE):

@@ -14,7 +14,6 @@ from sympy import (
     Abs,
     Expr,
     Poly,
-    Rational,
     S,
     Symbol,
     count_ops,
@@ -35,6 +34,7 @@ from derive.sheet import FormulaSheet
 from derive.symbols import E_star, P, a, c, dM, dP, e, f, h, mid, s, w, x
 from derive.theory.algebra import is_zero
 from derive.theory.frame import KinkFrame
+from derive.theory.slip import pressure_next
 
 _LIMIT = "limit of p at the edges"
 _RATE = "(2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated"
@@ -203,14 +203,10 @@ def _put_back(sheet: FormulaSheet, name: str) -> str | None:
 
 
 def _next(sheet: FormulaSheet, name: str) -> str | None:
-    r"""L_N from the growth of p with its edge: dp/dc = K_N sqrt(h - s)/(2 sqrt(h) sqrt(s)).
-
-    p = K_N s**(1/2) + L_N s**(3/2) + ..., s = c - x: at s**(1/2) K_N' + (3/2) L_N = -K_N/(4 h).
-    """
+    """L_N from the growth of p with its edge, dp/dc = K_N sqrt(h - s)/(2 sqrt(h) sqrt(s))."""
     edge = a if name.endswith("left") else c
     K = sheet[name.replace("L", "K", 1)].expr
-    rate = sheet.frame.diff(K, edge)
-    off = rate + Rational(3, 2) * sheet[name].expr + K / (4 * h)
+    off = sheet[name].expr - pressure_next(sheet.frame.diff(K, edge), 0, K)
     return "K_N grows with its edge by flat punches" if is_zero(off, sheet.frame) else None
 
 

@@ -49,16 +49,12 @@ def contact_from_moment(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> I
     """(P, M) -> (a, c, alpha), in terms of P and the lever arm e = M/P."""
     if any(k.clipped for k in frame.kinks):
         return None
-    to_middle = _in_middle_and_width(frame)
-    arm = reduced(moment / load, frame)
-    middle = _root_of_first_degree(arm.subs(to_middle) - e, _mid)
-    if middle is None:
+    found = _where(reduced(moment / load, frame), e, load, frame)
+    if found is None:
         return None
-    half = _half_width(simplify(load.subs(to_middle).subs(_mid, middle)))
-    if half is None:
-        return None
+    middle, half = found
     edges = {_mid: middle, _h: 2 * half}
-    angle = tilt.subs(_angles(frame)).subs(to_middle).subs(edges)
+    angle = tilt.subs(_angles(frame)).subs(_in_middle_and_width(frame)).subs(edges)
     return Inverse(half - middle, half + middle, _opened_roots(angle), M=P * e)
 
 
@@ -73,15 +69,22 @@ def contact_from_tilt(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> Inv
 
 
 def _smooth_at_tilt(frame: Frame, tilt: Expr, load: Expr, arm: Expr) -> Inverse | None:
+    found = _where(tilt, alpha, load, frame)
+    if found is None:
+        return None
+    middle, half = found
+    edges = {a: half - middle, c: half + middle}
+    return Inverse(edges[a], edges[c], alpha, M=P * simplify(arm.subs(edges)))
+
+
+def _where(of_edges: Expr, value: Expr, load: Expr, frame: Frame) -> tuple[Expr, Expr] | None:
+    """Middle and half width of the contact under P in which `of_edges`, too, has its value."""
     to_middle = _in_middle_and_width(frame)
-    middle = _root_of_first_degree(tilt.subs(to_middle) - alpha, _mid)
+    middle = _root_of_first_degree(of_edges.subs(to_middle) - value, _mid)
     if middle is None:
         return None
     half = _half_width(simplify(load.subs(to_middle).subs(_mid, middle)))
-    if half is None:
-        return None
-    edges = {a: half - middle, c: half + middle}
-    return Inverse(edges[a], edges[c], alpha, M=P * simplify(arm.subs(edges)))
+    return None if half is None else (middle, half)
 
 
 def _corner_at_tilt(corner: KinkFrame, tilt: Expr, load: Expr, arm: Expr) -> Inverse | None:

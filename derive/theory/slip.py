@@ -57,27 +57,29 @@ def stuck_edge(edge: Edge) -> Symbol:
 
 def near(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
     """int_0^d p sqrt((stuck + d - s)/(d - s)) ds without powers of d beyond `order`."""
-    return sum(
-        (
-            pressure[i] * binomial(HALF, j) * stuck ** (HALF - j) * _beta(i, j) * d ** (i + j + 1)
-            for i in range(order)
-            for j in range(order - i)
-        ),
-        S.Zero,
-    )
+    return _series(pressure, d, stuck, order, 0)
 
 
 def far(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
     """int_0^d p sqrt((d - s)/(stuck + d - s)) ds without powers of d beyond `order`."""
+    return _series(pressure, d, stuck, order, 1)
+
+
+def _series(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int, shift: int) -> Expr:
+    """int_0^d p (stuck + d - s)**(1/2 - shift) (d - s)**(shift - 1/2) ds, cut behind `order`.
+
+    The first power by the binomial series in (d - s)/stuck.
+    """
+    power = HALF - shift
     return sum(
         (
             pressure[i]
-            * binomial(-HALF, j)
-            * stuck ** (-HALF - j)
-            * _beta(i, j + 1)
-            * d ** (i + j + 2)
-            for i in range(order - 1)
-            for j in range(order - 1 - i)
+            * binomial(power, j)
+            * stuck ** (power - j)
+            * _beta(i, j + shift)
+            * d ** (i + j + shift + 1)
+            for i in range(order - shift)
+            for j in range(order - shift - i)
         ),
         S.Zero,
     )
@@ -140,8 +142,8 @@ def slip_zone(edge: Edge, pull: Expr, K_N: Expr) -> Expr:
     return first.subs({stuck_edge(edge): Abs(pull) / (pi * sqrt(h)), kappa: S.One, K_N_edge: K_N})
 
 
-def pressure_next(coefficient: Expr, rate: Expr, order: int, K: Expr) -> Expr:
-    r"""The coefficient that follows C_order, `rate` being its derivative as the edge alone moves.
+def pressure_next(rate: Expr, order: int, K: Expr) -> Expr:
+    r"""The coefficient that follows C_order, whose derivative as the edge alone moves is `rate`.
 
     An edge that moves by dc adds K sqrt(h - s)/(2 sqrt(h) sqrt(s)) dc to the pressure: by powers of
     s, C_k' + (k + 3/2) C_(k+1) = (K/2) binomial(1/2, k + 1) (-1/h)**(k + 1).

@@ -68,9 +68,6 @@ def _worst_in(
         points = [{n: float(v[i]) for n, v in given.items()} for i in range(len(got))]
         references = [exact(expr, point) for point in points]
         errors = np.array([ulps(v, r) for v, r in zip(got, references, strict=True)])
-        kappa = np.ones(len(got))
-        for i in np.flatnonzero(errors > 1):
-            kappa[i] = max(1.0, condition(expr, points[i]))
         at = int(np.argmax(errors))
         yield Worst(
             body,
@@ -78,11 +75,21 @@ def _worst_in(
             field,
             region,
             float(errors[at]),
-            float(np.max(errors / kappa)),
+            _excess(expr, points, errors),
             condition(expr, points[at]),
             points[at],
             _paper(body, function.name, field, given, references),
         )
+
+
+def _excess(expr: Expr, points: list[dict[str, float]], errors: np.ndarray) -> float:
+    """The largest error over its conditioning, which is asked for where it can matter only."""
+    largest = max((float(error) for error in errors if error <= 1), default=0.0)
+    for i in np.argsort(-errors):
+        if errors[i] <= max(largest, 1):
+            break
+        largest = max(largest, float(errors[i]) / max(1.0, condition(expr, points[i])))
+    return largest
 
 
 def _paper(

@@ -4,7 +4,7 @@ The slopes are written by hand, so that no quadrature rests on how the program r
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from mpmath import mpf
@@ -13,6 +13,7 @@ from sympy import Abs, Expr, Max, Piecewise, lambdify
 from derive import Geometry, parameter, x
 from derive.derivation import derive_sheet
 from derive.proof.prove import prove_sheet
+from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
 
 R = parameter("R", "radius of curvature", unit="m")
@@ -134,6 +135,12 @@ def sheet(name: str) -> FormulaSheet:
     return derive_sheet(geometry(name))
 
 
+def assumed(of: FormulaSheet, verdict: Verdict = Verdict.PROVED) -> FormulaSheet:
+    """The sheet as if every formula had this verdict: for tests of what comes after the proof."""
+    proof = Proof(verdict, "assumed by a test")
+    return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})
+
+
 @cache
 def proven(name: str) -> FormulaSheet:
     """The sheet of one body, proven once."""
@@ -152,13 +159,29 @@ def _function(expr: Expr) -> tuple[tuple[str, ...], Callable[..., mpf]]:
     return tuple(symbol.name for symbol in held), lambdify(held, expr, modules="mpmath")
 
 
+def number(expr: Expr, **given: float | mpf) -> mpf:
+    """An expression in numbers, at VALUES where nothing else is given; compiled once."""
+    numbers = VALUES | given
+    held, function = _function(expr)
+    return mpf(function(*(mpf(numbers[symbol]) for symbol in held)))
+
+
+_FLAT: dict[tuple[int, str], tuple[FormulaSheet, Expr]] = {}
+"""Formulas written out, by sheet and name; a sheet that is held keeps its identity."""
+
+
+def _flat(of: FormulaSheet, formula: str) -> Expr:
+    key = id(of), formula
+    if key not in _FLAT:
+        _FLAT[key] = of, of.flat(formula)
+    return _FLAT[key][1]
+
+
 def evaluated(of: FormulaSheet, formula: str, **given: float | mpf) -> mpf:
     """One formula in numbers, at VALUES where nothing else is given; e stands for M/P."""
-    numbers = VALUES | given
-    if "P" in numbers and "M" in numbers:
-        numbers["e"] = mpf(numbers["M"]) / numbers["P"]
-    held, function = _function(of.flat(formula))
-    return mpf(function(*(mpf(numbers[symbol]) for symbol in held)))
+    if "P" in given and "M" in given:
+        given["e"] = mpf(given["M"]) / given["P"]
+    return number(_flat(of, formula), **given)
 
 
 def value(name: str, formula: str, **given: float | mpf) -> mpf:

@@ -4,7 +4,7 @@ from functools import cache
 
 import mpmath
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
 from sympy import Expr, Symbol, atan, log, pi, simplify, sqrt
@@ -120,6 +120,9 @@ def test_symbol_and_arguments_are_those_of_the_convention(name: str) -> None:
 
 # What holds for every body.
 
+FEW = settings(max_examples=25)
+"""Contacts a body: an identity of analytic functions that fails, fails at nearly every one."""
+
 number = st.floats(0.125, 8, allow_nan=False, width=32)
 _at = st.floats(0.03125, 0.96875, width=32)
 SIDED = ("unequal_wedge", "shifted_wedge", "two_radii", "half_parabola", "spline", "skew")
@@ -138,6 +141,7 @@ def inside(edges: dict[str, mpf], share: float) -> mpf:
 
 
 @pytest.mark.parametrize("name", SIDED)
+@FEW
 @given(number, number, _at)
 def test_a_mirrored_body_has_mirrored_formulas(
     name: str, left: float, right: float, share: float
@@ -180,6 +184,7 @@ _LENGTHS = {"R": 1, "R1": 1, "b": 1, "C": 3, "phi": 0, "psi": 0}
 
 
 @pytest.mark.parametrize("name", BODIES)
+@FEW
 @given(number, number, _at, st.floats(0.01, 100))
 def test_all_lengths_together_scale_every_formula_by_its_power(
     name: str, left: float, right: float, share: float, factor: float
@@ -195,6 +200,7 @@ def test_all_lengths_together_scale_every_formula_by_its_power(
 
 
 @pytest.mark.parametrize("name", BODIES)
+@FEW
 @given(number, number, _at, st.floats(0.01, 100))
 def test_forces_scale_with_the_modulus(
     name: str, left: float, right: float, share: float, factor: float
@@ -218,6 +224,7 @@ def test_forces_scale_with_the_modulus(
     ],
     ids=lambda given: given if isinstance(given, str) else "+".join(given),
 )
+@FEW
 @given(number, number, _at)
 def test_bodies_add_up_at_one_contact(
     whole: str, parts: dict[str, int], left: float, right: float, share: float
@@ -241,6 +248,7 @@ def test_two_halves_make_two_radii() -> None:
 
 
 @pytest.mark.parametrize("name", BODIES)
+@FEW
 @given(number, number, _at)
 def test_a_convex_body_presses_everywhere_in_its_contact(
     name: str, left: float, right: float, share: float
@@ -255,6 +263,7 @@ def test_a_convex_body_presses_everywhere_in_its_contact(
 
 
 @pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded", "quartic", "three_corners"])
+@FEW
 @given(number)
 def test_a_symmetric_contact_of_a_symmetric_body_has_no_tilt_and_no_moment(
     name: str, half: float
@@ -267,6 +276,7 @@ def test_a_symmetric_contact_of_a_symmetric_body_has_no_tilt_and_no_moment(
 
 
 @pytest.mark.parametrize("name", ["hertz", "wedge", "quartic", "flat_rounded", "rounded_wedge"])
+@FEW
 @given(number, number)
 def test_moment_and_tilt_of_a_symmetric_body_have_one_sign(
     name: str, left: float, right: float
@@ -284,6 +294,7 @@ def shifted(name: str) -> FormulaSheet:
 
 
 @pytest.mark.parametrize("name", ["hertz", "quartic", "skew"])
+@FEW
 @given(number, number, number, _at)
 def test_a_shifted_body_has_a_shifted_contact(
     name: str, left: float, right: float, shift: float, share: float

@@ -104,7 +104,7 @@ def test_a_sheet_prints_every_formula_and_every_definition(name: str) -> None:
     body, lines = sheet(name), [line.strip() for line in str(sheet(name)).splitlines()]
     assert lines[0] == f"{name}: g(x) = {text_of(body.geometry.g)}"
     for key, formula in body.items():
-        assert sum(line == body.equation(key) for line in lines) == 1
+        assert lines.count(body.equation(key)) == 1
         assert any(formula.meaning in line for line in lines)
         assert any(formula.source in line for line in lines)
     for symbol, definition in body.definitions.items():

@@ -477,14 +477,14 @@ def read_or_skip(text: str) -> Expr:
         raise
 
 
-@settings(max_examples=400)
+@settings(max_examples=200)
 @given(formulas())
 def test_a_text_means_what_it_means_in_python(pair: Pair) -> None:
     text, code = pair
     assert read_or_skip(text) == computed(code)
 
 
-@settings(max_examples=400)
+@settings(max_examples=200)
 @given(formulas())
 def test_the_python_that_is_written_is_exactly_what_was_read(pair: Pair) -> None:
     expr = read_or_skip(pair[0])

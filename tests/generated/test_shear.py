@@ -17,6 +17,8 @@ CYCLES = {"moderate": 0.6, "large": 2.5, "large, compression": -3.0}
 CLOSED = ("wedge", "hertz", "two_radii", "flat_rounded")
 """Bodies whose pressure is a formula; where it is integrated each place takes a millisecond."""
 
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(100)
+
 
 class Case:
     """One body in one cycle; contacts that differ where `moved`."""
@@ -43,8 +45,7 @@ class Case:
 def over(integrand: Any, *cuts: float) -> float:
     """Gauss-Legendre between the cuts and the bodies' kinks; x = start + length sin(t)**2."""
     ends = sorted({*cuts, *(k for k in (-0.5, 0.0, 0.5) if min(cuts) < k < max(cuts))})
-    t, weight = np.polynomial.legendre.leggauss(100)
-    t, weight = (t + 1) * np.pi / 4, weight * np.pi / 4
+    t, weight = (NODES + 1) * np.pi / 4, WEIGHTS * np.pi / 4
     total = 0.0
     for start, stop in pairwise(ends):
         x = start + (stop - start) * np.sin(t) ** 2

@@ -1,5 +1,7 @@
 """The appendix: two cylinders."""
 
+from typing import Any
+
 from sympy import (
     Expr,
     Integral,
@@ -62,6 +64,14 @@ DEFINITIONS: dict[Symbol, Expr] = {
     delta_2: -3 * (m + n) / (4 * _root) * _common,
     chi: sqrt((a**2 - m**2) * (a**2 - n**2)) / ((a + m) * (a + n)),
 }
+_STRAIN, _FORCE = Delta_sigma * pi / 8, Delta_Q / 2 + (n - m) * Delta_sigma * pi / 16
+"""Left-hand sides of eqs. (46) and (47)."""
+_ZONE: Meaning = {a: _size, m: _size * _mu, n: _size * _nu}
+_ELLIPTIC: dict[str, Any] = {
+    "ranges": {_mu: FRACTION, _nu: FRACTION},
+    "family": "large tension, cylinder",
+}
+"""What the claims on the large tension have in common: the stick zone's ends, parts of a."""
 
 
 def bracket(order: int, parameter: Expr) -> Expr:
@@ -223,55 +233,45 @@ def _moderate() -> tuple[Claim, ...]:
 
 def _large() -> tuple[Claim, ...]:
     pressure = hertz("pressure", _size, _size)
-    place = {a: _size, m: _size * _mu, n: _size * _nu}
-    printed = {symbol: value.subs(place) for symbol, value in DEFINITIONS.items()}
-    meaning = {**place, **printed, **conditions(pressure, _size, place[m], place[n])}
-    ranges = {_mu: FRACTION, _nu: FRACTION}
-    strain, force = Delta_sigma * pi / 8, Delta_Q / 2 + (n - m) * Delta_sigma * pi / 16
-    against = "the two conditions of stick with the cylinder's pressure, by quadrature"
+    printed = {symbol: value.subs(_ZONE) for symbol, value in DEFINITIONS.items()}
+    shared: dict[str, Any] = {
+        "meaning": {**_ZONE, **printed, **conditions(pressure, _size, _ZONE[m], _ZONE[n])},
+        "against": "the two conditions of stick with the cylinder's pressure, by quadrature",
+        **_ELLIPTIC,
+    }
+    of_strain = {"says": "the condition of strain in elliptic integrals", "left": _STRAIN}
     return (
         Claim(
             label="eq25",
             equation="(46)",
             place="eq. (46), appendix, chi read as the modulus k",
-            says="the condition of strain in elliptic integrals",
-            left=strain,
             right=bracket(1, chi**2),
-            meaning=meaning,
-            against=against,
-            ranges=ranges,
-            family="large tension, cylinder",
             swaps=(alpha_1, beta_1, gamma_1, delta_1),
             expected=Verdict.NUMERICAL,
+            **of_strain,
+            **shared,
         ),
         Claim(
             label="eq25/parameter",
             place="eq. (46), appendix, chi read as the parameter m = k^2, as SciPy and SymPy take",
-            says="the condition of strain in elliptic integrals",
-            left=strain,
             right=bracket(1, chi),
-            meaning=meaning,
-            against=against,
-            ranges=ranges,
-            family="large tension, cylinder",
             expected=Verdict.FAILS,
             consequence=modulus_read_as_parameter,
+            **of_strain,
+            **shared,
         ),
         Claim(
             label="eq26",
             equation="(47)",
             place="eq. (47), appendix, chi read as the modulus k",
             says="the condition of force in elliptic integrals",
-            left=force,
+            left=_FORCE,
             right=bracket(2, chi**2),
-            meaning=meaning,
-            against=against,
-            ranges=ranges,
-            family="large tension, cylinder",
-            conventions=(opposite_tension(pressure, _size, place[m], place[n]),),
+            conventions=(opposite_tension(pressure, _size, _ZONE[m], _ZONE[n]),),
             swaps=(m, n),
             expected=Verdict.CONVENTION,
             consequence=shift_of_stick_zone,
+            **shared,
         ),
     )
 
@@ -286,13 +286,11 @@ _WORDS = {
 def _definitions() -> tuple[Claim, ...]:
     """Each of the eleven definitions in its own condition, the others as printed."""
     pressure = hertz("pressure", _size, _size)
-    place: Meaning = {a: _size, m: _size * _mu, n: _size * _nu}
-    changes = opposite_tension(pressure, _size, place[m], place[n]).meaning
+    changes = opposite_tension(pressure, _size, _ZONE[m], _ZONE[n]).meaning
     made = []
     for symbol, value in DEFINITIONS.items():
         order = 2 if symbol in (alpha_2, beta_2, gamma_2, delta_2) else 1
-        others = {k: v.subs(place) for k, v in DEFINITIONS.items() if k != symbol}
-        strain, force = Delta_sigma * pi / 8, Delta_Q / 2 + (n - m) * Delta_sigma * pi / 16
+        others = {k: v.subs(_ZONE) for k, v in DEFINITIONS.items() if k != symbol}
         made.append(
             Claim(
                 label=f"appendix/definitions/{symbol}",
@@ -301,14 +299,13 @@ def _definitions() -> tuple[Claim, ...]:
                 says=f"{_WORDS.get(symbol, 'a coefficient')} of eq. ({45 + order})",
                 left=symbol,
                 right=value,
-                through=(strain if order == 1 else force, bracket(order, chi**2)),
-                meaning={**place, **others, **changes},
+                through=(_STRAIN if order == 1 else _FORCE, bracket(order, chi**2)),
+                meaning={**_ZONE, **others, **changes},
                 against=f"eq. ({45 + order}) in the paper's sign of tension, the other definitions "
                 "as printed",
-                ranges={_mu: FRACTION, _nu: FRACTION},
-                family="large tension, cylinder",
                 swaps=(m, n),
                 expected=Verdict.NUMERICAL,
+                **_ELLIPTIC,
             )
         )
     return tuple(made)

@@ -286,48 +286,50 @@ _SUPERPOSED = (
 
 
 def _stick() -> tuple[Claim, ...]:
-    carried = (P_0 - Delta_Q / (2 * f)) / (E_star * phi)
-    meaning = {**STICK, **_CHANGES}
-    against = "the contact of the same body at load P_0 - Delta Q/(2 f) and tilt alpha_t"
     return (
-        Claim(
-            label="m/m",
-            equation="(28)",
-            place="eq. (28), section 4.1, first part",
-            says="the left end of the permanent stick zone",
-            left=m,
-            right=carried * sqrt(1 / gamma_t),
-            meaning=meaning,
-            against=against,
-            swaps=(m, n),
-            steps=_SUPERPOSED,
-            expected=Verdict.HOLDS,
-        ),
-        Claim(
-            label="m/n",
-            equation="(28)",
-            place="eq. (28), section 4.1, second part",
-            says="the right end of the permanent stick zone",
-            left=n,
-            right=carried * sqrt(gamma_t),
-            meaning=meaning,
-            against=against,
-            swaps=(m, n),
-            steps=_SUPERPOSED,
-            expected=Verdict.HOLDS,
-        ),
-        Claim(
-            label="gamma_2",
-            equation="(29)",
-            place="eq. (29), section 4.1",
-            says="the ratio n/m from mean tilt and tension",
-            left=gamma_t,
-            right=GAMMA_T,
-            meaning=meaning,
-            against=against,
-            swaps=(),
-            steps=_SUPERPOSED,
-            expected=Verdict.HOLDS,
+        *(
+            Claim(
+                label=label,
+                equation=number,
+                place=f"eq. {number}, section 4.1{part}",
+                says=says,
+                left=left,
+                right=right,
+                meaning={**STICK, **_CHANGES},
+                against="the contact of the same body at load P_0 - Delta Q/(2 f) and tilt alpha_t",
+                swaps=swaps,
+                steps=_SUPERPOSED,
+                expected=Verdict.HOLDS,
+            )
+            for label, number, part, says, left, right, swaps in (
+                (
+                    "m/m",
+                    "(28)",
+                    ", first part",
+                    "the left end of the permanent stick zone",
+                    m,
+                    edge_printed(m, gamma_t),
+                    (m, n),
+                ),
+                (
+                    "m/n",
+                    "(28)",
+                    ", second part",
+                    "the right end of the permanent stick zone",
+                    n,
+                    edge_printed(n, gamma_t),
+                    (m, n),
+                ),
+                (
+                    "gamma_2",
+                    "(29)",
+                    "",
+                    "the ratio n/m from mean tilt and tension",
+                    gamma_t,
+                    GAMMA_T,
+                    (),
+                ),
+            )
         ),
         Claim(
             label="section 4.1/alpha_0",
@@ -391,11 +393,10 @@ _WIDE = tuple(
 )
 
 
-def edge_printed(which: Symbol) -> Expr:
-    """Eq. (28) with eq. (29) put in."""
+def edge_printed(which: Symbol, ratio: Expr = GAMMA_T) -> Expr:
+    """Eq. (28), right-hand side, the ratio n/m by eq. (29) if it is not given."""
     carried = (P_0 - Delta_Q / (2 * f)) / (E_star * phi)
-    skew = sqrt(1 / GAMMA_T) if which == m else sqrt(GAMMA_T)
-    return carried * skew
+    return carried * sqrt(1 / ratio if which == m else ratio)
 
 
 def _over_slip(power: int, size: Expr, skew: Expr) -> Expr:

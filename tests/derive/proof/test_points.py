@@ -4,12 +4,13 @@ import os
 import random
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Rational, Symbol, sqrt
+from sympy import Integral, Rational, Symbol, sqrt, symbols
 
 from derive.proof.points import Point, contacts, draws, holds, loads, named, numeric
 from derive.proof.verdict import POINTS
@@ -19,6 +20,12 @@ from tests.derive.bodies import BODIES, sheet
 ROOT = Path(__file__).parents[3]
 EVERY = pytest.mark.parametrize("name", BODIES)
 CLOSED = pytest.mark.parametrize("name", ["hertz", "wedge", "unequal_wedge", "shifted_wedge"])
+
+
+@cache
+def drawn(name: str) -> list[Point]:
+    """Contacts of one body, drawn once."""
+    return contacts(sheet(name))
 
 
 def test_as_many_points_as_asked_are_drawn() -> None:
@@ -58,7 +65,7 @@ def test_points_hang_on_the_name_and_on_nothing_else() -> None:
 @EVERY
 def test_contacts_meet_every_assumption(name: str) -> None:
     body = sheet(name)
-    found = contacts(body)
+    found = drawn(name)
     assert len(found) == POINTS
     for point in found:
         assert holds(body["pressure"].conditions, point)
@@ -70,7 +77,7 @@ def test_contacts_meet_every_assumption(name: str) -> None:
 
 @EVERY
 def test_contacts_are_longer_on_the_left_and_on_the_right(name: str) -> None:
-    found = contacts(sheet(name))
+    found = drawn(name)
     assert sum(point[a] > point[c] for point in found) >= POINTS // 4
     assert sum(point[a] < point[c] for point in found) >= POINTS // 4
 
@@ -80,13 +87,13 @@ def test_contacts_are_tilted_both_ways_and_their_moments_too(name: str) -> None:
     """All but half a parabola, which slopes one way only."""
     body = sheet(name)
     for formula in ("tilt", "moment"):
-        signs = {int(mpmath.sign(numeric(body.flat(formula))(p))) for p in contacts(body)}
+        signs = {int(mpmath.sign(numeric(body.flat(formula))(p))) for p in drawn(name)}
         assert {-1, 1} <= signs
 
 
 @EVERY
 def test_tension_occurs_with_both_signs(name: str) -> None:
-    assert {mpmath.sign(point[dsigma]) for point in contacts(sheet(name))} == {-1, 1}
+    assert {mpmath.sign(point[dsigma]) for point in drawn(name)} == {-1, 1}
 
 
 @pytest.mark.parametrize("name", ["two_radii", "flat_rounded", "spline", "wedge_on_parabola"])
@@ -95,7 +102,7 @@ def test_some_contacts_span_every_kink_and_some_have_left_one(name: str) -> None
     body = sheet(name)
     places = [numeric(k.position) for k in body.geometry.slope.kinks]
     spanned = [
-        all(-point[a] < place(point) < point[c] for place in places) for point in contacts(body)
+        all(-point[a] < place(point) < point[c] for place in places) for point in drawn(name)
     ]
     assert any(spanned)
     assert not all(spanned)
@@ -103,7 +110,7 @@ def test_some_contacts_span_every_kink_and_some_have_left_one(name: str) -> None
 
 @EVERY
 def test_x_falls_on_both_sides_of_the_middle(name: str) -> None:
-    found = contacts(sheet(name))
+    found = drawn(name)
     sides = {mpmath.sign(point[x] - (point[c] - point[a]) / 2) for point in found}
     assert sides == {-1, 1}
 
@@ -126,6 +133,27 @@ def test_a_formula_becomes_a_function_of_a_point() -> None:
     assert numeric(Rational(1, 4) * P)(point) == mpf("0.5")
     with mpmath.workdps(50):
         assert numeric(sqrt(P))(point) == mpmath.sqrt(2)
+
+
+@pytest.mark.parametrize("edge", [a, c])
+def test_a_power_has_no_value_beyond_its_break_and_needs_none(edge: Symbol) -> None:
+    """int (|x| - b)**(k - 2) dx from a break at |x| = b to an edge is reach**(k - 1)/(k - 1).
+
+    The points have more digits than they are asked with.
+    """
+    b, k = symbols("b k", positive=True)
+    left = Integral((-(b + x)) ** k / (b + x) ** 2, (x, -a, -b))
+    right = Integral((-(b - x)) ** k / (b - x) ** 2, (x, b, c))
+    value = numeric(left if edge == a else right)
+    rng = random.Random(0)
+    for _ in range(6):
+        with mpmath.workdps(40):
+            reach, rest, place = (mpf(2) ** rng.uniform(-2, 2) for _ in range(3))
+            power = mpf(rng.uniform(1.4, 1.9))
+            point: Point = {b: place, k: power, a: rest - place, c: rest - place}
+            point[edge] = place + reach
+            wanted = reach ** (power - 1) / (power - 1)
+        assert mpmath.almosteq(value(point), wanted, rel_eps=mpf(10) ** -13)
 
 
 def test_conditions_are_decided_at_a_point() -> None:

@@ -4,11 +4,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
-from sympy import Expr, Integer, Rational, Symbol, lambdify, sqrt
+from sympy import Expr, Integer, Rational, Symbol, sqrt
 
 from derive.symbols import a, c, h, w, x
 from derive.theory.algebra import is_zero, reduced, tidy
-from tests.derive.bodies import VALUES, close, sheet
+from tests.derive import bodies
+from tests.derive.bodies import close, sheet
 
 SMOOTH, CORNER = sheet("hertz").frame, sheet("shifted_wedge").frame
 (KINK,) = CORNER.kinks
@@ -16,10 +17,7 @@ b = Symbol("b", positive=True)
 
 
 def number(expr: Expr, **given: float) -> mpf:
-    expr = CORNER.flat(expr)
-    held = sorted(expr.free_symbols, key=str)
-    numbers = VALUES | {"a": 2.0, "c": 1.5, "x": 0.875} | given
-    return mpf(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
+    return bodies.number(CORNER.flat(expr), **{"a": 2.0, "c": 1.5, "x": 0.875} | given)
 
 
 @pytest.mark.parametrize(
@@ -99,11 +97,8 @@ def test_a_reduced_form_also_holds_where_the_contact_has_left_the_kink(name: str
     frame = sheet(name).frame
     for k in frame.kinks:
         form = frame.flat(reduced(k.w**2 + a, frame))
-        held = sorted(form.free_symbols, key=str)
         for left, right in ((-1.0, 3.0), (3.0, -1.0)):
-            numbers = VALUES | {"a": left, "c": right}
-            found = lambdify(held, form, modules="mpmath")(*(mpf(numbers[s.name]) for s in held))
-            assert close(found, mpf(left))
+            assert close(bodies.number(form, a=left, c=right), mpf(left))
 
 
 def test_tidying_chooses_the_shorter_form() -> None:

@@ -3,11 +3,11 @@
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Expr, Rational, Symbol, expand, lambdify, limit, simplify, sqrt
+from sympy import Expr, Rational, Symbol, expand, limit, simplify, sqrt
 
 from derive.symbols import E_star, a, c, h, s, x
 from derive.theory.edges import Edge, K_N_from_contact_law, pressure_series
-from tests.derive.bodies import CASES, IDS, VALUES, close, sheet, value
+from tests.derive.bodies import CASES, IDS, close, number, sheet, value
 
 ALL = pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
 A, C = Symbol("A", positive=True), Symbol("B", positive=True)
@@ -82,11 +82,8 @@ def test_K_N_of_both_edges_are_in_the_ratio_of_their_advance(
 def test_the_route_of_the_contact_law_gives_left_and_right(name: str) -> None:
     body = sheet(name)
     left, right = K_N_from_contact_law(body.frame, body["load_rate"].expr, body["edge_ratio"].expr)
-    flat = {"K_N_left": body.frame.flat(left), "K_N_right": body.frame.flat(right)}
-    for key, expr in flat.items():
-        held = sorted(expr.free_symbols, key=str)
-        numbers = VALUES | {"a": 2.0, "c": 1.0}
-        found = lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held))
+    for key, expr in (("K_N_left", left), ("K_N_right", right)):
+        found = number(body.frame.flat(expr), a=2.0, c=1.0)
         assert close(found, value(name, key, a=2.0, c=1.0))
 
 
@@ -95,12 +92,10 @@ def test_the_route_of_the_contact_law_gives_left_and_right(name: str) -> None:
 def test_four_terms_leave_an_error_of_the_fifth(name: str, edge: Edge) -> None:
     """p - (four terms) ~ s^(9/2): a tenth of s leaves 10^-4.5 of it."""
     body, (left, right) = sheet(name), (mpf(2), mpf("1.5"))
-    terms = []
-    for term in pressure_series(body.frame, edge, 4):
-        expr = body.frame.flat(term)
-        held = sorted(expr.free_symbols, key=str)
-        numbers = VALUES | {"a": left, "c": right}
-        terms.append(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
+    terms = [
+        number(body.frame.flat(term), a=left, c=right)
+        for term in pressure_series(body.frame, edge, 4)
+    ]
 
     def rest(step: mpf) -> mpf:
         series = sum(term * step**n for n, term in enumerate(terms))

@@ -5,22 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mpf
-from sympy import Expr, Symbol, lambdify
+from sympy import Expr, Symbol
 
 from derive.symbols import a, c, x
 from derive.theory.frame import Frame
-from tests.derive.bodies import VALUES, close, sheet
+from tests.derive.bodies import close, number, sheet
 from tests.derive.integrals import over_contact, principal_value, root
 
 KINKED = ("wedge", "shifted_wedge", "wedge_on_the_left", "two_radii", "flat_rounded")
 KINKED += ("three_corners",)
 SPANNED = ("wedge", "unequal_wedge", "shifted_wedge", "wedge_on_the_left")
-
-
-def number(expr: Expr, **given: mpf | float) -> mpf:
-    held = sorted(expr.free_symbols, key=str)
-    numbers = VALUES | given
-    return mpf(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
 
 
 def frames(name: str) -> Frame:

@@ -106,7 +106,7 @@ def test_the_next_coefficient_of_the_pressure(name: str, edge: Edge) -> None:
     series_of_p = pressure_series(frame, edge, 3)
     for k in (0, 1):
         rate = frame.diff(series_of_p[k], moving)
-        found = slip.pressure_next(series_of_p[k], rate, k, series_of_p[0])
+        found = slip.pressure_next(rate, k, series_of_p[0])
         off = frame.flat(found - series_of_p[k + 1]).subs({E_star: 1, h: a + c})
         numbers = {s: Rational(k + 3, 7) for k, s in enumerate(sorted(off.free_symbols, key=str))}
         assert abs(off.subs(numbers).evalf(30)) < 1e-25
