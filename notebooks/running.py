@@ -45,6 +45,7 @@ def run(path: Path) -> NotebookNode:
         if cell.cell_type == "code":
             cell.outputs, cell.execution_count = [], None
     client = NotebookClient(notebook, timeout=TIMEOUT, kernel_name="python3")
+    client.extra_arguments = ["--log-level=ERROR"]
     client.resources = {"metadata": {"path": str(path.parent)}}
     with TemporaryDirectory() as folder:
         client.execute(env=_environment(folder))

@@ -22,15 +22,17 @@ if find_spec("matplotlib") is None:
 
 from derive.plot.measure import Measure, over, unit
 from derive.plot.series import errors, relative_errors
-from derive.plot.style import COLOURS, save, style, subplots
+from derive.plot.style import COLOURS, LINES, save, style, subplots
 from derive.plot.tractions import pressures, slip, tractions
-from derive.plot.zones import boundaries, stick_slip, sweep
+from derive.plot.zones import boundaries, key, stick_slip, sweep
 
 __all__ = [
     "COLOURS",
+    "LINES",
     "Measure",
     "boundaries",
     "errors",
+    "key",
     "over",
     "pressures",
     "relative_errors",

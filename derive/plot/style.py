@@ -4,7 +4,8 @@ Colours are those of Okabe and Ito, which readers with any kind of colour vision
 that mean different things differ in their dashes, too.
 """
 
-from contextlib import AbstractContextManager
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -66,19 +67,40 @@ _STYLE: Any = {
 }
 
 
-def style() -> AbstractContextManager[None]:
-    """The look of this package, for what is drawn inside ``with style():``."""
-    return mpl.rc_context(_STYLE)
+@contextmanager
+def style() -> Iterator[None]:
+    """The look of this package, for what is drawn inside ``with style():``.
+
+    Unlike matplotlib's own context it puts back no more than it has changed: the first figure of a
+    notebook is made inside, and what sets up its display must last.
+    """
+    before = {name: mpl.rcParams[name] for name in _STYLE}
+    mpl.rcParams.update(_STYLE)
+    try:
+        yield
+    finally:
+        mpl.rcParams.update(before)
 
 
 def subplots(
-    rows: int = 1, columns: int = 1, *, size: tuple[float, float] | None = None, **more: Any
+    rows: int = 1,
+    columns: int = 1,
+    *,
+    size: tuple[float, float] | None = None,
+    titles: Sequence[str] = (),
+    **more: Any,
 ) -> tuple[Figure, Any]:
-    """A figure and its Axes in this look, as of matplotlib's `subplots`; size in inches."""
+    """A figure and its Axes in this look, as of matplotlib's `subplots`.
+
+    size    in inches
+    titles  of the Axes, row by row
+    """
     with style():
         figure, axes = plt.subplots(
             rows, columns, figsize=size or (4.6 * columns, 3.2 * rows), **more
         )
+        for place, title in zip(figure.axes, titles, strict=False):
+            place.set_title(title)
     return figure, axes
 
 

@@ -1,11 +1,11 @@
 """Maps of stick and slip: position upward, time or a parameter to the right."""
 
 from collections.abc import Iterator
+from math import ceil
 from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Patch
 
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import FORWARD, LINES, REVERSE, STICK, style, subplots
@@ -113,17 +113,20 @@ def _map(at: Array, zones: _Zones, axes: Axes | None, length: Measure | None, le
     with style():
         if axes is None:
             _, axes = subplots(size=(5.6, 3.6))
+        labels = set()
         for i, (name, edges, where) in enumerate(_areas(zones, low, high, start, end)):
-            axes.fill_between(at, *edges, where=where, zorder=0.5 + i / 100, **_AREAS[name])
+            look = {**_AREAS[name], "label": None if name in labels else name}
+            axes.fill_between(at, *edges, where=where, zorder=0.5 + i / 100, **look)
+            labels.add(name)
         for edge in (low, high):
             axes.plot(at, edge, color="#555555", linewidth=1.0)
-        for edge in (start, end):
-            axes.plot(*_broken(at, edge, (zones.left, zones.right)), **LINES["exact"])
+        for edge, label in ((start, "exact"), (end, None)):
+            broken = _broken(at, edge, (zones.left, zones.right))
+            axes.plot(*broken, label=label, **LINES["exact"])
         axes.set(ylabel=length.label("x"), xlim=(at.min(), at.max()))
         axes.grid(False)
         if legend:
-            names = [name for name, *_ in _areas(zones, low, high, start, end)]
-            _legend_above(axes, list(dict.fromkeys(names)))
+            key(axes)
     return axes
 
 
@@ -155,24 +158,30 @@ def _widened(unknown: Array) -> Array:
     return wide
 
 
-def _legend_above(axes: Axes, names: list[str]) -> None:
-    """Beside no line: in one row above the map."""
-    axes.legend(
-        [Patch(**_AREAS[name]) for name in names],
-        names,
-        loc="lower left",
-        bbox_to_anchor=(0, 1.0),
-        ncols=len(names),
-        borderaxespad=0.2,
-        handlelength=1.0,
-        handletextpad=0.4,
-        columnspacing=1.0,
-    )
+def key(axes: Axes) -> None:
+    """The legend of a map, above it and beside no line: its areas, and the lines drawn since."""
+    handles, labels = axes.get_legend_handles_labels()
+    spec = axes.get_subplotspec()
+    columns = spec.get_gridspec().ncols if spec else 1
+    wide = axes.figure.get_figwidth() / columns  # type: ignore[union-attr]
+    rows = ceil(len(labels) / max(2, int(wide / 1.25)))
+    with style():
+        axes.legend(
+            handles,
+            labels,
+            loc="lower left",
+            bbox_to_anchor=(0, 1.0),
+            ncols=ceil(len(labels) / max(rows, 1)),
+            borderaxespad=0.2,
+            handlelength=1.6,
+            handletextpad=0.4,
+            columnspacing=1.0,
+        )
 
 
 def _broken(at: Array, values: Array, sense: tuple[Array, Array]) -> tuple[Array, Array]:
     """A line with a gap wherever slip begins anew in the other sense."""
-    turns = [np.flatnonzero(np.diff(np.asarray(way)) != 0) + 1 for way in sense]
+    turns = [np.flatnonzero(np.diff(np.atleast_1d(way)) != 0) + 1 for way in sense]
     gaps = np.unique(np.concatenate(turns))
     return np.insert(at, gaps, np.nan), np.insert(values, gaps, np.nan)
 
@@ -196,7 +205,9 @@ def boundaries(
     """
     if kind not in LINES:
         raise ValueError(f"no look is known for {kind!r}: give one of {', '.join(LINES)}")
-    sense = getattr(zones, "left", np.zeros(1)), getattr(zones, "right", np.zeros(1))
+    sense = getattr(zones, "left", 0), getattr(zones, "right", 0)
     with style():
         for end, told in ((-length(zones.m), label or kind), (length(zones.n), None)):
             axes.plot(*_broken(np.asarray(at), end, sense), label=told, **LINES[kind])
+    if axes.get_legend():
+        key(axes)
