@@ -139,7 +139,7 @@ def tractions(
         above.set(ylabel=stress.label("p"))
         below.set(xlabel=length.label("x"), ylabel=stress.label(r"\Delta q"))
         for place in axes:
-            place.legend(loc="upper right")
+            place.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2, borderaxespad=0.1)
     return axes
 
 
