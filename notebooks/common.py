@@ -40,6 +40,24 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     say("\n".join("| " + " | ".join(row) + " |" for row in (heads, rule, *rows)))
 
 
+def in_cell(latex: str) -> str:
+    """LaTeX for a cell of a table, where a bare stroke would end the cell."""
+    for side in ("left", "right", "middle"):
+        latex = latex.replace(rf"\{side}|", rf"\{side}\vert ")
+    return f"${latex}$"
+
+
+def plainly(text: str) -> str:
+    """Text whose stars, strokes and underscores Markdown leaves alone.
+
+    >>> plainly("P = (E*/2) I_1")
+    'P = (E\\\\*/2) I\\\\_1'
+    """
+    for sign in "*_|":
+        text = text.replace(sign, "\\" + sign)
+    return text
+
+
 def percent(part: float, digits: int = 2) -> str:
     """A part as per cent, with a sign; rounding is shown as nothing.
 
