@@ -34,9 +34,9 @@ def say(text: str) -> None:
     display(Markdown(text))
 
 
-def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-    """Show a table: the first column to the left, all others to the right."""
-    rule = ["---", *["---:"] * (len(heads) - 1)]
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1) -> None:
+    """Show a table: the first columns, as many as hold words, to the left, others to the right."""
+    rule = ["---"] * words + ["---:"] * (len(heads) - words)
     say("\n".join("| " + " | ".join(row) + " |" for row in (heads, rule, *rows)))
 
 

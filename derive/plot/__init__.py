@@ -6,6 +6,7 @@
     measure     what stands on an axis: a symbol and its unit, or a ratio
     tractions   pressure; shear over a half-cycle; slip and the friction's work
     zones       stick and slip over a cycle, or over a parameter
+    live        the same under sliders, in a notebook
     series      how far the series of the slip zones are off, against their size
 
 A generated module and its constants are passed in, as in ``pressures(wedge, states, ...)``; this
@@ -20,6 +21,7 @@ from derive.errors import MissingLibrary
 if find_spec("matplotlib") is None:
     raise MissingLibrary("matplotlib", "drawing", "notebooks")
 
+from derive.plot.live import Live, Loads, sliders
 from derive.plot.measure import Measure, over, unit
 from derive.plot.series import errors, relative_errors
 from derive.plot.style import COLOURS, LINES, save, style, subplots
@@ -29,6 +31,8 @@ from derive.plot.zones import boundaries, key, stick_slip, sweep
 __all__ = [
     "COLOURS",
     "LINES",
+    "Live",
+    "Loads",
     "Measure",
     "boundaries",
     "errors",
@@ -37,6 +41,7 @@ __all__ = [
     "pressures",
     "relative_errors",
     "save",
+    "sliders",
     "slip",
     "stick_slip",
     "style",
