@@ -12,9 +12,10 @@ BODIES = (
     ("cylinder, $g(x) = x^2/2R$", hertz, {"R": 0.02}),
 )
 MOMENTS = (0.0, 100.0, 250.0)  # N
+PICTURE = Path(__file__).with_name("pressure.svg")
 
 
-def main(path: Path = Path(__file__).with_name("pressure.svg")) -> None:
+def main(path: Path = PICTURE) -> None:
     """Write the picture, the same bytes on every run."""
     titles = [title for title, *_ in BODIES]
     figure, axes = plot.subplots(1, 2, size=(9, 3.4), sharey=True, titles=titles)

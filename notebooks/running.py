@@ -3,7 +3,9 @@
 import os
 import re
 import sys
+from argparse import ArgumentParser
 from collections.abc import Iterator, Mapping
+from difflib import unified_diff
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -142,14 +144,47 @@ MACHINE = re.compile(r"(?<![\w.~*/-])/(home|work|tmp|root|Users|opt|mnt|private|
 """A path of some machine."""
 
 
-def main(names: list[str]) -> int:
+def faults(notebook: NotebookNode) -> list[str]:
+    """What no output may hold: errors, warnings, paths of a machine."""
+    found = [f"a path: {text}" for text in texts(notebook) if MACHINE.search(text)]
+    for cell in _code(notebook):
+        for output in cell.outputs:
+            if output.output_type == "error":
+                found.append(f"an error: {output.ename}: {output.evalue}")
+            elif output.output_type == "stream" and output.name == "stderr":
+                found.append(f"a warning: {output.text}")
+    return found
+
+
+def differences(path: Path) -> list[str]:
+    """What a fresh run puts out that is not what is on disk, as lines of a diff; its faults."""
+    fresh, kept = run(path), read(path)
+    before, after = ("\n".join(texts(of)).splitlines() for of in (kept, fresh))
+    lines = list(unified_diff(before, after, "as committed", "fresh", lineterm=""))
+    if pictures(fresh) != pictures(kept):
+        lines.append(f"{pictures(kept)} pictures as committed, {pictures(fresh)} fresh")
+    return lines + faults(fresh)
+
+
+def main(arguments: list[str] | None = None) -> int:
     """Run all notebooks in place, or those whose names hold one of the given words."""
-    chosen = [p for p in notebooks() if not names or any(name in p.name for name in names)]
+    parser = ArgumentParser(prog="python -m notebooks", description=str(main.__doc__))
+    parser.add_argument("words", nargs="*")
+    parser.add_argument("--check", action="store_true", help="write nothing; show what differs")
+    given = parser.parse_args(arguments)
+    chosen = [p for p in notebooks() if not given.words or any(w in p.name for w in given.words)]
+    if not chosen:
+        parser.error(f"no notebook's name holds {' or '.join(given.words)}")
+    found = []
     for path in chosen:
         print(path.name, flush=True)
-        write(run(path), path)
-    return 0 if chosen else 1
+        if given.check:
+            found += differences(path)
+        else:
+            write(run(path), path)
+    print(*found, sep="\n", end="")
+    return int(bool(found))
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())
