@@ -11,13 +11,16 @@ from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, FORWARD, REVERSE, style, subplots
 from derive.plot.zones import senses
 
-SAMPLES = 801
+SAMPLES = 401
 """Places along a contact; closer together towards its edges."""
 
+IN_A_ZONE = 61
+"""Places along a slip zone: slip is nothing outside, and takes time where a body is integrated."""
 
-def places(left: float, right: float) -> Array:
-    """Places from `left` to `right`, dense at both, none of them exactly at a simple corner."""
-    angle = np.linspace(0, np.pi, SAMPLES + 1)
+
+def places(left: float, right: float, count: int = SAMPLES) -> Array:
+    """Places from `left` to `right`, dense at both; an even number, and so none in the middle."""
+    angle = np.linspace(0, np.pi, count + 1)
     return (left + right) / 2 - (right - left) / 2 * np.cos(angle)
 
 
@@ -131,9 +134,11 @@ def tractions(
         below.plot(
             length(x), stress(shear), color=COLOURS["vermilion"], linewidth=2, label=r"$\Delta q$"
         )
-        _shade(axes, body, second, zone, dsigma, length)
+        _shade(axes, second, zone, dsigma, length)
         _from_zero(above, [stress(p1), stress(p2)])
         known = np.isfinite(shear)
+        if not np.any(known):
+            _say_why(below, body, zone, "shear")
         highest = np.max(np.abs(stress(shear[known])), initial=0.0) or np.max(_typical(limit))
         below.set_ylim(-1.6 * highest, 1.6 * highest)
         above.set(ylabel=stress.label("p"))
@@ -143,23 +148,20 @@ def tractions(
     return axes
 
 
-def _shade(
-    axes: Sequence[Axes], body: ModuleType, at: Any, zone: Any, dsigma: float, length: Measure
-) -> None:
-    """Slip zones in the colour of their sense; a word where none is known."""
+def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Measure) -> None:
+    """Slip zones in the colour of their sense."""
     left, right = senses(zone, dsigma)
     for place in axes:
         for start, end, sense in ((-at.a, -zone.m, left), (zone.n, at.c, right)):
             if sense and np.isfinite(zone.m):
                 colour = FORWARD if sense > 0 else REVERSE
                 place.axvspan(float(length(start)), float(length(end)), color=colour, lw=0)
-    if not np.isfinite(zone.m):
-        name = body.Regime(int(zone.regime)).name.lower().replace("_", " ")
-        axes[1].text(
-            *(0.02, 0.04),
-            f"{name}: no stick zone is known",
-            transform=axes[1].transAxes,
-        )
+
+
+def _say_why(axes: Axes, body: ModuleType, zone: Any, what: str) -> None:
+    """A word in place of a curve that is not known."""
+    regime = body.Regime(int(zone.regime)).name.lower().replace("_", " ")
+    axes.text(0.02, 0.06, f"{regime}: the {what} is not known", transform=axes.transAxes)
 
 
 def slip(
@@ -182,13 +184,15 @@ def slip(
     Arguments are those of `tractions`.
     """
     law = {"f": f, **constants}
-    x = places(-float(min(first.a, second.a)), float(min(first.c, second.c)))
+    zone = body.stick_zone(first, second, dQ, dsigma, **law)
+    left, right = -float(min(first.a, second.a)), float(min(first.c, second.c))
+    ends = (-float(zone.m), float(zone.n)) if np.isfinite(zone.m) else (left, right)
+    x = np.append(places(left, ends[0], IN_A_ZONE), places(ends[1], right, IN_A_ZONE))
     slipped = body.slip_range(x, first, second, dQ, dsigma, **law)
     p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
     mean = np.where(slipped == 0, 0.0, (p1 + p2) / 2)
     work = f * np.where(mean == np.inf, np.nan, mean) * slipped
     length, depth, joule = length or unit(x, "m"), unit(slipped, "m"), unit(work, "J/m²")
-    zone = body.stick_zone(first, second, dQ, dsigma, **law)
     with style():
         if axes is None:
             _, axes = subplots(2, 1, size=(5.6, 4.6), sharex=True)
@@ -196,7 +200,9 @@ def slip(
             axes, (depth(slipped), joule(work)), ("blue", "vermilion"), strict=True
         ):
             place.plot(length(x), values, color=COLOURS[colour])
-        _shade(axes, body, second, zone, dsigma, length)
+        _shade(axes, second, zone, dsigma, length)
+        if not np.any(np.isfinite(slipped)):
+            _say_why(axes[0], body, zone, "slip")
         axes[0].set(ylabel=depth.label("s"))
         axes[1].set(xlabel=length.label("x"), ylabel=joule.label("f\\,p\\,s"))
         for place in axes:

@@ -213,12 +213,26 @@ def test_both_pressures_are_drawn_where_the_load_varies() -> None:
     assert line(above, "end, $p_2$").get_ydata().max() > p1.max()
 
 
-def test_where_no_stick_zone_is_known_the_picture_says_so() -> None:
+def test_where_nothing_is_known_the_picture_says_so() -> None:
     assert hertz.stick_zone(STATE, STATE, DQ, WINDOW, **FRICTION).regime == Regime.MIXED
     _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
-    assert [text.get_text() for text in below.texts] == ["mixed: no stick zone is known"]
+    assert [text.get_text() for text in below.texts] == ["mixed: the shear is not known"]
     assert not below.patches
     assert np.all(np.isfinite(below.get_ylim()))
+    above, _ = plot.slip(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
+    assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
+
+
+def test_a_zone_may_be_known_where_the_shear_is_not() -> None:
+    """Just past the threshold forward slip overtakes: the wedge at 0.930 of 0.20602, whose window
+    opens at 0.9322 (tests/reference/FINDINGS.md)."""
+    law = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
+    here = wedge.contact(1.0, 0.0, E_star=1.0, phi=1.0)
+    zone = wedge.stick_zone(here, here, 0.15, 0.93 * 0.20602, **law)
+    assert zone.regime == Regime.MIXED and np.isfinite(zone.m)
+    _, below = plot.tractions(wedge, here, here, 0.15, 0.93 * 0.20602, **law)
+    assert [text.get_text() for text in below.texts] == ["mixed: the shear is not known"]
+    assert len(below.patches) == 2
 
 
 def test_slip_and_the_work_of_friction() -> None:
