@@ -143,19 +143,42 @@ def tractions(
         below.set_ylim(-1.6 * highest, 1.6 * highest)
         above.set(ylabel=stress.label("p"))
         below.set(xlabel=length.label("x"), ylabel=stress.label(r"\Delta q"))
-        for place in axes:
-            place.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2, borderaxespad=0.1)
+        _key(above)
+        _key(below)
     return axes
 
 
 def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Measure) -> None:
-    """Slip zones in the colour of their sense."""
-    left, right = senses(zone, dsigma)
-    for place in axes:
-        for start, end, sense in ((-at.a, -zone.m, left), (zone.n, at.c, right)):
-            if sense and np.isfinite(zone.m):
-                colour = FORWARD if sense > 0 else REVERSE
-                place.axvspan(float(length(start)), float(length(end)), color=colour, lw=0)
+    """Slip zones in the colour of their sense; the last of the Axes holds what a legend says."""
+    if not np.isfinite(zone.m):
+        return
+    told = set()
+    for (start, end), sense in zip(
+        ((-at.a, -zone.m), (zone.n, at.c)), senses(zone, dsigma), strict=True
+    ):
+        if sense:
+            name, colour = _SENSES[int(sense)]
+            for place in axes:
+                label = name if place is axes[-1] and name not in told else None
+                place.axvspan(
+                    float(length(start)), float(length(end)), color=colour, lw=0, label=label
+                )
+            told.add(name)
+
+
+_SENSES = {1: ("forward slip", FORWARD), -1: ("reverse slip", REVERSE)}
+
+
+def _key(axes: Axes) -> None:
+    """A legend in one row above."""
+    axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1.0),
+        ncols=4,
+        borderaxespad=0.1,
+        handlelength=1.6,
+        columnspacing=1.2,
+    )
 
 
 def _say_why(axes: Axes, body: ModuleType, zone: Any, what: str) -> None:
@@ -205,6 +228,8 @@ def slip(
             _say_why(axes[0], body, zone, "slip")
         axes[0].set(ylabel=depth.label("s"))
         axes[1].set(xlabel=length.label("x"), ylabel=joule.label("f\\,p\\,s"))
+        if axes[1].get_legend_handles_labels()[1]:
+            _key(axes[1])
         for place in axes:
             place.set_ylim(bottom=0)
     return axes
