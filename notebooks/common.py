@@ -44,7 +44,7 @@ def in_cell(latex: str) -> str:
     """LaTeX for a cell of a table, where a bare stroke would end the cell."""
     for side in ("left", "right", "middle"):
         latex = latex.replace(rf"\{side}|", rf"\{side}\vert ")
-    return f"${latex}$"
+    return rf"$\displaystyle {latex}$"
 
 
 def plainly(text: str) -> str:

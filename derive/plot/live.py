@@ -20,6 +20,9 @@ from derive.plot.zones import senses
 PLACES = 241
 """Places along the contact; few enough for a picture in a moment."""
 
+STEPS = 200
+"""Steps of a slider from nothing to the largest load."""
+
 
 class Loads(NamedTuple):
     """What the sliders set: [N/m], [N], [N/m], [Pa], [-]."""
@@ -139,23 +142,25 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
     import ipywidgets
 
     live = Live(body, largest, **constants)
-    picture, told = ipywidgets.Image(format="png"), ipywidgets.Label()
+    picture, told = ipywidgets.Image(format="png"), ipywidgets.HTML()
     scales = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": ""}
     controls = {}
     for name, of in scales.items():
         most, value = getattr(largest, name), getattr(start, name)
         measure = unit(most, of) if of else None
         size, label = (measure.size, f"{name} [{measure.name}]") if measure else (1.0, name)
-        least = -most if name in ("M", "dsigma") else (0.02 if name in ("P", "f") else 0) * most
+        least = {"M": -most, "dsigma": -most, "dQ": 0.0}.get(name, most / STEPS)
         controls[name] = (
             ipywidgets.FloatSlider(
                 value=value / size,
                 min=least / size,
                 max=most / size,
-                step=(most - least) / size / 200,
+                step=most / size / STEPS,
                 description=label,
                 readout_format=".4g",
                 continuous_update=True,
+                style={"description_width": "100px"},
+                layout={"width": "400px"},
             ),
             size,
         )
@@ -169,5 +174,7 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
     for slider, _ in controls.values():
         slider.observe(follow, names="value")
     follow()
-    column = ipywidgets.VBox([slider for slider, _ in controls.values()])
-    return ipywidgets.VBox([ipywidgets.HBox([column, picture]), told])
+    rows = ipywidgets.HBox(
+        [slider for slider, _ in controls.values()], layout={"flex_flow": "row wrap"}
+    )
+    return ipywidgets.VBox([rows, picture, told])

@@ -440,8 +440,8 @@ def test_the_live_picture_is_drawn_in_a_moment() -> None:
 @pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
 def test_sliders_move_the_picture() -> None:
     box = plot.sliders(hertz, LARGEST, START, **STEEL)
-    (column, picture), told = box.children[0].children, box.children[1]
-    assert [slider.description.split()[0] for slider in column.children] == [
+    row, picture, told = box.children
+    assert [slider.description.split()[0] for slider in row.children] == [
         "P",
         "M",
         "dQ",
@@ -449,7 +449,7 @@ def test_sliders_move_the_picture() -> None:
         "f",
     ]
     before, line_before = picture.value, told.value
-    column.children[3].value = 0.0
+    row.children[3].value = 0.0
     assert picture.value != before
     assert line_before.startswith("large") and told.value.startswith("moderate")
 
