@@ -9,6 +9,7 @@
 # make comparison  that solver, exact conditions and series, cycle by cycle: notebooks/comparison.md
 # make series    errors of the series of the slip zones, order by order: notebooks/series.md
 # make accuracy  worst error of every generated function, in units in the last place
+# make notebooks runs all notebooks in place, some two minutes; make lab opens them in Jupyter
 # make picture   draws the README's picture
 
 PYTHON ?= python3
@@ -16,7 +17,8 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test quick bench bench-inverse bench-slip bench-monte-carlo series solver comparison accuracy picture clean
+.PHONY: all test quick bench bench-inverse bench-slip bench-monte-carlo series solver comparison accuracy notebooks \
+	lab picture clean
 
 all: $(STAMP)
 	$(BIN)/derive generate --fresh
@@ -55,8 +57,14 @@ comparison: $(STAMP)
 accuracy: $(STAMP)
 	$(BIN)/python -m tests.accuracy.report
 
-picture: $(STAMP)
+notebooks: $(STAMP)
+	$(BIN)/python -m notebooks
+
+lab: $(STAMP)
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[notebooks]'
+	$(BIN)/jupyter lab notebooks
+
+picture: $(STAMP)
 	$(BIN)/python -m notebooks.picture
 
 $(STAMP): pyproject.toml constraints.txt

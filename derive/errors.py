@@ -311,6 +311,23 @@ class BadTarget(UserError):
 
 
 @dataclass
+class MissingLibrary(UserError):
+    """A library that only some of the package needs, and that is not installed."""
+
+    given: str
+    purpose: str
+    group: str
+
+    @property
+    def message(self) -> str:
+        """What needs it, and how to install it."""
+        return (
+            f"{self.given} is not installed, and {self.purpose} needs it: "
+            f"pip install 'contact-derive[{self.group}]'"
+        )
+
+
+@dataclass
 class UnknownClaim(UserError):
     """A label that no claim of the source bears."""
 

@@ -1,12 +1,8 @@
 """Draws pressure.svg, the picture of the README: `make picture`."""
 
 from pathlib import Path
-from typing import Any
 
-import matplotlib as mpl
-import matplotlib.pyplot as plt
-import numpy as np
-
+from derive import plot
 from generated import hertz, wedge
 
 E_STAR = 60e9  # Pa
@@ -16,28 +12,23 @@ BODIES = (
     ("cylinder, $g(x) = x^2/2R$", hertz, {"R": 0.02}),
 )
 MOMENTS = (0.0, 100.0, 250.0)  # N
-COLOURS = ("#0072b2", "#e69f00", "#cc79a7")  # told apart by colour-blind readers
+PICTURE = Path(__file__).with_name("pressure.svg")
 
 
-def draw(axes: Any, title: str, body: Any, shape: dict[str, float]) -> None:
-    """Pressure of one body under the same load and growing moments."""
-    for moment, colour in zip(MOMENTS, COLOURS, strict=True):
-        state = body.contact(P, moment, E_star=E_STAR, **shape)
-        x = np.linspace(-state.a, state.c, 1001)
-        p = body.pressure(x, state.a, state.c, E_star=E_STAR, **shape)
-        label = f"M = {moment:.0f} N, tilt {1e3 * state.alpha:.2f} mrad"
-        axes.plot(1e3 * x, 1e-6 * p, color=colour, label=label)
-    axes.set(title=title, xlabel="x [mm]", ylabel="pressure p [MPa]", ylim=(0, 3500))
-    axes.legend(frameon=False, fontsize="small")
-
-
-def main() -> None:
-    """Write the picture beside this file, the same bytes on every run."""
-    mpl.rcParams["svg.hashsalt"] = "contact-derive"
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.4), layout="constrained")
-    for place, (title, body, shape) in zip(axes, BODIES, strict=True):
-        draw(place, title, body, shape)
-    figure.savefig(Path(__file__).with_name("pressure.svg"), metadata={"Date": None})
+def main(path: Path = PICTURE) -> None:
+    """Write the picture, the same bytes on every run."""
+    titles = [title for title, *_ in BODIES]
+    figure, axes = plot.subplots(1, 2, size=(9, 3.4), sharey=True, titles=titles)
+    for place, (_, body, shape) in zip(axes, BODIES, strict=True):
+        states = [body.contact(P, moment, E_star=E_STAR, **shape) for moment in MOMENTS]
+        labels = [
+            f"M = {moment:.0f} N, tilt {1e3 * state.alpha:.2f} mrad"
+            for moment, state in zip(MOMENTS, states, strict=True)
+        ]
+        plot.pressures(body, states, labels, axes=place, E_star=E_STAR, **shape)
+        place.set(ylim=(0, 3500))
+    axes[1].set(ylabel="")
+    plot.save(figure, path)
 
 
 if __name__ == "__main__":

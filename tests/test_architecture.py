@@ -119,6 +119,11 @@ NEVER = {
     "derive.profile": ("derive.theory", "derive.proof", "derive.sheet", "derive.codegen"),
     "derive.codegen": ("derive.pipeline", "derive.view", "derive.cli", "derive.paper"),
     "derive.pipeline": ("derive.view", "derive.cli", "click", "rich"),
+    "derive.plot": (
+        *("derive.theory", "derive.proof", "derive.sheet", "derive.derivation", "derive.geometry"),
+        *("derive.codegen", "derive.pipeline", "derive.view", "derive.cli", "derive.paper"),
+        *("derive.library", "derive.writing", "sympy", "mpmath", "click", "rich"),
+    ),
     "derive.symbols": ("derive",),
     "derive.errors": ("derive", "sympy", "click", "rich"),
     "derive.codegen.support": ("derive", "sympy", "mpmath"),
@@ -147,6 +152,13 @@ def test_only_the_commands_read_the_paper() -> None:
 def test_only_the_command_line_prints() -> None:
     users = {name for name in members("derive") if inside(imported(name), "click", "rich")}
     assert users <= {"derive.cli", "derive.view"}
+
+
+def test_only_the_plots_draw_and_nothing_needs_them() -> None:
+    users = {name for name in MODULES if inside(imported(name), "matplotlib", "ipywidgets")}
+    assert users and all(inside([name], "derive.plot") for name in users)
+    above = {name for name in MODULES if inside(imported(name), "derive.plot")}
+    assert all(inside([name], "derive.plot") for name in above)
 
 
 def test_a_geometry_file_imports_derive_and_sympy_alone() -> None:

@@ -1,0 +1,180 @@
+"""Sliders for the loads: contact, tractions and slip zones move at once, in a notebook.
+
+`Live` draws, and knows nothing of sliders; `sliders` puts them beside its picture.
+"""
+
+from importlib.util import find_spec
+from io import BytesIO
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from derive.errors import MissingLibrary
+from derive.plot.measure import Array, unit
+from derive.plot.style import COLOURS, FORWARD, REVERSE, style
+from derive.plot.zones import senses
+
+PLACES = 241
+"""Places along the contact; few enough for a picture in a moment."""
+
+STEPS = 200
+"""Steps of a slider from nothing to the largest load."""
+
+
+class Loads(NamedTuple):
+    """What the sliders set: [N/m], [N], [N/m], [Pa], [-]."""
+
+    P: float
+    M: float
+    dQ: float
+    dsigma: float
+    f: float
+
+
+class Live:
+    """A picture of a steady cycle at constant normal loads that is redrawn in place.
+
+    body       a generated module
+    largest    the largest loads there will be; they set the axes
+    constants  E_star and the body's own parameters
+    """
+
+    def __init__(self, body: ModuleType, largest: Loads, **constants: float) -> None:
+        self.body, self.constants = body, constants
+        farthest = body.contact(largest.P, largest.M, **constants)
+        reach = 1.04 * float(max(farthest.a, farthest.c))
+        top = 1.6 * largest.P / float(farthest.a + farthest.c)
+        self.length, self.stress = unit(reach, "m"), unit(top, "Pa")
+        with style():
+            self.figure = Figure(figsize=(8.4, 4.6), dpi=90)
+            # Axes that stay where they are: laying them out anew takes longer than drawing them.
+            self.figure.set_layout_engine("none")
+            self.canvas = FigureCanvasAgg(self.figure)
+            self.below = self.figure.add_axes((0.09, 0.11, 0.89, 0.42))
+            self.above = self.figure.add_axes((0.09, 0.56, 0.89, 0.42), sharex=self.below)
+            self.above.tick_params(labelbottom=False)
+            self._prepare(reach, top)
+
+    def _prepare(self, reach: float, top: float) -> None:
+        """Axes and artists; `show` gives the artists their data."""
+        limit = float(self.length(reach))
+        self.above.set(ylabel=self.stress.label("p"), ylim=(0, float(self.stress(top))))
+        self.below.set(xlabel=self.length.label("x"), ylabel=self.stress.label(r"\Delta q"))
+        self.below.set(xlim=(-limit, limit), ylim=np.array([-1, 1]) * float(self.stress(top)))
+        (self.pressure,) = self.above.plot([], [], color=COLOURS["blue"])
+        grey: dict[str, Any] = {"color": "#888888", "linewidth": 1}
+        (self.upper,) = self.below.plot([], [], label=r"$\pm 2 f p$", **grey)
+        (self.lower,) = self.below.plot([], [], **grey)
+        red: dict[str, Any] = {"color": COLOURS["vermilion"], "linewidth": 2}
+        (self.shear,) = self.below.plot([], [], label=r"$\Delta q$", **red)
+        self.below.legend(loc="lower right", ncols=2)
+        self.spans = [
+            place.axvspan(0, 0, linewidth=0) for place in (self.above, self.below) for _ in range(2)
+        ]
+
+    def show(self, loads: Loads) -> str:
+        """Draw the cycle under these loads; what is to be said of it, in one line."""
+        state = self.body.contact(loads.P, loads.M, **self.constants)
+        law = {"f": loads.f, **self.constants}
+        zone = self.body.stick_zone(state, state, loads.dQ, loads.dsigma, **law)
+        angle = np.linspace(0, np.pi, PLACES + 1)
+        x = (state.c - state.a) / 2 - (state.a + state.c) / 2 * np.cos(angle)
+        p = self.body.pressure(x, state.a, state.c, **self.constants)
+        dq = self.body.shear_change(x, state, state, loads.dQ, loads.dsigma, **law)
+        for line, values in (
+            (self.pressure, p),
+            (self.upper, 2 * loads.f * p),
+            (self.lower, -2 * loads.f * p),
+            (self.shear, dq),
+        ):
+            line.set_data(self.length(x), self.stress(values))
+        self._shade(state, zone, loads.dsigma)
+        return self._told(state, zone, loads)
+
+    def _shade(self, state: Any, zone: Any, dsigma: float) -> None:
+        ways = senses(zone, dsigma)
+        zones = ((-state.a, -zone.m), (zone.n, state.c))
+        for i, span in enumerate(self.spans):
+            (start, end), way = zones[i % 2], ways[i % 2]
+            known = bool(way != 0) and np.isfinite(zone.m)
+            span.set_visible(known)
+            if known:
+                span.set_x(float(self.length(start)))
+                span.set_width(float(self.length(end - start)))
+                span.set_color(FORWARD if way > 0 else REVERSE)
+
+    def _told(self, state: Any, zone: Any, loads: Loads) -> str:
+        def lengths(*values: Array) -> str:
+            return ", ".join(f"{float(self.length(value)):.4f}" for value in values)
+
+        regime = self.body.Regime(int(zone.regime)).name.lower().replace("_", " ")
+        name = self.length.name
+        parts = [f"{regime}: contact [{lengths(-state.a, state.c)}] {name}"]
+        parts.append(f"tilt {1e3 * float(state.alpha):.3f} mrad")
+        if np.isfinite(zone.m):
+            parts.append(f"stick [{lengths(-zone.m, zone.n)}] {name}")
+            parts.append(f"slip {lengths(state.a - zone.m)} and {lengths(state.c - zone.n)} {name}")
+        law = {"f": loads.f, **self.constants}
+        threshold = self.body.tension_threshold(state, state, loads.dQ, **law).upper
+        if np.isfinite(threshold):
+            moderate = unit(threshold, "Pa")
+            parts.append(f"tension is moderate to {moderate(threshold):.4g} {moderate.name}")
+        return "; ".join(parts)
+
+    def png(self) -> bytes:
+        """The picture as it is now."""
+        target = BytesIO()
+        with style():
+            self.canvas.print_png(target, pil_kwargs={"compress_level": 1})  # type: ignore[no-untyped-call]
+        return target.getvalue()
+
+
+def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) -> Any:
+    """Sliders from no load to the largest, and the picture that follows them.
+
+    Raises MissingLibrary without ipywidgets.
+    """
+    if find_spec("ipywidgets") is None:
+        raise MissingLibrary("ipywidgets", "moving the loads by sliders", "notebooks")
+    import ipywidgets
+
+    live = Live(body, largest, **constants)
+    picture, told = ipywidgets.Image(format="png"), ipywidgets.HTML()
+    scales = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": ""}
+    controls = {}
+    for name, of in scales.items():
+        most, value = getattr(largest, name), getattr(start, name)
+        measure = unit(most, of) if of else None
+        size, label = (measure.size, f"{name} [{measure.name}]") if measure else (1.0, name)
+        least = {"M": -most, "dsigma": -most, "dQ": 0.0}.get(name, most / STEPS)
+        controls[name] = (
+            ipywidgets.FloatSlider(
+                value=value / size,
+                min=least / size,
+                max=most / size,
+                step=most / size / STEPS,
+                description=label,
+                readout_format=".4g",
+                continuous_update=True,
+                style={"description_width": "100px"},
+                layout={"width": "400px"},
+            ),
+            size,
+        )
+
+    def follow(_: Any = None) -> None:
+        told.value = live.show(
+            Loads(**{name: slider.value * size for name, (slider, size) in controls.items()})
+        )
+        picture.value = live.png()
+
+    for slider, _ in controls.values():
+        slider.observe(follow, names="value")
+    follow()
+    rows = ipywidgets.HBox(
+        [slider for slider, _ in controls.values()], layout={"flex_flow": "row wrap"}
+    )
+    return ipywidgets.VBox([rows, picture, told])

@@ -1,0 +1,75 @@
+"""What stands on an axis: a symbol and its unit, or its ratio to a quantity of the problem."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+Array = Any
+
+
+@dataclass(frozen=True)
+class Measure:
+    """By what values are divided before they are drawn.
+
+    size   in SI units, e.g. 1e-3, or the half-width of a contact
+    name   how the axis calls it: a unit, or a symbol in LaTeX
+    ratio  whether it is a quantity of the problem, and what is drawn a ratio
+    """
+
+    size: float
+    name: str
+    ratio: bool = False
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.size) and self.size > 0):
+            raise ValueError(
+                f"{self.name!r} has the size {self.size}; what values are divided by is positive: "
+                "give a length or load of the problem"
+            )
+
+    def __call__(self, values: Array) -> Array:
+        """Values as they are drawn; what is infinite is left out."""
+        drawn = np.asarray(values, dtype=float) / self.size
+        return np.where(np.isfinite(drawn), drawn, np.nan)
+
+    def label(self, symbol: str) -> str:
+        """What stands along the axis.
+
+        >>> Measure(1e-3, "mm").label("x"), over(0.5, "a").label("x")
+        ('$x$  [mm]', '$x/a$')
+        """
+        return f"${symbol}/{self.name}$" if self.ratio else f"${symbol}$  [{self.name}]"
+
+
+def over(size: float, name: str) -> Measure:
+    """Ratios to a quantity of the problem, such as ``over(state.a, "a")``."""
+    return Measure(float(size), name, ratio=True)
+
+
+_PREFIXES = {
+    "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")),
+    "Pa": ((1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
+    "N/m": ((1e6, "MN/m"), (1e3, "kN/m"), (1.0, "N/m")),
+    "N": ((1.0, "N"),),
+    "rad": ((1.0, "rad"), (1e-3, "mrad")),
+    "J/m²": ((1e3, "kJ/m²"), (1.0, "J/m²")),
+}
+_LEAST = 0.1
+"""The greatest value drawn is at least that many units."""
+
+
+def unit(values: Array, of: str) -> Measure:
+    """The unit that suits the values: m, Pa, N/m, N, rad or J/m², with a prefix.
+
+    >>> unit([2e-4, 7e-4], "m").name, unit(890e6, "Pa").name
+    ('mm', 'MPa')
+    """
+    known = _PREFIXES.get(of)
+    if known is None:
+        raise ValueError(f"no unit {of!r} is known: give one of {', '.join(_PREFIXES)}")
+    finite = np.abs(np.asarray(values, dtype=float))
+    finite = finite[np.isfinite(finite)]
+    greatest = float(np.max(finite)) if finite.size else 0.0
+    fitting = (Measure(size, name) for size, name in known if greatest >= _LEAST * size)
+    return next(fitting, Measure(1.0, of))

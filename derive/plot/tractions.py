@@ -1,0 +1,235 @@
+"""What acts along the interface: pressure, the change of shear, slip and the work of friction."""
+
+from collections.abc import Sequence
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from derive.plot.measure import Array, Measure, unit
+from derive.plot.style import COLOURS, FORWARD, REVERSE, style, subplots
+from derive.plot.zones import senses
+
+SAMPLES = 401
+"""Places along a contact; closer together towards its edges."""
+
+IN_A_ZONE = 61
+"""Places along a slip zone: slip is nothing outside, and takes time where a body is integrated."""
+
+
+def places(left: float, right: float, count: int = SAMPLES) -> Array:
+    """Places from `left` to `right`, dense at both; an even number, and so none in the middle."""
+    angle = np.linspace(0, np.pi, count + 1)
+    return (left + right) / 2 - (right - left) / 2 * np.cos(angle)
+
+
+def pressures(
+    body: ModuleType,
+    states: Sequence[Any],
+    labels: Sequence[str] = (),
+    *,
+    axes: Axes | None = None,
+    length: Measure | None = None,
+    stress: Measure | None = None,
+    **constants: float,
+) -> Axes:
+    """Contact pressure under one or more contacts of a body.
+
+    body       a generated module
+    states     Contacts, as `body.contact` returns them
+    labels     what the legend says of each; none, no legend
+    length     what x is divided by; the unit that suits, unless it is given
+    stress     what the pressure is divided by
+    constants  E_star and the body's own parameters
+    """
+    _demand_states(states)
+    lines = []
+    for state in states:
+        x = places(-float(state.a), float(state.c))
+        lines.append((x, body.pressure(x, state.a, state.c, **constants)))
+    length = length or unit(np.concatenate([x for x, _ in lines]), "m")
+    stress = stress or unit(np.concatenate([_typical(p) for _, p in lines]), "Pa")
+    with style():
+        if axes is None:
+            _, axes = subplots()
+        for i, (x, p) in enumerate(lines):
+            axes.plot(length(x), stress(p), label=labels[i] if labels else None)
+        axes.set(xlabel=length.label("x"), ylabel=stress.label("p"))
+        _from_zero(axes, [stress(p) for _, p in lines])
+        if labels:
+            axes.legend()
+    return axes
+
+
+def _demand_states(states: Sequence[Any]) -> None:
+    """A Contact is a tuple itself: one instead of a list of them is a likely mistake."""
+    for state in states:
+        if not hasattr(state, "a"):
+            raise ValueError(
+                f"states holds {state!r}, which is no Contact; give a list of what "
+                "`contact` returns, such as [body.contact(P, M, ...)]"
+            )
+
+
+def _typical(p: Array) -> Array:
+    """Pressures without the peak of a corner, which has no height."""
+    finite = p[np.isfinite(p)]
+    return finite if finite.size < 2 else finite[finite <= np.quantile(finite, 0.97)]
+
+
+def _from_zero(axes: Axes, drawn: Sequence[Array]) -> None:
+    """Pressure is drawn from zero, and a corner's peak is cut off above the rest."""
+    top = max(float(np.nanmax(p, initial=0.0)) for p in drawn)
+    rest = max(float(np.max(_typical(p), initial=0.0)) for p in drawn)
+    if rest > 0:
+        axes.set_ylim(0, 1.08 * min(top, 1.35 * rest))
+
+
+def tractions(
+    body: ModuleType,
+    first: Any,
+    second: Any,
+    dQ: float,
+    dsigma: float,
+    *,
+    f: float,
+    axes: Sequence[Axes] | None = None,
+    length: Measure | None = None,
+    stress: Measure | None = None,
+    **constants: float,
+) -> Sequence[Axes]:
+    """Pressure at both ends of a half-cycle above, the change of shear over it below.
+
+    Where the change of shear touches the band, f (p1 + p2), the surfaces slip; those parts are
+    shaded in the colour of the sense of slip.
+
+    body           a generated module
+    first, second  Contacts at the start and at the end of the half-cycle that raises the shear
+    dQ, dsigma     changes of the shear load and of the tension over it
+    axes           two Axes, or None for new ones
+    length         what x is divided by; the unit that suits, unless it is given
+    stress         what pressure and shear are divided by
+    constants      E_star and the body's own parameters
+    """
+    law = {"f": f, **constants}
+    x = places(-float(max(first.a, second.a)), float(max(first.c, second.c)))
+    p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
+    shear = body.shear_change(x, first, second, dQ, dsigma, **law)
+    zone = body.stick_zone(first, second, dQ, dsigma, **law)
+    length, stress = length or unit(x, "m"), stress or unit(_typical(np.append(p1, p2)), "Pa")
+    with style():
+        if axes is None:
+            _, axes = subplots(2, 1, size=(5.6, 5.0), sharex=True)
+        above, below = axes
+        same = bool(np.all(np.isclose(p1, p2, rtol=1e-12, atol=0) | (p1 == p2)))
+        if not same:
+            above.plot(length(x), stress(p1), "--", color=COLOURS["sky"], label="start, $p_1$")
+        above.plot(
+            length(x), stress(p2), color=COLOURS["blue"], label="$p$" if same else "end, $p_2$"
+        )
+        limit = stress(f * (p1 + p2))
+        below.plot(length(x), limit, color="#888888", linewidth=1, label=r"$\pm f\,(p_1 + p_2)$")
+        below.plot(length(x), -limit, color="#888888", linewidth=1)
+        below.plot(
+            length(x), stress(shear), color=COLOURS["vermilion"], linewidth=2, label=r"$\Delta q$"
+        )
+        _shade(axes, second, zone, dsigma, length)
+        _from_zero(above, [stress(p1), stress(p2)])
+        known = np.isfinite(shear)
+        if not np.any(known):
+            _say_why(below, body, zone, "shear")
+        highest = np.max(np.abs(stress(shear[known])), initial=0.0) or np.max(_typical(limit))
+        below.set_ylim(-1.6 * highest, 1.6 * highest)
+        above.set(ylabel=stress.label("p"))
+        below.set(xlabel=length.label("x"), ylabel=stress.label(r"\Delta q"))
+        _key(above)
+        _key(below)
+    return axes
+
+
+def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Measure) -> None:
+    """Slip zones in the colour of their sense; the last of the Axes holds what a legend says."""
+    if not np.isfinite(zone.m):
+        return
+    told = set()
+    for (start, end), sense in zip(
+        ((-at.a, -zone.m), (zone.n, at.c)), senses(zone, dsigma), strict=True
+    ):
+        if sense:
+            name, colour = _SENSES[int(sense)]
+            for place in axes:
+                label = name if place is axes[-1] and name not in told else None
+                place.axvspan(
+                    float(length(start)), float(length(end)), color=colour, lw=0, label=label
+                )
+            told.add(name)
+
+
+_SENSES = {1: ("forward slip", FORWARD), -1: ("reverse slip", REVERSE)}
+
+
+def _key(axes: Axes) -> None:
+    """A legend in one row above."""
+    axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1.0),
+        ncols=4,
+        borderaxespad=0.1,
+        handlelength=1.6,
+        columnspacing=1.2,
+    )
+
+
+def _say_why(axes: Axes, body: ModuleType, zone: Any, what: str) -> None:
+    """A word in place of a curve that is not known."""
+    regime = body.Regime(int(zone.regime)).name.lower().replace("_", " ")
+    axes.text(0.02, 0.06, f"{regime}: the {what} is not known", transform=axes.transAxes)
+
+
+def slip(
+    body: ModuleType,
+    first: Any,
+    second: Any,
+    dQ: float,
+    dsigma: float,
+    *,
+    f: float,
+    axes: Sequence[Axes] | None = None,
+    length: Measure | None = None,
+    **constants: float,
+) -> Sequence[Axes]:
+    """How far the surfaces slip over a half-cycle above; below, friction times slip.
+
+    The lower one is f p s with p the mean of the pressures at both ends: under constant normal
+    loads the work that friction does at a place in every half-cycle, per area.
+
+    Arguments are those of `tractions`.
+    """
+    law = {"f": f, **constants}
+    zone = body.stick_zone(first, second, dQ, dsigma, **law)
+    left, right = -float(min(first.a, second.a)), float(min(first.c, second.c))
+    ends = (-float(zone.m), float(zone.n)) if np.isfinite(zone.m) else (left, right)
+    x = np.append(places(left, ends[0], IN_A_ZONE), places(ends[1], right, IN_A_ZONE))
+    slipped = body.slip_range(x, first, second, dQ, dsigma, **law)
+    p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
+    mean = np.where(slipped == 0, 0.0, (p1 + p2) / 2)
+    work = f * np.where(mean == np.inf, np.nan, mean) * slipped
+    length, depth, joule = length or unit(x, "m"), unit(slipped, "m"), unit(work, "J/m²")
+    with style():
+        if axes is None:
+            _, axes = subplots(2, 1, size=(5.6, 4.6), sharex=True)
+        for place, values, colour in zip(
+            axes, (depth(slipped), joule(work)), ("blue", "vermilion"), strict=True
+        ):
+            place.plot(length(x), values, color=COLOURS[colour])
+        _shade(axes, second, zone, dsigma, length)
+        if not np.any(np.isfinite(slipped)):
+            _say_why(axes[0], body, zone, "slip")
+        axes[0].set(ylabel=depth.label("s"))
+        axes[1].set(xlabel=length.label("x"), ylabel=joule.label("f\\,p\\,s"))
+        if axes[1].get_legend_handles_labels()[1]:
+            _key(axes[1])
+        for place in axes:
+            place.set_ylim(bottom=0)
+    return axes

@@ -1,0 +1,7 @@
+"""Runs every notebook in place: `python -m notebooks [--check] [WORD ...]`."""
+
+import sys
+
+from notebooks.running import main
+
+sys.exit(main())

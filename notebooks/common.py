@@ -1,0 +1,240 @@
+"""What the notebooks on the paper share: cycles, the paper's own coefficients, texts and tables.
+
+A notebook runs in this folder and says ``from common import ...``; the rest of the checkout is
+found from here.
+"""
+
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+from IPython.display import Markdown, display
+from sympy import lambdify
+
+ROOT = Path(__file__).resolve().parents[1]
+if str(ROOT) not in sys.path:
+    sys.path.insert(0, str(ROOT))
+
+from derive import plot  # noqa: E402
+from derive.paper.andresen2020 import paper  # noqa: E402
+from derive.paper.andresen2020.symbols import Delta_Q, Delta_sigma, a, c  # noqa: E402
+
+Array = Any
+
+
+# ------------------------------------------------------------------ texts
+
+
+def say(text: str) -> None:
+    """Show Markdown whose numbers the notebook has just computed."""
+    display(Markdown(text))
+
+
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1) -> None:
+    """Show a table: the first columns, as many as hold words, to the left, others to the right."""
+    rule = ["---"] * words + ["---:"] * (len(heads) - words)
+    say("\n".join("| " + " | ".join(row) + " |" for row in (heads, rule, *rows)))
+
+
+def in_cell(latex: str) -> str:
+    """LaTeX for a cell of a table, where a bare stroke would end the cell."""
+    for side in ("left", "right", "middle"):
+        latex = latex.replace(rf"\{side}|", rf"\{side}\vert ")
+    return rf"$\displaystyle {latex}$"
+
+
+def plainly(text: str) -> str:
+    """Text whose stars, strokes and underscores Markdown leaves alone.
+
+    >>> plainly("P = (E*/2) I_1")
+    'P = (E\\\\*/2) I\\\\_1'
+    """
+    for sign in "*_|":
+        text = text.replace(sign, "\\" + sign)
+    return text
+
+
+def percent(part: float, digits: int = 2) -> str:
+    """A part as per cent, with a sign; rounding is shown as nothing.
+
+    >>> percent(0.2341), percent(-3e-15), percent(float("nan"))
+    ('+23 %', '0 %', '-')
+    """
+    if not np.isfinite(part):
+        return "-"
+    return f"{100 * part:+.{digits}g} %" if abs(part) > 1e-9 else "0 %"
+
+
+def small(value: float) -> str:
+    """A difference that should be none: its size, or that it is no more than rounding.
+
+    >>> small(3e-15), small(0.02)
+    ('rounding', '2e-02')
+    """
+    return "rounding" if abs(value) < 1e-11 else f"{value:.0e}"
+
+
+# ------------------------------------------------------------------ cycles
+
+
+class Cycle(NamedTuple):
+    """All four loads over one cycle, in phase: from the least shear to the greatest and back."""
+
+    t: Array
+    P: Array
+    M: Array
+    Q: Array
+    sigma: Array
+
+    @property
+    def loads(self) -> tuple[Array, Array, Array, Array]:
+        """As `march` takes them."""
+        return self.P, self.M, self.Q, self.sigma
+
+
+def cycle(
+    P: tuple[float, float],
+    M: tuple[float, float],
+    dQ: float,
+    dsigma: float,
+    count: int = 401,
+) -> Cycle:
+    """Loads that swing between two states as a cosine, `count` instants, an odd number."""
+    t = np.linspace(0, 1, count)
+    part = (1 - np.cos(2 * np.pi * t)) / 2
+    P_t, M_t = (ends[0] + part * (ends[1] - ends[0]) for ends in (P, M))
+    return Cycle(t, P_t, M_t, (part - 0.5) * dQ, (part - 0.5) * dsigma)
+
+
+# ------------------------------------------------------------------ the paper's own coefficients
+
+
+class Ends(NamedTuple):
+    """A stick zone [-m, n]; left and right are senses of slip where it is one of a cycle."""
+
+    m: Array
+    n: Array
+    left: Array = 0
+    right: Array = 0
+
+
+@cache
+def _printed_K_T() -> tuple[Callable[..., Array], Callable[..., Array]]:
+    """Delta K_T of eq. (32) with the half-widths that the paper says, from its claims."""
+    claims = (paper()[f"K_T/tilted/{side}"] for side in ("left", "right"))
+    left, right = (
+        lambdify((Delta_Q, Delta_sigma, own), claim.right, "numpy")
+        for claim, own in zip(claims, (a, c), strict=True)
+    )
+    return left, right
+
+
+def printed(
+    body: ModuleType,
+    contact: Any,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: float,
+    da: Array = 0.0,
+    dc: Array = 0.0,
+    **constants: float,
+) -> Ends:
+    """The stick zone by eq. (20), d = |K_T|/(f K_N) + da/2, K_T by eq. (32) as it is printed.
+
+    da, dc: by how much further the edges reach than when slip began, with their signs.
+    """
+    left, right = _printed_K_T()
+    K_N = body.K_N(contact.a, contact.c, **constants)
+    d_left = np.abs(left(dQ, dsigma, contact.a)) / (f * K_N.left) + da / 2
+    d_right = np.abs(right(dQ, dsigma, contact.c)) / (f * K_N.right) + dc / 2
+    return Ends(contact.a - d_left, contact.c - d_right)
+
+
+def printed_march(body: ModuleType, of: Cycle, *, f: float, **constants: float) -> Ends:
+    """The same through a cycle, every instant against that when slip last began."""
+    at = body.contact(of.P, of.M, **constants)
+    middle = of.t.size // 2
+    start = np.where(np.arange(of.t.size) <= middle, 0, middle)
+    rising = np.where(start == 0, 1, -1)
+    changes = (rising * (load - load[start]) for load in (of.Q, of.sigma))
+    moved = {"da": at.a - at.a[start], "dc": at.c - at.c[start]}
+    ends = printed(body, at, *changes, f=f, **moved, **constants)
+    return Ends(ends.m, ends.n, rising, rising)
+
+
+KINDS = ("printed", "order 1", "order 2")
+"""Series that the figures compare with the exact stick zone."""
+
+
+def series(
+    body: ModuleType,
+    contact: Any,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: float,
+    da: Array = 0.0,
+    dc: Array = 0.0,
+    **constants: float,
+) -> dict[str, Ends]:
+    """Stick zones by the series, of each kind."""
+    found = {"printed": printed(body, contact, dQ, dsigma, f=f, da=da, dc=dc, **constants)}
+    for order in (1, 2):
+        d = body.slip_zones(
+            *(contact.a, contact.c, dQ, dsigma),
+            **{"f": f, "da": da, "dc": dc, "order": order, **constants},
+        )
+        found[f"order {order}"] = Ends(contact.a - d.left, contact.c - d.right)
+    return found
+
+
+# ------------------------------------------------------------------ figures
+
+
+def march_figure(
+    axes: Any, body: ModuleType, of: Cycle, *, f: float, length: plot.Measure, **constants: float
+) -> Any:
+    """The map of a cycle by the exact conditions, with the three series as lines.
+
+    Returns what `march` gives.
+    """
+    exact = body.march(*of.loads, f=f, **constants)
+    plot.stick_slip(exact, of.t, axes=axes, length=length)
+    lines = {
+        "printed": printed_march(body, of, f=f, **constants),
+        "order 1": body.march(*of.loads, f=f, order=1, **constants),
+        "order 2": body.march(*of.loads, f=f, order=2, **constants),
+    }
+    for kind, zones in lines.items():
+        plot.boundaries(axes, of.t, zones, kind, length=length)
+    axes.set_xlabel("$t/T$")
+    return exact
+
+
+def errors_at(edges: Any, exact: Any, found: dict[str, Ends]) -> dict[str, tuple[Array, Array]]:
+    """By how much the slip zones of each series are off, in parts of the exact ones."""
+    d_left, d_right = edges.a - exact.m, edges.c - exact.n
+    with np.errstate(all="ignore"):
+        return {
+            kind: ((edges.a - ends.m) / d_left - 1, (edges.c - ends.n) / d_right - 1)
+            for kind, ends in found.items()
+        }
+
+
+def error_lines(
+    axes: Sequence[Any], at: Array, errors: dict[str, tuple[Array, Array]], label: str
+) -> None:
+    """Errors in per cent at the left edge and at the right one, each in Axes of its own."""
+    with plot.style():
+        for side, place in enumerate(axes):
+            place.axhline(0, color="#555555", linewidth=0.8)
+            for kind, both in errors.items():
+                place.plot(at, 100 * both[side], label=kind, **plot.LINES[kind])
+            edge = ("left", "right")[side]
+            place.set(xlabel=label, ylabel=f"error of $d$, {edge} edge  [%]")
+        axes[0].legend()

@@ -1,0 +1,1 @@
+"""What the pictures hold: labels, and the values that the functions give."""

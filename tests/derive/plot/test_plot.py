@@ -1,0 +1,489 @@
+"""Pictures hold what the functions give, say what stands on their axes, and change nothing else."""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from types import ModuleType
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_hex, to_rgb
+from numpy.testing import assert_allclose, assert_array_equal
+
+from derive import plot
+from derive.errors import MissingLibrary
+from derive.plot import live as live_module
+from derive.plot.style import CYCLE, FORWARD, REVERSE, STICK
+from derive.plot.tractions import places
+from derive.plot.zones import LARGE, MIXED, MODERATE, senses
+from generated import flat_rounded, hertz, wedge
+from generated._types import March, Regime, StickZone
+
+matplotlib.use("Agg")
+
+STEEL = {"E_star": 115e9, "R": 0.05}
+FRICTION = {"f": 0.6, **STEEL}
+P, M, DQ = 1e6, 60.0, 1.5e5
+STATE = hertz.contact(P, M, **STEEL)
+MODERATE_PULL, LARGE_PULL = 100e6, 500e6
+WINDOW = 262e6
+"""A tension at which slip turns round: 8 dQ/(pi h) = 256.7 MPa, and the zone closes at 274 MPa."""
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> Iterator[None]:
+    yield
+    matplotlib.pyplot.close("all")
+
+
+def line(axes: Any, label: str) -> Any:
+    (found,) = (of for of in axes.get_lines() if of.get_label() == label)
+    return found
+
+
+def areas(axes: Any) -> dict[str, list[PolyCollection]]:
+    """Filled areas of a map by their colour."""
+    found: dict[str, list[PolyCollection]] = {}
+    for collection in axes.collections:
+        found.setdefault(to_hex(collection.get_facecolor()[0]), []).append(collection)
+    return found
+
+
+def span(of: PolyCollection) -> tuple[float, float, float, float]:
+    """Its widest part: an instant by itself, such as the end of the cycle before, has no width."""
+    box = max((path.get_extents() for path in of.get_paths()), key=lambda box: box.width)
+    return box.x0, box.x1, box.y0, box.y1
+
+
+# ------------------------------------------------------------------ measures and style
+
+
+@pytest.mark.parametrize(
+    ("values", "of", "name"),
+    [
+        ([7e-4, -1e-5], "m", "mm"),
+        (3e-6, "m", "µm"),
+        (0.5, "m", "m"),
+        ([np.inf, 9e8, np.nan], "Pa", "MPa"),
+        (0.0, "Pa", "Pa"),
+        (2e5, "N/m", "MN/m"),
+        (np.nan, "m", "m"),
+    ],
+)
+def test_a_unit_suits_the_values(values: Any, of: str, name: str) -> None:
+    assert plot.unit(values, of).name == name
+
+
+def test_a_measure_divides_and_leaves_out_what_is_infinite() -> None:
+    assert_array_equal(plot.unit(0.002, "m")([0.001, np.inf, np.nan]), [1.0, np.nan, np.nan])
+
+
+@pytest.mark.parametrize("size", [0.0, -1.0, np.nan, np.inf])
+def test_a_measure_has_a_size(size: float) -> None:
+    with pytest.raises(ValueError, match="is positive"):
+        plot.over(size, "a")
+
+
+def test_an_unknown_unit_is_refused() -> None:
+    with pytest.raises(ValueError, match="no unit 'ft' is known: give one of m, Pa"):
+        plot.unit(1.0, "ft")
+
+
+def test_the_style_lasts_no_longer_than_its_context() -> None:
+    before = dict(matplotlib.rcParams)
+    plot.pressures(hertz, [STATE], **STEEL)
+    with plot.style():
+        assert dict(matplotlib.rcParams) != before
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_the_style_is_put_back_after_an_error() -> None:
+    before = dict(matplotlib.rcParams)
+    with pytest.raises(KeyError), plot.style():
+        raise KeyError
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_a_saved_picture_has_the_same_bytes_each_time(tmp_path: Any) -> None:
+    written = []
+    for name in ("one", "two"):
+        axes = plot.pressures(hertz, [STATE], **STEEL)
+        for suffix in (".svg", ".png"):
+            plot.save(axes.figure, tmp_path / f"{name}{suffix}")
+        written.append([(tmp_path / f"{name}{suffix}").read_bytes() for suffix in (".svg", ".png")])
+    assert written[0] == written[1]
+
+
+# Matrices of Machado, Oliveira and Fernandes (2009) for full protanopia and deuteranopia.
+PROTAN = [
+    [0.152286, 1.052583, -0.204868],
+    [0.114503, 0.786281, 0.099216],
+    [-0.0038, -0.0482, 1.052],
+]
+DEUTAN = [
+    [0.367322, 0.860646, -0.227968],
+    [0.280085, 0.672501, 0.047413],
+    [-0.0118, 0.0429, 0.9689],
+]
+
+
+@pytest.mark.parametrize("seen", [np.eye(3), PROTAN, DEUTAN], ids=["all", "protan", "deutan"])
+@pytest.mark.parametrize("colours", [CYCLE[:4], (FORWARD, REVERSE, STICK)], ids=["lines", "areas"])
+def test_colours_are_told_apart(seen: Any, colours: tuple[str, ...]) -> None:
+    """By any reader: no two are seen closer than a tenth of the cube's edge."""
+    shown = [np.asarray(seen) @ np.square(to_rgb(colour)) for colour in colours]
+    apart = [np.linalg.norm(a - b) for i, a in enumerate(shown) for b in shown[:i]]
+    assert min(apart) > 0.1
+
+
+# ------------------------------------------------------------------ pressure and tractions
+
+
+def test_pressures_are_those_of_the_module() -> None:
+    states = [STATE, hertz.contact(P, 0.0, **STEEL)]
+    axes = plot.pressures(hertz, states, ["leaning", "upright"], **STEEL)
+    for state, label in zip(states, ("leaning", "upright"), strict=True):
+        x, p = line(axes, label).get_data()
+        expected = hertz.pressure(1e-3 * x, state.a, state.c, **STEEL)
+        assert_allclose(1e6 * p, expected, rtol=1e-9, atol=1e-3 * expected.max())
+        assert_allclose((x[0], x[-1]), (-1e3 * state.a, 1e3 * state.c))
+    assert axes.get_xlabel() == "$x$  [mm]"
+    assert axes.get_ylabel() == "$p$  [MPa]"
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["leaning", "upright"]
+
+
+def test_ratios_are_labelled_as_ratios() -> None:
+    axes = plot.pressures(hertz, [STATE], length=plot.over(STATE.a, "a"), **STEEL)
+    assert axes.get_xlabel() == "$x/a$"
+    assert axes.get_lines()[0].get_xdata()[0] == pytest.approx(-1)
+    assert axes.get_legend() is None
+
+
+def test_the_apex_of_a_wedge_is_cut_off() -> None:
+    law = {"E_star": 60e9, "phi": 0.05}
+    state = wedge.contact(2e6, 0.0, **law)
+    axes = plot.pressures(wedge, [state], **law)
+    assert np.isfinite(axes.get_ylim()[1])
+    beside = 1e-6 * wedge.pressure(0.05 * state.a, state.a, state.c, **law)
+    assert beside < axes.get_ylim()[1]
+
+
+def test_one_contact_instead_of_a_list_is_refused() -> None:
+    with pytest.raises(ValueError, match="give a list of what"):
+        plot.pressures(hertz, STATE, **STEEL)
+
+
+def test_places_are_dense_at_both_edges_and_end_there() -> None:
+    x = places(-1.0, 2.0)
+    assert_allclose((x[0], x[-1]), (-1, 2))
+    assert np.all(np.diff(x) > 0)
+    assert np.diff(x)[0] < 0.01 * np.diff(x).max()
+
+
+@pytest.mark.parametrize(
+    ("dsigma", "colours"), [(MODERATE_PULL, (FORWARD, FORWARD)), (LARGE_PULL, (FORWARD, REVERSE))]
+)
+def test_tractions_are_those_of_the_module(dsigma: float, colours: tuple[str, str]) -> None:
+    above, below = plot.tractions(hertz, STATE, STATE, DQ, dsigma, **FRICTION)
+    x, dq = line(below, r"$\Delta q$").get_data()
+    inside = slice(1, -1)
+    expected = hertz.shear_change(1e-3 * x, STATE, STATE, DQ, dsigma, **FRICTION)
+    assert_allclose(1e6 * dq[inside], expected[inside], rtol=1e-9)
+    limit = line(below, r"$\pm f\,(p_1 + p_2)$").get_ydata()
+    p = line(above, "$p$").get_ydata()
+    assert_allclose(limit, 2 * FRICTION["f"] * p)
+    assert np.all(np.abs(dq) <= limit * (1 + 1e-9) + 1e-9)  # nowhere beyond friction
+    zone = hertz.stick_zone(STATE, STATE, DQ, dsigma, **FRICTION)
+    left, right = below.patches
+    assert left.get_x() + left.get_width() == pytest.approx(-1e3 * zone.m)
+    assert right.get_x() == pytest.approx(1e3 * zone.n)
+    assert tuple(to_hex(patch.get_facecolor()) for patch in below.patches) == colours
+
+
+def test_both_pressures_are_drawn_where_the_load_varies() -> None:
+    second = hertz.contact(1.1 * P, M, **STEEL)
+    above, _ = plot.tractions(hertz, STATE, second, DQ, 0.0, **FRICTION)
+    x, p1 = line(above, "start, $p_1$").get_data()
+    expected = hertz.pressure(1e-3 * x, STATE.a, STATE.c, **STEEL)
+    assert_allclose(1e6 * p1, expected, rtol=1e-9, atol=1e-3 * expected.max())
+    assert line(above, "end, $p_2$").get_ydata().max() > p1.max()
+
+
+def test_where_nothing_is_known_the_picture_says_so() -> None:
+    assert hertz.stick_zone(STATE, STATE, DQ, WINDOW, **FRICTION).regime == Regime.MIXED
+    _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
+    assert [text.get_text() for text in below.texts] == ["mixed: the shear is not known"]
+    assert not below.patches
+    assert np.all(np.isfinite(below.get_ylim()))
+    above, _ = plot.slip(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
+    assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
+
+
+def test_a_zone_may_be_known_where_the_shear_is_not() -> None:
+    """Just past the threshold forward slip overtakes: the wedge at 0.930 of 0.20602, whose window
+    opens at 0.9322 (tests/reference/FINDINGS.md)."""
+    law = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
+    here = wedge.contact(1.0, 0.0, E_star=1.0, phi=1.0)
+    zone = wedge.stick_zone(here, here, 0.15, 0.93 * 0.20602, **law)
+    assert zone.regime == Regime.MIXED and np.isfinite(zone.m)
+    _, below = plot.tractions(wedge, here, here, 0.15, 0.93 * 0.20602, **law)
+    assert [text.get_text() for text in below.texts] == ["mixed: the shear is not known"]
+    assert len(below.patches) == 2
+
+
+def test_slip_and_the_work_of_friction() -> None:
+    above, below = plot.slip(hertz, STATE, STATE, DQ, LARGE_PULL, **FRICTION)
+    x, s = above.get_lines()[0].get_data()
+    slipped = hertz.slip_range(1e-3 * x, STATE, STATE, DQ, LARGE_PULL, **FRICTION)
+    inside = slice(1, -1)  # at the edges rounding of x decides
+    assert_allclose(1e-6 * s[inside], slipped[inside], rtol=1e-6, atol=1e-12)
+    p = hertz.pressure(1e-3 * x, STATE.a, STATE.c, **STEEL)
+    work = below.get_lines()[0].get_ydata()
+    assert_allclose(work[inside], (FRICTION["f"] * p * slipped)[inside], rtol=1e-6, atol=1e-6)
+    assert above.get_ylabel() == "$s$  [µm]"
+    assert below.get_ylabel() == "$f\\,p\\,s$  [J/m²]"
+
+
+# ------------------------------------------------------------------ maps
+
+
+def test_senses_are_those_of_the_shear() -> None:
+    regime = np.array([MODERATE, LARGE, LARGE, MIXED, MIXED, Regime.SLIDING, Regime.FULL_STICK])
+    known = np.array([1.0, 1.0, 1.0, 1.0, np.nan, np.nan, 1.0])
+    dsigma = np.array([0.0, 1.0, -1.0, 1.0, 1.0, 0.0, 0.0])
+    left, right = senses(StickZone(known, known, regime), dsigma)
+    assert left.tolist() == [1, 1, -1, 1, 0, 0, 0]
+    assert right.tolist() == [1, -1, 1, 1, 0, 0, 0]
+
+
+def test_senses_agree_with_the_shear_at_the_edges() -> None:
+    for dsigma in (MODERATE_PULL, LARGE_PULL, -LARGE_PULL):
+        zone = hertz.stick_zone(STATE, STATE, DQ, dsigma, **FRICTION)
+        beside = np.array([-0.999 * STATE.a, 0.999 * STATE.c])
+        dq = hertz.shear_change(beside, STATE, STATE, DQ, dsigma, **FRICTION)
+        assert_array_equal(np.sign(dq), [int(way) for way in senses(zone, dsigma)])
+
+
+def test_the_codes_are_those_of_every_module() -> None:
+    for module in (hertz, flat_rounded, wedge):
+        codes = module.Regime.MODERATE, module.Regime.LARGE, module.Regime.MIXED
+        assert codes == (MODERATE, LARGE, MIXED)
+
+
+def cycle(dsigma: float, count: int = 41) -> tuple[np.ndarray, March]:
+    t = np.linspace(0, 1, count)
+    swing = -np.cos(2 * np.pi * t) / 2
+    return t, hertz.march(P, M, DQ * swing, dsigma * swing, **FRICTION)
+
+
+def test_a_map_colours_each_edge_by_its_sense() -> None:
+    t, marched = cycle(LARGE_PULL)
+    axes = plot.stick_slip(marched, t)
+    found = areas(axes)
+    middle = 1e3 * (STATE.c - STATE.a) / 2
+    for colour, left_when, right_when in (
+        (FORWARD, (0, 0.5), (0.5, 1)),
+        (REVERSE, (0.5, 1), (0, 0.5)),
+    ):
+        for area in found[colour]:
+            x0, x1, y0, y1 = span(area)
+            start, end = left_when if y1 < middle else right_when
+            assert start <= x0 < x1 <= end
+            edge, inner = (y0, y1) if y1 < middle else (y1, y0)
+            assert edge == pytest.approx(-1e3 * STATE.a if y1 < middle else 1e3 * STATE.c)
+            last = marched.m if y1 < middle else marched.n
+            assert abs(inner) == pytest.approx(1e3 * last.min())
+    assert len(found[FORWARD]) == len(found[REVERSE]) == 2
+    assert axes.get_ylabel() == "$x$  [mm]"
+
+
+def test_the_lines_of_a_map_are_the_ends_of_the_stick_zone_with_a_gap_at_each_turn() -> None:
+    t, marched = cycle(MODERATE_PULL)
+    axes = plot.stick_slip(marched, t)
+    at, end = line(axes, "exact").get_data()
+    drawn = np.isfinite(at)
+    assert_allclose(at[drawn], t)
+    assert_allclose(end[drawn], -1e3 * marched.m)
+    assert np.count_nonzero(~drawn) == 2  # after the first instant, and at the middle
+
+
+def test_the_legend_tells_what_is_there_and_no_more() -> None:
+    _, marched = cycle(0.0)
+    names = [text.get_text() for text in plot.stick_slip(marched).get_legend().get_texts()]
+    assert names == ["stick", "forward slip", "reverse slip", "exact"]
+    assert plot.stick_slip(marched, legend=False).get_legend() is None
+
+
+def test_several_cycles_at_once_are_refused() -> None:
+    swing = -np.cos(2 * np.pi * np.linspace(0, 1, 9)) / 2
+    several = hertz.march(P, M, DQ * swing, np.array([[0.0], [1e6]]) * swing, **FRICTION)
+    with pytest.raises(ValueError, match="one cycle is drawn at a time"):
+        plot.stick_slip(several)
+    _, one = cycle(0.0)
+    with pytest.raises(ValueError, match="41 instants need as many times"):
+        plot.stick_slip(one, [0.0, 1.0])
+
+
+def test_a_sweep_leaves_open_what_is_not_known() -> None:
+    dsigma = np.linspace(0, 600e6, 601)
+    zone = hertz.stick_zone(STATE, STATE, DQ, dsigma, **FRICTION)
+    axes = plot.sweep(1e-6 * dsigma, STATE, zone, dsigma, label="tension")
+    hatched = [area for area in axes.collections if area.get_hatch() == "////"]
+    (unknown,) = hatched
+    x0, x1, y0, y1 = span(unknown)
+    gap = 1e-6 * dsigma[np.isnan(zone.m)]
+    assert_allclose((x0, x1), (gap.min() - 1, gap.max() + 1))
+    assert_allclose((y0, y1), (-1e3 * STATE.a, 1e3 * STATE.c))
+    _, end = line(axes, "exact").get_data()
+    assert_allclose(end[np.isfinite(end)], -1e3 * zone.m[np.isfinite(zone.m)])
+    assert axes.get_xlabel() == "tension"
+    assert "not known" in [text.get_text() for text in axes.get_legend().get_texts()]
+
+
+def test_a_sweep_may_change_the_contact() -> None:
+    loads = np.linspace(0.5e6, 1e6, 11)
+    states = hertz.contact(loads, 0.0, **STEEL)
+    zone = hertz.stick_zone(states, states, DQ, 0.0, **FRICTION)
+    axes = plot.sweep(1e-6 * loads, states, zone)
+    (stick,) = areas(axes)[STICK]
+    assert span(stick)[3] == pytest.approx(1e3 * states.c.max())
+
+
+def test_boundaries_are_the_zone_that_is_given() -> None:
+    t, marched = cycle(LARGE_PULL)
+    series = hertz.march(
+        P, M, *(of * -np.cos(2 * np.pi * t) / 2 for of in (DQ, LARGE_PULL)), **FRICTION, order=1
+    )
+    axes = plot.stick_slip(marched, t)
+    plot.boundaries(axes, t, series, "order 1", length=plot.unit(STATE.a, "m"))
+    _, end = line(axes, "order 1").get_data()
+    assert_allclose(end[np.isfinite(end)], -1e3 * series.m)
+    assert "order 1" in [text.get_text() for text in axes.get_legend().get_texts()]
+    with pytest.raises(ValueError, match="no look is known for 'third'"):
+        plot.boundaries(axes, t, series, "third", length=plot.unit(STATE.a, "m"))
+
+
+# ------------------------------------------------------------------ errors of the series
+
+
+def test_errors_are_those_of_the_module_and_fall_with_their_order() -> None:
+    part = np.geomspace(0.01, 0.3, 5)
+    found = plot.relative_errors(hertz, STATE, DQ * part, LARGE_PULL * part, **FRICTION)
+    zone = hertz.stick_zone(STATE, STATE, DQ * part, LARGE_PULL * part, **FRICTION)
+    d = STATE.a - zone.m
+    assert_allclose(found.size[0], d / (STATE.a + STATE.c))
+    first = hertz.slip_zones(*STATE[:2], DQ * part, LARGE_PULL * part, **FRICTION)
+    assert_allclose(found.relative[1][0], np.abs(first.left / d - 1))
+    for order, relative in found.relative.items():
+        slope = np.polyfit(np.log(found.size[1]), np.log(relative[1]), 1)[0]
+        assert slope == pytest.approx(order, abs=0.25)
+    axes = plot.errors(hertz, STATE, DQ * part, LARGE_PULL * part, orders=(1, 2), **FRICTION)
+    size, shown = line(axes, "order 2, right").get_data()
+    assert_allclose((size, shown), (found.size[1], found.relative[2][1]))
+    assert axes.get_xscale() == axes.get_yscale() == "log"
+    assert len(axes.get_lines()) == 4
+
+
+# ------------------------------------------------------------------ sliders
+
+LARGEST = plot.Loads(2e6, 300.0, 8e5, 800e6, 1.0)
+START = plot.Loads(P, M, DQ, LARGE_PULL, 0.6)
+
+
+def test_the_live_picture_follows_the_loads() -> None:
+    live = plot.Live(hertz, LARGEST, **STEEL)
+    told = live.show(START)
+    before = live.png()
+    zone = hertz.stick_zone(STATE, STATE, DQ, LARGE_PULL, **FRICTION)
+    assert told.startswith("large: contact [-0.8040, 0.6840] mm")
+    assert f"stick [{-1e3 * zone.m:.4f}, {1e3 * zone.n:.4f}] mm" in told
+    x, dq = live.shear.get_data()
+    expected = hertz.shear_change(1e-3 * x, STATE, STATE, DQ, LARGE_PULL, **FRICTION)
+    assert_allclose(1e6 * dq[1:-1], expected[1:-1], rtol=1e-9)
+    assert [to_hex(span.get_facecolor()) for span in live.spans[:2]] == [FORWARD, REVERSE]
+    assert live.show(START._replace(dsigma=0.0)).startswith("moderate")
+    assert [to_hex(span.get_facecolor()) for span in live.spans[:2]] == [FORWARD, FORWARD]
+    assert live.png() != before
+    live.show(START)
+    assert live.png() == before
+
+
+def test_the_live_picture_knows_where_nothing_is_known() -> None:
+    live = plot.Live(hertz, LARGEST, **STEEL)
+    for loads, said in (
+        (START._replace(dsigma=WINDOW), "mixed"),
+        (START._replace(dQ=8e5, f=0.3), "sliding"),
+    ):
+        told = live.show(loads)
+        assert told.startswith(said)
+        assert "nan" not in told
+        assert not any(span.get_visible() for span in live.spans)
+        assert live.png()
+
+
+def test_the_live_picture_is_drawn_in_a_moment() -> None:
+    from time import perf_counter
+
+    live, seconds = plot.Live(flat_rounded, LARGEST, E_star=115e9, R=0.02, b=1e-3), []
+    for tension in np.linspace(0, 500e6, 8):
+        begun = perf_counter()
+        live.show(START._replace(dsigma=tension))
+        live.png()
+        seconds.append(perf_counter() - begun)
+    assert min(seconds) < 0.2
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
+def test_sliders_move_the_picture() -> None:
+    box = plot.sliders(hertz, LARGEST, START, **STEEL)
+    row, picture, told = box.children
+    assert [slider.description.split()[0] for slider in row.children] == [
+        "P",
+        "M",
+        "dQ",
+        "dsigma",
+        "f",
+    ]
+    before, line_before = picture.value, told.value
+    row.children[3].value = 0.0
+    assert picture.value != before
+    assert line_before.startswith("large") and told.value.startswith("moderate")
+
+
+# ------------------------------------------------------------------ what is missing
+
+
+def test_without_matplotlib_one_clear_error() -> None:
+    code = (
+        "import sys; sys.modules['matplotlib'] = None\n"
+        "import importlib.util as u; found = u.find_spec\n"
+        "u.find_spec = lambda name, *a: None if name == 'matplotlib' else found(name, *a)\n"
+        "from derive.errors import MissingLibrary\n"
+        "try:\n    import derive.plot\n"
+        "except MissingLibrary as error:\n    print(error)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    said, remedy = "matplotlib is not installed, and drawing needs it", "contact-derive[notebooks]"
+    assert done.stdout == f"{said}: pip install '{remedy}'\n", done.stderr
+
+
+def test_without_ipywidgets_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live_module, "find_spec", lambda name: None)
+    with pytest.raises(MissingLibrary, match=r"ipywidgets is not installed.*\[notebooks\]"):
+        plot.sliders(hertz, LARGEST, START, **STEEL)
+
+
+@pytest.mark.parametrize("body", ["power", "circular_arc"])
+def test_an_integrated_body_is_drawn_as_any_other(body: str) -> None:
+    module: ModuleType = import_module(f"generated.{body}")
+    own = {"k": 3.0, "L": 1.0} if body == "power" else {"R": 1.0}
+    state = module.contact(0.05, 0.001, E_star=1.0, **own)
+    axes = plot.pressures(module, [state], E_star=1.0, **own)
+    x, p = axes.get_lines()[0].get_data()
+    assert np.trapezoid(p, x) == pytest.approx(
+        0.05 / (1.0 if axes.get_xlabel().endswith("[m]") else 1e-3), rel=1e-3
+    )
