@@ -17,15 +17,16 @@ MODERATE, LARGE, MIXED = 1, 2, 3
 def senses(zone: Any, dsigma: Array) -> tuple[Array, Array]:
     """Sense of slip at the left and at the right edge at the end of the half-cycle that raises Q.
 
-    +1 in the sense of a positive dQ, -1 against it, 0 none, or none that is known.  A stick zone
-    of the mixed regime is known where forward slip overtakes in the end.
+    +1 in the sense of a positive dQ, -1 against it, 0 none, or none that is known.  In the mixed
+    regime slip turns round at the edge that tension does not load.
     """
-    large = np.asarray(zone.regime) == LARGE
-    slips = large | (np.asarray(zone.regime) == MODERATE)
-    slips |= (np.asarray(zone.regime) == MIXED) & np.isfinite(zone.m)
-    left = np.where(large & (np.asarray(dsigma) < 0), -1, 1)
-    right = np.where(large, -left, 1)
-    return np.where(slips, left, 0), np.where(slips, right, 0)
+    regime, back = np.asarray(zone.regime), np.asarray(dsigma) < 0
+    large, mixed = regime == LARGE, (regime == MIXED) & np.isfinite(zone.m)
+    left = np.where(back, np.where(large, -1, 0), 1)
+    right = np.where(back, 1, np.where(large, -1, 0))
+    slips = large | mixed
+    forward = np.where(regime == MODERATE, 1, 0)
+    return np.where(slips, left, forward), np.where(slips, right, forward)
 
 
 def stick_slip(
