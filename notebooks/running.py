@@ -6,6 +6,7 @@ import sys
 from argparse import ArgumentParser
 from collections.abc import Iterator, Mapping
 from difflib import unified_diff
+from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -46,6 +47,7 @@ def run(path: Path) -> NotebookNode:
     for cell in notebook.cells:
         if cell.cell_type == "code":
             cell.outputs, cell.execution_count = [], None
+    import_module("matplotlib.font_manager")  # its first import lists fonts, and says so at length
     client = NotebookClient(notebook, timeout=TIMEOUT, kernel_name="python3")
     client.extra_arguments = ["--log-level=ERROR"]
     client.resources = {"metadata": {"path": str(path.parent)}}

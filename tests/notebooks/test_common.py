@@ -31,6 +31,10 @@ def test_loads_swing_in_phase_between_both_states() -> None:
     assert np.all(wedge.march(*of.loads, **GIVEN).regime != wedge.Regime.NONE)
 
 
+PAPER = pytest.mark.slow  # all claims of the paper are made for the one that is asked for
+
+
+@PAPER
 @pytest.mark.parametrize("dsigma", [0.0, PULL, -PULL])
 def test_a_symmetric_contact_has_the_printed_coefficient(dsigma: float) -> None:
     state = wedge.contact(1.0, 0.0, **LAW)
@@ -38,6 +42,7 @@ def test_a_symmetric_contact_has_the_printed_coefficient(dsigma: float) -> None:
     assert_allclose(found["printed"][:2], found["order 1"][:2])
 
 
+@PAPER
 def test_the_printed_coefficient_of_a_tilted_contact() -> None:
     """Eq. (32): dQ/(pi sqrt(2 a)) + (dsigma/4) sqrt(a/2), and with c and - at the right; eq. (33)
     and (34): K_N = (2/pi) sqrt(c/(a (a + c))), and a/c times it, for E* = phi = 1."""
@@ -52,6 +57,7 @@ def test_the_printed_coefficient_of_a_tilted_contact() -> None:
     assert_allclose(ends.n, c - abs(K_right) / (0.5 * N_left * a / c) + 0.005)
 
 
+@PAPER
 def test_the_printed_march_ends_as_the_printed_series_does() -> None:
     of = common.cycle((1.0, 1.0), (0.1, 0.15), DQ, PULL, count=9)
     marched = common.printed_march(wedge, of, **GIVEN)
