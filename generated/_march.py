@@ -74,7 +74,8 @@ def march_of(
         m, n, regime = stick_zone_of(law, begun, contact, dQ, dsigma, **given_now)
     m, n = np.where(in_phase, m, np.nan), np.where(in_phase, n, np.nan)
     regime = np.where(in_phase, regime, Regime.NONE)
-    slips = (regime == Regime.MODERATE) | (regime == Regime.LARGE)
+    overtaken = (regime == Regime.MIXED) & np.isfinite(m)
+    slips = (regime == Regime.MODERATE) | (regime == Regime.LARGE) | overtaken
     back = np.where((regime == Regime.LARGE) & (dsigma < 0), -1, 1)
     forth = np.where(regime == Regime.LARGE, -back, 1)
     left, right = np.where(slips, sense * back, 0), np.where(slips, sense * forth, 0)

@@ -77,6 +77,9 @@ class _Known:
         self.constants = self.given.constants
         a, c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
         self.task = task_between(law, a, c, dQ, dsigma, f, self.constants)
+        known = np.isfinite(self.m) & np.isfinite(self.n)
+        self.large = known & (self.regime == Regime.LARGE)
+        self.forward = known & np.isin(self.regime, (Regime.MODERATE, Regime.MIXED))
 
     def in_pieces(self, of: Any) -> Array:
         """A result, so many elements at once."""
@@ -88,8 +91,7 @@ class _Known:
 
     def kappa(self, side: Array, rows: Array) -> Array:
         """Sense of slip on the left (side -1) or on the right (+1)."""
-        opposed = self.regime[rows] == Regime.LARGE
-        return np.where(opposed, -side * self.task.sense[rows], 1.0)
+        return np.where(self.large[rows], -side * self.task.sense[rows], 1.0)
 
     def zone(self, side: int, task: Task, rows: Array) -> tuple[Array, Array, list[Array]]:
         """Where a slip zone starts, outward; how long it is; where it is to be cut."""
@@ -100,18 +102,19 @@ class _Known:
     def change(self, rows: Array) -> Array:
         """dq at x."""
         task, held = self.task.on(rows), at_rows(rows, self.constants)
-        m, n, regime = self.m[rows], self.n[rows], self.regime[rows]
+        m, n = self.m[rows], self.n[rows]
         x = self._beside_kinks(rows)
         side = np.where(x < (n - m) / 2, -1, 1)
         slips = (x >= n) | (x <= -m)
         sliding = self.kappa(side, rows) * task.f * task.sum_of_pressures(x)
-        moderate = sliding - 2 * task.f * self.law.pressure(x, m, n, **held)
-        large = bounded_change(task, m, n, self.x[rows], LEVEL)
-        stuck = np.where(regime == Regime.LARGE, large, moderate)
-        still = (regime == Regime.FULL_STICK) & task.alike  # there is no shear at all
-        found = np.where(slips, sliding, stuck)
-        known = (regime == Regime.MODERATE) | (regime == Regime.LARGE)
-        return np.where(still, 0.0, np.where(known, found, np.nan))
+        stuck = sliding - 2 * task.f * self.law.pressure(x, m, n, **held)
+        some = np.flatnonzero(self.large[rows] & ~slips)
+        if some.size:
+            stuck[some] = bounded_change(task.on(some), m[some], n[some], self.x[rows][some], LEVEL)
+        still = (self.regime[rows] == Regime.FULL_STICK) & task.alike  # there is no shear at all
+        known = self.large[rows] | self.forward[rows]
+        found = np.where(known, np.where(slips, sliding, stuck), np.nan)
+        return np.where(still, 0.0, found)
 
     def _beside_kinks(self, rows: Array) -> Array:
         """x, moved off a corner in the stick zone: p is infinite there, dq is not."""
@@ -127,7 +130,7 @@ class _Known:
         x, m, n, regime = self.x[rows], self.m[rows], self.n[rows], self.regime[rows]
         side = np.where(x < (n - m) / 2, -1, 1)
         total = np.where(side > 0, self._slipped(1, task, rows), self._slipped(-1, task, rows))
-        known = (regime == Regime.MODERATE) | (regime == Regime.LARGE)
+        known = (regime == Regime.MODERATE) | (regime == Regime.LARGE)  # there and not back
         sticks = ((x >= -m) & (x <= n)) | (regime == Regime.FULL_STICK)
         inside = (x >= -task.smaller_a) & (x <= task.smaller_c)
         found = np.where(sticks, 0.0, np.where(known, np.abs(total), np.nan))

@@ -720,8 +720,8 @@ def shear_change(
         phi     slope of the flanks far from the apex [rad]
 
     Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
-    NaN unless the stick zone is known; nor in full stick between two contacts; nor where dQ < 0 or
-    dQ >= f (P1 + P2), which is sliding.
+    NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
+    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/hyperbola.py.
 
     >>> law = dict(E_star=1.0, b=1.0, phi=0.125)
@@ -762,8 +762,8 @@ def slip_range(
         phi     slope of the flanks far from the apex [rad]
 
     Returns slip [m], positive.
-    NaN unless x lies in both contacts and the stick zone is known; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK; nor where dQ
+    < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/hyperbola.py.
 
     >>> law = dict(E_star=1.0, b=1.0, phi=0.125)

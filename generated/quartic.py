@@ -665,8 +665,8 @@ def shear_change(
         L       distance from the apex at which the flanks have slope one [m]
 
     Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
-    NaN unless the stick zone is known; nor in full stick between two contacts; nor where dQ < 0 or
-    dQ >= f (P1 + P2), which is sliding.
+    NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
+    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/quartic.py.
 
     >>> law = dict(E_star=1.0, L=1.0)
@@ -705,8 +705,8 @@ def slip_range(
         L       distance from the apex at which the flanks have slope one [m]
 
     Returns slip [m], positive.
-    NaN unless x lies in both contacts and the stick zone is known; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK; nor where dQ
+    < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/quartic.py.
 
     >>> law = dict(E_star=1.0, L=1.0)

@@ -886,8 +886,8 @@ def shear_change(
         R_2     relative radius of curvature on the right [m]
 
     Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
-    NaN unless the stick zone is known; nor in full stick between two contacts; nor where dQ < 0 or
-    dQ >= f (P1 + P2), which is sliding.
+    NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
+    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/two_radii.py.
 
     >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
@@ -928,8 +928,8 @@ def slip_range(
         R_2     relative radius of curvature on the right [m]
 
     Returns slip [m], positive.
-    NaN unless x lies in both contacts and the stick zone is known; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK; nor where dQ
+    < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/two_radii.py.
 
     >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)

@@ -141,7 +141,7 @@ CYCLE: tuple[CycleFunction, ...] = (
             "w = sqrt((xi + m)(xi - n)), negative on the left",
         ),
         "dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then",
-        "the stick zone is known; nor in full stick between two contacts",
+        "the stick zone is known without `mixed`; nor in full stick between two contacts",
     ),
     CycleFunction(
         "slip_range",
@@ -152,7 +152,7 @@ CYCLE: tuple[CycleFunction, ...] = (
             "moderate tension and constant loads: 2 f times the gap beside the patch [-m, n]",
         ),
         "slip [m], positive",
-        "x lies in both contacts and the stick zone is known",
+        "x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK",
     ),
     CycleFunction(
         "march",

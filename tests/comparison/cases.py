@@ -1,7 +1,6 @@
 """Cycles for the comparison: the paper's result cases, and bodies and loads that it has not.
 
-E* = 1 and f = 1/2 throughout.  Loads of the wedge are told in P and in the tension that closes a
-slip zone, as the paper does.
+E* = 1 and f = 1/2 throughout.  The paper tells tension in parts of that which closes a slip zone.
 """
 
 import importlib
@@ -27,6 +26,7 @@ class Compared:
     P, M     normal load and moment at both ends of the half-cycle
     dQ       change of shear over f times the mean load
     tension  change of tension over 8 dQ/(pi h), h the width at the mean loads
+    closing  whether it is over the tension instead that closes the right slip zone at these
     """
 
     name: str
@@ -38,6 +38,7 @@ class Compared:
     dQ: float
     tension: float
     kinks: tuple[float, ...] = field(default=())
+    closing: bool = False
 
     @property
     def module(self) -> ModuleType:
@@ -63,6 +64,9 @@ class Compared:
         load = float(np.mean(self.P))
         shear = self.dQ * F * load
         mean = self.module.contact(load, float(np.mean(self.M)), **self.law)
+        if self.closing:
+            closing = self.module.closing_tension(mean, mean, shear, f=F, **self.law)
+            return shear, self.tension * float(closing.upper)
         return shear, self.tension * 8 * shear / (np.pi * float(mean.a + mean.c))
 
     @property
@@ -77,16 +81,21 @@ class Compared:
 
 
 def _wedge(
-    name: str, dQ: float, tension: float, P: float = 0.0, M: tuple[float, float] = (0.0, 0.0)
+    name: str,
+    dQ: float,
+    tension: float,
+    P: float = 0.0,
+    M: tuple[float, float] = (0.0, 0.0),
+    closing: bool = True,
 ) -> Compared:
     """g = |x|; P changes by a part P of its mean 1, M/P = (1/2) tan(pi alpha/2) at a tilt alpha."""
     loads = 1 - P / 2, 1 + P / 2
     turned = tuple(
         np.tan(np.pi * tilt / 2) / 2 * load**2 for tilt, load in zip(M, loads, strict=True)
     )
-    return Compared(
-        name, "wedge", np.abs, {"phi": 1.0}, loads, (turned[0], turned[1]), dQ, tension, (0.0,)
-    )
+    moments = turned[0], turned[1]
+    shape = name, "wedge", np.abs, {"phi": 1.0}
+    return Compared(*shape, loads, moments, dQ, tension, (0.0,), closing)
 
 
 def _flat(x: Floats) -> Floats:
@@ -181,9 +190,9 @@ OURS = (
         (0.0, 0.0),
         (0.3, 3.0),
     ),
-    _wedge("wedge, slip turns round, 1.02", 0.3, 1.02),
-    _wedge("wedge, slip turns round, 1.08", 0.3, 1.08),
-    _wedge("wedge, slip turns round, 1.15", 0.3, 1.15),
+    _wedge("wedge, slip turns round, 1.02", 0.3, 1.02, closing=False),
+    _wedge("wedge, slip turns round, 1.08", 0.3, 1.08, closing=False),
+    _wedge("wedge, slip turns round, 1.15", 0.3, 1.15, closing=False),
     _own(
         "cylinder, tilted, slip turns round",
         ("hertz", _parabola, {"R": 1.0}),

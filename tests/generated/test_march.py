@@ -135,3 +135,15 @@ def test_no_shear_and_sliding_are_told_by_series_too(order: int) -> None:
     assert np.all(still.left == 0) and np.all(still.m <= still.a)
     slides = wedge.march(P, M, 30 * Q, 0.0, **LAW, order=order)
     assert slides.regime[4] == Regime.SLIDING and np.isnan(slides.m[4])
+
+
+def test_slip_that_overtakes_is_told_from_none() -> None:
+    """Wedge, dQ = 0.3 f P, 0.929 of the closing tension: MIXED with a known zone at the end."""
+    t = np.linspace(0, 1, 41)
+    part = (1 - np.cos(2 * np.pi * t)) / 2
+    Q, sigma = 0.15 * (part - 0.5), 0.929 * 0.206021 * (part - 0.5)
+    cycle = wedge.march(1.0, 0.0, Q, sigma, f=0.5, E_star=1.0, phi=1.0)
+    known = (cycle.regime == Regime.MIXED) & np.isfinite(cycle.m)
+    assert np.any(known)
+    assert np.all(cycle.left[known] == np.where((t > 0) & (t <= 0.5), 1, -1)[known])
+    assert np.array_equal(cycle.left[known], cycle.right[known])

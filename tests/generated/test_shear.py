@@ -169,6 +169,15 @@ def test_outside_and_unknown() -> None:
     mixed = Case("wedge", 1.05)
     assert mixed.zone.regime == Regime.MIXED
     assert np.all(np.isnan(mixed.change(np.array([-1.0, 0.0, 0.5]))))
+    x = np.cos(np.linspace(0, np.pi, 2001))[::-1]
+    law = {
+        "f": 0.5,
+        "E_star": 1.0,
+        "phi": 1.0,
+    }  # forward slip overtakes: tests/reference/FINDINGS.md
+    overtaken = Contact(1.0, 1.0, 0.0), Contact(1.0, 1.0, 0.0), 0.15, 0.931 * 0.206021
+    assert_allclose(np.trapezoid(wedge.shear_change(x, *overtaken, **law), x), 0.15, rtol=1e-5)
+    assert np.isnan(wedge.slip_range(0.995, *overtaken, **law))  # it slips back first
     none = wedge.shear_change(np.array([-1.0, 0.5]), case.first, case.first, 0.0, 0.0, **case.law)
     assert np.all(none == 0)
 
