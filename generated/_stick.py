@@ -92,6 +92,8 @@ def stick_zone_of(
 
     mixed: solve cycles in which slip turns round, too, if their normal loads are constant.
     """
+    if not isinstance(mixed, bool | np.bool_):
+        raise TypeError(f"mixed must be True or False, for all cycles; got {mixed!r:.60}")
     cycle, given = _cycle(law, first, second, dQ, dsigma, f, E_star, own)
     regime = np.full(cycle.dQ.shape, Regime.NONE)
     m, n = np.full(regime.shape, np.nan), np.full(regime.shape, np.nan)
@@ -116,6 +118,7 @@ def stick_zone_of(
     rows = rows[np.isnan(m[rows])] if mixed else rows[:0]
     if rows.size:
         m[rows], n[rows] = _turning(cycle.on(rows))
+        regime[rows[np.isnan(m[rows])]] = Regime.UNSOLVED
     unsolved = (regime == Regime.LARGE) & ~np.isfinite(m)
     regime[unsolved] = Regime.UNSOLVED
     return StickZone(*(given.shaped(v) for v in (m, n, regime)))
@@ -412,7 +415,10 @@ def _overtaken(cycle: _Cycle) -> tuple[Array, Array]:
 
 
 def _turning(cycle: _Cycle) -> tuple[Array, Array]:
-    """m and n where slip turns round at constant loads; seen so that dsigma > 0."""
+    """m and n where slip turns round at constant loads; seen so that dsigma > 0.
+
+    What sticks lies about the middle of the zone of moderate tension, or of large tension.
+    """
     own, back = cycle.task, cycle.dsigma < 0
     sense = np.where(back, -1.0, 1.0)
 
@@ -426,6 +432,11 @@ def _turning(cycle: _Cycle) -> tuple[Array, Array]:
     seen = own._replace(a=a, c=c, dsigma=np.abs(own.dsigma), pressure=pressure, kinks=kinks)
     patch = _patch(cycle, cycle.load, cycle.tilt, 1.0)
     left, right = turning_zone(seen, sense * (patch.c - patch.a) / 2)
+    rows = np.flatnonzero(np.isnan(left))
+    if rows.size:
+        there = cycle.on(rows)
+        m, n = _solved(there, there.task)
+        left[rows], right[rows] = turning_zone(seen.on(rows), sense[rows] * (n - m) / 2)
     return np.where(back, right, left), np.where(back, left, right)
 
 

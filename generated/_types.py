@@ -34,7 +34,7 @@ class Regime(IntEnum):
                 stick_zone is asked to solve these cycles, too
     SLIDING     nothing sticks: m and n are NaN
     FULL_STICK  nothing slips: m and n are those of the smaller contact
-    UNSOLVED    the iteration did not end: m and n are NaN
+    UNSOLVED    the iteration did not end, or the phases of a mixed cycle were not found: NaN
     """
 
     NONE = 0
@@ -66,7 +66,7 @@ class March(NamedTuple):
 
     a, c         the contact [-a, c]
     m, n         what has not slipped since the loads last turned, [-m, n]
-    left, right  sense of slip at either edge: +1 forward, -1 in reverse, 0 none
+    left, right  sense of slip at either edge: +1 forward, -1 in reverse, 0 none, or none known
     regime       a code of Regime; by the signs of K_T where m and n are those of a series
     """
 

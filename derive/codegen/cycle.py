@@ -140,7 +140,8 @@ CYCLE: tuple[CycleFunction, ...] = (
             "large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi where it sticks, "
             "w = sqrt((xi + m)(xi - n)), negative on the left",
         ),
-        "dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then",
+        "dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the "
+        "regime of the whole half-cycle is MODERATE or LARGE",
         "the stick zone is known without `mixed`; nor in full stick between two contacts",
     ),
     CycleFunction(
@@ -160,7 +161,8 @@ CYCLE: tuple[CycleFunction, ...] = (
         "A steady cycle instant by instant: contact, stick zone, and which way the edges slip.",
         (
             "since the loads last turned, at the least or the greatest Q, slip has grown as in a "
-            "half-cycle that ends now: by stick_zone, or by slip_zones if an order is given",
+            "half-cycle that ends now: by stick_zone, or by slip_zones if an order is given; where "
+            "the whole half-cycle is MIXED it has not, and only its end may be known",
         ),
         "March(a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime)",
         "all loads are as far on their way between both states, to 1e-6 of their change",

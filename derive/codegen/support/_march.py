@@ -1,8 +1,12 @@
 """A steady cycle instant by instant: where it slips, and which way.
 
 All loads move in phase, there and back between two states: at the least shear and at the greatest.
-Since the last of these, slip has grown as in a half-cycle that ends now.
+Since the last of these, slip has grown as in a half-cycle that ends now, if all shear was at
+friction in the slip zones to come when they turned.  It was not where slip turns round inside the
+whole half-cycle: of such a cycle nothing is told but its ends.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -44,7 +48,7 @@ def march_of(
     loads = np.stack([v.reshape(given.shape) for v in given.values[:4]])
     friction = given.values[4].reshape(given.shape)
     constants = {n: v.reshape(given.shape) if v.ndim else v for n, v in given.constants.items()}
-    start, forward, in_phase = _phases(loads)
+    start, end, forward, in_phase, arrived = _phases(loads)
     contact = law.contact(*loads[:2], **constants)
     begun = Contact(*(np.take_along_axis(v, start, axis=-1) for v in contact))
     sense = np.where(forward, 1, -1)
@@ -71,7 +75,14 @@ def march_of(
         n = np.where(still, np.minimum(contact.c, begun.c), n)
     else:
         m, n, regime = stick_zone_of(law, begun, contact, dQ, dsigma, **given_now)
-    m, n = np.where(in_phase, m, np.nan), np.where(in_phase, n, np.nan)
+    ends = [Contact(*(np.take_along_axis(v, i, axis=-1) for v in contact)) for i in (start, end)]
+    whole = stick_zone_of(
+        law, *ends, *(sense * _between(v, start, end) for v in loads[2:]), **given_now
+    )
+    turns = np.isin(whole.regime, (Regime.MIXED, Regime.UNSOLVED)) & ~arrived
+    regime = np.where(turns, Regime.MIXED, regime)
+    known = in_phase & ~turns
+    m, n = np.where(known, m, np.nan), np.where(known, n, np.nan)
     regime = np.where(in_phase, regime, Regime.NONE)
     overtaken = (regime == Regime.MIXED) & np.isfinite(m)
     slips = (regime == Regime.MODERATE) | (regime == Regime.LARGE) | overtaken
@@ -83,13 +94,31 @@ def march_of(
 
 def _rise(load: Array, start: Array) -> Array:
     """What a load has gained since the half-cycle began; nothing if rounding alone changes it."""
-    rise = load - np.take_along_axis(load, start, axis=-1)
+    return _between(load, start, np.broadcast_to(np.arange(load.shape[-1]), load.shape))
+
+
+def _between(load: Array, start: Array, end: Array) -> Array:
+    rise = np.take_along_axis(load, end, axis=-1) - np.take_along_axis(load, start, axis=-1)
     size = np.max(np.abs(load), axis=-1, keepdims=True)
     return np.where(np.abs(rise) <= ROUNDING * size, 0.0, rise)
 
 
-def _phases(loads: Array) -> tuple[Array, Array, Array]:
-    """When the half-cycle of each instant began, whether it raises Q, and which are in phase.
+class _Phases(NamedTuple):
+    """Of each instant: when its half-cycle began and ends, and whether that raises Q.
+
+    in_phase  whether all loads are as far on their way
+    arrived   whether it is the end of its half-cycle
+    """
+
+    start: Array
+    end: Array
+    forward: Array
+    in_phase: Array
+    arrived: Array
+
+
+def _phases(loads: Array) -> _Phases:
+    """The half-cycles.
 
     The first load that changes, of Q, sigma, P and M, says how far the others must have come.  It
     must rise all the way to its greatest value and fall all the way back; while it rests at
@@ -115,7 +144,9 @@ def _phases(loads: Array) -> tuple[Array, Array, Array]:
     turned = np.where(forward, step < -allowed, step > allowed)
     broken = [np.any(turned & way, axis=-1, keepdims=True) for way in (forward, ~forward)]
     broken_here = np.where(forward, *broken)
-    return np.where(forward, low, high), forward, on_the_way & ~broken_here
+    start, end = np.where(forward, low, high), np.where(forward, high, low)
+    left = np.abs(measure - np.take_along_axis(measure, end, axis=-1))
+    return _Phases(start, end, forward, on_the_way & ~broken_here, left <= allowed)
 
 
 def _last_of(values: Array, allowed: Array) -> Array:

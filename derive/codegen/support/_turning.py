@@ -63,6 +63,9 @@ ANGLES = 64
 STAIRS = (0.05, 0.2, 0.4, 0.6, 0.8)
 """Parts of the loads by which slip zones that are large are led up to."""
 
+STRETCHES = (1 / 64, 1 / 16, 1 / 4, 1.0)
+"""How far tables of phase 2 reach, in parts of the way to the end of the stick zone's growth."""
+
 NEAR = 1e-4
 """Where roots at the edges are measured to start from, in parts of H."""
 
@@ -346,15 +349,23 @@ class _Turning:
         return _Grown(task, m, n, f * (left.near - right.far) / (2 * self.task.dQ))
 
     def _recede(self, grown: _Grown) -> _Receded:
-        """Phase 2, until all of the right edge sticks or the half-cycle ends."""
-        H, scale, count = self.width, self.task.dsigma / 4, self.count
-        span = grown.m - (H - self.c)
-        v = _places(count)
-        m = grown.m - span * v**2
-        missing = self._twice(-m) - grown.shear(-m)
-        rates = _abel(H / span, missing / (2 * scale * span * v))
-        integral: Array = chebyshev.chebint(span * _times_twice_v(rates), lbnd=-1, scl=0.5)
+        """Phase 2, until all of the right edge sticks or the half-cycle ends.
+
+        How far m falls is not known beforehand: tables reach further and further.
+        """
+        H, terms = self.width, (self.count, self.c.size)
+        full = grown.m - np.maximum(H - self.c, -self.middle)
+        span, rates, integral = full, np.zeros(terms), np.zeros((terms[0] + 2, terms[1]))
+        on = np.full(full.shape, True)
+        for part in STRETCHES:
+            tried = self._rates(grown, part * full)
+            span = np.where(on, part * full, span)
+            rates, integral = np.where(on, tried[0], rates), np.where(on, tried[1], integral)
+            on &= ~(grown.part + integral.sum(axis=0) >= 1)
+            if not np.any(on):
+                break
         whole = grown.part + integral.sum(axis=0)
+        whole = np.where((whole < 1) & (H - self.c < -self.middle), np.nan, whole)
 
         def beyond(v: Array, rows: Array) -> Pair:
             part = grown.part[rows] + _summed(integral[:, rows], v)
@@ -363,7 +374,17 @@ class _Turning:
         late = np.where(whole > 1, 1.0, np.nan)
         v_end = np.where(whole > 1, increasing_root(beyond, 0 * late, late), 1.0)
         end = grown.m - span * v_end**2
-        return _Receded(H, scale, grown.m, span, rates, end, H - end, np.minimum(whole, 1.0), v_end)
+        gone = np.minimum(whole, 1.0)
+        return _Receded(H, self.task.dsigma / 4, grown.m, span, rates, end, H - end, gone, v_end)
+
+    def _rates(self, grown: _Grown, span: Array) -> tuple[Array, Array]:
+        """Lambda, and the part of the half-cycle gone since phase 1, down to m_1 - span."""
+        v = _places(self.count)
+        m = grown.m - span * v**2
+        missing = self._twice(-m) - grown.shear(-m)
+        rates = _abel(self.width / span, 2 * missing / (self.task.dsigma * span * v))
+        integral: Array = chebyshev.chebint(span * _times_twice_v(rates), lbnd=-1, scl=0.5)
+        return rates, integral
 
     def _end(self, grown: _Grown, receded: _Receded, slip: Array | None) -> _Ended:
         """Phase 3: as in moderate tension, for what friction still lacks and the rest of the loads.
