@@ -70,8 +70,17 @@ def list_() -> None:
 
 
 @main.command()
-@click.argument("name")
+@click.argument("name", required=False)
 @click.option("--latex", is_flag=True, help="As one LaTeX display.")
+@click.option("--html", is_flag=True, help="As a page for the browser: NAME.html.")
+@click.option(
+    "--all", "every", is_flag=True, help="With --html: a page of every body, and an index."
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    help="With --html: the file; with --all the directory, else handbook.",
+)
 @click.option(
     "--slip",
     type=click.IntRange(1, 4),
@@ -79,8 +88,20 @@ def list_() -> None:
     help="The series of its slip zones to this order instead, kappa being the senses of slip; "
     "order 3 takes half a minute, order 4 far longer.",
 )
-def show(name: str, latex: bool, slip: int | None) -> None:
+def show(
+    name: str | None, latex: bool, html: bool, every: bool, out: Path | None, slip: int | None
+) -> None:
     """The derived and proven formula sheet of NAME, a geometry or a geometry file."""
+    if html + latex + bool(slip) > 1:
+        raise click.UsageError("--html, --latex and --slip exclude each other: give one of them")
+    if (every or out) and not html:
+        raise click.UsageError("--all and --out go with --html: add it")
+    if (name is None) != every:
+        raise click.UsageError("name one geometry or geometry file; or give --all --html")
+    if html:
+        _show_pages(name, out)
+        return
+    assert name is not None
     if slip:
         _show_slip(name, slip)
         return
@@ -93,6 +114,34 @@ def show(name: str, latex: bool, slip: int | None) -> None:
         click.echo(sheet.latex)
     else:
         _print(view.formulas(sheet))
+
+
+def _show_pages(name: str | None, out: Path | None) -> None:
+    """One body's page, or those of the library with their index."""
+    from derive import derive_sheet, load_geometry
+    from derive.handbook.page import entry, index, page
+    from derive.handbook.shelf import demand_replaceable, put_page, put_pages
+    from derive.library import library
+
+    if name is None:
+        folder = out or Path("handbook")
+        demand_replaceable(folder)
+    sources = library() if name is None else (name,)
+    bodies = _built(sources, None, False)
+    sheets = [derive_sheet(load_geometry(source)) for source in sources]
+    if name is not None:
+        (sheet,), (body,) = sheets, bodies
+        path = out or Path(f"{body.name}.html")
+        put_page(page(sheet, body), path)
+        _print(f"Wrote {_shown(path.resolve())}")
+        return
+    pages = {f"{b.name}.html": page(s, b, index=True) for s, b in zip(sheets, bodies, strict=True)}
+    pages["index.html"] = index([entry(s, b) for s, b in zip(sheets, bodies, strict=True)])
+    put_pages(pages, folder)
+    _print(
+        f"Wrote {_shown((folder / 'index.html').resolve())}, and a page of each of "
+        f"{len(bodies)} bodies"
+    )
 
 
 def _show_slip(name: str, order: int) -> None:
@@ -176,7 +225,7 @@ def generate(
     from derive.pipeline import Order
 
     order = Order(sources, out.resolve() if out else None)
-    bodies = _built(order, jobs, fresh or check)
+    bodies = _built(order.names, jobs, fresh or check)
     if check:
         _report_drift(order, bodies)
         return
@@ -246,13 +295,13 @@ def _paper(file: Path | None, label: str | None) -> "Paper":
     return replace(source, claims=(source[label],))
 
 
-def _built(order: "Order", jobs: int | None, fresh: bool) -> "list[Body]":
-    """Every body of an order, under a progress bar."""
+def _built(sources: Sequence[str], jobs: int | None, fresh: bool) -> "list[Body]":
+    """Every body, under a progress bar."""
     from derive.parallel import cores
     from derive.pipeline import STAGES, build_all
 
-    with _progress(len(order.names), STAGES) as step:
-        return build_all(order.names, step, jobs or cores(), fresh)
+    with _progress(len(sources), STAGES) as step:
+        return build_all(sources, step, jobs or cores(), fresh)
 
 
 def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:

@@ -182,6 +182,22 @@ class BadOutput(UserError):
 
 
 @dataclass
+class BadPage(UserError):
+    """A file or directory that `derive show --html` must not replace, or cannot write."""
+
+    given: str
+    why: str
+
+    @property
+    def message(self) -> str:
+        """Why it is refused, and what may be replaced."""
+        return (
+            f"{self.given} {self.why}; pages are written where nothing is, or where pages made by "
+            "`derive show --html` are: choose another place by --out"
+        )
+
+
+@dataclass
 class NeedsOutput(UserError):
     """A geometry outside the library, and no directory for its module."""
 

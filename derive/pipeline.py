@@ -78,7 +78,8 @@ def build(source: str, report: Report = _silent) -> Body:
         raise BadProfile(geometry.name, f"cannot become code ({error})", remedy) from error
     closed, numerical = by_form(sheet.is_closed)
     verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
-    return Body(geometry.name, text, perf_counter() - began, closed, numerical, verdicts)
+    proofs = tuple((name, str(f.proof)) for name, f in sheet.items() if f.proof)
+    return Body(geometry.name, text, perf_counter() - began, closed, numerical, verdicts, proofs)
 
 
 def build_all(

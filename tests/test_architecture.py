@@ -149,6 +149,13 @@ def test_only_the_commands_read_the_paper() -> None:
         assert not inside(imported(name), "derive.cli", "derive.view", "derive.codegen")
 
 
+def test_only_the_commands_read_the_handbook() -> None:
+    users = {name for name in members("derive") if inside(imported(name), "derive.handbook")}
+    assert {u for u in users if not inside([u], "derive.handbook")} == {"derive.cli"}
+    for name in members("derive.handbook"):
+        assert not inside(imported(name), "derive.cli", "derive.view", "derive.paper")
+
+
 def test_only_the_command_line_prints() -> None:
     users = {name for name in members("derive") if inside(imported(name), "click", "rich")}
     assert users <= {"derive.cli", "derive.view"}

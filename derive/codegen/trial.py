@@ -42,7 +42,7 @@ def demand_right(sheet: FormulaSheet, text: str) -> None:
     Raises NotProven with the function, the point and both numbers.
     """
     name = sheet.geometry.name
-    with _imported(name, text) as module, mpmath.workdps(_DIGITS):
+    with imported(name, text) as module, mpmath.workdps(_DIGITS):
         points = contacts(sheet)
         for function in CONTRACT:
             if P in function.arguments:
@@ -133,7 +133,7 @@ def _called(
 
 
 @contextmanager
-def _imported(name: str, text: str) -> Iterator[ModuleType]:
+def imported(name: str, text: str) -> Iterator[ModuleType]:
     """The module in a package of its own, that is forgotten again."""
     with tempfile.TemporaryDirectory() as folder:
         package = f"_trial_of_{name}"

@@ -1,0 +1,78 @@
+"""Small pictures of curves as SVG, drawn in the page's own colours."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import floor, log10
+
+from markupsafe import Markup, escape
+
+WIDTH, HEIGHT = 560, 250
+LEFT, RIGHT, TOP, BOTTOM = 62, 14, 14, 40
+TICKS = 5
+"""About as many stand along an axis."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """One curve: what the legend says of it, and its points."""
+
+    label: str
+    x: Sequence[float]
+    y: Sequence[float]
+
+
+def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float = 0.0) -> Markup:
+    """Curves over one pair of axes; what is higher than `top`, if that is given, is cut off."""
+    xs = [x for line in lines for x in line.x]
+    ys = [min(y, top) if top else y for line in lines for y in line.y]
+    low_x, high_x = min(xs), max(xs)
+    low, high = min(0.0, min(ys)), max(ys)
+    across, up = (WIDTH - LEFT - RIGHT) / (high_x - low_x), (HEIGHT - TOP - BOTTOM) / (high - low)
+
+    def place(x: float, y: float) -> tuple[float, float]:
+        return LEFT + (x - low_x) * across, HEIGHT - BOTTOM - (y - low) * up
+
+    parts = [
+        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{escape(title)}">',
+        f"<title>{escape(title)}</title>",
+    ]
+    for x in ticks(low_x, high_x):
+        at, _ = place(x, low)
+        parts.append(
+            f'<line class="grid" x1="{at:.1f}" x2="{at:.1f}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>'
+        )
+        parts.append(
+            f'<text x="{at:.1f}" y="{HEIGHT - BOTTOM + 16}" text-anchor="middle">{x:.4g}</text>'
+        )
+    for y in ticks(low, high):
+        _, at = place(low_x, y)
+        parts.append(
+            f'<line class="grid" y1="{at:.1f}" y2="{at:.1f}" x1="{LEFT}" x2="{WIDTH - RIGHT}"/>'
+        )
+        parts.append(f'<text x="{LEFT - 6}" y="{at + 4:.1f}" text-anchor="end">{y:.4g}</text>')
+    for number, line in enumerate(lines):
+        points = (place(x, min(y, high)) for x, y in zip(line.x, line.y, strict=True))
+        drawn = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        parts.append(f'<polyline class="curve curve-{number}" points="{drawn}"/>')
+    middle = (LEFT + WIDTH - RIGHT) / 2
+    parts.append(f'<text x="{middle}" y="{HEIGHT - 6}" text-anchor="middle">{escape(along)}</text>')
+    parts.append(
+        f'<text transform="translate(14 {(TOP + HEIGHT - BOTTOM) / 2}) rotate(-90)" '
+        f'text-anchor="middle">{escape(upward)}</text></svg>'
+    )
+    return Markup("".join(parts))
+
+
+def ticks(low: float, high: float) -> list[float]:
+    """Round numbers between two bounds, about TICKS of them.
+
+    >>> ticks(0, 1)
+    [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
+    >>> ticks(-1.2, 3.1)
+    [-1.0, 0.0, 1.0, 2.0, 3.0]
+    """
+    rough = (high - low) / TICKS
+    power = 10.0 ** floor(log10(rough))
+    step = power * next(n for n in (1, 2, 5, 10) if n * power >= rough * (1 - 1e-9))
+    first, last = round(low / step + 0.499999), round(high / step - 0.499999)
+    return [round(n * step, 12) for n in range(first, last + 1)]

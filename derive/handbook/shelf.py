@@ -1,0 +1,84 @@
+"""Pages on disk: one file, or a directory of them, whole or not at all."""
+
+import os
+import shutil
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from derive.errors import BadPage
+
+MARK = '<meta name="generator" content="derive show --html">'
+"""What a page made here holds, so that it may be replaced."""
+
+
+def put_page(text: str, path: Path) -> None:
+    """Write one page, in place of one made here if there is one.
+
+    Raises BadPage for what must not be replaced or cannot be written.
+    """
+    if path.is_dir():
+        raise BadPage(str(path), "is a directory")
+    if (path.exists() or path.is_symlink()) and not _is_ours(path):
+        raise BadPage(str(path), "is there already, and no page made here")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        descriptor, name = tempfile.mkstemp(".tmp", f".{path.stem}-", path.parent)
+    except OSError as error:
+        raise BadPage(str(path), f"cannot be written ({error.strerror})") from error
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(text.encode())
+        Path(name).chmod(0o644)
+        Path(name).replace(path)
+    except OSError as error:
+        raise BadPage(str(path), f"cannot be written ({error.strerror})") from error
+    finally:
+        Path(name).unlink(missing_ok=True)
+
+
+def put_pages(pages: Mapping[str, str], folder: Path) -> None:
+    """Put pages, by their file names, in place of a directory.
+
+    Raises BadPage where it holds anything that was not made here, or cannot be written.
+    """
+    demand_replaceable(folder)
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
+    except OSError as error:
+        raise BadPage(str(folder), f"cannot be written ({error.strerror})") from error
+    fresh, old = workshop / "fresh", workshop / "old"
+    try:
+        fresh.mkdir()
+        for name, text in pages.items():
+            (fresh / name).write_bytes(text.encode())
+        if folder.exists():
+            folder.replace(old)
+        fresh.replace(folder)
+    except OSError as error:
+        if old.exists() and not folder.exists():
+            old.replace(folder)
+        raise BadPage(str(folder), f"cannot be replaced ({error.strerror})") from error
+    finally:
+        if folder.exists() or not old.exists():
+            shutil.rmtree(workshop, ignore_errors=True)
+
+
+def demand_replaceable(folder: Path) -> None:
+    """Raise BadPage unless `folder` is absent, empty, or full of pages made here."""
+    if not folder.exists() and not folder.is_symlink():
+        return
+    if folder.is_symlink() or not folder.is_dir():
+        raise BadPage(str(folder), "is no directory")
+    if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
+        raise BadPage(str(folder), "is where this command runs")
+    for path in sorted(folder.iterdir()):
+        if not _is_ours(path):
+            raise BadPage(str(folder), f"holds {path.name!r}, which is no page made here")
+
+
+def _is_ours(path: Path) -> bool:
+    if not path.is_file() or path.suffix != ".html":
+        return False
+    return MARK.encode() in path.read_bytes()[:2000]

@@ -1,0 +1,232 @@
+"""Pages of the handbook: what they hold, as text and in a real browser; where they may be put."""
+
+import re
+import shutil
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+from sympy import Abs
+
+from derive import Geometry, derive_sheet, load_geometry, parameter, x
+from derive.body import Body
+from derive.cli import main
+from derive.errors import BadPage
+from derive.handbook.curves import pictures
+from derive.handbook.page import entry, index, page
+from derive.handbook.picture import Line, svg
+from derive.handbook.shelf import put_page, put_pages
+from derive.proof.verdict import Verdict
+from derive.sheet import FormulaSheet
+
+GENERATED = Path(__file__).parents[3] / "generated"
+NAMES = ("hertz", "flat_rounded", "hyperbola")
+"""Closed both ways; with kinks; integrated."""
+
+VOID = {"meta", "link", "br", "img", "hr", "input"}
+OUTSIDE = re.compile(r"""(?:src|href)=["'](?!#|[\w-]+\.html)|url\(|@import|<script|<iframe""")
+
+
+def body_of(sheet: FormulaSheet, text: str) -> Body:
+    proofs = tuple((name, "proved: a stand-in for a proof") for name in sheet)
+    verdicts = tuple((name, Verdict.PROVED) for name in sheet)
+    return Body(sheet.geometry.name, text, 0.0, ("forward",), (), verdicts, proofs)
+
+
+def made(name: str) -> tuple[FormulaSheet, Body]:
+    sheet = derive_sheet(load_geometry(name))
+    return sheet, body_of(sheet, (GENERATED / f"{name}.py").read_text())
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A handbook of three bodies on disk."""
+    folder = tmp_path_factory.mktemp("books") / "handbook"
+    bodies = [made(name) for name in NAMES]
+    texts = {f"{sheet.geometry.name}.html": page(sheet, b, index=True) for sheet, b in bodies}
+    texts["index.html"] = index([entry(sheet, b) for sheet, b in bodies])
+    put_pages(texts, folder)
+    yield folder
+
+
+class Reader(HTMLParser):
+    """Tags that are open, ids, links inside the page, and the headings."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.headings: list[int] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag not in VOID:
+            self.open.append(tag)
+        for name, value in attrs:
+            self.ids += [str(value)] * (name == "id")
+            self.links += [str(value)] * (name == "href")
+        if re.fullmatch("h[1-6]", tag):
+            self.headings.append(int(tag[1]))
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.handle_starttag(tag, attrs)
+        self.handle_endtag(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def read(text: str) -> Reader:
+    reader = Reader()
+    reader.feed(text)
+    reader.close()
+    assert not reader.open
+    return reader
+
+
+@pytest.mark.parametrize("name", [*NAMES, "index"])
+def test_a_page_is_whole_and_needs_nothing_from_outside(pages: Path, name: str) -> None:
+    text = (pages / f"{name}.html").read_text()
+    reader = read(text)
+    assert len(reader.ids) == len(set(reader.ids))
+    for link in reader.links:
+        file, _, place = link.partition("#")
+        assert (pages / file).is_file() if file else place in reader.ids
+    assert not OUTSIDE.search(text)
+    assert reader.headings[0] == 1
+    assert all(b - a <= 1 for a, b in zip(reader.headings, reader.headings[1:], strict=False))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_nothing_of_the_sheet_is_missing(pages: Path, name: str) -> None:
+    text, (sheet, body) = (pages / f"{name}.html").read_text(), made(name)
+    reader = read(text)
+    assert set(sheet) <= set(reader.ids)
+    shown = len(sheet) + len(sheet.definitions) + 1
+    assert text.count('display="block"') - text.count('[display="block"]') == shown
+    assert text.count("a stand-in for a proof") == len(sheet)
+    for function in re.findall(r"^def (\w+)", body.text, re.M):
+        assert f'<span class="nf">{function}</span>' in text
+    assert text.count("<polyline") == 1 + len(pictures(sheet, body.text).labels)
+
+
+def test_the_same_body_gives_the_same_bytes() -> None:
+    assert page(*made("hertz")) == page(*made("hertz"))
+
+
+def test_words_of_a_user_are_escaped() -> None:
+    R = parameter("R", 'radius <b>bold</b> & "quoted"', unit="m")
+    sheet = derive_sheet(Geometry("nasty", g=Abs(x) * x**2 / R**2))
+    text = (GENERATED / "hertz.py").read_text()  # what is drawn does not matter here
+    book = page(sheet, body_of(sheet, text))
+    assert "<b>bold" not in book
+    assert "radius &lt;b&gt;bold&lt;/b&gt; &amp;" in book
+
+
+def test_a_curve_is_cut_where_it_is_infinite() -> None:
+    drawn = svg("t", "x", "p", [Line("p", [0.0, 1.0, 2.0], [0.0, 1e9, 0.0])], top=5.0)
+    heights = [float(p.split(",")[1]) for p in re.findall(r"[\d.]+,[\d.]+", drawn)]
+    assert min(heights) >= 0 and max(heights) - min(heights) > 100
+
+
+# ---------------------------------------------------------------------- on disk
+
+
+def test_a_page_of_ones_own_is_never_lost(tmp_path: Path) -> None:
+    mine = tmp_path / "hertz.html"
+    mine.write_text("mine")
+    with pytest.raises(BadPage, match="no page made here"):
+        put_page("<html>", mine)
+    assert mine.read_text() == "mine"
+    with pytest.raises(BadPage, match="is a directory"):
+        put_page("<html>", tmp_path)
+    with pytest.raises(BadPage, match=r"holds 'hertz.html'"):
+        put_pages({}, tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["hertz.html"]
+
+
+def test_pages_made_here_are_replaced_whole(pages: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "book"
+    shutil.copytree(pages, folder)
+    put_pages({"index.html": index([])}, folder)
+    assert [p.name for p in folder.iterdir()] == ["index.html"]
+    put_page(index([]), folder / "index.html")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["hertz", "--html", "--latex"], "exclude each other"),
+        (["hertz", "--html", "--slip", "2"], "exclude each other"),
+        (["hertz", "--all", "--html"], "name one geometry"),
+        (["--html"], "name one geometry"),
+        (["hertz", "--out", "x.html"], "go with --html"),
+        (["--all"], "go with --html"),
+    ],
+)
+def test_options_that_do_not_go_together(arguments: list[str], told: str) -> None:
+    done = CliRunner().invoke(main, ["show", *arguments])
+    assert done.exit_code == 2
+    assert told in done.output
+
+
+@pytest.mark.slow
+def test_the_command_writes_a_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(main, ["show", "quartic", "--html"], catch_exceptions=False)
+    assert (done.exit_code, done.output.strip()) == (0, "Wrote quartic.html")
+    text = (tmp_path / "quartic.html").read_text()
+    assert text.count('class="verdict') == len(derive_sheet(load_geometry("quartic")))
+    assert "in for a proof" not in text and "points" in text
+
+
+# ---------------------------------------------------------------------- in a browser
+
+CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+OPTIONS = (
+    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+)
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    if not (CHROMIUM and DRIVER):
+        pytest.skip("no browser: install Debian's chromium and chromium-driver")
+    from selenium.webdriver import Chrome, ChromeOptions
+    from selenium.webdriver.chrome.service import Service
+
+    options = ChromeOptions()
+    options.binary_location = CHROMIUM
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    for option in (*OPTIONS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
+        options.add_argument(option)
+    driver = Chrome(options=options, service=Service(DRIVER))
+    yield driver
+    driver.quit()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [400, 1200])
+@pytest.mark.parametrize("name", [*NAMES, "index"])
+def test_a_browser_draws_it(browser: Any, pages: Path, name: str, width: int) -> None:
+    size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+    browser.get_log("performance")
+    browser.get((pages / f"{name}.html").as_uri())
+    wide, boxes, text = browser.execute_script(
+        """return [document.documentElement.scrollWidth,
+        [...document.querySelectorAll("math")].map(m => m.getBoundingClientRect()).map(
+            box => [box.width, box.height]),
+        [...document.querySelectorAll("math")].map(m => m.textContent).join(" ")]"""
+    )
+    assert wide <= width
+    assert boxes and all(w > 3 and h > 3 for w, h in boxes)
+    assert "\\" not in text
+    assert not browser.get_log("browser")
+    asked = [log["message"] for log in browser.get_log("performance")]
+    urls = re.findall(r'"requestWillBeSent.*?"url":"(.*?)"', " ".join(asked))
+    assert all(url.startswith("file:") for url in urls)
