@@ -97,7 +97,7 @@ def show(
     if (every or out) and not html:
         raise click.UsageError("--all and --out go with --html: add it")
     if (name is None) != every:
-        raise click.UsageError("name one geometry or geometry file; or give --all --html")
+        raise click.UsageError("NAME is one geometry or geometry file; or give --all --html")
     if html:
         _show_pages(name, out)
         return

@@ -161,8 +161,8 @@ def test_pages_made_here_are_replaced_whole(pages: Path, tmp_path: Path) -> None
     [
         (["hertz", "--html", "--latex"], "exclude each other"),
         (["hertz", "--html", "--slip", "2"], "exclude each other"),
-        (["hertz", "--all", "--html"], "name one geometry"),
-        (["--html"], "name one geometry"),
+        (["hertz", "--all", "--html"], "NAME is one geometry"),
+        (["--html"], "NAME is one geometry"),
         (["hertz", "--out", "x.html"], "go with --html"),
         (["--all"], "go with --html"),
     ],
