@@ -129,6 +129,17 @@ class Slope:
         """Whether g' is a polynomial on every piece: then every integral is elementary."""
         return all(piece.slope.is_polynomial(x) for piece in self.pieces)
 
+    @cached_property
+    def quadratics(self) -> tuple[Expr, ...]:
+        """Quadratics in x whose square roots g' holds."""
+        powers = {p for piece in self.pieces for p in piece.slope.atoms(Pow)}
+        found = {
+            expand(p.base)
+            for p in powers
+            if (2 * p.exp).is_odd and p.base.is_polynomial(x) and Poly(p.base, x).degree() == 2
+        }
+        return tuple(sorted(found, key=str))
+
     @property
     def least(self) -> dict[Symbol, Expr]:
         """Numbers above which parameters must lie."""

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from sympy import Expr, Gt, Integral, Or, Symbol, oo
+from sympy import Expr, Gt, Integral, Or, Rational, Symbol, oo
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import NotProven
@@ -18,7 +18,7 @@ from derive.notation import latex_of, text_of
 from derive.proof.verdict import Proof
 from derive.symbols import P, a, alpha, c, h
 from derive.theory.frame import Frame
-from derive.units import Dimension, check, parse_unit
+from derive.units import NUMBER, Dimension, check, dimension_of, parse_unit
 
 
 @dataclass(frozen=True)
@@ -84,11 +84,16 @@ class FormulaSheet(Mapping[str, Formula]):
     @cached_property
     def dimensions(self) -> dict[Symbol, Dimension]:
         """Dimension of every symbol that a formula may hold."""
-        return self.geometry.dimensions | {
+        known = self.geometry.dimensions | {
             symbol: parse_unit(unit)
             for k in self.frame.kinks
             for symbol, unit in ((k.theta, "rad"), (k.w, "m"), (k.L, "-"))
         }
+        for root in self.frame.roots:
+            edge = dimension_of(root.quadratic, known) or NUMBER
+            known |= {s: edge ** Rational(1, 2) for s in (root.left, root.right)}
+            known |= {s: NUMBER for s in (root.m, root.n)}
+        return known
 
     def plus(self, formula: Formula) -> "FormulaSheet":
         """The sheet with one more formula.
@@ -131,6 +136,8 @@ class FormulaSheet(Mapping[str, Formula]):
             definitions |= {k.theta: k.angle} if k.theta in held else {}
             definitions |= {k.w: k.root} if k.w in held else {}
             definitions |= k.logarithm_in_words if k.L in held else {}
+        for root in self.frame.roots:
+            definitions |= root.definitions if held & {*root.definitions} else {}
         return definitions
 
     def is_closed(self, name: str) -> bool:
