@@ -32,6 +32,7 @@ class Formula:
     meaning, unit, source
     conditions  assumptions under which it holds
     proof       None until proven
+    closes      the formula, an integral, that it is the closed form of; "" for all others
     """
 
     name: str
@@ -43,6 +44,7 @@ class Formula:
     source: str
     conditions: tuple[Boolean, ...]
     proof: Proof | None = None
+    closes: str = ""
 
     @property
     def head(self) -> str:
@@ -66,11 +68,15 @@ class Formula:
 
 @dataclass(frozen=True, eq=False)
 class FormulaSheet(Mapping[str, Formula]):
-    """All formulas of one body, by name and in the order of their derivation."""
+    """All formulas of one body, by name and in the order of their derivation.
+
+    remark: what became of the search for closed forms, where integrals are left.
+    """
 
     geometry: Geometry
     frame: Frame
     formulas: Mapping[str, Formula] = field(default_factory=dict)
+    remark: str = ""
 
     def __getitem__(self, name: str) -> Formula:
         return self.formulas[name]
@@ -170,7 +176,7 @@ class FormulaSheet(Mapping[str, Formula]):
 
     def __str__(self) -> str:
         """Every formula with its meaning, unit, assumptions, source and proof."""
-        lines = [self.title, ""]
+        lines = [self.title, *([self.remark] if self.remark else []), ""]
         for name, formula in self.items():
             lines += [
                 f"{name}: {formula.meaning} [{formula.unit}]",
