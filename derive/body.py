@@ -26,6 +26,7 @@ class Body:
     closed     parts of its contact law that are closed formulas
     numerical  parts that are not
     verdicts   every formula with what is known of it
+    struck     what to tell if the search for closed forms was ended by its limit
     kept       whether an earlier run built it
     """
 
@@ -35,6 +36,7 @@ class Body:
     closed: tuple[str, ...]
     numerical: tuple[str, ...]
     verdicts: tuple[tuple[str, Verdict], ...]
+    struck: str = ""
     kept: bool = field(default=False, compare=False)
 
     def formulas(self, verdict: Verdict) -> tuple[str, ...]:

@@ -68,9 +68,10 @@ def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaS
         with within(seconds) as look:
             found = closed_forms(sheet.frame, look)
     except LimitReached:
-        return replace(sheet, remark=f"{NONE_IN_TIME} {seconds:g} s: its integrals stay.")
+        return replace(sheet, remark=f"{NONE_IN_TIME} {seconds:g} s; its integrals stay.")
     except NoRule as without:
-        return replace(sheet, remark=f"No closed form is known, {without}: its integrals stay.")
+        remark = f"No closed form known: no rule for {without}; its integrals stay."
+        return replace(sheet, remark=remark)
     for name, expr in found.items():
         integral = sheet[name]
         sheet = sheet.plus(
@@ -90,8 +91,8 @@ NONE_IN_TIME = "No closed form found within"
 """How the remark begins if the search for closed forms was ended by its limit."""
 
 _FOUND = (
-    "Closed forms stand behind the integrals, as load_closed behind load.  Generated code evaluates "
-    "the integrals: they keep their digits where the special functions of SciPy lose them."
+    "Closed forms stand behind the integrals, as load_closed behind load.  Generated code "
+    "evaluates the integrals: they keep digits that closed forms in float64 lose."
 )
 
 _RULES = "int g' cos(n theta) dtheta, x = mid + (h/2) cos(theta), term by term"

@@ -7,7 +7,6 @@ Where the system has alarms, whatever is at work in the main thread is broken of
 search ends at the next place where it looks at the clock.
 """
 
-import math
 import signal
 import threading
 from collections.abc import Callable, Iterator
@@ -17,6 +16,12 @@ from types import FrameType
 
 DEFAULT = 20.0
 """Seconds that the search for the closed forms of one body may take."""
+
+_NO_LIMIT = 1e6
+"""Seconds that no search takes; some systems have no alarm that late."""
+
+_AGAIN = 1.0
+"""Seconds until it rings once more, if what was at work has swallowed it."""
 
 LookAtClock = Callable[[], None]
 """Raises LimitReached when the time is over."""
@@ -28,7 +33,7 @@ class LimitReached(Exception):
 
 @contextmanager
 def within(seconds: float) -> Iterator[LookAtClock]:
-    """Run a block for so many seconds at most; infinity for no limit.
+    """Run a block for so many seconds at most.
 
     Raises LimitReached.
     """
@@ -39,7 +44,7 @@ def within(seconds: float) -> Iterator[LookAtClock]:
             raise LimitReached
 
     look()
-    if not _has_alarms() or math.isinf(seconds):
+    if not _has_alarms() or seconds > _NO_LIMIT:
         yield look
         return
 
@@ -47,12 +52,14 @@ def within(seconds: float) -> Iterator[LookAtClock]:
         raise LimitReached
 
     before = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, seconds, _AGAIN)
     try:
         yield look
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+        finally:
+            signal.signal(signal.SIGALRM, before)
 
 
 def _has_alarms() -> bool:

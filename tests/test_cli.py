@@ -219,7 +219,7 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     texts = {name: (GENERATED / f"{name}.py").read_text() for name in library()}
     asked = []
 
-    def build(source: str, report: Callable[[str, str], None]) -> Body:
+    def build(source: str, report: Callable[[str, str], None], limit: float) -> Body:
         asked.append(source)
         for stage in STAGES:
             report(source, stage)
@@ -898,12 +898,12 @@ def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) ->
             ("a", KEPT),
             ("b", STAGES[0]),
             ("c", STAGES[0]),
-            ("b", STAGES[2]),
+            ("b", STAGES[3]),
             ("c", DONE),
             ("b", DONE),
         ]:
             step(body, stage)
-    assert [now["completed"] for now in told] == [5, 5, 5, 7, 12, 15]
+    assert [now["completed"] for now in told] == [6, 6, 6, 9, 15, 18]
     assert [now["description"] for now in told][1:4] == [
         "b: reading g(x)",
         "c: reading g(x), 1 more at work",

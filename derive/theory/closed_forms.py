@@ -7,20 +7,19 @@ rules of `special` give the rest.  One term without a rule leaves all integrals 
 are.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 from sympy import (
     Add,
     E,
     Expr,
-    Integer,
     Poly,
     Rational,
     S,
     cancel,
     cosh,
-    diff,
     exp,
     expand,
     factor,
@@ -31,6 +30,7 @@ from sympy import (
 )
 
 from derive.limit import LookAtClock
+from derive.profile import exact
 from derive.symbols import E_star, a, c, h, mid, x
 from derive.theory.algebra import tidy
 from derive.theory.frame import Frame
@@ -39,7 +39,7 @@ from derive.theory.special import WEIGHTS, Exponential, Power, Root, Special
 
 
 class NoRule(Exception):
-    """A term of g', in its argument, that no rule integrates."""
+    """What no rule integrates: a term of g' in words."""
 
 
 @dataclass
@@ -90,7 +90,7 @@ def read_parts(frame: Frame) -> Parts:
     pieces = frame.slope.pieces
     parts = Parts([S.Zero] * len(pieces))
     for number, piece in enumerate(pieces):
-        slope = expand(piece.slope, power_base=False, power_exp=False, log=False)
+        slope = expand(exact(piece.slope), power_base=False, power_exp=False, log=False)
         for term in Add.make_args(slope):
             parts.add(number, *_read(frame, term))
     return parts
@@ -145,8 +145,7 @@ def _power(frame: Frame, base: Expr, exponent: Expr) -> Found:
     side, place = (1 if beta.is_positive else -1), simplify(-delta / beta)
     ends = frame.slope.domain
     outside = bool(simplify(ends[0 if side > 0 else 1] - place) == 0)
-    exact = Rational(exponent) if exponent.is_Float else exponent
-    return Power(place, side, exact, outside), (beta * side) ** exact
+    return Power(place, side, exponent, outside), (beta * side) ** exponent
 
 
 def _exponential(frame: Frame, base: Expr, exponent: Expr) -> Found:
@@ -188,12 +187,12 @@ def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
         inner = [p.lower if term.side > 0 else p.upper for p in frame.slope.pieces]
         starts = [i for i, end in enumerate(inner) if end.is_finite and end - term.place == 0]
         if not starts:
-            raise NoRule(f"{term} begins at no kink")
+            raise NoRule(f"{term.term}, which begins at no kink")
         acts = [(i - starts[0]) * term.side >= 0 for i in range(len(factors))]
     whole = factors[acts.index(True)]
     for here, held in zip(factors, acts, strict=True):
         if simplify(here - (whole if held else 0)) != 0:
-            raise NoRule(f"{term} changes at a kink")
+            raise NoRule(f"{term.term}, which changes at a kink")
     return whole
 
 
@@ -202,15 +201,9 @@ def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
 
 def _of_polynomials(frame: Frame, pieces: list[Expr], look: LookAtClock) -> dict[str, Expr]:
     """The part of every formula that the polynomials make, by the angles and roots of the kinks."""
-    reference = next(
-        i
-        for i in range(len(pieces))
-        if i == sum(k.kink.side < 0 for k in frame.kinks)
-    )
-    base = pieces[reference]
-    jumps = [
-        expand((pieces[i + 1] - pieces[i]) * k.kink.side) for i, k in enumerate(frame.kinks)
-    ]
+    base = pieces[sum(k.kink.side < 0 for k in frame.kinks)]
+    steps = zip(frame.kinks, pairwise(pieces), strict=True)
+    jumps = [expand((right - left) * k.kink.side) for k, (left, right) in steps]
     if all(part == 0 for part in (base, *jumps)):
         return dict.fromkeys(WEIGHTS, S.Zero)
     first, second, third = (polynomial_moment(k, frame, base, jumps) for k in range(3))

@@ -3,12 +3,16 @@ r"""Terms of g' whose integrals over the contact are special functions: one rule
 With s = mid + (h/2) X, X = cos(theta), everything that a contact carries is an integral of g' and
 its derivatives over 0 < theta < pi, weighted by polynomials W(X):
 
-    alpha = -(1/pi) int g',  P = (E*/4) h int X g',  M = -(E*/16) h int (h (2 X**2 - 1) + 4 mid X) g',
+    alpha = -(1/pi) int g',     P = (E*/4) h int X g',
+    M = -(E*/16) h int (h (2 X**2 - 1) + 4 mid X) g',
     K_right = E* sqrt(h)/(2 pi) int (1 + X) g'',
     L_right = -E*/(pi sqrt(h)) int [ (1 + X) g''/4 + h (1 + X)**2 g'''/6 ],
 
 K_left with 1 - X, L_left with (1 - X) g''/4 - h (1 - X)**2 g'''/6.  K_N is the rate of the tilt as
 an edge moves, and L_N that of K_N: an edge that moves adds a flat punch to the pressure.
+
+In float64 these forms lose digits: E - (1 - m) K all of them where m is small, 2F1 ten and more
+close to some exponents, the Bessel functions three where the contact is much wider than 1/beta.
 
 Each rule states the integrals that it is made of.  Elliptic integrals are SymPy's: of the parameter
 m, not the modulus, and Pi(n|m) with 1 - n sin**2 in its denominator.
@@ -79,6 +83,11 @@ Integrals = dict[Expr, Expr]
 class Special(Protocol):
     """A kind of term, without what it is multiplied by."""
 
+    @property
+    def term(self) -> Expr:
+        """The term as a function of x."""
+        ...
+
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
         """The integral over theta of W(X) times the derivatives of polynomial(x) times this."""
         ...
@@ -121,6 +130,11 @@ class Power:
     exponent: Expr
     outside: bool = False
 
+    @property
+    def term(self) -> Expr:
+        """As a function of x."""
+        return (self.side * (x - self.place)) ** self.exponent
+
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
         """A polynomial factor is one in t, and raises the exponent."""
         t = Symbol("t")
@@ -133,7 +147,7 @@ class Power:
         return found
 
     def _weighted(self, weights: Weights) -> Iterator[tuple[Expr, Expr]]:
-        """By cos(n theta); derivatives by (1 + X)**j and (1 - X)**j, which is all that they have."""
+        """By cos(n theta); derivatives by (1 + X)**j and (1 - X)**j, the weights that they have."""
         for order, weight in weights.items():
             mirrored = weight.subs(X, self.side * X)
             if order == 0:
@@ -167,7 +181,9 @@ class Power:
         """int t**p cos(n theta), theta from the edge on the side of the term."""
         p, u = self.exponent, self._u
         scale = sqrt(pi) * gamma(p + 1) / gamma(p + 3 * _HALF)
-        inside = scale * u ** (p + _HALF) / sqrt(h) * _gauss(_HALF - n, _HALF + n, p + 3 * _HALF, u / h)
+        inside = (
+            scale * u ** (p + _HALF) / sqrt(h) * _gauss(_HALF - n, _HALF + n, p + 3 * _HALF, u / h)
+        )
         rate = pi * _falling(p, n) / factorial(n)
         beyond = rate * u**p * (h / (4 * u)) ** n * _gauss(n - p, n + _HALF, 2 * n + 1, h / u)
         return self._branches(inside, beyond)
@@ -176,9 +192,14 @@ class Power:
         """int (d/dt)**j t**p cos(theta/2)**(2j)."""
         p, u = self.exponent, self._u
         last = p - j + 3 * _HALF
-        scale = sqrt(pi) * gamma(p + 1) / gamma(last)
-        inside = scale * u ** (last - 1) / sqrt(h) * _gauss(_HALF - j, _HALF, last, u / h)
-        return self._branches(inside, self._beyond(j) * _gauss(j - p, _HALF, j + 1, h / u))
+        scale = sqrt(pi) * gamma(p + 1) * u ** (last - 1) / sqrt(h)
+        if last == 0:  # 2F1(first, second; last; z)/Gamma(last) in the limit
+            function = (_HALF - j) * _HALF * u / h * _gauss(3 * _HALF - j, 3 * _HALF, 2, u / h)
+        else:
+            function = _gauss(_HALF - j, _HALF, last, u / h) / gamma(last)
+        return self._branches(
+            scale * function, self._beyond(j) * _gauss(j - p, _HALF, j + 1, h / u)
+        )
 
     def _far(self, j: int) -> Expr:
         """int (d/dt)**j t**p sin(theta/2)**(2j)."""
@@ -235,6 +256,11 @@ class Exponential:
     kind: type[Function]
     argument: Expr
 
+    @property
+    def term(self) -> Expr:
+        """As a function of x."""
+        return self.kind(self.argument)
+
     other: ClassVar[Mapping[type[Function], type[Function]]] = {exp: exp, sinh: cosh, cosh: sinh}
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
@@ -264,7 +290,9 @@ class Exponential:
 
     def _cosine(self, kind: type[Function], n: int) -> Expr:
         kind = self.other[kind] if n % 2 else kind
-        return pi * kind(factor(self.argument.subs(x, mid))) * besseli(n, factor(self._beta * h / 2))
+        return (
+            pi * kind(factor(self.argument.subs(x, mid))) * besseli(n, factor(self._beta * h / 2))
+        )
 
 
 # ------------------------------------------------------------------ square roots of quadratics
@@ -291,6 +319,11 @@ class Root:
 
     frame: RootFrame
     level: int = 0
+
+    @property
+    def term(self) -> Expr:
+        """As a function of x."""
+        return self.frame.quadratic ** (-_HALF - self.level)
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
         """A polynomial factor is one more weight."""
