@@ -4,7 +4,7 @@
     ------------   ------------------------   -----------------------------------------------
     load_geometry  a name or a file           Geometry: g(x), its parameters, its slope
     derive_sheet   Geometry                   FormulaSheet: every formula, named and sourced
-    with_closed_forms  FormulaSheet           the same with closed forms of its integrals
+    with_closed_forms  FormulaSheet           the same with closed forms beside its integrals
     prove_sheet    FormulaSheet               the same with a proof for every formula
     module_text    proven FormulaSheet        the text of a NumPy module
     demand_right   sheet and text             nothing, or NotProven: the text run and compared

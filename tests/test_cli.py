@@ -315,6 +315,52 @@ def test_a_long_formula_is_not_broken_either(here: Path) -> None:
         assert sheet("flat_rounded").equation(name) in printed
 
 
+@pytest.mark.usefixtures("shown_unproven")
+def test_show_prints_closed_forms_beside_the_integrals() -> None:
+    printed = done("show", "catenary")
+    assert "Closed forms stand behind the integrals" in printed
+    assert "load_closed" in printed
+    assert "besseli(1, (a + c)/(2*b))" in printed
+    assert "Integral(" in printed
+
+
+@pytest.mark.usefixtures("shown_unproven")
+def test_a_limit_that_strikes_is_told() -> None:
+    result = run("show", "catenary", "--limit", "0")
+    told = "No closed form found within 0 s; its integrals stay."
+    assert result.exit_code == 0
+    assert result.stderr == f"catenary: {told}\n"
+    assert told in result.stdout
+    assert "load_closed" not in result.stdout
+    assert run("show", "wedge", "--limit", "0").stderr == ""
+
+
+def test_a_limit_is_no_negative_number() -> None:
+    for command in ("show", "generate"):
+        result = run(command, "catenary", "--limit", "-1")
+        assert result.exit_code == 2
+        assert "--limit" in result.stderr
+
+
+def test_generate_tells_of_a_limit_that_struck(
+    here: Path, unproven: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also when the body is kept from an earlier run; another limit looks again."""
+    monkeypatch.setattr(derive.parallel, "cores", lambda: 1)
+    told = "catenary: No closed form found within 0 s; its integrals stay.\n"
+    first = run("generate", "catenary", "--out", "made", "--limit", "0")
+    assert (first.exit_code, first.stderr) == (0, told)
+    text = (here / "made" / "catenary.py").read_bytes()
+    again = run("generate", "catenary", "--out", "made", "--limit", "0")
+    assert "kept" in again.stdout
+    assert again.stderr == told
+    third = run("generate", "catenary", "--out", "made")
+    assert "kept" not in third.stdout
+    assert "load_closed" in third.stdout
+    assert third.stderr == ""
+    assert (here / "made" / "catenary.py").read_bytes() == text
+
+
 @pytest.mark.parametrize("command", [(), ("list",), ("show",), ("generate",)])
 @pytest.mark.parametrize("option", ["--help", "-h"])
 def test_help_is_given(command: tuple[str, ...], option: str) -> None:

@@ -18,15 +18,14 @@ Each rule states the integrals that it is made of.  Elliptic integrals are SymPy
 m, not the modulus, and Pi(n|m) with 1 - n sin**2 in its denominator.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
 from sympy import (
     Expr,
     Function,
     Integer,
-    Matrix,
     Piecewise,
     Poly,
     Rational,
@@ -36,7 +35,6 @@ from sympy import (
     chebyshevt,
     cosh,
     diff,
-    div,
     elliptic_e,
     elliptic_k,
     elliptic_pi,
@@ -49,9 +47,9 @@ from sympy import (
     pi,
     sinh,
     sqrt,
-    zeros,
 )
 from sympy.logic.boolalg import Boolean
+from sympy.polys.fields import sfield
 
 from derive.symbols import E_star, a, c, h, mid, x
 from derive.theory.frame import RootFrame
@@ -327,17 +325,29 @@ class Root:
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
         """A polynomial factor is one more weight."""
-        total = zeros(3, 1)
-        for order, weight in weights.items():
-            level, times = self.level, polynomial
-            for _ in range(order):
-                q = self.frame.quadratic
-                times = diff(times, x) * q - (level + _HALF) * times * diff(q, x)
-                level += 1
-            total += self._reduced(weight * _along(times), level)
-        return self._written(total)
+        numerators = [
+            (self.level + order, weight * _along(self._derivative(polynomial, order)))
+            for order, weight in weights.items()
+        ]
+        polynomials = [_along(self.frame.quadratic), *(whole for _, whole in numerators)]
+        rows = [Poly(whole, X).all_coeffs()[::-1] for whole in polynomials]
+        field, elements = sfield([k for row in rows for k in row])
+        inside = iter(elements)
+        quadratic, *others = ([next(inside) for _ in row] for row in rows)
+        table = _Table(field, quadratic)
+        total = [field.zero] * 3
+        for (level, _), numerator in zip(numerators, others, strict=True):
+            total = _sum(total, table.integral(numerator, level))
+        return self._written([value.as_expr() for value in total])
 
-    def _written(self, coefficients: Matrix) -> Integrals:
+    def _derivative(self, polynomial: Expr, order: int) -> Expr:
+        """The numerator of the derivative of polynomial(x) times this term."""
+        q = self.frame.quadratic
+        for level in range(self.level, self.level + order):
+            polynomial = diff(polynomial, x) * q - (level + _HALF) * polynomial * diff(q, x)
+        return polynomial
+
+    def _written(self, coefficients: list[Expr]) -> Integrals:
         """By K, E - (1 - m) K and (1 - n) Pi, or by K - (1 - n) Pi if that is all."""
         f = self.frame
         mean, K = sqrt(f.left * f.right), elliptic_k(f.m)
@@ -348,57 +358,100 @@ class Root:
             return found | {(K - third_kind) / mean: first}
         return found | {K / mean: first, third_kind / mean: third}
 
-    @property
-    def _q(self) -> Poly:
-        return Poly(_along(self.frame.quadratic), X)
 
-    def _reduced(self, numerator: Expr, level: int) -> Matrix:
-        """int numerator(X) q**(-1/2 - level), as coefficients of what `_written` names."""
-        numerator = Poly(numerator, X)
-        if numerator.is_zero:
-            return zeros(3, 1)
+@dataclass(frozen=True)
+class _Table:
+    """Integrals over theta of polynomials in X over q**(1/2 + level), in a field of quotients.
+
+    Polynomials are lists of coefficients, the constant first; integrals are the coefficients of
+    what `Root` names.
+    """
+
+    field: Any
+    q: list[Any]
+
+    def integral(self, numerator: list[Any], level: int) -> list[Any]:
+        """int numerator(X) q**(-1/2 - level)."""
         if level == 0:
-            needed = self._without_root(numerator.degree())
-            return _combined(numerator, needed)
-        quotient, rest = div(numerator, self._q)
-        lower = self._reduced(quotient.as_expr(), level - 1)
-        return (lower + _combined(rest, self._with_pole(level))).applyfunc(factor)
+            return self._combined(numerator, self._powers(len(numerator)))
+        quotient, rest = self._divided(numerator)
+        over = self._combined(rest, self._with_pole(level))
+        return _sum(over, self.integral(quotient, level - 1))
 
-    def _without_root(self, highest: int) -> list[Matrix]:
+    def _combined(self, polynomial: list[Any], powers: list[list[Any]]) -> list[Any]:
+        """The sum of the coefficients times the integrals of the powers of X."""
+        total = [self.field.zero] * 3
+        for k, integral in zip(polynomial, powers, strict=False):
+            total = _sum(total, integral, k)
+        return total
+
+    def _powers(self, count: int) -> list[list[Any]]:
         """U_0, U_1, ..."""
-        q0, q1, q2 = (self._q.nth(i) for i in range(3))
-        first = Matrix([2, 0, 0])
-        second = -q1 / q2 * Matrix([1, 0, -1])
-        found = [first, second, Matrix([0, 2, 0]) / q2 - q1 / (2 * q2) * second]
-        for k in range(highest - 2):
-            following = (
-                q1 * (k + 3 * _HALF) * found[k + 2]
-                + (k + 1) * (q0 - q2) * found[k + 1]
-                - q1 * (k + _HALF) * found[k]
-                - (k * q0 * found[k - 1] if k else zeros(3, 1))
-            )
-            found.append((-following / ((k + 2) * q2)).applyfunc(factor))
+        q0, q1, q2 = self.q
+        zero, one = self.field.zero, self.field.one
+        first, second = [2 * one, zero, zero], [-q1 / q2, zero, q1 / q2]
+        found = [first, second, _sum([zero, 2 / q2, zero], second, -q1 / (2 * q2))]
+        for k in range(count - 3):
+            following = _sum([zero] * 3, found[k + 2], q1 * (2 * k + 3) / 2)
+            following = _sum(following, found[k + 1], (q0 - q2) * (k + 1))
+            following = _sum(following, found[k], -q1 * (2 * k + 1) / 2)
+            following = _sum(following, found[k - 1], -q0 * k) if k else following
+            found.append([-value / (q2 * (k + 2)) for value in following])
         return found
 
-    def _with_pole(self, level: int) -> list[Matrix]:
+    def _with_pole(self, level: int) -> list[list[Any]]:
         """int q**(-1/2 - level) and int X q**(-1/2 - level), from two integrals that vanish."""
-        q, rate = self._q.as_expr(), diff(self._q.as_expr(), X)
         rows, known = [], []
-        for r in (S.One, X):
-            whole = (X * r - (1 - X**2) * diff(r, X)) * q
-            whole += (level - _HALF) * (1 - X**2) * r * rate
-            quotient, rest = div(Poly(whole, X), self._q)
-            rows.append([rest.nth(0), rest.nth(1)])
-            known.append(-self._reduced(quotient.as_expr(), level - 1))
-        inverse = Matrix(rows).inv()
+        for r in ([1], [0, 1]):
+            quotient, rest = self._divided(self._vanishing(r, level))
+            rows.append(rest)
+            known.append([-value for value in self.integral(quotient, level - 1)])
+        (p, q), (r, s) = rows
+        determinant = p * s - q * r
+        nothing = [self.field.zero] * 3
         return [
-            (inverse[i, 0] * known[0] + inverse[i, 1] * known[1]).applyfunc(factor) for i in (0, 1)
+            _sum(_sum(nothing, known[0], s / determinant), known[1], -q / determinant),
+            _sum(_sum(nothing, known[1], p / determinant), known[0], -r / determinant),
         ]
 
+    def _vanishing(self, r: list[int], level: int) -> list[Any]:
+        """Numerator of the derivative of sin(theta) r(X) q**(1/2 - level) over q**(1/2 + level)."""
+        one = self.field.one
+        sine = [one, 0 * one, -one]
+        rate = [self.q[1], 2 * self.q[2]]
+        own = [0 * one, *(one * k for k in r)]
+        slope = [one * k * i for i, k in enumerate(r)][1:] or [0 * one]
+        first = _product(_added(own, [-k for k in _product(sine, slope)]), self.q)
+        second = _product(_product(sine, [one * k for k in r]), rate)
+        return _added(first, [k * (2 * level - 1) / 2 for k in second])
 
-def _combined(polynomial: Poly, powers: Iterable[Matrix]) -> Matrix:
-    """The sum of the polynomial's coefficients times the integrals of the powers of X."""
-    total = zeros(3, 1)
-    for k, integral in enumerate(powers):
-        total += polynomial.nth(k) * integral
-    return total.applyfunc(factor)
+    def _divided(self, numerator: list[Any]) -> tuple[list[Any], list[Any]]:
+        """Quotient and rest by q."""
+        rest = [*numerator, *[self.field.zero] * (2 - len(numerator))]
+        quotient: list[Any] = []
+        while len(rest) > 2:
+            top = rest.pop() / self.q[2]
+            quotient.insert(0, top)
+            rest[-1] -= top * self.q[1]
+            rest[-2] -= top * self.q[0]
+        return quotient, rest
+
+
+def _sum(first: list[Any], second: list[Any], times: Any = 1) -> list[Any]:
+    """first + times second, term by term."""
+    return [p + times * q for p, q in zip(first, second, strict=True)]
+
+
+def _added(first: list[Any], second: list[Any]) -> list[Any]:
+    """The sum of two polynomials."""
+    longer, shorter = sorted((first, second), key=len, reverse=True)
+    return [k + shorter[i] if i < len(shorter) else k for i, k in enumerate(longer)]
+
+
+def _product(first: list[Any], second: list[Any]) -> list[Any]:
+    """The product of two polynomials."""
+    found = [0 * first[0]] * (len(first) + len(second) - 1)
+    for i, p in enumerate(first):
+        for j, q in enumerate(second):
+            found[i + j] = found[i + j] + p * q
+    return found
