@@ -250,7 +250,7 @@ NO_RULE = {
         Piecewise((x**2 / (2 * R), x < 0), (b**2 / R * (cosh(x / b) - 1), True)),
         "sinh(x/b), which changes at a kink",
     ),
-    "two kinds in one term": (A * Abs(x / b) ** Rational(5, 2) * cosh(x / b), "cosh(x/b)"),
+    "two kinds in one term": (A * Abs(x / b) ** Rational(5, 2) * cosh(x / b), "sinh(x/b)"),
     "logarithm of cosh": (b * phi * log(cosh(x / b)), "sinh(x/b)/cosh(x/b)"),
     "root that ends at a kink": (
         Piecewise((phi * Abs(x), x < 0), (phi * sqrt(x**2 + b**2) - phi * b, True)),
@@ -344,7 +344,7 @@ def test_the_code_does_not_depend_on_what_was_found() -> None:
 
 
 def test_why_it_is_not_the_closed_form() -> None:
-    """A contact of 1e-9 R on an arc: in float64 nothing is left of E - (1 - m) K, pi m/4."""
+    """A contact 1e-9 R wide on an arc: in float64 nothing is left of E - (1 - m) K, pi m/4."""
     from scipy.special import ellipe, ellipk
 
     m = -1e-18
