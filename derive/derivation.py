@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from sympy import Expr, S, Symbol, factor, pi, sqrt
 from sympy.logic.boolalg import Boolean
+from sympy.polys.polyerrors import BasePolynomialError
 
 from derive.geometry import Geometry
 from derive.limit import DEFAULT, LimitReached, within
@@ -72,6 +73,8 @@ def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaS
     except NoRule as without:
         remark = f"No closed form known: no rule for {without}; its integrals stay."
         return replace(sheet, remark=remark)
+    except _SYMPY_GAVE_UP:
+        return replace(sheet, remark="No closed form found: SymPy gave up; its integrals stay.")
     for name, expr in found.items():
         integral = sheet[name]
         sheet = sheet.plus(
@@ -86,6 +89,12 @@ def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaS
         )
     return replace(sheet, remark=_FOUND)
 
+
+_SYMPY_GAVE_UP = (
+    *(ArithmeticError, AttributeError, NotImplementedError, RecursionError, TypeError, ValueError),
+    BasePolynomialError,
+)
+"""What SymPy raises on expressions that it cannot handle."""
 
 NONE_IN_TIME = "No closed form found within"
 """How the remark begins if the search for closed forms was ended by its limit."""

@@ -137,15 +137,28 @@ Found = tuple[Special, Expr] | None
 
 def _power(frame: Frame, base: Expr, exponent: Expr) -> Found:
     """(beta x + delta)**p = |beta|**p (side (x - place))**p."""
-    if exponent.has(x) or not base.is_polynomial(x) or Poly(base, x).degree() != 1:
+    if exponent.has(x) or not base.is_polynomial(x):
+        return None
+    whole = factor(base)
+    if whole.is_Pow and exponent.is_integer:
+        base, exponent = whole.base, exponent * whole.exp
+    if Poly(base, x).degree() != 1:
         return None
     beta, delta = Poly(base, x).all_coeffs()
-    if not (beta.is_positive or beta.is_negative) or exponent.is_integer:
+    if not (beta.is_positive or beta.is_negative):
         return None
     side, place = (1 if beta.is_positive else -1), simplify(-delta / beta)
-    ends = frame.slope.domain
-    outside = bool(simplify(ends[0 if side > 0 else 1] - place) == 0)
-    return Power(place, side, exponent, outside), (beta * side) ** exponent
+    at_ends = [s for s, end in zip((1, -1), frame.slope.domain, strict=True) if _same(end, place)]
+    if exponent.is_integer:  # a pole: it has no real side of its own
+        if not at_ends:
+            return None
+        side = at_ends[0]
+    return Power(place, side, exponent, side in at_ends), (beta * side) ** exponent
+
+
+def _same(end: Expr, place: Expr) -> bool:
+    """Whether the body ends at a place."""
+    return bool(simplify(end - place) == 0)
 
 
 def _exponential(frame: Frame, base: Expr, exponent: Expr) -> Found:

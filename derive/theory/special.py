@@ -11,8 +11,9 @@ its derivatives over 0 < theta < pi, weighted by polynomials W(X):
 K_left with 1 - X, L_left with (1 - X) g''/4 - h (1 - X)**2 g'''/6.  K_N is the rate of the tilt as
 an edge moves, and L_N that of K_N: an edge that moves adds a flat punch to the pressure.
 
-In float64 these forms lose digits: E - (1 - m) K all of them where m is small, 2F1 ten and more
-close to some exponents, the Bessel functions three where the contact is much wider than 1/beta.
+In float64 these forms lose digits, by SciPy's functions: E - (1 - m) K all of them where m is
+small, 2F1 up to nine where a kink lies close to an edge, for its argument is rounded next to one,
+and the Bessel functions three where two of them all but cancel.
 
 Each rule states the integrals that it is made of.  Elliptic integrals are SymPy's: of the parameter
 m, not the modulus, and Pi(n|m) with 1 - n sin**2 in its denominator.
@@ -121,6 +122,9 @@ class Power:
                                   the same with 2F1(j-p, 1/2+j; j+1; h/u).
 
     For the other side theta becomes pi - theta.
+
+    outside: the body ends at the place, which then lies beyond the other edge of every contact; p
+    may be negative there.
     """
 
     place: Expr

@@ -9,6 +9,7 @@ import mpmath
 import pytest
 from mpmath import mpf
 from sympy import Abs, Expr, Max, Piecewise, Rational, atan, cosh, exp, log, sinh, sqrt
+from sympy.polys.polyerrors import PolynomialError
 
 import derive.derivation
 import derive.limit
@@ -44,6 +45,9 @@ MADE_UP = {
     "skew_hyperbola_on_a_wedge": phi * sqrt(x**2 + b * x + b**2) + phi * Abs(x - b),
     "cubed_root": (x**2 + b**2) ** Rational(3, 2) / L**2,
     "root_of_a_line": L + x / 2 - L * sqrt(1 + x / L),
+    "simple_pole": -L * log(1 - x / L),
+    "double_pole": L**2 / (L - x),
+    "powers_beyond_a_flat": L * (Max(0, Abs(x) - b) / L) ** k,
     "all_of_them": x**2 / (2 * R)
     + A * cosh(x / b)
     + phi * sqrt(x**2 + b**2)
@@ -268,6 +272,17 @@ def test_a_term_without_a_rule_leaves_the_integrals(name: str) -> None:
     assert found.remark.startswith("No closed form known: no rule for ")
     assert told in found.remark
     assert found.remark.endswith("its integrals stay.")
+
+
+def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPatch) -> None:
+    def failing(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
+        raise PolynomialError
+
+    monkeypatch.setattr(derive.derivation, "closed_forms", failing)
+    given = derive_sheet(load_geometry("catenary"))
+    found = with_closed_forms(given)
+    assert {*found} == {*given}
+    assert found.remark == "No closed form found: SymPy gave up; its integrals stay."
 
 
 def test_a_body_with_closed_formulas_is_as_it_was() -> None:
