@@ -27,6 +27,7 @@ class Body:
     numerical  parts that are not
     verdicts   every formula with what is known of it
     proofs     every formula with how that was shown, in words
+    struck     what to tell if the search for closed forms was ended by its limit
     kept       whether an earlier run built it
     """
 
@@ -37,6 +38,7 @@ class Body:
     numerical: tuple[str, ...]
     verdicts: tuple[tuple[str, Verdict], ...]
     proofs: tuple[tuple[str, str], ...] = ()
+    struck: str = ""
     kept: bool = field(default=False, compare=False)
 
     def formulas(self, verdict: Verdict) -> tuple[str, ...]:

@@ -227,5 +227,6 @@ def _read(content: bytes, key: str) -> Body:
         closed=tuple(facts["closed"]),
         numerical=tuple(facts["numerical"]),
         verdicts=tuple((name, Verdict(found)) for name, found in facts["verdicts"]),
+        struck=facts["struck"],
         kept=True,
     )

@@ -17,6 +17,7 @@ from rich.console import Console, RenderableType
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from derive.errors import NotProven, UserError
+from derive.limit import DEFAULT
 
 if TYPE_CHECKING:
     from derive.body import Body
@@ -27,6 +28,15 @@ _WIDE = 10_000
 """Columns where the output is no terminal, so that nothing is broken that a program reads."""
 
 FELL_SHORT, BAD_INPUT = 1, 2
+
+_limit = click.option(
+    "--limit",
+    type=click.FloatRange(min=0),
+    default=DEFAULT,
+    show_default=True,
+    metavar="SECONDS",
+    help="Time for the search for closed forms of one body's integrals.",
+)
 
 
 class _Commands(click.Group):
@@ -88,8 +98,15 @@ def list_() -> None:
     help="The series of its slip zones to this order instead, kappa being the senses of slip; "
     "order 3 takes half a minute, order 4 far longer.",
 )
+@_limit
 def show(
-    name: str | None, latex: bool, html: bool, every: bool, out: Path | None, slip: int | None
+    name: str | None,
+    latex: bool,
+    html: bool,
+    every: bool,
+    out: Path | None,
+    slip: int | None,
+    limit: float,
 ) -> None:
     """The derived and proven formula sheet of NAME, a geometry or a geometry file."""
     if html + latex + bool(slip) > 1:
@@ -99,26 +116,35 @@ def show(
     if (name is None) != every:
         raise click.UsageError("NAME is one geometry or geometry file; or give --all --html")
     if html:
-        _show_pages(name, out)
+        _show_pages(name, out, limit)
         return
     assert name is not None
     if slip:
         _show_slip(name, slip)
         return
     from derive import derive_sheet, load_geometry, prove_sheet, view
+    from derive.derivation import NONE_IN_TIME, with_closed_forms
 
     geometry = load_geometry(name)
-    with _console(stderr=True).status(f"deriving and proving {geometry.name}"):
-        sheet = prove_sheet(derive_sheet(geometry)).demand_proven()
+    with _console(stderr=True).status(f"deriving {geometry.name}") as status:
+        sheet = derive_sheet(geometry)
+        if not sheet.is_closed("load"):
+            status.update(f"looking for closed forms of {geometry.name}, {limit:g} s at most")
+            sheet = with_closed_forms(sheet, limit)
+        status.update(f"proving {geometry.name}")
+        sheet = prove_sheet(sheet).demand_proven()
+    if sheet.remark.startswith(NONE_IN_TIME):
+        click.echo(f"{geometry.name}: {sheet.remark}", err=True)
     if latex:
         click.echo(sheet.latex)
     else:
         _print(view.formulas(sheet))
 
 
-def _show_pages(name: str | None, out: Path | None) -> None:
+def _show_pages(name: str | None, out: Path | None, limit: float) -> None:
     """One body's page, or those of the library with their index."""
     from derive import derive_sheet, load_geometry
+    from derive.derivation import with_closed_forms
     from derive.handbook.page import entry, index, page
     from derive.handbook.shelf import demand_replaceable, put_page, put_pages
     from derive.library import library
@@ -127,8 +153,9 @@ def _show_pages(name: str | None, out: Path | None) -> None:
         folder = out or Path("handbook")
         demand_replaceable(folder)
     sources = library() if name is None else (name,)
-    bodies = _built(sources, None, False)
-    sheets = [derive_sheet(load_geometry(source)) for source in sources]
+    bodies = _built(sources, None, False, limit)
+    derived = (derive_sheet(load_geometry(source)) for source in sources)
+    sheets = [with_closed_forms(sheet, limit) for sheet in derived]
     if name is not None:
         (sheet,), (body,) = sheets, bodies
         path = out or Path(f"{body.name}.html")
@@ -213,8 +240,14 @@ def new(
     metavar="N",
     help="Bodies derived at once; as many as there are cores if not given.",
 )
+@_limit
 def generate(
-    sources: tuple[str, ...], out: Path | None, check: bool, fresh: bool, jobs: int | None
+    sources: tuple[str, ...],
+    out: Path | None,
+    check: bool,
+    fresh: bool,
+    jobs: int | None,
+    limit: float,
 ) -> None:
     """Derive, prove and write NumPy modules: the whole library, or the geometries named.
 
@@ -225,7 +258,7 @@ def generate(
     from derive.pipeline import Order
 
     order = Order(sources, out.resolve() if out else None)
-    bodies = _built(order.names, jobs, fresh or check)
+    bodies = _built(order.names, jobs, fresh or check, limit)
     if check:
         _report_drift(order, bodies)
         return
@@ -295,13 +328,17 @@ def _paper(file: Path | None, label: str | None) -> "Paper":
     return replace(source, claims=(source[label],))
 
 
-def _built(sources: Sequence[str], jobs: int | None, fresh: bool) -> "list[Body]":
-    """Every body, under a progress bar."""
+def _built(sources: Sequence[str], jobs: int | None, fresh: bool, limit: float) -> "list[Body]":
+    """Every body, under a progress bar; which searches were ended by their limit."""
     from derive.parallel import cores
     from derive.pipeline import STAGES, build_all
 
     with _progress(len(sources), STAGES) as step:
-        return build_all(sources, step, jobs or cores(), fresh)
+        bodies = build_all(sources, step, jobs or cores(), fresh, limit)
+    for body in bodies:
+        if body.struck:
+            click.echo(f"{body.name}: {body.struck}", err=True)
+    return bodies
 
 
 def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:

@@ -5,11 +5,14 @@ Out: FormulaSheet without proofs.
 """
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 
 from sympy import Expr, S, Symbol, factor, pi, sqrt
 from sympy.logic.boolalg import Boolean
+from sympy.polys.polyerrors import BasePolynomialError
 
 from derive.geometry import Geometry
+from derive.limit import DEFAULT, LimitReached, within
 from derive.sheet import (
     Formula,
     FormulaSheet,
@@ -21,6 +24,7 @@ from derive.sheet import (
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, h, m, mid, n, x
 from derive.theory import contact_law, equilibrium, slip, stick, superposition
 from derive.theory.algebra import tidy
+from derive.theory.closed_forms import NoRule, closed_forms
 from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
 from derive.theory.frame import Frame
 from derive.theory.pressure import pressure
@@ -46,6 +50,61 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
 def derive_law(geometry: Geometry) -> FormulaSheet:
     """Load, moment and tilt of a contact, and the contact from the loads where it is a formula."""
     return _derived(geometry, _LAW if geometry.slope.is_polynomial else (_superposed,))
+
+
+def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaSheet:
+    """The sheet with the closed forms of its integrals, if rules give them within the time.
+
+    They stand on the sheet under names such as load_closed, behind all others; its remark says
+    what was found.  A body whose formulas are closed already is returned as it is.
+
+    >>> from derive.library import load_geometry
+    >>> sheet = with_closed_forms(derive_sheet(load_geometry("catenary")))
+    >>> sheet["load_closed"].expr
+    pi*E_star*b*(a + c)*cosh((a - c)/(2*b))*besseli(1, (a + c)/(2*b))/(4*R)
+    """
+    if sheet.geometry.slope.is_polynomial:
+        return sheet
+    try:
+        with within(seconds) as look:
+            found = closed_forms(sheet.frame, look)
+    except LimitReached:
+        return replace(sheet, remark=f"{NONE_IN_TIME} {seconds:g} s; its integrals stay.")
+    except NoRule as without:
+        remark = f"No closed form known: no rule for {without}; its integrals stay."
+        return replace(sheet, remark=remark)
+    except _SYMPY_GAVE_UP:
+        return replace(sheet, remark="No closed form found: SymPy gave up; its integrals stay.")
+    for name, expr in found.items():
+        integral = sheet[name]
+        sheet = sheet.plus(
+            replace(
+                integral,
+                name=f"{name}_closed",
+                expr=expr,
+                meaning=f"{integral.meaning}, closed form",
+                source=f"{_RULES}; {_CLASSIC}",
+                closes=name,
+            )
+        )
+    return replace(sheet, remark=_FOUND)
+
+
+_SYMPY_GAVE_UP = (
+    *(ArithmeticError, AttributeError, NotImplementedError, RecursionError, TypeError, ValueError),
+    BasePolynomialError,
+)
+"""What SymPy raises on expressions that it cannot handle."""
+
+NONE_IN_TIME = "No closed form found within"
+"""How the remark begins if the search for closed forms was ended by its limit."""
+
+_FOUND = (
+    "Closed forms stand behind the integrals, as load_closed behind load.  Generated code "
+    "evaluates the integrals: they keep digits that closed forms in float64 lose."
+)
+
+_RULES = "int g' cos(n theta) dtheta, x = mid + (h/2) cos(theta), term by term"
 
 
 def slip_terms(

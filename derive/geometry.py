@@ -51,7 +51,7 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     """
     if not isinstance(name, str) or not _usable(name):
         raise BadName("parameter", str(name), "cannot be a name")
-    if name in RESERVED or re.fullmatch(r"(theta|w|L|u|v)_\d+", name):
+    if name in RESERVED or re.fullmatch(r"(theta|w|L|u|v|m|n|q_left|q_right)_\d+", name):
         raise BadName("parameter", name, "is taken by the theory")
     parse_unit(unit)
     return Parameter(name, meaning, unit)

@@ -1,5 +1,6 @@
 """How formulas are written: text and LaTeX, rendered from expressions and never typed."""
 
+import re
 from functools import cache
 
 from sympy import Add, Basic, Expr, Mul, Pow, S, Symbol, latex, sstr
@@ -18,6 +19,9 @@ _OWN = {
     "P_prime": "P'",
 }
 
+_AT_EDGE = re.compile(r"q_(left|right)_(\d+)")
+"""The root of a quadratic at an edge."""
+
 
 def text_of(expr: Basic) -> str:
     """`expr` as one line of text."""
@@ -27,6 +31,9 @@ def text_of(expr: Basic) -> str:
 def latex_of(expr: Basic) -> str:
     """`expr` in LaTeX, in the notation of the theory."""
     symbols = {s: _names()[s.name] for s in expr.atoms(Symbol) if s.name in _names()}
+    for s in expr.atoms(Symbol):
+        if found := _AT_EDGE.fullmatch(s.name):
+            symbols[s] = rf"q_{{\mathrm{{{found[1]}}},{found[2]}}}"
     return str(latex(gathered(expr), symbol_names=symbols, ln_notation=True))
 
 

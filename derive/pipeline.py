@@ -4,6 +4,7 @@
     ------------   ------------------------   -----------------------------------------------
     load_geometry  a name or a file           Geometry: g(x), its parameters, its slope
     derive_sheet   Geometry                   FormulaSheet: every formula, named and sourced
+    with_closed_forms  FormulaSheet           the same with closed forms beside its integrals
     prove_sheet    FormulaSheet               the same with a proof for every formula
     module_text    proven FormulaSheet        the text of a NumPy module
     demand_right   sheet and text             nothing, or NotProven: the text run and compared
@@ -36,12 +37,16 @@ from derive.codegen.publish import (
 )
 from derive.errors import BadProfile, NeedsOutput, TwoOfOneName
 from derive.library import FOLDER, is_in_library, library, load_geometry
+from derive.limit import DEFAULT
 from derive.parallel import Report, in_processes
 
 GENERATED = Path(__file__).parent.parent / "generated"
 """The package that is committed."""
 
-STAGES = ("reading g(x)", "deriving", "proving", "generating", "trying")
+STAGES = (
+    *("reading g(x)", "deriving", "looking for closed forms"),
+    *("proving", "generating", "trying"),
+)
 DONE, KEPT = "done", "kept"
 """What a report is told of a body behind its last stage, or of one that enters none."""
 
@@ -50,15 +55,18 @@ def _silent(body: str, stage: str) -> None:
     """A report that tells nobody."""
 
 
-def build(source: str, report: Report = _silent) -> Body:
+def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body:
     """One body, from its name or file to the text of its module.
+
+    limit: seconds that the search for closed forms of integrals may take; the text does not depend
+    on what it finds.
 
     Raises UserError for what is wrong with the source, NotProven for a proof that falls short.
     """
     from derive.codegen.module import module_text
     from derive.codegen.printer import CannotPrint
     from derive.codegen.trial import demand_right
-    from derive.derivation import derive_sheet
+    from derive.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
     from derive.proof.prove import prove_sheet
 
     began = perf_counter()
@@ -67,11 +75,13 @@ def build(source: str, report: Report = _silent) -> Body:
     report(source, STAGES[1])
     sheet = derive_sheet(geometry)
     report(source, STAGES[2])
-    sheet = prove_sheet(sheet)
+    sheet = with_closed_forms(sheet, limit)
     report(source, STAGES[3])
+    sheet = prove_sheet(sheet)
+    report(source, STAGES[4])
     try:
         text = module_text(sheet, _origin(source))
-        report(source, STAGES[4])
+        report(source, STAGES[5])
         demand_right(sheet, text)
     except CannotPrint as error:
         remedy = "write it with numbers and functions that NumPy has"
@@ -79,34 +89,47 @@ def build(source: str, report: Report = _silent) -> Body:
     closed, numerical = by_form(sheet.is_closed)
     verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
     proofs = tuple((name, str(f.proof)) for name, f in sheet.items() if f.proof)
-    return Body(geometry.name, text, perf_counter() - began, closed, numerical, verdicts, proofs)
+    struck = sheet.remark if sheet.remark.startswith(NONE_IN_TIME) else ""
+    seconds = perf_counter() - began
+    return Body(geometry.name, text, seconds, closed, numerical, verdicts, proofs, struck)
 
 
 def build_all(
-    sources: Sequence[str], report: Report = _silent, jobs: int = 1, fresh: bool = False
+    sources: Sequence[str],
+    report: Report = _silent,
+    jobs: int = 1,
+    fresh: bool = False,
+    limit: float = DEFAULT,
 ) -> list[Body]:
     """A body of every source, in their order; `jobs` processes build what is not kept.
 
     fresh: build all, and read nothing of what is kept.
+    limit: seconds that the search for the closed forms of one body may take.
 
     Raises what `build` raises for the first source that fails, and ends the others; LostProcess.
     """
-    keys = _keys(sources)
+    keys = _keys(sources, limit)
     bodies = {} if fresh else _kept(keys)
     for source in bodies:
         report(source, KEPT)
-    missing = [(source, key) for source, key in keys.items() if source not in bodies]
+    missing = [(source, key, limit) for source, key in keys.items() if source not in bodies]
     made = in_processes(_build_and_keep, missing, report, jobs)
-    bodies |= {source: body for (source, _), body in zip(missing, made, strict=True)}
+    bodies |= {source: body for (source, *_), body in zip(missing, made, strict=True)}
     return [bodies[source] for source in sources]
 
 
-def _keys(sources: Iterable[str]) -> dict[str, str | None]:
+def _keys(sources: Iterable[str], limit: float) -> dict[str, str | None]:
     """Every source once, with the key of its body; None if that is not kept."""
     if users_cache().folder is None:
         return dict.fromkeys(sources)
     program = program_as_loaded()
-    return {source: key_of(_path(source), _origin(source), program) for source in sources}
+    return {source: _key(source, program, limit) for source in sources}
+
+
+def _key(source: str, program: str, limit: float) -> str | None:
+    """The key of a body; another limit may find closed forms that this one does not."""
+    origin = _origin(source) if limit == DEFAULT else f"{_origin(source)} within {limit:g} s"
+    return key_of(_path(source), origin, program)
 
 
 def _kept(keys: Mapping[str, str | None]) -> dict[str, Body]:
@@ -115,11 +138,11 @@ def _kept(keys: Mapping[str, str | None]) -> dict[str, Body]:
     return {source: body for source, body in found.items() if body}
 
 
-def _build_and_keep(asked: tuple[str, str | None], report: Report) -> Body:
+def _build_and_keep(asked: tuple[str, str | None, float], report: Report) -> Body:
     """One body; kept under its key, unless a file that it follows from has changed meanwhile."""
-    source, key = asked
-    body = build(source, report)
-    if key is not None and key == key_of(_path(source), _origin(source), program_digest()):
+    source, key, limit = asked
+    body = build(source, report, limit)
+    if key is not None and key == _key(source, program_digest(), limit):
         users_cache().put(key, body)
     report(source, DONE)
     return body

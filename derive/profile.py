@@ -20,6 +20,7 @@ from sympy import (
     And,
     Dummy,
     Expr,
+    Float,
     Function,
     Gt,
     Heaviside,
@@ -128,6 +129,17 @@ class Slope:
     def is_polynomial(self) -> bool:
         """Whether g' is a polynomial on every piece: then every integral is elementary."""
         return all(piece.slope.is_polynomial(x) for piece in self.pieces)
+
+    @cached_property
+    def quadratics(self) -> tuple[Expr, ...]:
+        """Quadratics in x whose square roots g' holds."""
+        powers = {p for piece in self.pieces for p in exact(piece.slope).atoms(Pow)}
+        found = {
+            expand(p.base)
+            for p in powers
+            if (2 * p.exp).is_odd and p.base.is_polynomial(x) and Poly(p.base, x).degree() == 2
+        }
+        return tuple(sorted(found, key=str))
 
     @property
     def least(self) -> dict[Symbol, Expr]:
@@ -456,6 +468,11 @@ def has_sharp_power(expr: Expr, place: Symbol) -> bool:
     """
     powers = (p for p in expr.atoms(Pow) if p.base.has(place) and not p.base.has(a, c))
     return any(not p.exp.is_Integer and diff(p.base, place, 2) == 0 for p in powers)
+
+
+def exact(expr: Expr) -> Expr:
+    """`expr` with every decimal number as the fraction that it is in binary."""
+    return expr.xreplace({number: Rational(number) for number in expr.atoms(Float)})
 
 
 def _is_natural(exponent: Expr) -> bool:

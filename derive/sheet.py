@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from sympy import Expr, Gt, Integral, Or, Symbol, oo
+from sympy import Expr, Gt, Integral, Or, Rational, Symbol, oo
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import NotProven
@@ -18,7 +18,7 @@ from derive.notation import latex_of, text_of
 from derive.proof.verdict import Proof
 from derive.symbols import P, a, alpha, c, h
 from derive.theory.frame import Frame
-from derive.units import Dimension, check, parse_unit
+from derive.units import NUMBER, Dimension, check, dimension_of, parse_unit
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,7 @@ class Formula:
     meaning, unit, source
     conditions  assumptions under which it holds
     proof       None until proven
+    closes      the formula, an integral, that it is the closed form of; "" for all others
     """
 
     name: str
@@ -43,6 +44,7 @@ class Formula:
     source: str
     conditions: tuple[Boolean, ...]
     proof: Proof | None = None
+    closes: str = ""
 
     @property
     def head(self) -> str:
@@ -66,11 +68,15 @@ class Formula:
 
 @dataclass(frozen=True, eq=False)
 class FormulaSheet(Mapping[str, Formula]):
-    """All formulas of one body, by name and in the order of their derivation."""
+    """All formulas of one body, by name and in the order of their derivation.
+
+    remark: what became of the search for closed forms, where integrals are left.
+    """
 
     geometry: Geometry
     frame: Frame
     formulas: Mapping[str, Formula] = field(default_factory=dict)
+    remark: str = ""
 
     def __getitem__(self, name: str) -> Formula:
         return self.formulas[name]
@@ -84,11 +90,16 @@ class FormulaSheet(Mapping[str, Formula]):
     @cached_property
     def dimensions(self) -> dict[Symbol, Dimension]:
         """Dimension of every symbol that a formula may hold."""
-        return self.geometry.dimensions | {
+        known = self.geometry.dimensions | {
             symbol: parse_unit(unit)
             for k in self.frame.kinks
             for symbol, unit in ((k.theta, "rad"), (k.w, "m"), (k.L, "-"))
         }
+        for root in self.frame.roots:
+            edge = dimension_of(root.quadratic, known) or NUMBER
+            known |= {s: edge ** Rational(1, 2) for s in (root.left, root.right)}
+            known |= {s: NUMBER for s in (root.m, root.n)}
+        return known
 
     def plus(self, formula: Formula) -> "FormulaSheet":
         """The sheet with one more formula.
@@ -131,6 +142,8 @@ class FormulaSheet(Mapping[str, Formula]):
             definitions |= {k.theta: k.angle} if k.theta in held else {}
             definitions |= {k.w: k.root} if k.w in held else {}
             definitions |= k.logarithm_in_words if k.L in held else {}
+        for root in self.frame.roots:
+            definitions |= root.definitions if held & {*root.definitions} else {}
         return definitions
 
     def is_closed(self, name: str) -> bool:
@@ -163,7 +176,7 @@ class FormulaSheet(Mapping[str, Formula]):
 
     def __str__(self) -> str:
         """Every formula with its meaning, unit, assumptions, source and proof."""
-        lines = [self.title, ""]
+        lines = [self.title, *([self.remark] if self.remark else []), ""]
         for name, formula in self.items():
             lines += [
                 f"{name}: {formula.meaning} [{formula.unit}]",

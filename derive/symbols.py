@@ -110,4 +110,4 @@ _USED_BESIDES = (
 )
 
 RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_USED_BESIDES)
-"""Names that no parameter may take; nor may it look like a kink's theta_1, w_1, L_1."""
+"""Names that no parameter may take; nor may it look like theta_1, w_1, L_1, q_left_1 or m_1."""

@@ -28,6 +28,7 @@ from sympy import (
     Symbol,
     UnevaluatedExpr,
     atan2,
+    hyper,
     sign,
     simplify,
     sympify,
@@ -172,7 +173,8 @@ def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimensio
         inside = dimension_of(integrand, {**dimensions, variable: along}) or NUMBER
         return inside * along
     if isinstance(expr, Function):
-        for argument in expr.args:
+        arguments = (*expr.ap, *expr.bq, expr.argument) if isinstance(expr, hyper) else expr.args
+        for argument in arguments:
             _demand(argument, NUMBER, f"the argument {argument} of {expr.func}", dimensions)
         return NUMBER
     raise DimensionMismatch(str(expr), "unknown", "a known function")

@@ -64,9 +64,7 @@ def _row(words: Iterable[str]) -> str:
 
 def _stem(name: str) -> str:
     """A formula's name, of both edges the same."""
-    for side in ("_left", "_right"):
-        name = name.removesuffix(side)
-    return name
+    return name.replace("_left", "").replace("_right", "")
 
 
 def formulas(sheet: "FormulaSheet") -> Group:
@@ -86,7 +84,8 @@ def formulas(sheet: "FormulaSheet") -> Group:
         )
     for symbol, definition in sheet.definitions.items():
         table.add_row(Text(str(symbol), style="cyan"), f"{symbol} = {text_of(definition)}")
-    return Group(Text(sheet.title, style="bold"), "", table)
+    remark = [sheet.remark] if sheet.remark else []
+    return Group(Text(sheet.title, style="bold"), *remark, "", table)
 
 
 def drift(found: "Iterable[Difference]") -> Group:

@@ -211,7 +211,7 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     texts = {name: (GENERATED / f"{name}.py").read_text() for name in library()}
     asked = []
 
-    def build(source: str, report: Callable[[str, str], None]) -> Body:
+    def build(source: str, report: Callable[[str, str], None], limit: float) -> Body:
         asked.append(source)
         for stage in STAGES:
             report(source, stage)
@@ -307,6 +307,52 @@ def test_a_long_formula_is_not_broken_either(here: Path) -> None:
     assert max(len(sheet("flat_rounded").equation(name)) for name in sheet("flat_rounded")) > 200
     for name in sheet("flat_rounded"):
         assert sheet("flat_rounded").equation(name) in printed
+
+
+@pytest.mark.usefixtures("shown_unproven")
+def test_show_prints_closed_forms_beside_the_integrals() -> None:
+    printed = done("show", "catenary")
+    assert "Closed forms stand behind the integrals" in printed
+    assert "load_closed" in printed
+    assert "besseli(1, (a + c)/(2*b))" in printed
+    assert "Integral(" in printed
+
+
+@pytest.mark.usefixtures("shown_unproven")
+def test_a_limit_that_strikes_is_told() -> None:
+    result = run("show", "catenary", "--limit", "0")
+    told = "No closed form found within 0 s; its integrals stay."
+    assert result.exit_code == 0
+    assert result.stderr == f"catenary: {told}\n"
+    assert told in result.stdout
+    assert "load_closed" not in result.stdout
+    assert run("show", "wedge", "--limit", "0").stderr == ""
+
+
+def test_a_limit_is_no_negative_number() -> None:
+    for command in ("show", "generate"):
+        result = run(command, "catenary", "--limit", "-1")
+        assert result.exit_code == 2
+        assert "--limit" in result.stderr
+
+
+def test_generate_tells_of_a_limit_that_struck(
+    here: Path, unproven: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also when the body is kept from an earlier run; another limit looks again."""
+    monkeypatch.setattr(derive.parallel, "cores", lambda: 1)
+    told = "catenary: No closed form found within 0 s; its integrals stay.\n"
+    first = run("generate", "catenary", "--out", "made", "--limit", "0")
+    assert (first.exit_code, first.stderr) == (0, told)
+    text = (here / "made" / "catenary.py").read_bytes()
+    again = run("generate", "catenary", "--out", "made", "--limit", "0")
+    assert "kept" in again.stdout
+    assert again.stderr == told
+    third = run("generate", "catenary", "--out", "made")
+    assert "kept" not in third.stdout
+    assert "load_closed" in third.stdout
+    assert third.stderr == ""
+    assert (here / "made" / "catenary.py").read_bytes() == text
 
 
 @pytest.mark.parametrize("command", [(), ("list",), ("show",), ("generate",)])
@@ -892,12 +938,12 @@ def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) ->
             ("a", KEPT),
             ("b", STAGES[0]),
             ("c", STAGES[0]),
-            ("b", STAGES[2]),
+            ("b", STAGES[3]),
             ("c", DONE),
             ("b", DONE),
         ]:
             step(body, stage)
-    assert [now["completed"] for now in told] == [5, 5, 5, 7, 12, 15]
+    assert [now["completed"] for now in told] == [6, 6, 6, 9, 15, 18]
     assert [now["description"] for now in told][1:4] == [
         "b: reading g(x)",
         "c: reading g(x), 1 more at work",

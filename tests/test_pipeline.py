@@ -31,7 +31,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The sources that a `build` without any work was asked for."""
     sources = []
 
-    def build(source: str, report: Report) -> Body:
+    def build(source: str, report: Report, limit: float) -> Body:
         sources.append(source)
         for stage in STAGES:
             report(source, stage)
@@ -219,10 +219,10 @@ def test_what_was_built_before_a_failure_is_kept(
     """So the next run, after the repair, does not begin anew."""
     build = derive.pipeline.build
 
-    def failing(source: str, report: Report) -> Body:
+    def failing(source: str, report: Report, limit: float) -> Body:
         if source == files[2]:
             raise NotProven(source)
-        return build(source, report)
+        return build(source, report, limit)
 
     with monkeypatch.context() as patched, pytest.raises(NotProven):
         patched.setattr(derive.pipeline, "build", failing)

@@ -67,6 +67,7 @@ def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
             rows=list(_rows(sheet, dict(body.proofs))),
             defined=defined,
             pictures=pictures(sheet, body.text),
+            remark=sheet.remark,
             code=_code(body.text),
             lines=body.text.count("\n"),
             style=_style(),
@@ -89,6 +90,8 @@ def entry(sheet: FormulaSheet, body: Body) -> Entry:
 
 def _rows(sheet: FormulaSheet, proofs: Mapping[str, str]) -> Iterator[Row]:
     for name, formula in sheet.items():
+        if name not in proofs:  # a closed form that was found only now
+            continue
         latex = f"{formula.left} = {latex_of(sheet.shown(name))}"
         conditions = tuple(mathml(latex_of(c), "inline") for c in formula.conditions)
         proof = proofs[name]

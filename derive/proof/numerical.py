@@ -70,34 +70,33 @@ class NumericalRoutes:
     @cached_property
     def _routes_of_integrals(self) -> dict[str, tuple[str, Route]]:
         """Superposed wedges against the singular integral equation of g' as it was given."""
-        return {
-            "tilt": (_QUADRATURE, self._tilt),
-            "load": ("(E*/2) I_1 of g(x) by quadrature", self._first_moment),
-            "moment": ("-(E*/2) (I_2 - mid I_1) of g(x) by quadrature", self._second_moment),
+        routes: dict[str, tuple[str, Route]] = {
             "pressure": (_QUADRATURE, self._pressure),
-            **{
-                f"K_N_{side}": (f"{_QUADRATURE}, next to the {side} edge", self._edge(side, 0))
-                for side in ("left", "right")
-            },
-            **{
-                f"L_N_{side}": (f"{_QUADRATURE}, next to the {side} edge", self._edge(side, 1))
-                for side in ("left", "right")
-            },
             "full_stick_change": ("its force and its strain by quadrature", self._full_stick),
         }
+        defining: list[tuple[str, str, Callable[[Contact], mpf]]] = [
+            ("tilt", _QUADRATURE, lambda contact: contact.tilt),
+            ("load", "(E*/2) I_1 of g(x) by quadrature", lambda contact: contact.load),
+            (
+                "moment",
+                "-(E*/2) (I_2 - mid I_1) of g(x) by quadrature",
+                lambda contact: contact.moment,
+            ),
+        ]
+        for side in ("left", "right"):
+            for order, name in enumerate((f"K_N_{side}", f"L_N_{side}")):
+                words = f"{_QUADRATURE}, next to the {side} edge"
+                defining.append((name, words, _of_series(side, order)))
+        for name, words, value in defining:
+            for asked in (name, f"{name}_closed"):
+                routes[asked] = words, self._against(asked, value)
+        return routes
 
-    def _first_moment(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("load", point), contact.load
-
-    def _second_moment(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("moment", point), contact.moment
-
-    def _edge(self, side: str, order: int) -> Route:
-        """p/sqrt(s) at three places so close to the edge that a parabola through them is exact."""
+    def _against(self, name: str, value: Callable[[Contact], mpf]) -> Route:
+        """A formula against a number that a contact has by its defining integrals."""
 
         def route(point: Point, contact: Contact) -> Pairs:
-            name = f"{'KL'[order]}_N_{side}"
-            yield self._at(name, point), contact.edge_series(side)[order]
+            yield self._at(name, point), value(contact)
 
         return route
 
@@ -206,6 +205,11 @@ class NumericalRoutes:
                     yield Comparison(wanted, found, named(point))
 
         return numerical_proof(f"put back into {_names(asked)}", comparisons())
+
+
+def _of_series(side: str, order: int) -> Callable[[Contact], mpf]:
+    """p/sqrt(s) at three places so close to the edge that a parabola through them is exact."""
+    return lambda contact: contact.edge_series(side)[order]
 
 
 def _names(asked: list[Symbol]) -> str:

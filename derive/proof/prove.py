@@ -2,14 +2,18 @@
 
 from dataclasses import replace
 
+from mpmath.libmp import NoConvergence
+
 from derive.proof.numerical import NumericalRoutes
 from derive.proof.symbolic import symbolic_proof
-from derive.proof.verdict import combined
+from derive.proof.verdict import Proof, Verdict, combined
 from derive.sheet import FormulaSheet
 
 
 def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
     """Prove every formula by all its routes; what is not proven keeps a verdict that says so.
+
+    A closed form beside an integral that is proven is left out if it is not proven itself.
 
     >>> from derive.derivation import derive_sheet
     >>> from derive.library import load_geometry
@@ -18,8 +22,24 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
     True
     """
     numerical = NumericalRoutes(sheet)
-    proven = {
-        name: replace(formula, proof=combined(symbolic_proof(sheet, name), numerical.proof(name)))
-        for name, formula in sheet.items()
-    }
-    return replace(sheet, formulas=proven)
+    proven, left_out = {}, []
+    for name, formula in sheet.items():
+        proof = _proof(sheet, name, numerical)
+        if formula.closes and not proof.holds:
+            left_out.append(name)
+        else:
+            proven[name] = replace(formula, proof=proof)
+    remark = sheet.remark
+    if left_out:
+        remark = f"{remark}  Not proven, and so not shown: {', '.join(left_out)}."
+    return replace(sheet, formulas=proven, remark=remark)
+
+
+def _proof(sheet: FormulaSheet, name: str, numerical: NumericalRoutes) -> Proof:
+    """The proof of one formula; a closed form that has no value somewhere is not proven."""
+    if not sheet[name].closes:
+        return combined(symbolic_proof(sheet, name), numerical.proof(name))
+    try:
+        return combined(None, numerical.proof(name))
+    except (ArithmeticError, ValueError, TypeError, NoConvergence) as error:
+        return Proof(Verdict.UNKNOWN, f"cannot be evaluated: {error}")

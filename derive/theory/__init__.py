@@ -7,7 +7,9 @@ equilibrium  tilt from I_0 = 0, load and moment from I_1 and I_2
 pressure     p(x) inside the contact
 contact_law  P'(c) along fixed tilt, F(c), and the inverses (P, M), (P, alpha) -> (a, c)
 edges        K_N by two routes, the series of p at an edge
-superposition  P, M, p, K_N and L_N as integrals of g'', where no closed form is sought
+superposition  P, M, p, K_N and L_N as integrals of g'', of a body of any shape
+special      terms of g' whose integrals are special functions: one rule a kind of term
+closed_forms  what those rules and the polynomials of g' make together
 stick        full stick and its edges, what keeps an edge from slipping, the stick zone
 slip         slip zones by series in their length, to any order
 """

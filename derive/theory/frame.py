@@ -9,6 +9,9 @@ cuts it.  All formulas are rational in three symbols per kink:
     L_j      (1/2) log |(sqrt u_j + sqrt v_j) / (sqrt u_j - sqrt v_j)|,
              u_j = (c - x_j)(a + x),  v_j = (a + x_j)(c - x)
 
+A square root of a quadratic q(x) in g' brings four: its values at both edges, and the parameter and
+the characteristic of its elliptic integrals.
+
 A kink outside the contact has theta_j = 0 or pi and w_j = L_j = 0: its roots are clipped at zero,
 so that one formula serves the contact that has left the kink.
 """
@@ -16,7 +19,7 @@ so that one formula serves the contact that has left the kink.
 from dataclasses import dataclass
 from functools import cached_property
 
-from sympy import Abs, Expr, Max, Symbol, atan2, log, sqrt, symbols
+from sympy import Abs, Expr, Max, Symbol, atan2, diff, log, sqrt, symbols
 
 from derive.profile import Kink, Slope
 from derive.symbols import a, c, h, w, x
@@ -96,10 +99,54 @@ def _logarithm(u: Expr, v: Expr) -> Expr:
 
 
 @dataclass(frozen=True)
+class RootFrame:
+    """The square root of a quadratic in g', with the symbols that its elliptic integrals hold."""
+
+    quadratic: Expr
+    number: int
+
+    @cached_property
+    def left(self) -> Symbol:
+        """The root's value at the left edge."""
+        return Symbol(f"q_left_{self.number}", positive=True)
+
+    @cached_property
+    def right(self) -> Symbol:
+        """The root's value at the right edge."""
+        return Symbol(f"q_right_{self.number}", positive=True)
+
+    @cached_property
+    def m(self) -> Symbol:
+        """Parameter of the elliptic integrals."""
+        return Symbol(f"m_{self.number}", real=True)
+
+    @cached_property
+    def n(self) -> Symbol:
+        """Characteristic of the third one."""
+        return Symbol(f"n_{self.number}", real=True)
+
+    @property
+    def definitions(self) -> dict[Symbol, Expr]:
+        """All four; m and n by the values at the edges."""
+        square = diff(self.quadratic, x, 2) / 2 * h**2
+        return {
+            self.left: sqrt(self.quadratic.subs(x, -a)),
+            self.right: sqrt(self.quadratic.subs(x, c)),
+            self.m: (square - (self.right - self.left) ** 2) / (4 * self.left * self.right),
+            self.n: square / (self.left + self.right) ** 2,
+        }
+
+
+@dataclass(frozen=True)
 class Frame:
-    """All kinks of a body, and the algebra of their symbols."""
+    """All kinks of a body, its square roots, and the algebra of their symbols."""
 
     slope: Slope
+
+    @cached_property
+    def roots(self) -> tuple[RootFrame, ...]:
+        """One frame a quadratic whose square root g' holds."""
+        return tuple(RootFrame(q, i) for i, q in enumerate(self.slope.quadratics, start=1))
 
     @cached_property
     def kinks(self) -> tuple[KinkFrame, ...]:
@@ -118,7 +165,12 @@ class Frame:
             for k in self.kinks
             for pair in ((k.theta, k.angle), (k.w, k.root), (k.L, k.logarithm))
         ]
-        return dict(pairs)
+        defined = dict(pairs)
+        for root in self.roots:
+            words = root.definitions
+            ends = {s: words[s] for s in (root.left, root.right)}
+            defined |= {s: definition.xreplace(ends) for s, definition in words.items()}
+        return defined
 
     def flat(self, expr: Expr) -> Expr:
         """`expr` with every symbol of the frame written out."""

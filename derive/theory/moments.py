@@ -8,6 +8,8 @@ The powers obey one recursion.  From d/ds (s^(k-1) w) = (-k s^k + (2k-1) mid s^(
 and w vanishes at both edges, so that only a kink leaves a bracket.
 """
 
+from collections.abc import Sequence
+
 from sympy import Expr, Integer, Poly, S, expand, pi
 
 from derive.symbols import a, c, mid, x
@@ -45,7 +47,12 @@ def weighted(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
 
 def slope_moment(k: int, frame: Frame) -> Expr:
     """I_k of g' alone, without the tilt."""
-    total = weighted(x**k * frame.slope.base)
-    for kink in frame.kinks:
-        total += weighted(x**k * kink.kink.jump, kink)
+    return polynomial_moment(k, frame, frame.slope.base, [kink.kink.jump for kink in frame.kinks])
+
+
+def polynomial_moment(k: int, frame: Frame, base: Expr, jumps: Sequence[Expr]) -> Expr:
+    """I_k of a polynomial, and of another one for each kink where its jump acts."""
+    total = weighted(x**k * base)
+    for kink, jump in zip(frame.kinks, jumps, strict=True):
+        total += weighted(x**k * jump, kink)
     return expand(total)

@@ -1,4 +1,4 @@
-r"""Every convex body as a superposition of wedges: the integrals where no closed form is sought.
+r"""Every convex body as a superposition of wedges: the integrals that a body of any shape has.
 
 A corner at s where g' rises by J presses with (E*/pi) J L(x, s); a curved piece is a row of
 corners, J = g''(s) ds.  So with w = sqrt((a + xi)(c - xi)),

@@ -35,7 +35,8 @@ def test_a_parameter_survives_copy_and_pickle() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["alpha", "E_star", "theta_1", "w_12", "L_3", "u_1", "v_2", "np", "pi", "E"]
+    "name",
+    ["alpha", "E_star", "theta_1", "w_12", "L_3", "u_1", "v_2", "q_left_1", "m_2", "np", "pi", "E"],
 )
 def test_a_name_of_the_theory_is_refused(name: str) -> None:
     with pytest.raises(BadName) as caught:

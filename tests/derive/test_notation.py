@@ -71,6 +71,7 @@ def test_a_half_power_is_known(expr: Expr, expected: bool) -> None:
         (dsigma, r"\Delta\sigma"),
         (Symbol("K_N_left"), r"K_{N,\mathrm{left}}"),
         (Symbol("theta_1"), r"\theta_{1}"),
+        (Symbol("q_left_2"), r"q_{\mathrm{left},2}"),
         (Symbol("P_prime"), "P'"),
     ],
     ids=str,

@@ -1,0 +1,237 @@
+r"""Tilt, load, moment, K_N and L_N in closed form where g' is a sum of terms that have a rule.
+
+Each piece's g' is written as a sum of polynomials times special terms.  A polynomial may change at
+every kink; an exponential or the root of a quadratic must be the same on all pieces; a power must
+act from its own place outwards, to the end of the body.  What the polynomials carry is known; the
+rules of `special` give the rest.  One term without a rule leaves all integrals of the body as they
+are.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+from sympy import (
+    Add,
+    E,
+    Expr,
+    Poly,
+    Rational,
+    S,
+    cancel,
+    cosh,
+    exp,
+    expand,
+    factor,
+    pi,
+    simplify,
+    sinh,
+    sqrt,
+)
+
+from derive.limit import LookAtClock
+from derive.profile import exact
+from derive.symbols import E_star, a, c, h, mid, x
+from derive.theory.algebra import tidy
+from derive.theory.frame import Frame
+from derive.theory.moments import polynomial_moment
+from derive.theory.special import WEIGHTS, Exponential, Power, Root, Special
+
+
+class NoRule(Exception):
+    """What no rule integrates: a term of g' in words."""
+
+
+@dataclass
+class Parts:
+    """g' piece by piece: its polynomials, and the polynomial factors of each special term."""
+
+    polynomials: list[Expr]
+    special: dict[Special, list[Expr]] = field(default_factory=dict)
+
+    def add(self, number: int, term: Special | None, polynomial: Expr) -> None:
+        """Add a polynomial, or a special term with a polynomial as its factor, to one piece."""
+        if term is None:
+            self.polynomials[number] += polynomial
+            return
+        factors = self.special.setdefault(term, [S.Zero] * len(self.polynomials))
+        factors[number] += polynomial
+
+
+def closed_forms(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
+    """Every formula that `special` has weights for; `look` is called between the steps.
+
+    Raises NoRule for a term that has none.
+    """
+    parts = read_parts(frame)
+    wholes: dict[Special, Expr] = {}
+    for term, factors in parts.special.items():
+        look()
+        whole = _whole(frame, term, factors)
+        if whole != 0:
+            wholes[term] = whole
+    found = _of_polynomials(frame, parts.polynomials, look)
+    for name, (scale, weights) in WEIGHTS.items():
+        for term, whole in wholes.items():
+            look()
+            for value, coefficient in term.weighted(whole, weights).items():
+                found[name] += factor(scale * coefficient) * value
+    return found
+
+
+# ------------------------------------------------------------------ reading g'
+
+
+def read_parts(frame: Frame) -> Parts:
+    """g' as polynomials and special terms.
+
+    Raises NoRule.
+    """
+    pieces = frame.slope.pieces
+    parts = Parts([S.Zero] * len(pieces))
+    for number, piece in enumerate(pieces):
+        slope = expand(exact(piece.slope), power_base=False, power_exp=False, log=False)
+        for term in Add.make_args(slope):
+            parts.add(number, *_read(frame, term))
+    return parts
+
+
+def _read(frame: Frame, term: Expr) -> tuple[Special | None, Expr]:
+    """One term as a special one and its polynomial factor."""
+    polynomial, special = S.One, []
+    for base, exponent in term.as_powers_dict().items():
+        power = base**exponent
+        if not power.has(x) or power.is_polynomial(x):
+            polynomial *= power
+        else:
+            special.append((base, exponent))
+    if not special:
+        return None, expand(polynomial)
+    if len(special) > 1:
+        ratio, special = _as_one_power(special)
+        polynomial *= ratio
+    if len(special) == 1:
+        for rule in _RULES:
+            found = rule(frame, *special[0])
+            if found is not None:
+                return found[0], expand(polynomial * found[1])
+    raise NoRule(str(term))
+
+
+def _as_one_power(powers: list[tuple[Expr, Expr]]) -> tuple[Expr, list[tuple[Expr, Expr]]]:
+    """(-x)**k/x as -(-x)**(k - 1): integer powers of a multiple of another power's base."""
+    (base, exponent), *others = sorted(powers, key=lambda p: bool(p[1].is_integer))
+    leaves, left = S.One, []
+    for other, power in others:
+        ratio = cancel(other / base)
+        if power.is_integer and not ratio.has(x):
+            leaves, exponent = leaves * ratio**power, exponent + power
+        else:
+            left.append((other, power))
+    return leaves, [(base, exponent), *left]
+
+
+Found = tuple[Special, Expr] | None
+"""A special term and the factor that it leaves; None where a rule does not apply."""
+
+
+def _power(frame: Frame, base: Expr, exponent: Expr) -> Found:
+    """(beta x + delta)**p = |beta|**p (side (x - place))**p."""
+    if exponent.has(x) or not base.is_polynomial(x):
+        return None
+    whole = factor(base)
+    if whole.is_Pow and exponent.is_integer:
+        base, exponent = whole.base, exponent * whole.exp
+    if Poly(base, x).degree() != 1:
+        return None
+    beta, delta = Poly(base, x).all_coeffs()
+    if not (beta.is_positive or beta.is_negative):
+        return None
+    side, place = (1 if beta.is_positive else -1), simplify(-delta / beta)
+    at_ends = [s for s, end in zip((1, -1), frame.slope.domain, strict=True) if _same(end, place)]
+    if exponent.is_integer:  # a pole: it has no real side of its own
+        if not at_ends:
+            return None
+        side = at_ends[0]
+    return Power(place, side, exponent, side in at_ends), (beta * side) ** exponent
+
+
+def _same(end: Expr, place: Expr) -> bool:
+    """Whether the body ends at a place."""
+    return bool(simplify(end - place) == 0)
+
+
+def _exponential(frame: Frame, base: Expr, exponent: Expr) -> Found:
+    """exp, sinh or cosh of a linear argument."""
+    if base == E:
+        kind, argument = exp, exponent
+    elif base.func in (exp, sinh, cosh) and exponent.is_number:
+        kind, argument = base.func, base.args[0]
+        if kind == exp:
+            argument *= exponent
+        elif exponent != 1:
+            return None
+    else:
+        return None
+    linear = argument.is_polynomial(x) and Poly(argument, x).degree() == 1
+    return (Exponential(kind, argument), S.One) if linear else None
+
+
+def _root(frame: Frame, base: Expr, exponent: Expr) -> Found:
+    """An odd power of the square root of a quadratic."""
+    for root in frame.roots:
+        if (2 * exponent).is_odd and expand(base - root.quadratic) == 0:
+            level = -exponent - Rational(1, 2)
+            over = root.quadratic ** max(-level, 0)
+            return Root(root, int(max(level, 0))), over
+    return None
+
+
+_RULES: tuple[Callable[[Frame, Expr, Expr], Found], ...] = (_power, _exponential, _root)
+
+
+def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
+    """The factor of a special term, which is the same wherever the term may act.
+
+    Raises NoRule where it is not.
+    """
+    acts = [True] * len(factors)
+    if isinstance(term, Power) and not term.outside:
+        inner = [p.lower if term.side > 0 else p.upper for p in frame.slope.pieces]
+        starts = [i for i, end in enumerate(inner) if end.is_finite and end - term.place == 0]
+        if not starts:
+            raise NoRule(f"{term.term}, which begins at no kink")
+        acts = [(i - starts[0]) * term.side >= 0 for i in range(len(factors))]
+    whole = factors[acts.index(True)]
+    for here, held in zip(factors, acts, strict=True):
+        if simplify(here - (whole if held else 0)) != 0:
+            raise NoRule(f"{term.term}, which changes at a kink")
+    return whole
+
+
+# ------------------------------------------------------------------ what the polynomials carry
+
+
+def _of_polynomials(frame: Frame, pieces: list[Expr], look: LookAtClock) -> dict[str, Expr]:
+    """The part of every formula that the polynomials make, by the angles and roots of the kinks."""
+    base = pieces[sum(k.kink.side < 0 for k in frame.kinks)]
+    steps = zip(frame.kinks, pairwise(pieces), strict=True)
+    jumps = [expand((right - left) * k.kink.side) for k, (left, right) in steps]
+    if all(part == 0 for part in (base, *jumps)):
+        return dict.fromkeys(WEIGHTS, S.Zero)
+    first, second, third = (polynomial_moment(k, frame, base, jumps) for k in range(3))
+    rates = {"left": -frame.diff(first, a), "right": frame.diff(first, c)}
+    rates_again = {"left": frame.diff(rates["left"], a), "right": frame.diff(rates["right"], c)}
+    found = {
+        "tilt": -first / pi,
+        "load": E_star / 2 * (second - mid * first),
+        "moment": -E_star / 2 * (third - mid * second - h**2 / 8 * first),
+    }
+    for side, rate in rates.items():
+        found[f"K_N_{side}"] = E_star * sqrt(h) / pi * rate
+        both = rate / (2 * sqrt(h)) + 2 * sqrt(h) / 3 * rates_again[side]
+        found[f"L_N_{side}"] = -E_star / pi * both
+    for name, expr in found.items():
+        look()
+        found[name] = tidy(expr, frame)
+    return found

@@ -1,0 +1,461 @@
+r"""Terms of g' whose integrals over the contact are special functions: one rule a kind of term.
+
+With s = mid + (h/2) X, X = cos(theta), everything that a contact carries is an integral of g' and
+its derivatives over 0 < theta < pi, weighted by polynomials W(X):
+
+    alpha = -(1/pi) int g',     P = (E*/4) h int X g',
+    M = -(E*/16) h int (h (2 X**2 - 1) + 4 mid X) g',
+    K_right = E* sqrt(h)/(2 pi) int (1 + X) g'',
+    L_right = -E*/(pi sqrt(h)) int [ (1 + X) g''/4 + h (1 + X)**2 g'''/6 ],
+
+K_left with 1 - X, L_left with (1 - X) g''/4 - h (1 - X)**2 g'''/6.  K_N is the rate of the tilt as
+an edge moves, and L_N that of K_N: an edge that moves adds a flat punch to the pressure.
+
+In float64 these forms lose digits, by SciPy's functions: E - (1 - m) K all of them where m is
+small, 2F1 up to nine where a kink lies close to an edge, for its argument is rounded next to one,
+and the Bessel functions three where two of them all but cancel.
+
+Each rule states the integrals that it is made of.  Elliptic integrals are SymPy's: of the parameter
+m, not the modulus, and Pi(n|m) with 1 - n sin**2 in its denominator.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Protocol
+
+from sympy import (
+    Expr,
+    Function,
+    Integer,
+    Piecewise,
+    Poly,
+    Rational,
+    S,
+    Symbol,
+    besseli,
+    chebyshevt,
+    cosh,
+    diff,
+    elliptic_e,
+    elliptic_k,
+    elliptic_pi,
+    exp,
+    factor,
+    factorial,
+    ff,
+    gamma,
+    hyper,
+    pi,
+    sinh,
+    sqrt,
+)
+from sympy.logic.boolalg import Boolean
+from sympy.polys.fields import sfield
+
+from derive.symbols import E_star, a, c, h, mid, x
+from derive.theory.frame import RootFrame
+
+X = Symbol("X")
+"""cos(theta): -1 at the left edge, 1 at the right."""
+
+_HALF = Rational(1, 2)
+
+Weights = Mapping[int, Expr]
+"""W(X) by the order of the derivative of g' that it is the weight of."""
+
+WEIGHTS: Mapping[str, tuple[Expr, Weights]] = {
+    "tilt": (-1 / pi, {0: S.One}),
+    "load": (E_star / 4, {0: h * X}),
+    "moment": (-E_star * h / 16, {0: h * (2 * X**2 - 1) + 4 * mid * X}),
+    "K_N_left": (E_star * sqrt(h) / (2 * pi), {1: 1 - X}),
+    "K_N_right": (E_star * sqrt(h) / (2 * pi), {1: 1 + X}),
+    "L_N_left": (-E_star / (pi * sqrt(h)), {1: (1 - X) / 4, 2: -h * (1 - X) ** 2 / 6}),
+    "L_N_right": (-E_star / (pi * sqrt(h)), {1: (1 + X) / 4, 2: h * (1 + X) ** 2 / 6}),
+}
+"""Factor and weights of every formula."""
+
+
+Integrals = dict[Expr, Expr]
+"""A sum of special functions, each with its coefficient."""
+
+
+class Special(Protocol):
+    """A kind of term, without what it is multiplied by."""
+
+    @property
+    def term(self) -> Expr:
+        """The term as a function of x."""
+        ...
+
+    def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
+        """The integral over theta of W(X) times the derivatives of polynomial(x) times this."""
+        ...
+
+
+def _along(polynomial: Expr) -> Expr:
+    """A polynomial in x as one in X."""
+    return polynomial.subs(x, mid + h / 2 * X)
+
+
+# ------------------------------------------------------------------ powers on a half line
+
+
+@dataclass(frozen=True)
+class Power:
+    r"""t**p, t = side (x - place) > 0; nothing where t < 0.
+
+    With u the distance from the place to the edge on its side, where u < h,
+
+        int t**p cos(n theta)   = sqrt(pi) Gamma(p+1)/Gamma(p+3/2) u**(p+1/2)/sqrt(h)
+                                  2F1(1/2-n, 1/2+n; p+3/2; u/h),
+        int (d/dt)**j t**p cos(theta/2)**(2j)
+                                = sqrt(pi) Gamma(p+1)/Gamma(p-j+3/2) u**(p-j+1/2)/sqrt(h)
+                                  2F1(1/2-j, 1/2; p-j+3/2; u/h),
+        int (d/dt)**j t**p sin(theta/2)**(2j)
+                                = Gamma(j+1/2) Gamma(p+1)/Gamma(p+3/2) u**(p+1/2)/h**(j+1/2)
+                                  2F1(1/2, 1/2+j; p+3/2; u/h);
+
+    and where the place lies beyond the other edge, u > h, with p(p-1)... of n or j factors,
+
+        int t**p cos(n theta)   = pi p(p-1).../n! u**p (h/(4u))**n 2F1(n-p, n+1/2; 2n+1; h/u),
+        the second and third    = p(p-1)... u**(p-j) B(1/2, j+1/2) 2F1(j-p, 1/2; j+1; h/u),
+                                  the same with 2F1(j-p, 1/2+j; j+1; h/u).
+
+    For the other side theta becomes pi - theta.
+
+    outside: the body ends at the place, which then lies beyond the other edge of every contact; p
+    may be negative there.
+    """
+
+    place: Expr
+    side: int
+    exponent: Expr
+    outside: bool = False
+
+    @property
+    def term(self) -> Expr:
+        """As a function of x."""
+        return (self.side * (x - self.place)) ** self.exponent
+
+    def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
+        """A polynomial factor is one in t, and raises the exponent."""
+        t = Symbol("t")
+        inner = Poly(polynomial.subs(x, self.place + self.side * t), t)
+        found: Integrals = {}
+        for (power,), coefficient in inner.terms():
+            raised = replace(self, exponent=self.exponent + power)
+            for value, k in raised._weighted(weights):
+                found[value] = found.get(value, S.Zero) + coefficient * k
+        return found
+
+    def _weighted(self, weights: Weights) -> Iterator[tuple[Expr, Expr]]:
+        """By cos(n theta); derivatives by (1 + X)**j and (1 - X)**j, the weights that they have."""
+        for order, weight in weights.items():
+            mirrored = weight.subs(X, self.side * X)
+            if order == 0:
+                yield from ((self._cosine(n), k) for n, k in _in_cosines(mirrored).items())
+                continue
+            sense = Integer(self.side) ** order
+            near, far = (sense * mirrored.subs(X, end) for end in (1, -1))
+            if near != 0:
+                yield self._near(order), near
+            if far != 0:
+                yield self._far(order), far
+
+    @property
+    def _u(self) -> Expr:
+        return c - self.place if self.side > 0 else a + self.place
+
+    def _branches(self, inside: Expr, beyond: Expr) -> Expr:
+        """The contact ends before the place, spans it, or lies beyond it."""
+        if self.outside:
+            return beyond
+        before, spans = self._conditions
+        return Piecewise((S.Zero, before), (inside, spans), (beyond, True))
+
+    @property
+    def _conditions(self) -> tuple[Boolean, Boolean]:
+        if self.side > 0:
+            return c <= self.place, a > -self.place
+        return a <= -self.place, c > self.place
+
+    def _cosine(self, n: int) -> Expr:
+        """int t**p cos(n theta), theta from the edge on the side of the term."""
+        p, u = self.exponent, self._u
+        scale = sqrt(pi) * gamma(p + 1) / gamma(p + 3 * _HALF)
+        inside = (
+            scale * u ** (p + _HALF) / sqrt(h) * _gauss(_HALF - n, _HALF + n, p + 3 * _HALF, u / h)
+        )
+        rate = pi * _falling(p, n) / factorial(n)
+        beyond = rate * u**p * (h / (4 * u)) ** n * _gauss(n - p, n + _HALF, 2 * n + 1, h / u)
+        return self._branches(inside, beyond)
+
+    def _near(self, j: int) -> Expr:
+        """int (d/dt)**j t**p cos(theta/2)**(2j)."""
+        p, u = self.exponent, self._u
+        last = p - j + 3 * _HALF
+        scale = sqrt(pi) * gamma(p + 1) * u ** (last - 1) / sqrt(h)
+        if last == 0:  # 2F1(first, second; last; z)/Gamma(last) in the limit
+            function = (_HALF - j) * _HALF * u / h * _gauss(3 * _HALF - j, 3 * _HALF, 2, u / h)
+        else:
+            function = _gauss(_HALF - j, _HALF, last, u / h) / gamma(last)
+        return self._branches(
+            scale * function, self._beyond(j) * _gauss(j - p, _HALF, j + 1, h / u)
+        )
+
+    def _far(self, j: int) -> Expr:
+        """int (d/dt)**j t**p sin(theta/2)**(2j)."""
+        p, u = self.exponent, self._u
+        last = p + 3 * _HALF
+        scale = gamma(j + _HALF) * gamma(p + 1) / gamma(last)
+        inside = scale * u ** (last - 1) / h ** (j + _HALF) * _gauss(_HALF, _HALF + j, last, u / h)
+        return self._branches(inside, self._beyond(j) * _gauss(j - p, _HALF + j, j + 1, h / u))
+
+    def _beyond(self, j: int) -> Expr:
+        p, u = self.exponent, self._u
+        beta = sqrt(pi) * gamma(j + _HALF) / factorial(j)
+        return _falling(p, j) * u ** (p - j) * beta
+
+
+def _gauss(first: Expr, second: Expr, third: Expr, at: Expr) -> Expr:
+    """2F1."""
+    return hyper((first, second), (third,), at)
+
+
+def _falling(p: Expr, n: int) -> Expr:
+    """p (p - 1) ... of n factors."""
+    return ff(p, n)
+
+
+def _in_cosines(weight: Expr) -> dict[int, Expr]:
+    """A polynomial in X as a sum of cos(n theta), by the coefficients of those."""
+    found: dict[int, Expr] = {}
+    rest = Poly(weight, X)
+    while not rest.is_zero:
+        n = rest.degree()
+        top = Poly(chebyshevt(n, X), X)
+        found[n] = rest.LC() / top.LC()
+        rest = Poly(rest.as_expr() - found[n] * top.as_expr(), X)
+    return found
+
+
+# ------------------------------------------------------------------ exponentials
+
+
+@dataclass(frozen=True)
+class Exponential:
+    r"""exp, sinh or cosh of beta x + delta.
+
+    int exp(z cos(theta)) cos(n theta) = pi I_n(z), so that with z = beta h/2
+
+        int exp(beta s + delta) cos(n theta)  = pi exp(beta mid + delta) I_n(z),
+        int sinh(beta s + delta) cos(n theta) = pi sinh(beta mid + delta) I_n(z) for even n,
+                                                pi cosh(beta mid + delta) I_n(z) for odd n,
+
+    and cosh alike.
+    """
+
+    kind: type[Function]
+    argument: Expr
+
+    @property
+    def term(self) -> Expr:
+        """As a function of x."""
+        return self.kind(self.argument)
+
+    other: ClassVar[Mapping[type[Function], type[Function]]] = {exp: exp, sinh: cosh, cosh: sinh}
+
+    def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
+        """A polynomial factor is one more weight."""
+        found: Integrals = {}
+        for order, weight in weights.items():
+            for kind, times in self._derivative(polynomial, order).items():
+                for n, k in _in_cosines(weight * _along(times)).items():
+                    value = self._cosine(kind, n)
+                    found[value] = found.get(value, S.Zero) + k
+        return found
+
+    @property
+    def _beta(self) -> Expr:
+        return diff(self.argument, x)
+
+    def _derivative(self, polynomial: Expr, order: int) -> dict[type[Function], Expr]:
+        """The derivative of polynomial(x) times this term, by the functions that it holds."""
+        held = {self.kind: polynomial}
+        for _ in range(order):
+            after: dict[type[Function], Expr] = {}
+            for kind, times in held.items():
+                for other, more in ((kind, diff(times, x)), (self.other[kind], self._beta * times)):
+                    after[other] = after.get(other, S.Zero) + more
+            held = after
+        return held
+
+    def _cosine(self, kind: type[Function], n: int) -> Expr:
+        kind = self.other[kind] if n % 2 else kind
+        return (
+            pi * kind(factor(self.argument.subs(x, mid))) * besseli(n, factor(self._beta * h / 2))
+        )
+
+
+# ------------------------------------------------------------------ square roots of quadratics
+
+
+@dataclass(frozen=True)
+class Root:
+    r"""q**(-1/2 - level), q = q_2 x**2 + q_1 x + q_0 positive all over the contact.
+
+    The substitution cos(theta) = -(nu + mu)/(1 + mu nu), nu = cn(v), takes both edges to v = 0 and
+    2 K, and with A = sqrt(q(c)), B = sqrt(q(-a)), mu = (A - B)/(A + B),
+
+        m = (q_2 h**2 - (A - B)**2)/(4 A B),    n = q_2 h**2/(A + B)**2,
+
+    both real and below one whatever the sign of q_2 or of q's discriminant,
+
+        U_0 = int 1/sqrt(q)   = 2 K(m)/sqrt(A B),
+        U_1 = int X/sqrt(q)   = -(A**2 - B**2)/(q_2 h**2) 2/sqrt(A B) (K(m) - (1 - n) Pi(n|m)),
+        q_2 h**2/4 U_2        = 2 sqrt(A B) (E(m) - (1 - m) K(m)) - (A**2 - B**2)/4 U_1.
+
+    In X, q = q0 + q1 X + q2 X**2.  All else follows from integrals of derivatives of sin(theta)
+    X**k sqrt(q), or of sin(theta) (1, X) q**(1/2 - level), which vanish.
+    """
+
+    frame: RootFrame
+    level: int = 0
+
+    @property
+    def term(self) -> Expr:
+        """As a function of x."""
+        return self.frame.quadratic ** (-_HALF - self.level)
+
+    def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
+        """A polynomial factor is one more weight."""
+        numerators = [
+            (self.level + order, weight * _along(self._derivative(polynomial, order)))
+            for order, weight in weights.items()
+        ]
+        polynomials = [_along(self.frame.quadratic), *(whole for _, whole in numerators)]
+        rows = [Poly(whole, X).all_coeffs()[::-1] for whole in polynomials]
+        field, elements = sfield([k for row in rows for k in row])
+        inside = iter(elements)
+        quadratic, *others = ([next(inside) for _ in row] for row in rows)
+        table = _Table(field, quadratic)
+        total = [field.zero] * 3
+        for (level, _), numerator in zip(numerators, others, strict=True):
+            total = _sum(total, table.integral(numerator, level))
+        return self._written([value.as_expr() for value in total])
+
+    def _derivative(self, polynomial: Expr, order: int) -> Expr:
+        """The numerator of the derivative of polynomial(x) times this term."""
+        q = self.frame.quadratic
+        for level in range(self.level, self.level + order):
+            polynomial = diff(polynomial, x) * q - (level + _HALF) * polynomial * diff(q, x)
+        return polynomial
+
+    def _written(self, coefficients: list[Expr]) -> Integrals:
+        """By K, E - (1 - m) K and (1 - n) Pi, or by K - (1 - n) Pi if that is all."""
+        f = self.frame
+        mean, K = sqrt(f.left * f.right), elliptic_k(f.m)
+        third_kind = (1 - f.n) * elliptic_pi(f.n, f.m)
+        first, second, third = (factor(k) for k in coefficients)
+        found = {(elliptic_e(f.m) - (1 - f.m) * K) * mean: second}
+        if factor(first + third) == 0:
+            return found | {(K - third_kind) / mean: first}
+        return found | {K / mean: first, third_kind / mean: third}
+
+
+@dataclass(frozen=True)
+class _Table:
+    """Integrals over theta of polynomials in X over q**(1/2 + level), in a field of quotients.
+
+    Polynomials are lists of coefficients, the constant first; integrals are the coefficients of
+    what `Root` names.
+    """
+
+    field: Any
+    q: list[Any]
+
+    def integral(self, numerator: list[Any], level: int) -> list[Any]:
+        """int numerator(X) q**(-1/2 - level)."""
+        if level == 0:
+            return self._combined(numerator, self._powers(len(numerator)))
+        quotient, rest = self._divided(numerator)
+        over = self._combined(rest, self._with_pole(level))
+        return _sum(over, self.integral(quotient, level - 1))
+
+    def _combined(self, polynomial: list[Any], powers: list[list[Any]]) -> list[Any]:
+        """The sum of the coefficients times the integrals of the powers of X."""
+        total = [self.field.zero] * 3
+        for k, integral in zip(polynomial, powers, strict=False):
+            total = _sum(total, integral, k)
+        return total
+
+    def _powers(self, count: int) -> list[list[Any]]:
+        """U_0, U_1, ..."""
+        q0, q1, q2 = self.q
+        zero, one = self.field.zero, self.field.one
+        first, second = [2 * one, zero, zero], [-q1 / q2, zero, q1 / q2]
+        found = [first, second, _sum([zero, 2 / q2, zero], second, -q1 / (2 * q2))]
+        for k in range(count - 3):
+            following = _sum([zero] * 3, found[k + 2], q1 * (2 * k + 3) / 2)
+            following = _sum(following, found[k + 1], (q0 - q2) * (k + 1))
+            following = _sum(following, found[k], -q1 * (2 * k + 1) / 2)
+            following = _sum(following, found[k - 1], -q0 * k) if k else following
+            found.append([-value / (q2 * (k + 2)) for value in following])
+        return found
+
+    def _with_pole(self, level: int) -> list[list[Any]]:
+        """int q**(-1/2 - level) and int X q**(-1/2 - level), from two integrals that vanish."""
+        rows, known = [], []
+        for r in ([1], [0, 1]):
+            quotient, rest = self._divided(self._vanishing(r, level))
+            rows.append(rest)
+            known.append([-value for value in self.integral(quotient, level - 1)])
+        (p, q), (r, s) = rows
+        determinant = p * s - q * r
+        nothing = [self.field.zero] * 3
+        return [
+            _sum(_sum(nothing, known[0], s / determinant), known[1], -q / determinant),
+            _sum(_sum(nothing, known[1], p / determinant), known[0], -r / determinant),
+        ]
+
+    def _vanishing(self, r: list[int], level: int) -> list[Any]:
+        """Numerator of the derivative of sin(theta) r(X) q**(1/2 - level) over q**(1/2 + level)."""
+        one = self.field.one
+        sine = [one, 0 * one, -one]
+        rate = [self.q[1], 2 * self.q[2]]
+        own = [0 * one, *(one * k for k in r)]
+        slope = [one * k * i for i, k in enumerate(r)][1:] or [0 * one]
+        first = _product(_added(own, [-k for k in _product(sine, slope)]), self.q)
+        second = _product(_product(sine, [one * k for k in r]), rate)
+        return _added(first, [k * (2 * level - 1) / 2 for k in second])
+
+    def _divided(self, numerator: list[Any]) -> tuple[list[Any], list[Any]]:
+        """Quotient and rest by q."""
+        rest = [*numerator, *[self.field.zero] * (2 - len(numerator))]
+        quotient: list[Any] = []
+        while len(rest) > 2:
+            top = rest.pop() / self.q[2]
+            quotient.insert(0, top)
+            rest[-1] -= top * self.q[1]
+            rest[-2] -= top * self.q[0]
+        return quotient, rest
+
+
+def _sum(first: list[Any], second: list[Any], times: Any = 1) -> list[Any]:
+    """first + times second, term by term."""
+    return [p + times * q for p, q in zip(first, second, strict=True)]
+
+
+def _added(first: list[Any], second: list[Any]) -> list[Any]:
+    """The sum of two polynomials."""
+    longer, shorter = sorted((first, second), key=len, reverse=True)
+    return [k + shorter[i] if i < len(shorter) else k for i, k in enumerate(longer)]
+
+
+def _product(first: list[Any], second: list[Any]) -> list[Any]:
+    """The product of two polynomials."""
+    found = [0 * first[0]] * (len(first) + len(second) - 1)
+    for i, p in enumerate(first):
+        for j, q in enumerate(second):
+            found[i + j] = found[i + j] + p * q
+    return found

@@ -1,0 +1,367 @@
+"""Closed forms of bodies that are integrated: by hand, at limits, mirrored, made up, in time."""
+
+import time
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import mpmath
+import pytest
+from mpmath import mpf
+from sympy import Abs, Expr, Max, Piecewise, Rational, atan, cosh, exp, log, sinh, sqrt
+from sympy.polys.polyerrors import PolynomialError
+
+import derive.derivation
+import derive.limit
+from derive import Geometry, load_geometry, parameter
+from derive.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
+from derive.limit import LimitReached, LookAtClock, within
+from derive.proof.numerical import NumericalRoutes
+from derive.proof.points import Point, contacts, numeric
+from derive.proof.prove import prove_sheet
+from derive.proof.quadrature import Contact
+from derive.proof.verdict import DIGITS, POINTS, Proof, Verdict
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, a, c, x
+from derive.theory.frame import Frame
+from tests.codegen.test_module import assumed
+
+R = parameter("R", "radius")
+L = parameter("L", "length")
+b = parameter("b", "length")
+A = parameter("A", "amplitude")
+phi = parameter("phi", "slope", unit="rad")
+k = parameter("k", "exponent", unit="-")
+
+MADE_UP = {
+    "parabola_and_cosh": x**2 / (2 * R) + A * cosh(x / b),
+    "power_and_parabola": Abs(x) ** Rational(5, 2) / L ** Rational(3, 2) + x**2 / (2 * R),
+    "decimal_power": Abs(x) ** 2.5 / L**1.5 + x**2 / (2 * R),
+    "power_of_three_halves": Abs(x) ** Rational(3, 2) / sqrt(L),
+    "shifted_power_on_a_wedge": Abs(x - b) ** k / (k * L ** (k - 1)) + phi * Abs(x),
+    "power_from_a_kink_on": Max(0, x - b) ** Rational(7, 3) / L ** Rational(4, 3) + phi * Abs(x),
+    "exponential": A * exp(x / b) + x**2 / (2 * R),
+    "x_sinh_on_a_wedge": A * x * sinh(x / b) / b + phi * Abs(x),
+    "skew_hyperbola_on_a_wedge": phi * sqrt(x**2 + b * x + b**2) + phi * Abs(x - b),
+    "cubed_root": (x**2 + b**2) ** Rational(3, 2) / L**2,
+    "root_of_a_line": L + x / 2 - L * sqrt(1 + x / L),
+    "simple_pole": -L * log(1 - x / L),
+    "double_pole": L**2 / (L - x),
+    "powers_beyond_a_flat": L * (Max(0, Abs(x) - b) / L) ** k,
+    "all_of_them": x**2 / (2 * R)
+    + A * cosh(x / b)
+    + phi * sqrt(x**2 + b**2)
+    + Abs(x) ** Rational(7, 3) / L ** Rational(4, 3)
+    + phi * Abs(x),
+}
+LIBRARY = ("catenary", "circular_arc", "hyperbola", "power")
+CLOSED = tuple(f"{name}_closed" for name in ("tilt", "load", "moment")) + tuple(
+    f"{name}_{side}_closed" for name in ("K_N", "L_N") for side in ("left", "right")
+)
+
+
+@cache
+def sheet(name: str) -> FormulaSheet:
+    body = Geometry(name, g=MADE_UP[name]) if name in MADE_UP else load_geometry(name)
+    return with_closed_forms(derive_sheet(body))
+
+
+def value(of: FormulaSheet, name: str, **given: Any) -> mpf:
+    """A closed form in numbers, at the working precision."""
+    expr = of.flat(f"{name}_closed")
+    point = {s: mpf(given[s.name]) for s in expr.free_symbols}
+    return numeric(expr)(point)
+
+
+# ------------------------------------------------------------------ by hand
+
+
+def test_the_catenary_under_a_centred_load() -> None:
+    """g'' = cosh(s/b)/R and s = a cos(t): int cosh(s/b) sqrt(a^2 - s^2) ds = a^2 pi I_1(z)/z with
+    z = a/b, so that P = pi E* a b I_1(a/b)/(2 R).  I_1(z) = sum (z/2)^(2j+1)/(j! (j+1)!): at z = 1
+
+        1/2 + 1/16 + 1/384 + 1/18432 + 1/1474560 + 1/176947200 = 0.565159103955...,
+
+    the next term being 3.4e-11.  With E* = 4, R = 2, a = b = 1: P = pi I_1(1).
+    """
+    series = mpf(1) / 2 + mpf(1) / 16 + mpf(1) / 384 + mpf(1) / 18432 + mpf(1) / 1474560
+    series += mpf(1) / 176947200
+    found = value(sheet("catenary"), "load", a=1, c=1, b=1, R=2, E_star=4) / mpmath.pi
+    assert 0 < found - series < mpf("3.5e-11")
+
+
+@pytest.mark.parametrize("exponent", ["1.1", "1.5", "2.25", "3", "7.5"])
+def test_a_power_law_under_a_centred_load(exponent: str) -> None:
+    """P = (E*/2) 2 int_0^a (k-1) s^(k-2)/L^(k-1) sqrt(a^2 - s^2) ds, and s = a sqrt(u) makes it
+    a beta function: int_0^a s^(k-2) sqrt(a^2 - s^2) ds = (a^k/2) B((k-1)/2, 3/2)."""
+    with mpmath.workdps(40):
+        k, L, a, E = mpf(exponent), mpf("1.25"), mpf("0.75"), mpf(2)
+        wanted = E * (k - 1) / L ** (k - 1) * a**k / 2 * mpmath.beta((k - 1) / 2, mpf(3) / 2)
+        found = value(sheet("power"), "load", a=a, c=a, k=k, L=L, E_star=E)
+        assert abs(found / wanted - 1) < mpf(10) ** -35
+
+
+@pytest.mark.parametrize("ratio", ["1e-3", "1e-6", "0.05"])
+def test_a_small_arc_by_its_series(ratio: str) -> None:
+    """g = x^2/(2R) + x^4/(8R^3) + x^6/(16R^5) + 5 x^8/(128R^7), and int s^(2j) sqrt(a^2 - s^2) ds
+    over the contact is pi a^2/2, pi a^4/8, pi a^6/16, 5 pi a^8/128.  With e = a/R,
+
+        g'' = (1/R) (1 + 3/2 (s/R)^2 + 15/8 (s/R)^4 + 35/16 (s/R)^6),
+        P = pi E* a^2/(4R) (1 + 3/8 e^2 + 15/64 e^4 + 175/1024 e^6 + ...),
+
+    Hertz and what the arc adds.  Its terms fall by less than e^2: the rest is below e^8/6.
+    """
+    with mpmath.workdps(80):
+        e = mpf(ratio)
+        hertz = mpmath.pi * e**2 / 4
+        found = value(sheet("circular_arc"), "load", a=e, c=e, R=1, E_star=1) / hertz
+        rest = found - (1 + 3 * e**2 / 8 + 15 * e**4 / 64 + 175 * e**6 / 1024)
+        assert 0 < rest < e**8 / 6
+
+
+def test_a_centred_hyperbola_has_no_tilt_and_no_moment() -> None:
+    for name in ("tilt", "moment"):
+        assert value(sheet("hyperbola"), name, a=1, c=1, b="0.5", phi="0.25", E_star=1) == 0
+
+
+def test_the_load_of_arc_and_hyperbola_is_one_formula() -> None:
+    """x/sqrt(q) with q = q_0 + q_2 x^2: P = (E*/q_2) sqrt(A B) (E - (1 - m) K)."""
+    arc, hyperbola = (sheet(name)["load_closed"].expr for name in ("circular_arc", "hyperbola"))
+    own = {q.name: q.symbol for q in sheet("hyperbola").geometry.parameters}
+    assert (arc + hyperbola / own["phi"]).expand() == 0
+
+
+# ------------------------------------------------------------------ limits
+
+
+def test_a_hyperbola_far_from_its_apex_is_a_wedge() -> None:
+    """P = E* phi sqrt(a c) of the wedge; alpha = phi (theta - (pi - theta))/pi ... of its slopes
+    -phi and phi, weighted by the angles of both parts, 2 atan(sqrt(a/c)) and 2 atan(sqrt(c/a))."""
+    with mpmath.workdps(100):
+        at = {"a": mpf("0.5"), "c": mpf(2), "b": mpf(10) ** -20, "phi": mpf("0.25"), "E_star": 1}
+        wedge = {
+            "load": mpf("0.25"),
+            "tilt": -mpf("0.25") / mpmath.pi * 2 * (mpmath.atan(2) - mpmath.atan(mpf("0.5"))),
+        }
+        for name, wanted in wedge.items():
+            assert abs(value(sheet("hyperbola"), name, **at) - wanted) < mpf(10) ** -18
+
+
+@pytest.mark.parametrize(
+    ("body", "own"),
+    [
+        ("catenary", {"R": 1, "b": mpf(10) ** 20}),
+        ("hyperbola", {"phi": mpf(10) ** 20, "b": mpf(10) ** 20}),
+        ("power", {"k": 2, "L": 1}),
+    ],
+)
+def test_at_its_limit_a_body_is_a_cylinder_of_radius_one(body: str, own: dict[str, Any]) -> None:
+    """alpha = -mid, P = pi E* h^2/16, M = -mid P, K_N = E* sqrt(h)/2, L_N = -E*/(4 sqrt(h))."""
+    with mpmath.workdps(200):
+        for left, right in ((mpf("0.75"), mpf("0.5")), (mpf("-0.25"), mpf("1.5"))):
+            h, mid = left + right, (right - left) / 2
+            load = mpmath.pi * h**2 / 16
+            wanted = {"tilt": -mid, "load": load, "moment": -mid * load}
+            wanted |= {f"K_N_{side}": mpmath.sqrt(h) / 2 for side in ("left", "right")}
+            wanted |= {f"L_N_{side}": -1 / (4 * mpmath.sqrt(h)) for side in ("left", "right")}
+            for name, right_value in wanted.items():
+                found = value(sheet(body), name, a=left, c=right, E_star=1, **own)
+                assert abs(found - right_value) < mpf(10) ** -30, name
+
+
+# ------------------------------------------------------------------ mirrored
+
+
+@pytest.mark.parametrize(
+    "name", ["exponential", "power_from_a_kink_on", "skew_hyperbola_on_a_wedge"]
+)
+def test_a_mirrored_body_carries_the_mirror_image(name: str) -> None:
+    mirrored = with_closed_forms(derive_sheet(Geometry("other", g=MADE_UP[name].subs(x, -x))))
+    signs = {"tilt": ("tilt", -1), "load": ("load", 1), "moment": ("moment", -1)}
+    signs |= {f"K_N_{s}": (f"K_N_{o}", 1) for s, o in (("left", "right"), ("right", "left"))}
+    signs |= {f"L_N_{s}": (f"L_N_{o}", 1) for s, o in (("left", "right"), ("right", "left"))}
+    own = {"R": 1.5, "b": 0.25, "A": 0.5, "L": 2, "phi": 0.125, "E_star": 2}
+    with mpmath.workdps(40):
+        for left, right in ((1, mpf("0.375")), (mpf("0.5"), 1), (mpf("-0.125"), 1)):
+            for here, (there, sign) in signs.items():
+                found = value(sheet(name), here, a=left, c=right, **own)
+                image = sign * value(mirrored, there, a=right, c=left, **own)
+                assert abs(found - image) < mpf(10) ** -30 * max(abs(found), mpf(1)), here
+
+
+# ------------------------------------------------------------------ against the defining integrals
+
+
+def agreement(of: FormulaSheet, point: Point) -> dict[str, int]:
+    """Digits to which tilt, load and moment agree with their integrals."""
+    own = {q.symbol: point[q.symbol] for q in of.geometry.parameters}
+    contact = Contact(of.geometry, own, point[a], point[c], point[E_star])
+    found = {}
+    for name in ("tilt", "load", "moment"):
+        wanted, here = getattr(contact, name), numeric(of.flat(f"{name}_closed"))(point)
+        gap = abs(here / wanted - 1)
+        found[name] = 50 if gap == 0 else int(-mpmath.log10(gap))
+    return found
+
+
+@pytest.mark.parametrize("name", [name for name in (*MADE_UP, *LIBRARY) if name != "all_of_them"])
+def test_the_forms_agree_with_the_defining_integrals(name: str) -> None:
+    """At two contacts here, a > c and a < c; at all in the slow test."""
+    assert [key for key in sheet(name) if sheet(name)[key].closes] == sorted(
+        CLOSED, key=[*sheet(name)].index
+    )
+    with mpmath.workdps(50):
+        for point in contacts(sheet(name))[:2]:
+            assert min(agreement(sheet(name), point).values()) >= DIGITS
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*MADE_UP, *LIBRARY])
+def test_every_form_is_proven(name: str) -> None:
+    routes = NumericalRoutes(sheet(name))
+    drawn = contacts(sheet(name))
+    assert {point[a] < point[c] for point in drawn} == {True, False}
+    for closed in CLOSED:
+        proof = routes.proof(closed)
+        assert proof is not None
+        assert (proof.verdict, proof.points) == (Verdict.NUMERICAL, POINTS), f"{closed}: {proof}"
+        assert proof.digits >= DIGITS
+
+
+def test_what_is_not_proven_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One form refuted, one without a value somewhere; the integrals stand as they were."""
+    good = Proof(Verdict.NUMERICAL, "a test's", POINTS, DIGITS)
+
+    def proof(self: NumericalRoutes, name: str) -> Proof:
+        if name == "load_closed":
+            return replace(good, verdict=Verdict.REFUTED)
+        if name == "tilt_closed":
+            raise ZeroDivisionError
+        return good
+
+    monkeypatch.setattr(NumericalRoutes, "proof", proof)
+    proven = prove_sheet(sheet("catenary")).demand_proven()
+    assert {*sheet("catenary")} - {*proven} == {"load_closed", "tilt_closed"}
+    assert "not shown: tilt_closed, load_closed" in proven.remark
+
+
+# ------------------------------------------------------------------ none
+
+
+NO_RULE = {
+    "arctangent": (x**2 / (2 * R) + phi * x * atan(x / b), "phi*atan(x/b)"),
+    "cosh on one side alone": (
+        Piecewise((x**2 / (2 * R), x < 0), (b**2 / R * (cosh(x / b) - 1), True)),
+        "sinh(x/b), which changes at a kink",
+    ),
+    "two kinds in one term": (A * Abs(x / b) ** Rational(5, 2) * cosh(x / b), "sinh(x/b)"),
+    "logarithm of cosh": (b * phi * log(cosh(x / b)), "sinh(x/b)/cosh(x/b)"),
+    "root that ends at a kink": (
+        Piecewise((phi * Abs(x), x < 0), (phi * sqrt(x**2 + b**2) - phi * b, True)),
+        "which changes at a kink",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", NO_RULE)
+def test_a_term_without_a_rule_leaves_the_integrals(name: str) -> None:
+    profile, told = NO_RULE[name]
+    given = derive_sheet(Geometry("body", g=profile))
+    found = with_closed_forms(given)
+    assert {*found} == {*given}
+    assert found.remark.startswith("No closed form known: no rule for ")
+    assert told in found.remark
+    assert found.remark.endswith("its integrals stay.")
+
+
+def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPatch) -> None:
+    def failing(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
+        raise PolynomialError
+
+    monkeypatch.setattr(derive.derivation, "closed_forms", failing)
+    given = derive_sheet(load_geometry("catenary"))
+    found = with_closed_forms(given)
+    assert {*found} == {*given}
+    assert found.remark == "No closed form found: SymPy gave up; its integrals stay."
+
+
+def test_a_body_with_closed_formulas_is_as_it_was() -> None:
+    given = derive_sheet(load_geometry("wedge"))
+    assert with_closed_forms(given) is given
+    assert given.remark == ""
+
+
+# ------------------------------------------------------------------ in time
+
+
+def endless(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
+    while True:
+        time.sleep(0.01)
+
+
+def endless_but_looking(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
+    while True:
+        look()
+
+
+@pytest.mark.parametrize(
+    ("search", "alarms"),
+    [(endless, True), (endless_but_looking, True), (endless_but_looking, False)],
+)
+def test_the_search_ends_at_its_limit(
+    monkeypatch: pytest.MonkeyPatch, search: Any, alarms: bool
+) -> None:
+    monkeypatch.setattr(derive.derivation, "closed_forms", search)
+    if alarms and not derive.limit._has_alarms():
+        pytest.skip("no alarms here")
+    monkeypatch.setattr(derive.limit, "_has_alarms", lambda: alarms)
+    given, began = derive_sheet(load_geometry("catenary")), time.monotonic()
+    found = with_closed_forms(given, 0.25)
+    assert 0.25 <= time.monotonic() - began < 5
+    assert {*found} == {*given}
+    assert found.remark == f"{NONE_IN_TIME} 0.25 s; its integrals stay."
+
+
+def test_a_limit_of_nothing_looks_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(derive.derivation, "closed_forms", endless)
+    assert with_closed_forms(derive_sheet(load_geometry("catenary")), 0).remark
+
+
+def test_nothing_rings_behind_the_block() -> None:
+    with within(0.05) as look:
+        look()
+    time.sleep(0.1)
+    with pytest.raises(LimitReached), within(0.05):
+        time.sleep(1)
+    with within(1e300):
+        pass
+
+
+# ------------------------------------------------------------------ the sheet, and the code
+
+
+def test_the_sheet_says_which_is_evaluated() -> None:
+    printed = str(sheet("hyperbola"))
+    assert "Generated code evaluates the integrals" in printed
+    assert "q_left_1 = sqrt(a**2 + b**2)" in printed
+    assert "m_1 = ((a + c)**2 - (-q_left_1 + q_right_1)**2)/(4*q_left_1*q_right_1)" in printed
+    assert not sheet("hyperbola").is_closed("load")
+    assert sheet("hyperbola").is_closed("load_closed")
+
+
+def test_the_code_does_not_depend_on_what_was_found() -> None:
+    """Nor, with it, on the time that there was."""
+    from derive.codegen.module import module_text
+
+    without = derive_sheet(load_geometry("catenary"))
+    texts = {module_text(assumed(of), "body.py") for of in (without, sheet("catenary"))}
+    assert len(texts) == 1
+
+
+def test_why_it_is_not_the_closed_form() -> None:
+    """A contact 1e-9 R wide on an arc: in float64 nothing is left of E - (1 - m) K, pi m/4."""
+    from scipy.special import ellipe, ellipk
+
+    m = -1e-18
+    lost = ellipe(m) - (1 - m) * ellipk(m)
+    assert abs(lost / (mpmath.pi * m / 4) - 1) > 0.5
