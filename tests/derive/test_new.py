@@ -207,7 +207,7 @@ def test_a_profile_without_parameters_imports_no_more_than_it_needs() -> None:
 
 
 def test_the_file_passes_the_linter() -> None:
-    text = draft(Wanted("mixed", "max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4")).text
+    text = draft(Wanted("assorted", "max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4")).text
     command = [
         find_ruff_bin(),
         "check",
