@@ -6,7 +6,17 @@ g(x) = phi*Max(0, -b + Abs(x)), from derive/geometries/flat_sloped.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where, select
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    maximum,
+    minimum,
+    only_where,
+    select,
+)
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, mended
 from ._shear import shear_change_of, slip_range_of
@@ -95,12 +105,12 @@ _BODY = Profile(
 
 def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
@@ -256,9 +266,9 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     '0.0175923'
     """
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [only_where(exists, (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2)]
@@ -292,8 +302,8 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     >>> f"{load(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.278093'
     """
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [only_where(exists, (E_star * phi / 2) * w_1 + (E_star * phi / 2) * w_2)]
@@ -328,8 +338,8 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     >>> f"{moment(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0835698'
     """
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [
@@ -376,16 +386,16 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     """
     h = a + c  # contact width [m]
     # vanishes at both edges [m]
-    smaller_1 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(b + c, 0.0) / h),
-        (c - x) * (2.0**-64 * np.maximum(a - b, 0.0) / h),
+    smaller_1 = minimum(
+        (a + x) * (2.0**-64 * maximum(b + c, 0.0) / h),
+        (c - x) * (2.0**-64 * maximum(a - b, 0.0) / h),
     )
     # logarithm of the kink x = -b [-]
     L_1 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_1 / np.abs(b + x), 0)))
     # vanishes at both edges [m]
-    smaller_2 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(c - b, 0.0) / h),
-        (c - x) * (2.0**-64 * np.maximum(a + b, 0.0) / h),
+    smaller_2 = minimum(
+        (a + x) * (2.0**-64 * maximum(c - b, 0.0) / h),
+        (c - x) * (2.0**-64 * maximum(a + b, 0.0) / h),
     )
     # logarithm of the kink x = b [-]
     L_2 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_2 / np.abs(b - x), 0)))
@@ -426,8 +436,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0306902', '0.0501169']
     """
     h = a + c  # contact width [m]
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
@@ -486,8 +496,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00539662', '0.0151476']
     """
     h = a + c  # contact width [m]
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,

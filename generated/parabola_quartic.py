@@ -6,7 +6,16 @@ g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    maximum,
+    minimum,
+    only_where,
+)
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -272,8 +281,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
     '0.984375'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
+    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
     return only_where(

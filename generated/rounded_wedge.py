@@ -14,6 +14,8 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    maximum,
+    minimum,
     only_where,
     select,
 )
@@ -109,11 +111,11 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
@@ -281,11 +283,11 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     '0.0165156'
     """
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = [
@@ -334,11 +336,11 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = [
         only_where(
@@ -388,11 +390,11 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = [
         only_where(
@@ -447,31 +449,27 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0941076'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
     # vanishes at both edges [m]
-    smaller_1 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(b + c, 0.0) / h),
-        (c - x) * (2.0**-64 * np.maximum(a - b, 0.0) / h),
+    smaller_1 = minimum(
+        (a + x) * (2.0**-64 * maximum(b + c, 0.0) / h),
+        (c - x) * (2.0**-64 * maximum(a - b, 0.0) / h),
     )
     # logarithm of the kink x = -b [-]
-    L_1 = np.arcsinh(
-        2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.maximum(np.abs(b + x), TINY))
-    )
+    L_1 = np.arcsinh(2.0**32 * np.sqrt(maximum(smaller_1, 0.0) / maximum(np.abs(b + x), TINY)))
     # vanishes at both edges [m]
-    smaller_2 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(c - b, 0.0) / h),
-        (c - x) * (2.0**-64 * np.maximum(a + b, 0.0) / h),
+    smaller_2 = minimum(
+        (a + x) * (2.0**-64 * maximum(c - b, 0.0) / h),
+        (c - x) * (2.0**-64 * maximum(a + b, 0.0) / h),
     )
     # logarithm of the kink x = b [-]
-    L_2 = np.arcsinh(
-        2.0**32 * np.sqrt(np.maximum(smaller_2, 0.0) / np.maximum(np.abs(b - x), TINY))
-    )
+    L_2 = np.arcsinh(2.0**32 * np.sqrt(maximum(smaller_2, 0.0) / maximum(np.abs(b - x), TINY)))
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
     found = [
         only_where(
@@ -520,11 +518,11 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
@@ -596,11 +594,11 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,

@@ -13,6 +13,8 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    maximum,
+    minimum,
     only_where,
     select,
 )
@@ -92,8 +94,8 @@ def _state(a: Array, c: Array, *, R_1: Array, R_2: Array) -> State:
     h = a + c  # contact width [m]
     root = R_1 * R_2
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = only_where(
         exists,
@@ -243,8 +245,8 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     '0.25'
     """
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
     found = [
@@ -286,8 +288,8 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = [
         only_where(
@@ -333,8 +335,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = [
         only_where(
@@ -381,17 +383,17 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.5'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
     # vanishes at both edges [m]
-    smaller_1 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(c, 0.0) / h), (c - x) * (2.0**-64 * np.maximum(a, 0.0) / h)
+    smaller_1 = minimum(
+        (a + x) * (2.0**-64 * maximum(c, 0.0) / h), (c - x) * (2.0**-64 * maximum(a, 0.0) / h)
     )
     # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.maximum(np.abs(x), TINY)))
+    L_1 = np.arcsinh(2.0**32 * np.sqrt(maximum(smaller_1, 0.0) / maximum(np.abs(x), TINY)))
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (h < MOST) & (x == x)
     found = [
         only_where(
@@ -437,8 +439,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     h = a + c  # contact width [m]
     scale = (E_star / (2 * np.pi * R_1 * R_2)) / np.sqrt(h)
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = only_where(
         exists,
@@ -498,8 +500,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     h = a + c  # contact width [m]
     root = (12 * np.pi * R_1 * R_2) * h**2
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = only_where(
         exists,

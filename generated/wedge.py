@@ -6,7 +6,17 @@ g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where, select
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    maximum,
+    minimum,
+    only_where,
+    select,
+)
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -72,15 +82,15 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     lean = 2 * e
     reach = np.abs(lean)  # how far the moment moves it [m]
     base = P / (E_star * phi)  # half-width without the moment [m]
-    quotient = np.minimum(base, reach) / np.maximum(base, reach)
-    root = np.maximum(base, reach) * np.sqrt(quotient**2 + 1)
+    quotient = minimum(base, reach) / maximum(base, reach)
+    root = maximum(base, reach) * np.sqrt(quotient**2 + 1)
     far = reach + root  # the farther edge [m]
     leaning = far * np.sign(lean)  # the farther edge, with the side's sign [m]
     near = base * (P / (phi * (E_star * far)))  # the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
+    a = maximum(leaning, near)
+    c = maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (minimum(a, c) > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, (2 * phi / np.pi) * np.arctan(lean / base)))
 
 
@@ -119,10 +129,10 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     far = scale / tangent  # to the farther edge [m]
     leaning = far * np.sign(alpha)  # the farther edge, with the side's sign [m]
     near = scale * tangent  # from the corner to the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
+    a = maximum(leaning, near)
+    c = maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (minimum(a, c) > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
@@ -149,7 +159,7 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     '0.0160236'
     """
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))))
 
 
@@ -175,7 +185,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.153093'
     """
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * phi) * np.sqrt(a * c))
 
 
@@ -202,7 +212,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.0191366'
     """
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c))
 
 
@@ -234,10 +244,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     """
     h = a + c  # contact width [m]
     # vanishes at both edges [m]
-    smaller_1 = np.minimum((a + x) * (c * 2.0**-64 / h), (c - x) * (a * 2.0**-64 / h))
+    smaller_1 = minimum((a + x) * (c * 2.0**-64 / h), (c - x) * (a * 2.0**-64 / h))
     # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.abs(x)))
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    L_1 = np.arcsinh(2.0**32 * np.sqrt(maximum(smaller_1, 0.0) / np.abs(x)))
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (2 * E_star * phi / np.pi) * L_1)
 
 
@@ -266,7 +276,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (2 * E_star * phi / np.pi) / np.sqrt(a * c * h)
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return Edges(*only_where(exists, c * scale, a * scale))
 
 
@@ -297,7 +307,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 

@@ -6,7 +6,17 @@ g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/we
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where, select
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    maximum,
+    minimum,
+    only_where,
+    select,
+)
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, mended
 from ._shear import shear_change_of, slip_range_of
@@ -81,8 +91,8 @@ def _state(a: Array, c: Array, *, R: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = only_where(
         exists,
@@ -221,8 +231,8 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     '-0.21036'
     """
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = [
@@ -262,8 +272,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = [
         only_where(exists, (E_star / (16 * R)) * (theta_1 * h**2 - 2 * w_1 * (a - 4 * R * phi - c)))
@@ -301,8 +311,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = [
         only_where(
@@ -349,17 +359,17 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.359742'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
     # vanishes at both edges [m]
-    smaller_1 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(c, 0.0) / h), (c - x) * (2.0**-64 * np.maximum(a, 0.0) / h)
+    smaller_1 = minimum(
+        (a + x) * (2.0**-64 * maximum(c, 0.0) / h), (c - x) * (2.0**-64 * maximum(a, 0.0) / h)
     )
     # logarithm of the kink x = 0 [-]
     L_1 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_1 / np.abs(x), 0)))
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (x == x)
     found = [
         only_where(
@@ -401,8 +411,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     h = a + c  # contact width [m]
     scale = (E_star / (2 * np.pi * R)) / np.sqrt(h)
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = only_where(
         exists,
@@ -460,8 +470,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     h = a + c  # contact width [m]
     root = np.pi * R
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = only_where(
         exists,

@@ -111,7 +111,7 @@ class FunctionText:
         printer = NumPyPrinter(varying)
         units = self._units()
         if x in arguments and self.sheet["pressure"].expr.xreplace({w: S.One}).has(x):
-            yield "    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]"
+            yield "    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]"
         for step in self.program.steps:
             note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
             yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)

@@ -162,10 +162,10 @@ class NumPyPrinter(StrPrinter):
         return f"{expr.p} / {expr.q}"
 
     def _print_Max(self, expr: Expr) -> str:
-        return self._nested("np.maximum", expr)
+        return self._nested("maximum", expr)
 
     def _print_Min(self, expr: Expr) -> str:
-        return self._nested("np.minimum", expr)
+        return self._nested("minimum", expr)
 
     def _nested(self, name: str, expr: Expr) -> str:
         first, *rest = sorted(expr.args, key=lambda arg: (arg.is_number, str(arg)))

@@ -384,7 +384,7 @@ def test_large_chunks_are_computed_in_the_blocks_of_numpy_arrays(
     lazily = da.from_array(a, chunks=2 * _arrays.BLOCK)
     found = wedge.load(lazily, 1.25, E_star=1.0, phi=0.25)
     assert_array_equal(found.compute(), wedge.load(a, 1.25, E_star=1.0, phi=0.25))
-    assert max(sizes) == _arrays.BLOCK
+    assert max(sizes) <= _arrays.BLOCK
 
 
 def test_the_same_call_has_the_same_name() -> None:
