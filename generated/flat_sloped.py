@@ -12,6 +12,8 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    fmax,
+    log1p_quotient,
     maximum,
     minimum,
     only_where,
@@ -385,22 +387,22 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     '0.0637272'
     """
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = minimum(
-        (a + x) * (2.0**-64 * maximum(b + c, 0.0) / h),
-        (c - x) * (2.0**-64 * maximum(a - b, 0.0) / h),
+    left_1 = (a + x) * (2 * maximum(b + c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * maximum(a - b, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = -b [-]
+    logarithm_1 = fmax(
+        log1p_quotient(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), np.abs(b + x)), 0.0
     )
-    # logarithm of the kink x = -b [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_1 / np.abs(b + x), 0)))
-    # vanishes at both edges [m]
-    smaller_2 = minimum(
-        (a + x) * (2.0**-64 * maximum(c - b, 0.0) / h),
-        (c - x) * (2.0**-64 * maximum(a + b, 0.0) / h),
+    left_2 = (a + x) * (2 * maximum(c - b, 0.0) / h)  # vanishes at the left edge [m]
+    right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = b [-]
+    logarithm_2 = fmax(
+        log1p_quotient(np.sqrt(left_2 * right_2) + minimum(left_2, right_2), np.abs(b - x)), 0.0
     )
-    # logarithm of the kink x = b [-]
-    L_2 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_2 / np.abs(b - x), 0)))
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
-    found = [only_where(exists, (E_star / np.pi) * (L_1 * phi + L_2 * phi))]
+    found = [
+        only_where(exists, (E_star / np.pi) * ((phi / 2) * logarithm_1 + (phi / 2) * logarithm_2))
+    ]
     found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
     return found[0]
 

@@ -451,20 +451,18 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     """
     x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = minimum(
-        (a + x) * (2.0**-64 * maximum(b + c, 0.0) / h),
-        (c - x) * (2.0**-64 * maximum(a - b, 0.0) / h),
+    left_1 = (a + x) * (2 * maximum(b + c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * maximum(a - b, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = -b [-]
+    logarithm_1 = np.log1p(
+        (np.sqrt(left_1 * right_1) + minimum(left_1, right_1)) / maximum(np.abs(b + x), TINY)
     )
-    # logarithm of the kink x = -b [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(maximum(smaller_1, 0.0) / maximum(np.abs(b + x), TINY)))
-    # vanishes at both edges [m]
-    smaller_2 = minimum(
-        (a + x) * (2.0**-64 * maximum(c - b, 0.0) / h),
-        (c - x) * (2.0**-64 * maximum(a + b, 0.0) / h),
+    left_2 = (a + x) * (2 * maximum(c - b, 0.0) / h)  # vanishes at the left edge [m]
+    right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = b [-]
+    logarithm_2 = np.log1p(
+        (np.sqrt(left_2 * right_2) + minimum(left_2, right_2)) / maximum(np.abs(b - x), TINY)
     )
-    # logarithm of the kink x = b [-]
-    L_2 = np.arcsinh(2.0**32 * np.sqrt(maximum(smaller_2, 0.0) / maximum(np.abs(b - x), TINY)))
     # angle of the contact beyond the kink x = -b [-]
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
@@ -474,7 +472,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     found = [
         only_where(
             exists,
-            (E_star / np.pi) * ((phi / b) * L_1 * (b + x) - (phi / b) * L_2 * (x - b))
+            (E_star / np.pi)
+            * ((phi / (2 * b)) * logarithm_1 * (b + x) - (phi / (2 * b)) * logarithm_2 * (x - b))
             + (E_star * phi * (np.pi - theta_1 - theta_2) / (2 * np.pi * b)) * w,
         )
     ]

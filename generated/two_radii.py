@@ -385,12 +385,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     """
     x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = minimum(
-        (a + x) * (2.0**-64 * maximum(c, 0.0) / h), (c - x) * (2.0**-64 * maximum(a, 0.0) / h)
+    left_1 = (a + x) * (2 * maximum(c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * maximum(a, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = 0 [-]
+    logarithm_1 = np.log1p(
+        (np.sqrt(left_1 * right_1) + minimum(left_1, right_1)) / maximum(np.abs(x), TINY)
     )
-    # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(maximum(smaller_1, 0.0) / maximum(np.abs(x), TINY)))
     # angle of the contact beyond the kink x = 0 [-]
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
@@ -398,7 +398,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     found = [
         only_where(
             exists,
-            (E_star * (R_1 - R_2) / (np.pi * R_1 * R_2)) * x * L_1
+            (E_star * (R_1 - R_2) / (2 * np.pi * R_1 * R_2)) * x * logarithm_1
             + (E_star * (theta_1 * R_1 + np.pi * R_2 - theta_1 * R_2) / (2 * np.pi * R_1 * R_2))
             * w,
         )

@@ -12,6 +12,8 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    fmax,
+    log1p_quotient,
     maximum,
     minimum,
     only_where,
@@ -243,12 +245,14 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     '0.0567155'
     """
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = minimum((a + x) * (c * 2.0**-64 / h), (c - x) * (a * 2.0**-64 / h))
-    # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(maximum(smaller_1, 0.0) / np.abs(x)))
+    left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = 0 [-]
+    logarithm_1 = log1p_quotient(
+        fmax(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), 0.0), np.abs(x)
+    )
     exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (2 * E_star * phi / np.pi) * L_1)
+    return only_where(exists, (E_star * phi / np.pi) * logarithm_1)
 
 
 @elementwise

@@ -12,6 +12,8 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    fmax,
+    log1p_quotient,
     maximum,
     minimum,
     only_where,
@@ -361,12 +363,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     """
     x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = minimum(
-        (a + x) * (2.0**-64 * maximum(c, 0.0) / h), (c - x) * (2.0**-64 * maximum(a, 0.0) / h)
+    left_1 = (a + x) * (2 * maximum(c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * maximum(a, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = 0 [-]
+    logarithm_1 = fmax(
+        log1p_quotient(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), np.abs(x)), 0.0
     )
-    # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_1 / np.abs(x), 0)))
     # angle of the contact beyond the kink x = 0 [-]
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
@@ -374,7 +376,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     found = [
         only_where(
             exists,
-            (E_star / (np.pi * R)) * L_1 * (R * phi + x) + (theta_1 * E_star / (2 * np.pi * R)) * w,
+            (E_star / (2 * np.pi * R)) * logarithm_1 * (R * phi + x)
+            + (theta_1 * E_star / (2 * np.pi * R)) * w,
         )
     ]
     found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, R=R, phi=phi)

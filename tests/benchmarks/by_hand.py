@@ -96,7 +96,7 @@ def punch_off(
 
 
 def hertz_off(
-    m: float, n: float, half: float, dQ: float, dsigma: float, f: float, E_star: float, R: float
+    m: float, n: float, dQ: float, dsigma: float, half: float, f: float, E_star: float, R: float
 ) -> tuple[float, float]:
     """What is left of both conditions of large tension, constant loads, a cylinder on [-half, half].
 

@@ -87,7 +87,7 @@ def _by_numexpr(forms: list[Expr], given: Mapping[str, Any]) -> Call:
 
     numexpr.set_num_threads(1)
     names = {"asin": "arcsin", "Abs": "abs", "pi": repr(float(np.pi))}
-    kinds = [(name, float) for name in sorted(given)]
+    kinds = [(name, np.float64) for name in sorted(given)]
     texts = [str(form.evalf(17)) for form in forms]
     for mathematical, its in names.items():
         texts = [text.replace(mathematical, its) for text in texts]

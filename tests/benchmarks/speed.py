@@ -128,9 +128,7 @@ def uncut() -> Iterator[None]:
         _arrays.WHOLE = held
 
 
-def cut_or_not(
-    sizes: tuple[int, ...], seconds: float
-) -> dict[str, dict[int, tuple[float, float]]]:
+def cut_or_not(sizes: tuple[int, ...], seconds: float) -> dict[str, dict[int, tuple[float, float]]]:
     """Seconds of functions as they are, and without blocks."""
     found: dict[str, dict[int, tuple[float, float]]] = {}
     for name, call_at in _CUT.items():

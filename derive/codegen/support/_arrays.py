@@ -166,6 +166,24 @@ def minimum(first: Any, second: Any) -> Any:
     return np.minimum(*_alike(first, second))
 
 
+def fmax(first: Any, second: Any) -> Any:
+    """np.fmax, the other one where one is not a number; as fast as `maximum`."""
+    if type(first) is np.float64 and type(second) in _NUMBERS:
+        return first if first >= second or second != second else np.float64(second)
+    return np.fmax(*_alike(first, second))
+
+
+def log1p_quotient(above: Any, below: Any) -> Any:
+    """log(1 + above/below), also where the quotient leaves float64 and its logarithm does not."""
+    try:
+        with np.errstate(over="raise"):
+            quotient = above / below
+    except FloatingPointError:
+        found = np.log1p(above / below)
+        return np.where(np.isinf(found), np.log(above) - np.log(below), found)[()]
+    return np.log1p(quotient)
+
+
 def _alike(first: Any, second: Any) -> tuple[Any, Any]:
     """Two arrays in place of an array and a number, where that is worth the trouble."""
     if type(first) is np.ndarray and type(second) in _NUMBERS and first.size > _MANY:
