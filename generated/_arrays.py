@@ -36,6 +36,9 @@ TINY = 1e-150
 LEAST, MOST = 1e-75, 1e75
 """The shortest and the longest length, in metres, whose products stay well inside float64."""
 
+PIECE = 2 * BLOCK
+"""Elements of a cycle computed at once: enough to make the overhead of a call small."""
+
 _FLOAT64 = np.dtype(np.float64)
 _NAN = np.float64(np.nan)
 _NUMBERS = (np.float64, float)
@@ -96,6 +99,9 @@ def elementwise(function: Function) -> Function:
 def chunkwise(function: Function, in_time: bool = False) -> Function:
     """Let a function of contacts and arrays take Dask arrays, too, and compute chunk by chunk.
 
+    Large NumPy arrays are computed piece by piece, so that what it holds besides its result stays
+    small.
+
     Options, annotated as whole numbers or truth values, are handed on as they are.
     in_time: whether the last axis is time, and must lie in one chunk.
     """
@@ -106,7 +112,8 @@ def chunkwise(function: Function, in_time: bool = False) -> Function:
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
-        if not any_lazy(_numbers(args, kwargs.values())):
+        lazy = any_lazy(_numbers(args, kwargs.values()))
+        if not lazy and (in_time or not _is_large(_numbers(args, kwargs.values()))):
             return function(*args, **kwargs)
         try:
             bound = called.bind(*args, **kwargs).arguments
@@ -116,10 +123,28 @@ def chunkwise(function: Function, in_time: bool = False) -> Function:
         for name, value in bound.items():
             given |= contact_edges(value, name) if name in contacts else {name: value}
         numbers = {name: _float64(v, name) for name, v in given.items() if name not in literal}
-        _broadcast(numbers)
-        return over_chunks(call, given | numbers, in_time)
+        shape = _broadcast(numbers)
+        if lazy:
+            return over_chunks(call, given | numbers, in_time)
+        if any(map(_is_foreign, numbers.values())):
+            return function(*args, **kwargs)  # it says which arrays it takes
+        options = {name: given[name] for name in literal & given.keys()}
+
+        def piece(**part: Any) -> Any:
+            held = {name: v for name, v in part.items() if "." not in name}
+            for name in contacts & bound.keys():
+                edges = part[f"{name}.a"], part[f"{name}.c"]
+                held[name] = Contact(*edges, np.float64(np.nan))
+            return function(**held, **options)
+
+        return _in_blocks(piece, numbers, shape, PIECE)
 
     return call  # type: ignore[return-value]
+
+
+def _is_large(values: Iterable[Any]) -> bool:
+    """Whether one of them is a NumPy array of more than a piece."""
+    return any(type(v) is np.ndarray and v.size > PIECE for v in values)
 
 
 def chunkwise_in_time(function: Function) -> Function:
@@ -327,7 +352,9 @@ def _broadcast(given: Mapping[str, Any]) -> Shape:
         ) from None
 
 
-def _in_blocks(function: Callable[..., Any], given: Mapping[str, Any], shape: Shape) -> Any:
+def _in_blocks(
+    function: Callable[..., Any], given: Mapping[str, Any], shape: Shape, most: int = BLOCK
+) -> Any:
     """The result of `function` over the whole of `shape`, block by block."""
     fixed = {name: v for name, v in given.items() if not v.ndim}
     varying = {
@@ -338,16 +365,23 @@ def _in_blocks(function: Callable[..., Any], given: Mapping[str, Any], shape: Sh
     kind: Any = None
     out: list[Any] = []
     whole_axes = all(v.shape == shape for v in varying.values())
-    for index in _blocks(shape):
+    for index in _blocks(shape, most):
         parts = {name: v[index] if whole_axes else _part(v, index) for name, v in varying.items()}
         result = function(**fixed, **parts)
         found = result if isinstance(result, tuple) else (result,)
         if not out:
             kind = type(result)
-            out = [*np.empty((len(found), *shape))]  # one piece of memory: cheaper than several
+            out = _made_for(found, shape)
         for whole, part in zip(out, found, strict=True):
             whole[index] = part
     return kind(*out) if issubclass(kind, tuple) else out[0]
+
+
+def _made_for(found: Sequence[Any], shape: Shape) -> list[Any]:
+    """Arrays for results of these types; of float64 in one piece of memory, cheaper than several."""
+    if all(part.dtype is _FLOAT64 for part in found):
+        return [*np.empty((len(found), *shape))]
+    return [np.empty(shape, part.dtype) for part in found]
 
 
 def _part(value: Any, index: tuple[slice, ...]) -> Any:
@@ -356,13 +390,13 @@ def _part(value: Any, index: tuple[slice, ...]) -> Any:
     return value[tuple(i if n > 1 else whole for i, n in zip(index, value.shape, strict=True))]
 
 
-def _blocks(shape: Shape) -> Iterator[tuple[slice, ...]]:
+def _blocks(shape: Shape, most: int) -> Iterator[tuple[slice, ...]]:
     """Index tuples that cut `shape` into blocks: whole inner axes, a slice of one, single rows."""
     axis, inner = len(shape) - 1, 1
-    while axis > 0 and inner * shape[axis] <= BLOCK:
+    while axis > 0 and inner * shape[axis] <= most:
         inner *= shape[axis]
         axis -= 1
-    rows = max(1, BLOCK // max(1, inner))
+    rows = max(1, most // max(1, inner))
     count = max(1, -(-shape[axis] // rows))
     step = max(1, -(-shape[axis] // count))  # as many blocks, none of them short
     rest = (slice(None),) * (len(shape) - 1 - axis)

@@ -98,10 +98,10 @@ def punch_off(
 def hertz_off(
     m: float, n: float, dQ: float, dsigma: float, half: float, f: float, E_star: float, R: float
 ) -> tuple[float, float]:
-    """What is left of both conditions of large tension, constant loads, a cylinder on [-half, half].
+    """What is left of both conditions of large tension: constant loads, a level cylinder.
 
-    int r/w dxi = -pi dsigma/4 and int r xi/w dxi = dQ + pi dsigma (m - n)/8 over the slip zones, by
-    a Gauss-Legendre rule in t, where the distance from the stick zone is d sin(t)**2.
+    int r/w dxi = -pi dsigma/4 and int r xi/w dxi = dQ + pi dsigma (m - n)/8 over the slip zones of
+    [-half, half], by a Gauss-Legendre rule in t, where the distance from the stick zone is d sin(t)**2.
     """
     strain, force = 0.0, 0.0
     for side in (-1, 1):

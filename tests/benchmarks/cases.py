@@ -192,8 +192,8 @@ CASES = (
     Case(
         "wedge.pressure",
         _pressure,
-        "x varies along the array.  Lambdify and numexpr have the printed formula, numba a loop over "
-        "it.",
+        "x varies along the array.  Lambdify and numexpr have the printed formula, numba a loop "
+        "over it.",
         {},
     ),
     Case(
@@ -215,8 +215,8 @@ CASES = (
         "hertz.stick_zone, large tension",
         _large,
         "dQ and the tension vary; two equations of integrals are solved.  numba and fsolve: the "
-        f"same, their integrals by {by_hand.NODES} Gauss points in each slip zone, started from the "
-        "series; they test neither regime nor premise, which stick_zone does.",
+        f"same, their integrals by {by_hand.NODES} Gauss points in each slip zone, started from "
+        "the series; they test neither regime nor premise, which stick_zone does.",
         {GENERATED: 100_000, NUMBA: 1_000_000, FSOLVE: 100},
     ),
     Case(

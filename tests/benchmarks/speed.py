@@ -7,6 +7,7 @@ ratios: they hold from machine to machine better than times do.
 import importlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -191,7 +192,7 @@ def scalars(bodies: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
             if function.available(sheet):
                 names = map(str, (*function.arguments, *function.keywords(sheet)))
                 given = {name: SCALARS[name] for name in names}
-                calls[function.name] = lambda f=getattr(module, function.name), k=given: f(**k)
+                calls[function.name] = partial(getattr(module, function.name), **given)
         found[body] = interleaved(calls, 0.2)
     return found
 
@@ -241,9 +242,12 @@ def page(found: Found) -> str:
         [
             "# Speed",
             "",
-            "Made by `make bench`, all in one run; contenders are timed in turn, round by round, and",
-            "figures are medians.  One thread each.  Ratios hold from machine to machine better than",
-            f"times do; these are of {processor()}, {versions()}.",
+            "Made by `make bench`, all in one run; contenders are timed in turn, round by round,",
+            "and figures are medians.  One thread each.  Ratios hold from machine to machine better",
+            "than times do.  Measured with:",
+            "",
+            f"- processor: {processor()}",
+            f"- {versions()}",
             "",
             "![ns an element over the number of elements](performance.svg)",
             "",
@@ -258,34 +262,31 @@ def page(found: Found) -> str:
 
 def _case_tables(found: Found) -> Iterator[str]:
     yield from (
-        "Figures are ns an element; what costs too long is left out.  The last column is the most",
-        "memory held during a call over the size of its result, which is counted: 1 is the result",
-        "and nothing else.  tracemalloc sees NumPy's arrays and not those of compiled code.  `one",
-        "np.log` is the floor: one logarithm of the same array.",
+        "What takes too long is left out.  The last column is the most memory held during a call,",
+        f"its result included, over the size of the result, at {MEMORY_AT[0]:,} elements or as many",
+        "as are timed: 1 is the result and nothing else.  tracemalloc sees NumPy's arrays and not",
+        "those of compiled code.  The floor is one logarithm of the same array, `one np.log`.",
         "",
     )
     for case in CASES:
         lines = found.curves[case.name]
-        sizes = [*next(iter(lines.values()))]
+        ours = lines[GENERATED]
+        sizes = sorted({n for times in lines.values() for n in times})
         yield from (f"## {case.name}", "", case.words, "")
-        yield f"| | {' | '.join(f'{n:,}' for n in sizes)} | memory |"
+        yield f"| ns an element | {' | '.join(f'{n:,}' for n in sizes)} | memory |"
         yield "| --- |" + " ---: |" * (len(sizes) + 1)
         for name, times in lines.items():
             each = [_three(1e9 * times[n] / n) if n in times else "" for n in sizes]
             peak = found.memory[case.name].get(name)
             yield f"| {name} | {' | '.join(each)} | {'' if peak is None else f'{peak:.2f}'} |"
-        yield ""
-        ours = lines[GENERATED]
-        others = [n for n in lines if n in CONTENDERS and n != GENERATED]
-        yield "Times faster than the others, at the size that both have and is largest:"
-        ratios = []
-        for name in others:
-            size = max(n for n in lines[name] if n in ours)
-            ratio = lines[name][size] / size / (ours[max(ours)] / max(ours))
-            if size == max(ours):
-                ratio = lines[name][size] / ours[size]
-            ratios.append(f"{name} {_three(ratio)} at {size:,}")
-        yield f"{'; '.join(ratios)}."
+        yield from ("", f"| times faster than | {' | '.join(f'{n:,}' for n in sizes)} |")
+        yield "| --- |" + " ---: |" * len(sizes)
+        for name, times in lines.items():
+            if name in CONTENDERS and name != GENERATED:
+                both = [
+                    _three(times[n] / ours[n]) if n in times and n in ours else "" for n in sizes
+                ]
+                yield f"| {name} | {' | '.join(both)} |"
         yield ""
 
 

@@ -1,5 +1,6 @@
 """The benchmark runs, and compares functions that compute the same thing."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -76,7 +77,7 @@ def test_calls_are_timed_in_turn() -> None:
     order: list[str] = []
     times = interleaved({"a": lambda: order.append("a"), "b": lambda: order.append("b")}, 1e-6)
     assert [*times] == ["a", "b"]
-    turns = [first for first, second in zip(order, order[1:], strict=False) if first != second]
+    turns = [first for first, second in pairwise(order) if first != second]
     assert len(turns) >= 9
 
 
