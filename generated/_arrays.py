@@ -378,7 +378,7 @@ def _in_blocks(
 
 
 def _made_for(found: Sequence[Any], shape: Shape) -> list[Any]:
-    """Arrays for results of these types; of float64 in one piece of memory, cheaper than several."""
+    """Arrays for results of these types; of float64 in one piece of memory, which is cheaper."""
     if all(part.dtype is _FLOAT64 for part in found):
         return [*np.empty((len(found), *shape))]
     return [np.empty(shape, part.dtype) for part in found]

@@ -101,7 +101,7 @@ def hertz_off(
     """What is left of both conditions of large tension: constant loads, a level cylinder.
 
     int r/w dxi = -pi dsigma/4 and int r xi/w dxi = dQ + pi dsigma (m - n)/8 over the slip zones of
-    [-half, half], by a Gauss-Legendre rule in t, where the distance from the stick zone is d sin(t)**2.
+    [-half, half], by a Gauss-Legendre rule in t, d sin(t)**2 the distance from the stick zone.
     """
     strain, force = 0.0, 0.0
     for side in (-1, 1):
