@@ -243,8 +243,8 @@ def page(found: Found) -> str:
             "# Speed",
             "",
             "Made by `make bench`, all in one run; contenders are timed in turn, round by round,",
-            "and figures are medians.  One thread each.  Ratios hold from machine to machine better",
-            "than times do.  Measured with:",
+            "and figures are medians.  One thread each.  Ratios hold from machine to machine",
+            "better than times do.  Measured with:",
             "",
             f"- processor: {processor()}",
             f"- {versions()}",
@@ -263,9 +263,9 @@ def page(found: Found) -> str:
 def _case_tables(found: Found) -> Iterator[str]:
     yield from (
         "What takes too long is left out.  The last column is the most memory held during a call,",
-        f"its result included, over the size of the result, at {MEMORY_AT[0]:,} elements or as many",
-        "as are timed: 1 is the result and nothing else.  tracemalloc sees NumPy's arrays and not",
-        "those of compiled code.  The floor is one logarithm of the same array, `one np.log`.",
+        f"its result included, over the size of the result, at {MEMORY_AT[0]:,} elements or as",
+        "many as are timed: 1 is the result and nothing else.  tracemalloc sees NumPy's arrays and",
+        "not those of compiled code.  The floor is one logarithm of the same array, `one np.log`.",
         "",
     )
     for case in CASES:

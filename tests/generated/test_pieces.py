@@ -112,6 +112,76 @@ def test_the_larger_and_the_smaller_are_those_of_numpy(function: str) -> None:
 def test_a_logarithm_of_a_quotient_beyond_float64() -> None:
     """log(1 + 1e300/1e-300) = 600 log 10."""
     with np.errstate(all="ignore"):
+        above, below = np.array([1e300, 1.0, 1.0, 0.0]), np.array([1e-300, 1.0, 0.0, 1.0])
+        found = _arrays.log1p_quotient(above, below)
+        alone = wedge.slip_zones(a[i, 0], 1.0, dQ[j], 0.01, **LAW, order=2)
+        assert_allclose((found.left[i, j], found.right[i, j]), alone, rtol=1e-12)
+
+
+def test_options_reach_every_piece(small: None) -> None:
+    here, shear, tension = cycles(30)
+    third = wedge.slip_zones(here.a, here.c, shear, tension, **LAW, order=3)
+    first = wedge.slip_zones(here.a, here.c, shear, tension, **LAW)
+    both = np.isfinite(first.left) & np.isfinite(third.left)
+    assert np.count_nonzero(both) > 5
+    assert np.all(first.left[both] != third.left[both])
+    with pytest.raises(ValueError, match="order must be 1, 2 or 3; got 4"):
+        wedge.slip_zones(here.a, here.c, shear, tension, **LAW, order=4)
+
+
+def test_what_is_wrong_is_told_of_the_whole_not_of_a_piece(small: None) -> None:
+    a = np.linspace(0.5, 1.5, 30)
+    with pytest.raises(ValueError, match=r"a \(30,\), dQ \(29,\)"):
+        wedge.slip_zones(a, 1.0, a[1:], 0.0, **LAW)
+    with pytest.raises(TypeError, match="first must be a Contact"):
+        wedge.stick_zone(a, a, a, 0.0, **LAW)
+
+
+@pytest.mark.parametrize("count", [1, 13, 14, 15, 21, 22, 50])
+def test_blocks_make_the_whole(small: None, monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+    x, a, c = np.random.default_rng(count).uniform(1.0, 3.0, (3, count))
+    law = {"E_star": 1.0, "R": 1.0, "b": 0.5}
+    blocks = flat_rounded.pressure(x - 2, a, c, **law)
+    monkeypatch.setattr(_arrays, "WHOLE", 1000)
+    assert_allclose(blocks, flat_rounded.pressure(x - 2, a, c, **law), rtol=1e-14)
+
+
+def test_no_block_is_longer_than_allowed() -> None:
+    for shape in ((1,), (100,), (7, 15), (3, 4, 12), (4, 12), (5, 7), (30, 1), (2, 3, 100)):
+        seen = np.zeros(shape)
+        for index in _arrays._blocks(shape, 16):
+            seen[index] += 1
+            assert seen[index].size <= 16
+        assert_array_equal(seen, 1)
+
+
+def test_a_cycle_holds_little_beside_its_result() -> None:
+    count = 400_000
+    here, shear, tension = cycles(count)
+    tracemalloc.start()
+    found = wedge.slip_zones(here.a, here.c, shear, tension, **LAW)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 1.8 * (found.left.nbytes + found.right.nbytes)
+
+
+@pytest.mark.parametrize("function", ["maximum", "minimum", "fmax"])
+def test_the_larger_and_the_smaller_are_those_of_numpy(function: str) -> None:
+    values = [-1.0, 0.0, 2.0, np.nan, np.inf, -np.inf]
+    ours, its = getattr(_arrays, function), getattr(np, function)
+    long = np.resize(values, 5000)
+    for v in map(np.float64, values):
+        for w in (*map(np.float64, values), *values):
+            assert_array_equal(ours(v, w), its(v, w))
+            assert type(ours(v, w)) is np.float64
+        assert_array_equal(ours(long, v), its(long, v))
+        assert_array_equal(ours(v, long.reshape(50, 100)), its(v, long.reshape(50, 100)))
+        assert_array_equal(ours(long[:6], v), its(long[:6], v))
+
+
+def test_a_logarithm_of_a_quotient_beyond_float64() -> None:
+    """log(1 + 1e300/1e-300) = 600 log 10."""
+    with np.errstate(all="ignore"):
         found = _arrays.log1p_quotient(
             np.array([1e300, 1.0, 1.0, 0.0]), np.array([1e-300, 1, 0, 1])
         )
