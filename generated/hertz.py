@@ -534,8 +534,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/hertz.py.
 
     >>> law = dict(E_star=1.0, R=1.0)

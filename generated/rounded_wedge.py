@@ -110,42 +110,49 @@ _BODY = Profile(
 def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
+    # angle of the contact beyond the kink x = -b [-]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (np.pi * phi / (16 * b)) * h**2
+        (phi / (8 * b))
+        * h**2
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
         + (phi / (8 * b)) * w_2 * (a + 2 * b - c)
-        - (phi / (16 * b)) * theta_1 * h**2
         - (phi / (16 * b)) * theta_2 * h**2
         - (phi / (8 * b)) * w_1 * (a - 2 * b - c),
-        (np.pi * phi / (32 * b)) * h**2 * (a - c)
+        (phi / (16 * b))
+        * h**2
+        * (a - c)
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
         + (phi / (48 * b))
         * w_2
         * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-        - (phi / (32 * b)) * theta_1 * h**2 * (a - c)
         - (phi / (32 * b)) * theta_2 * h**2 * (a - c)
         - (phi / (48 * b))
         * w_1
         * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
-        (phi / (np.pi * b)) * w_2
-        + (phi / (2 * b)) * (a - c)
-        - (phi / (2 * np.pi * b)) * theta_1 * (a - 2 * b - c)
+        (phi / np.pi) * theta_1
+        + (phi / (np.pi * b)) * w_2
+        + (phi / (np.pi * b))
+        * (a - c)
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
         - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
         - (phi / (np.pi * b)) * w_1,
-        (phi / (2 * b)) * np.sqrt(h)
+        (phi / (np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        * np.sqrt(h)
         + (phi / (np.pi * b)) * w_2 / np.sqrt(h)
-        - (phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
         - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
         - (phi / (np.pi * b)) * w_1 / np.sqrt(h),
-        (phi / (2 * b)) * np.sqrt(h)
+        (phi / (np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        * np.sqrt(h)
         + (phi / (np.pi * b)) * w_1 / np.sqrt(h)
-        - (phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
         - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
         - (phi / (np.pi * b)) * w_2 / np.sqrt(h),
     )
@@ -293,9 +300,11 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     found = [
         only_where(
             exists,
-            (phi / (np.pi * b)) * w_2
-            + (phi / (2 * b)) * (a - c)
-            - (phi / (2 * np.pi * b)) * theta_1 * (a - 2 * b - c)
+            (phi / np.pi) * theta_1
+            + (phi / (np.pi * b)) * w_2
+            + (phi / (np.pi * b))
+            * (a - c)
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
             - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
             - (phi / (np.pi * b)) * w_1,
         )
@@ -335,8 +344,6 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     '0.297035'
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
@@ -345,9 +352,10 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     found = [
         only_where(
             exists,
-            (np.pi * E_star * phi / (16 * b)) * h**2
+            (E_star * phi / (8 * b))
+            * h**2
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
             + (E_star * phi / (8 * b)) * w_2 * (a + 2 * b - c)
-            - (E_star * phi / (16 * b)) * theta_1 * h**2
             - (E_star * phi / (16 * b)) * theta_2 * h**2
             - (E_star * phi / (8 * b)) * w_1 * (a - 2 * b - c),
         )
@@ -389,8 +397,6 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     '0.0787576'
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
@@ -399,11 +405,13 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     found = [
         only_where(
             exists,
-            (np.pi * E_star * phi / (32 * b)) * h**2 * (a - c)
+            (E_star * phi / (16 * b))
+            * h**2
+            * (a - c)
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
             + (E_star * phi / (48 * b))
             * w_2
             * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-            - (E_star * phi / (32 * b)) * theta_1 * h**2 * (a - c)
             - (E_star * phi / (32 * b)) * theta_2 * h**2 * (a - c)
             - (E_star * phi / (48 * b))
             * w_1
@@ -463,8 +471,6 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     logarithm_2 = np.log1p(
         (np.sqrt(left_2 * right_2) + minimum(left_2, right_2)) / maximum(np.abs(b - x), TINY)
     )
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
@@ -474,7 +480,16 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
             exists,
             (E_star / np.pi)
             * ((phi / (2 * b)) * logarithm_1 * (b + x) - (phi / (2 * b)) * logarithm_2 * (x - b))
-            + (E_star * phi * (np.pi - theta_1 - theta_2) / (2 * np.pi * b)) * w,
+            + (
+                E_star
+                * phi
+                * (
+                    2 * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+                    - theta_2
+                )
+                / (2 * np.pi * b)
+            )
+            * w,
         )
     ]
     found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
@@ -516,8 +531,6 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0295854', '0.0455819']
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
@@ -525,14 +538,16 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (E_star * phi / (2 * b)) * np.sqrt(h)
+        (E_star * phi / (np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        * np.sqrt(h)
         + (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h)
-        - (E_star * phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
         - (E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
         - (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h),
-        (E_star * phi / (2 * b)) * np.sqrt(h)
+        (E_star * phi / (np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        * np.sqrt(h)
         + (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h)
-        - (E_star * phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
         - (E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
         - (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h),
     )
@@ -592,8 +607,6 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00457246', '0.0105478']
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
@@ -601,14 +614,16 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (E_star * phi / (4 * np.pi * b)) * theta_1 / np.sqrt(h)
-        + (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
+        (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
         + (E_star * phi / (6 * np.pi * b)) * w_1 * (3 * a + b + 4 * c) / (h * (a - b) * np.sqrt(h))
-        - (E_star * phi / (4 * b)) / np.sqrt(h)
+        - (E_star * phi / (2 * np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        / np.sqrt(h)
         - (E_star * phi / (6 * np.pi * b)) * w_2 * (3 * a + 4 * c - b) / (h * (a + b) * np.sqrt(h)),
-        (E_star * phi / (4 * np.pi * b)) * theta_1 / np.sqrt(h)
-        + (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
-        - (E_star * phi / (4 * b)) / np.sqrt(h)
+        (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
+        - (E_star * phi / (2 * np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        / np.sqrt(h)
         - (E_star * phi / (6 * np.pi * b)) * w_1 * (4 * a + 3 * c - b) / (h * (b + c) * np.sqrt(h))
         - (E_star * phi / (6 * np.pi * b)) * w_2 * (4 * a + b + 3 * c) / (h * (b - c) * np.sqrt(h)),
     )
@@ -890,8 +905,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/rounded_wedge.py.
 
     >>> law = dict(E_star=1.0, b=1.0, phi=0.125)

@@ -100,22 +100,37 @@ def _state(a: Array, c: Array, *, R_1: Array, R_2: Array) -> State:
     found = only_where(
         exists,
         (
-            (np.pi * R_2 / 16) * h**2
-            + ((R_1 - R_2) / 16) * theta_1 * h**2
+            (R_1 / 16) * theta_1 * h**2
+            + (R_2 / 8) * h**2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
             - ((R_1 - R_2) / 8) * w_1 * (a - c)
         )
         / root,
         (
-            (np.pi * R_2 / 32) * h**2 * (a - c)
-            + ((R_1 - R_2) / 32) * theta_1 * h**2 * (a - c)
+            (R_1 / 32) * theta_1 * h**2 * (a - c)
+            + (R_2 / 16)
+            * h**2
+            * (a - c)
+            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
             - ((R_1 - R_2) / 48) * w_1 * (3 * a**2 + 3 * c**2 - 2 * a * c)
         )
         / root,
-        ((np.pi * R_2) * (a - c) + theta_1 * (a - c) * (R_1 - R_2) - (2 * (R_1 - R_2)) * w_1)
+        (
+            theta_1 * R_1 * (a - c)
+            + (2 * R_2) * (a - c) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            - (2 * (R_1 - R_2)) * w_1
+        )
         / (2 * np.pi * root),
-        ((np.pi * R_2) * h + theta_1 * h * (R_1 - R_2) - (2 * (R_1 - R_2)) * w_1)
+        (
+            theta_1 * R_1 * h
+            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            - (2 * (R_1 - R_2)) * w_1
+        )
         / (2 * np.pi * root * np.sqrt(h)),
-        ((np.pi * R_2) * h + theta_1 * h * (R_1 - R_2) + (2 * (R_1 - R_2)) * w_1)
+        (
+            theta_1 * R_1 * h
+            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            + (2 * (R_1 - R_2)) * w_1
+        )
         / (2 * np.pi * root * np.sqrt(h)),
     )
     found = mended(
@@ -252,7 +267,13 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     found = [
         only_where(
             exists,
-            ((np.pi * R_2) * (a - c) + theta_1 * (a - c) * (R_1 - R_2) - (2 * (R_1 - R_2)) * w_1)
+            (
+                theta_1 * R_1 * (a - c)
+                + (2 * R_2)
+                * (a - c)
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                - (2 * (R_1 - R_2)) * w_1
+            )
             / (2 * np.pi * R_1 * R_2),
         )
     ]
@@ -296,8 +317,8 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
             exists,
             (E_star / (16 * R_1 * R_2))
             * (
-                (np.pi * R_2) * h**2
-                + theta_1 * h**2 * (R_1 - R_2)
+                theta_1 * R_1 * h**2
+                + (2 * R_2) * h**2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
                 - (2 * (R_1 - R_2)) * w_1 * (a - c)
             ),
         )
@@ -343,8 +364,11 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
             exists,
             (E_star / (96 * R_1 * R_2))
             * (
-                (3 * np.pi * R_2) * h**2 * (a - c)
-                + (3 * (R_1 - R_2)) * theta_1 * h**2 * (a - c)
+                (3 * R_1) * theta_1 * h**2 * (a - c)
+                + (6 * R_2)
+                * h**2
+                * (a - c)
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
                 - (2 * (R_1 - R_2)) * w_1 * (3 * a**2 + 3 * c**2 - 2 * a * c)
             ),
         )
@@ -399,7 +423,14 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
         only_where(
             exists,
             (E_star * (R_1 - R_2) / (2 * np.pi * R_1 * R_2)) * x * logarithm_1
-            + (E_star * (theta_1 * R_1 + np.pi * R_2 - theta_1 * R_2) / (2 * np.pi * R_1 * R_2))
+            + (
+                E_star
+                * (
+                    theta_1 * R_1
+                    + 2 * R_2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                )
+                / (2 * np.pi * R_1 * R_2)
+            )
             * w,
         )
     ]
@@ -437,15 +468,27 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     ['0.790569', '0.790569']
     """
     h = a + c  # contact width [m]
-    scale = (E_star / (2 * np.pi * R_1 * R_2)) / np.sqrt(h)
+    scale = E_star / (2 * np.pi * R_1 * R_2)
     # angle of the contact beyond the kink x = 0 [-]
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = only_where(
         exists,
-        scale * ((np.pi * R_2) * h + theta_1 * h * (R_1 - R_2) - (2 * (R_1 - R_2)) * w_1),
-        scale * ((np.pi * R_2) * h + theta_1 * h * (R_1 - R_2) + (2 * (R_1 - R_2)) * w_1),
+        scale
+        * (
+            theta_1 * R_1 * h
+            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            - (2 * (R_1 - R_2)) * w_1
+        )
+        / np.sqrt(h),
+        scale
+        * (
+            theta_1 * R_1 * h
+            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            + (2 * (R_1 - R_2)) * w_1
+        )
+        / np.sqrt(h),
     )
     found = mended(
         found,
@@ -507,13 +550,21 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
         exists,
         (
             (2 * E_star * (R_1 - R_2)) * w_1 * (3 * a + 4 * c) * np.sqrt(h)
-            - (3 * np.pi * E_star * R_2) * a * h * np.sqrt(h)
-            - (3 * E_star * (R_1 - R_2)) * a * theta_1 * h * np.sqrt(h)
+            - (3 * E_star * R_1) * a * theta_1 * h * np.sqrt(h)
+            - (6 * E_star * R_2)
+            * a
+            * h
+            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            * np.sqrt(h)
         )
         / (a * root),
         (
-            (-((3 * np.pi * E_star * R_2) * c * h * np.sqrt(h)))
-            - (3 * E_star * (R_1 - R_2)) * c * theta_1 * h * np.sqrt(h)
+            (-((3 * E_star * R_1) * c * theta_1 * h * np.sqrt(h)))
+            - (6 * E_star * R_2)
+            * c
+            * h
+            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            * np.sqrt(h)
             - (2 * E_star * (R_1 - R_2)) * w_1 * (4 * a + 3 * c) * np.sqrt(h)
         )
         / (c * root),
@@ -796,8 +847,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/two_radii.py.
 
     >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)

@@ -186,7 +186,7 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
     theta_1 = 2 * np.arctan2(np.sqrt(c), np.sqrt(a))
     h = a + c  # contact width [m]
     exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (np.pi * phi_1 - theta_1 * phi_1 - theta_1 * phi_2) / np.pi)
+    return only_where(exists, ((2 * phi_1) * np.arctan(np.sqrt(a / c)) - theta_1 * phi_2) / np.pi)
 
 
 @elementwise
@@ -631,8 +631,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/unequal_wedge.py.
 
     >>> law = dict(E_star=1.0, phi_1=0.125, phi_2=0.125)

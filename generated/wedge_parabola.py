@@ -104,7 +104,12 @@ def _state(a: Array, c: Array, *, R: Array, phi: Array) -> State:
             - 2 * w_1 * ((6 * R * phi) * c + 3 * a**2 + 3 * c**2 - (6 * R * phi) * a - 2 * a * c)
         )
         / (96 * R),
-        (2 * np.pi * R * phi + theta_1 * (a - 2 * R * phi - c) - 2 * w_1) / (2 * np.pi * R),
+        (
+            (4 * R * phi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            + theta_1 * (a - c)
+            - 2 * w_1
+        )
+        / (2 * np.pi * R),
         (a * theta_1 * h - 2 * w_1 * (a - R * phi)) / (2 * np.pi * a * R * np.sqrt(h)),
         (c * theta_1 * h + 2 * w_1 * (R * phi + c)) / (2 * np.pi * c * R * np.sqrt(h)),
     )
@@ -240,7 +245,12 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     found = [
         only_where(
             exists,
-            (2 * np.pi * R * phi + theta_1 * (a - 2 * R * phi - c) - 2 * w_1) / (2 * np.pi * R),
+            (
+                (4 * R * phi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                + theta_1 * (a - c)
+                - 2 * w_1
+            )
+            / (2 * np.pi * R),
         )
     ]
     found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, R=R, phi=phi)
@@ -777,8 +787,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/wedge_parabola.py.
 
     >>> law = dict(E_star=1.0, R=1.0, phi=0.125)

@@ -71,6 +71,7 @@ def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point
     """
     program = Program(outputs, tuple(_frame_steps(sheet)))
     program = angles_about_the_right_angle(program, sheet)
+    program = shares_of_the_half_circle(program, sheet)
     program = logarithms_to_log1p(program, sheet)
     program = conjugate_roots(program)
     program = roots_under_the_edges(program)
@@ -137,6 +138,33 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
                 expr = simplify(-times) * _complement(angle, kinks)
             elif angle in kinks and _vanishes(rest + times * pi):
                 expr = simplify(-times) * _opposite(kinks[angle])
+        return expr
+
+    return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
+
+
+def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
+    """A pi + B theta_j -> A theta_j' + (A + B) theta_j where A + B is simpler than B.
+
+    theta_j' = pi - theta_j is the angle of the other side.  With A = R_2 and B = R_1 - R_2 both
+    terms are positive, where pi R_2 and (R_1 - R_2) theta_j are not.
+    """
+    kinks = {k.theta: k for k in sheet.frame.kinks}
+    of_kinks = {symbol for k in sheet.frame.kinks for symbol in (k.theta, k.w, k.L)}
+
+    def change(expr: Expr) -> Expr:
+        for angle in sorted(expr.free_symbols & kinks.keys(), key=str):
+            for total in sorted(expr.atoms(Add), key=count_ops):
+                times = total.coeff(angle)
+                rest = [term for term in total.args if not term.has(angle)]
+                free = Add(*(term for term in rest if not term.free_symbols & of_kinks))
+                share = factor(times + free / pi)
+                if free == 0 or times == 0 or count_ops(share) >= count_ops(factor(times)):
+                    continue
+                other = factor(free / pi) * _opposite(kinks[angle])
+                left = Add(*(term for term in rest if term.free_symbols & of_kinks))
+                expr = expr.xreplace({total: other + share * angle + left})
+                break
         return expr
 
     return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
