@@ -2,13 +2,15 @@
 #             nothing is taken from an earlier run, so that every proof and time is of this one
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that take no long
-# make bench  speed, as ratios measured in one run; bench-inverse: of the way from loads to contacts;
+# make bench  speed against lambdify, numexpr and numba in one run: docs/performance.md, some
+#             minutes; bench-inverse: of the way from loads to contacts of every body;
 #             bench-slip: of stick zones; bench-monte-carlo: time and memory of the Monte Carlo
 #             of examples/, to 1e8 samples: notebooks/monte_carlo.md
 # make solver    what the independent solver finds: tests/reference/FINDINGS.md; a quarter of an hour
 # make comparison  that solver, exact conditions and series, cycle by cycle: notebooks/comparison.md
 # make series    errors of the series of the slip zones, order by order: notebooks/series.md
-# make accuracy  worst error of every generated function, in units in the last place
+# make accuracy  worst error of every generated function, in units in the last place:
+#             docs/accuracy.md, some minutes
 # make notebooks runs all notebooks in place, some two minutes; make lab opens them in Jupyter
 # make picture   draws the README's picture
 
@@ -34,7 +36,8 @@ quick: $(STAMP)
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -m "not slow"
 
 bench: $(STAMP)
-	$(BIN)/python -m tests.benchmarks.speed
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[benchmarks]'
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.benchmarks.speed
 
 bench-inverse: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.inverse

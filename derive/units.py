@@ -155,10 +155,13 @@ def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimensio
         _demand(expr.exp, NUMBER, f"the exponent of {expr}", dimensions)
         base = dimension_of(expr.base, dimensions) or NUMBER
         return base**expr.exp
-    if isinstance(expr, Add | Max | Min):
+    if isinstance(expr, Add | Max | Min) or getattr(expr, "of_one_dimension", False):
         return _common(expr.args, expr, dimensions)
     if isinstance(expr, Abs | UnevaluatedExpr):
         return dimension_of(expr.args[0], dimensions)
+    if getattr(expr, "of_a_quotient", False):
+        _common(expr.args, expr, dimensions)
+        return NUMBER
     if isinstance(expr, atan2 | sign | Heaviside):
         _common(expr.args[:2] if isinstance(expr, atan2) else expr.args[:1], expr, dimensions)
         return NUMBER

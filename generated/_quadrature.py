@@ -173,8 +173,9 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
     def integrand(near: "_Nodes", of: Any) -> tuple[Array, ...]:
         A, B, width = near.from_low, near.from_high, of(h)
         ends, start = near.ends_high, near.start_low
-        r, r_0 = np.sqrt(A / B), np.sqrt(start / (width - start))
-        step = width * near.from_start / (B * (width - start)) / (r + r_0)
+        beyond = B + near.from_start  # from the part's start to the edge, which may be close
+        r, r_0 = np.sqrt(A / B), np.sqrt(start / beyond)
+        step = width * near.from_start / (B * beyond) / (r + r_0)
         twist = (1 - r * r_0) / ((1 + r**2) * (1 + r_0**2))
         rise = 2 * step - 1.5 * np.arctan2(step, 1 + r * r_0) - step * twist / 2
         change = np.clip(near.curve.change, -_HUGE, _HUGE)  # infinite beside some breaks
@@ -186,7 +187,7 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
     shared = _Contact(body, constants, -a, c, h, ())
     _, total = _integrals(shared, integrand, 2, positive=1)
     for piece in shared.pieces():
-        r_0 = np.sqrt(piece.start_low / np.maximum(h - piece.start_low, _TINY))
+        r_0 = np.sqrt(piece.start_low / np.maximum(piece.length + piece.end_high, _TINY))
         psi = 2 * r_0 - 1.5 * np.arctan(r_0) - r_0 / (2 * (1 + r_0**2))
         edge = piece.at_high().curvature * (-0.75 * np.pi - psi) * (2 * h)
         total = total + np.where(piece.ends_high & (piece.length > 0), edge, 0.0)

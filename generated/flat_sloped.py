@@ -6,7 +6,19 @@ g(x) = phi*Max(0, -b + Abs(x)), from derive/geometries/flat_sloped.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where, select
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    fmax,
+    log1p_quotient,
+    maximum,
+    minimum,
+    only_where,
+    select,
+)
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, mended
 from ._shear import shear_change_of, slip_range_of
@@ -95,12 +107,12 @@ _BODY = Profile(
 
 def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
@@ -256,9 +268,9 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     '0.0175923'
     """
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [only_where(exists, (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2)]
@@ -292,8 +304,8 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     >>> f"{load(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.278093'
     """
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [only_where(exists, (E_star * phi / 2) * w_1 + (E_star * phi / 2) * w_2)]
@@ -328,8 +340,8 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     >>> f"{moment(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0835698'
     """
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = [
@@ -375,22 +387,22 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     '0.0637272'
     """
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(b + c, 0.0) / h),
-        (c - x) * (2.0**-64 * np.maximum(a - b, 0.0) / h),
+    left_1 = (a + x) * (2 * maximum(b + c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * maximum(a - b, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = -b [-]
+    logarithm_1 = fmax(
+        log1p_quotient(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), np.abs(b + x)), 0.0
     )
-    # logarithm of the kink x = -b [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_1 / np.abs(b + x), 0)))
-    # vanishes at both edges [m]
-    smaller_2 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(c - b, 0.0) / h),
-        (c - x) * (2.0**-64 * np.maximum(a + b, 0.0) / h),
+    left_2 = (a + x) * (2 * maximum(c - b, 0.0) / h)  # vanishes at the left edge [m]
+    right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = b [-]
+    logarithm_2 = fmax(
+        log1p_quotient(np.sqrt(left_2 * right_2) + minimum(left_2, right_2), np.abs(b - x)), 0.0
     )
-    # logarithm of the kink x = b [-]
-    L_2 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_2 / np.abs(b - x), 0)))
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
-    found = [only_where(exists, (E_star / np.pi) * (L_1 * phi + L_2 * phi))]
+    found = [
+        only_where(exists, (E_star / np.pi) * ((phi / 2) * logarithm_1 + (phi / 2) * logarithm_2))
+    ]
     found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
     return found[0]
 
@@ -426,8 +438,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0306902', '0.0501169']
     """
     h = a + c  # contact width [m]
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
@@ -486,8 +498,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00539662', '0.0151476']
     """
     h = a + c  # contact width [m]
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
@@ -780,8 +792,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/flat_sloped.py.
 
     >>> law = dict(E_star=1.0, b=1.0, phi=0.125)
@@ -871,7 +884,8 @@ def shear_change(
         b       half-width of the flat [m]
         phi     slope of the sides [rad]
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
+    regime of the whole half-cycle is MODERATE or LARGE.
     NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
     where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/flat_sloped.py.
@@ -943,7 +957,8 @@ def march(
     """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
 
         since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
+            where the whole half-cycle is MIXED it has not, and only its end may be known
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
     Of a Dask array, that axis must be one chunk.

@@ -628,8 +628,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/hyperbola.py.
 
     >>> law = dict(E_star=1.0, b=1.0, phi=0.125)
@@ -719,7 +720,8 @@ def shear_change(
         b       distance from the apex over which the flanks bend [m]
         phi     slope of the flanks far from the apex [rad]
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
+    regime of the whole half-cycle is MODERATE or LARGE.
     NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
     where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/hyperbola.py.
@@ -791,7 +793,8 @@ def march(
     """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
 
         since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
+            where the whole half-cycle is MIXED it has not, and only its end may be known
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
     Of a Dask array, that axis must be one chunk.

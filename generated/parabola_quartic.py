@@ -6,7 +6,16 @@ g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    maximum,
+    minimum,
+    only_where,
+)
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -272,8 +281,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
     '0.984375'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
+    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
     return only_where(
@@ -634,8 +643,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/parabola_quartic.py.
 
     >>> law = dict(E_star=1.0, L=1.0, R=1.0)
@@ -725,7 +735,8 @@ def shear_change(
         L       distance at which the quartic alone has slope one [m]
         R       relative radius of curvature at the apex [m]
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
+    regime of the whole half-cycle is MODERATE or LARGE.
     NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
     where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/parabola_quartic.py.
@@ -797,7 +808,8 @@ def march(
     """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
 
         since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
+            where the whole half-cycle is MIXED it has not, and only its end may be known
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
     Of a Dask array, that axis must be one chunk.

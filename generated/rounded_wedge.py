@@ -14,6 +14,8 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    maximum,
+    minimum,
     only_where,
     select,
 )
@@ -108,42 +110,49 @@ _BODY = Profile(
 def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
+    # angle of the contact beyond the kink x = -b [-]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (np.pi * phi / (16 * b)) * h**2
+        (phi / (8 * b))
+        * h**2
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
         + (phi / (8 * b)) * w_2 * (a + 2 * b - c)
-        - (phi / (16 * b)) * theta_1 * h**2
         - (phi / (16 * b)) * theta_2 * h**2
         - (phi / (8 * b)) * w_1 * (a - 2 * b - c),
-        (np.pi * phi / (32 * b)) * h**2 * (a - c)
+        (phi / (16 * b))
+        * h**2
+        * (a - c)
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
         + (phi / (48 * b))
         * w_2
         * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-        - (phi / (32 * b)) * theta_1 * h**2 * (a - c)
         - (phi / (32 * b)) * theta_2 * h**2 * (a - c)
         - (phi / (48 * b))
         * w_1
         * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
-        (phi / (np.pi * b)) * w_2
-        + (phi / (2 * b)) * (a - c)
-        - (phi / (2 * np.pi * b)) * theta_1 * (a - 2 * b - c)
+        (phi / np.pi) * theta_1
+        + (phi / (np.pi * b)) * w_2
+        + (phi / (np.pi * b))
+        * (a - c)
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
         - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
         - (phi / (np.pi * b)) * w_1,
-        (phi / (2 * b)) * np.sqrt(h)
+        (phi / (np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        * np.sqrt(h)
         + (phi / (np.pi * b)) * w_2 / np.sqrt(h)
-        - (phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
         - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
         - (phi / (np.pi * b)) * w_1 / np.sqrt(h),
-        (phi / (2 * b)) * np.sqrt(h)
+        (phi / (np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        * np.sqrt(h)
         + (phi / (np.pi * b)) * w_1 / np.sqrt(h)
-        - (phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
         - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
         - (phi / (np.pi * b)) * w_2 / np.sqrt(h),
     )
@@ -281,19 +290,21 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     '0.0165156'
     """
     # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = [
         only_where(
             exists,
-            (phi / (np.pi * b)) * w_2
-            + (phi / (2 * b)) * (a - c)
-            - (phi / (2 * np.pi * b)) * theta_1 * (a - 2 * b - c)
+            (phi / np.pi) * theta_1
+            + (phi / (np.pi * b)) * w_2
+            + (phi / (np.pi * b))
+            * (a - c)
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
             - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
             - (phi / (np.pi * b)) * w_1,
         )
@@ -333,19 +344,18 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     '0.297035'
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = [
         only_where(
             exists,
-            (np.pi * E_star * phi / (16 * b)) * h**2
+            (E_star * phi / (8 * b))
+            * h**2
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
             + (E_star * phi / (8 * b)) * w_2 * (a + 2 * b - c)
-            - (E_star * phi / (16 * b)) * theta_1 * h**2
             - (E_star * phi / (16 * b)) * theta_2 * h**2
             - (E_star * phi / (8 * b)) * w_1 * (a - 2 * b - c),
         )
@@ -387,21 +397,21 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     '0.0787576'
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = [
         only_where(
             exists,
-            (np.pi * E_star * phi / (32 * b)) * h**2 * (a - c)
+            (E_star * phi / (16 * b))
+            * h**2
+            * (a - c)
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
             + (E_star * phi / (48 * b))
             * w_2
             * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-            - (E_star * phi / (32 * b)) * theta_1 * h**2 * (a - c)
             - (E_star * phi / (32 * b)) * theta_2 * h**2 * (a - c)
             - (E_star * phi / (48 * b))
             * w_1
@@ -447,37 +457,39 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0941076'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(b + c, 0.0) / h),
-        (c - x) * (2.0**-64 * np.maximum(a - b, 0.0) / h),
+    left_1 = (a + x) * (2 * maximum(b + c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * maximum(a - b, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = -b [-]
+    logarithm_1 = np.log1p(
+        (np.sqrt(left_1 * right_1) + minimum(left_1, right_1)) / maximum(np.abs(b + x), TINY)
     )
-    # logarithm of the kink x = -b [-]
-    L_1 = np.arcsinh(
-        2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.maximum(np.abs(b + x), TINY))
+    left_2 = (a + x) * (2 * maximum(c - b, 0.0) / h)  # vanishes at the left edge [m]
+    right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = b [-]
+    logarithm_2 = np.log1p(
+        (np.sqrt(left_2 * right_2) + minimum(left_2, right_2)) / maximum(np.abs(b - x), TINY)
     )
-    # vanishes at both edges [m]
-    smaller_2 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(c - b, 0.0) / h),
-        (c - x) * (2.0**-64 * np.maximum(a + b, 0.0) / h),
-    )
-    # logarithm of the kink x = b [-]
-    L_2 = np.arcsinh(
-        2.0**32 * np.sqrt(np.maximum(smaller_2, 0.0) / np.maximum(np.abs(b - x), TINY))
-    )
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
     found = [
         only_where(
             exists,
-            (E_star / np.pi) * ((phi / b) * L_1 * (b + x) - (phi / b) * L_2 * (x - b))
-            + (E_star * phi * (np.pi - theta_1 - theta_2) / (2 * np.pi * b)) * w,
+            (E_star / np.pi)
+            * ((phi / (2 * b)) * logarithm_1 * (b + x) - (phi / (2 * b)) * logarithm_2 * (x - b))
+            + (
+                E_star
+                * phi
+                * (
+                    2 * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+                    - theta_2
+                )
+                / (2 * np.pi * b)
+            )
+            * w,
         )
     ]
     found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
@@ -519,23 +531,23 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0295854', '0.0455819']
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (E_star * phi / (2 * b)) * np.sqrt(h)
+        (E_star * phi / (np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        * np.sqrt(h)
         + (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h)
-        - (E_star * phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
         - (E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
         - (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h),
-        (E_star * phi / (2 * b)) * np.sqrt(h)
+        (E_star * phi / (np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        * np.sqrt(h)
         + (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h)
-        - (E_star * phi / (2 * np.pi * b)) * theta_1 * np.sqrt(h)
         - (E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
         - (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h),
     )
@@ -595,23 +607,23 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00457246', '0.0105478']
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    w_1 = np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))  # root at the kink x = b [m]
+    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
+    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
+    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     found = only_where(
         exists,
-        (E_star * phi / (4 * np.pi * b)) * theta_1 / np.sqrt(h)
-        + (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
+        (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
         + (E_star * phi / (6 * np.pi * b)) * w_1 * (3 * a + b + 4 * c) / (h * (a - b) * np.sqrt(h))
-        - (E_star * phi / (4 * b)) / np.sqrt(h)
+        - (E_star * phi / (2 * np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        / np.sqrt(h)
         - (E_star * phi / (6 * np.pi * b)) * w_2 * (3 * a + 4 * c - b) / (h * (a + b) * np.sqrt(h)),
-        (E_star * phi / (4 * np.pi * b)) * theta_1 / np.sqrt(h)
-        + (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
-        - (E_star * phi / (4 * b)) / np.sqrt(h)
+        (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
+        - (E_star * phi / (2 * np.pi * b))
+        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+        / np.sqrt(h)
         - (E_star * phi / (6 * np.pi * b)) * w_1 * (4 * a + 3 * c - b) / (h * (b + c) * np.sqrt(h))
         - (E_star * phi / (6 * np.pi * b)) * w_2 * (4 * a + b + 3 * c) / (h * (b - c) * np.sqrt(h)),
     )
@@ -893,8 +905,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/rounded_wedge.py.
 
     >>> law = dict(E_star=1.0, b=1.0, phi=0.125)
@@ -984,7 +997,8 @@ def shear_change(
         b       half-width of the rounded apex [m]
         phi     slope of the flanks [rad]
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
+    regime of the whole half-cycle is MODERATE or LARGE.
     NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
     where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/rounded_wedge.py.
@@ -1056,7 +1070,8 @@ def march(
     """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
 
         since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
+            where the whole half-cycle is MIXED it has not, and only its end may be known
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
     Of a Dask array, that axis must be one chunk.

@@ -13,6 +13,8 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    maximum,
+    minimum,
     only_where,
     select,
 )
@@ -92,28 +94,43 @@ def _state(a: Array, c: Array, *, R_1: Array, R_2: Array) -> State:
     h = a + c  # contact width [m]
     root = R_1 * R_2
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = only_where(
         exists,
         (
-            (np.pi * R_2 / 16) * h**2
-            + ((R_1 - R_2) / 16) * theta_1 * h**2
+            (R_1 / 16) * theta_1 * h**2
+            + (R_2 / 8) * h**2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
             - ((R_1 - R_2) / 8) * w_1 * (a - c)
         )
         / root,
         (
-            (np.pi * R_2 / 32) * h**2 * (a - c)
-            + ((R_1 - R_2) / 32) * theta_1 * h**2 * (a - c)
+            (R_1 / 32) * theta_1 * h**2 * (a - c)
+            + (R_2 / 16)
+            * h**2
+            * (a - c)
+            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
             - ((R_1 - R_2) / 48) * w_1 * (3 * a**2 + 3 * c**2 - 2 * a * c)
         )
         / root,
-        ((np.pi * R_2) * (a - c) + theta_1 * (a - c) * (R_1 - R_2) - (2 * (R_1 - R_2)) * w_1)
+        (
+            theta_1 * R_1 * (a - c)
+            + (2 * R_2) * (a - c) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            - (2 * (R_1 - R_2)) * w_1
+        )
         / (2 * np.pi * root),
-        ((np.pi * R_2) * h + theta_1 * h * (R_1 - R_2) - (2 * (R_1 - R_2)) * w_1)
+        (
+            theta_1 * R_1 * h
+            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            - (2 * (R_1 - R_2)) * w_1
+        )
         / (2 * np.pi * root * np.sqrt(h)),
-        ((np.pi * R_2) * h + theta_1 * h * (R_1 - R_2) + (2 * (R_1 - R_2)) * w_1)
+        (
+            theta_1 * R_1 * h
+            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            + (2 * (R_1 - R_2)) * w_1
+        )
         / (2 * np.pi * root * np.sqrt(h)),
     )
     found = mended(
@@ -243,14 +260,20 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     '0.25'
     """
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
     found = [
         only_where(
             exists,
-            ((np.pi * R_2) * (a - c) + theta_1 * (a - c) * (R_1 - R_2) - (2 * (R_1 - R_2)) * w_1)
+            (
+                theta_1 * R_1 * (a - c)
+                + (2 * R_2)
+                * (a - c)
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                - (2 * (R_1 - R_2)) * w_1
+            )
             / (2 * np.pi * R_1 * R_2),
         )
     ]
@@ -286,16 +309,16 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = [
         only_where(
             exists,
             (E_star / (16 * R_1 * R_2))
             * (
-                (np.pi * R_2) * h**2
-                + theta_1 * h**2 * (R_1 - R_2)
+                theta_1 * R_1 * h**2
+                + (2 * R_2) * h**2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
                 - (2 * (R_1 - R_2)) * w_1 * (a - c)
             ),
         )
@@ -333,16 +356,19 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = [
         only_where(
             exists,
             (E_star / (96 * R_1 * R_2))
             * (
-                (3 * np.pi * R_2) * h**2 * (a - c)
-                + (3 * (R_1 - R_2)) * theta_1 * h**2 * (a - c)
+                (3 * R_1) * theta_1 * h**2 * (a - c)
+                + (6 * R_2)
+                * h**2
+                * (a - c)
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
                 - (2 * (R_1 - R_2)) * w_1 * (3 * a**2 + 3 * c**2 - 2 * a * c)
             ),
         )
@@ -381,23 +407,30 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.5'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(c, 0.0) / h), (c - x) * (2.0**-64 * np.maximum(a, 0.0) / h)
+    left_1 = (a + x) * (2 * maximum(c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * maximum(a, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = 0 [-]
+    logarithm_1 = np.log1p(
+        (np.sqrt(left_1 * right_1) + minimum(left_1, right_1)) / maximum(np.abs(x), TINY)
     )
-    # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.maximum(np.abs(x), TINY)))
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (h < MOST) & (x == x)
     found = [
         only_where(
             exists,
-            (E_star * (R_1 - R_2) / (np.pi * R_1 * R_2)) * x * L_1
-            + (E_star * (theta_1 * R_1 + np.pi * R_2 - theta_1 * R_2) / (2 * np.pi * R_1 * R_2))
+            (E_star * (R_1 - R_2) / (2 * np.pi * R_1 * R_2)) * x * logarithm_1
+            + (
+                E_star
+                * (
+                    theta_1 * R_1
+                    + 2 * R_2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                )
+                / (2 * np.pi * R_1 * R_2)
+            )
             * w,
         )
     ]
@@ -435,15 +468,27 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     ['0.790569', '0.790569']
     """
     h = a + c  # contact width [m]
-    scale = (E_star / (2 * np.pi * R_1 * R_2)) / np.sqrt(h)
+    scale = E_star / (2 * np.pi * R_1 * R_2)
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = only_where(
         exists,
-        scale * ((np.pi * R_2) * h + theta_1 * h * (R_1 - R_2) - (2 * (R_1 - R_2)) * w_1),
-        scale * ((np.pi * R_2) * h + theta_1 * h * (R_1 - R_2) + (2 * (R_1 - R_2)) * w_1),
+        scale
+        * (
+            theta_1 * R_1 * h
+            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            - (2 * (R_1 - R_2)) * w_1
+        )
+        / np.sqrt(h),
+        scale
+        * (
+            theta_1 * R_1 * h
+            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            + (2 * (R_1 - R_2)) * w_1
+        )
+        / np.sqrt(h),
     )
     found = mended(
         found,
@@ -498,20 +543,28 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     h = a + c  # contact width [m]
     root = (12 * np.pi * R_1 * R_2) * h**2
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
     found = only_where(
         exists,
         (
             (2 * E_star * (R_1 - R_2)) * w_1 * (3 * a + 4 * c) * np.sqrt(h)
-            - (3 * np.pi * E_star * R_2) * a * h * np.sqrt(h)
-            - (3 * E_star * (R_1 - R_2)) * a * theta_1 * h * np.sqrt(h)
+            - (3 * E_star * R_1) * a * theta_1 * h * np.sqrt(h)
+            - (6 * E_star * R_2)
+            * a
+            * h
+            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            * np.sqrt(h)
         )
         / (a * root),
         (
-            (-((3 * np.pi * E_star * R_2) * c * h * np.sqrt(h)))
-            - (3 * E_star * (R_1 - R_2)) * c * theta_1 * h * np.sqrt(h)
+            (-((3 * E_star * R_1) * c * theta_1 * h * np.sqrt(h)))
+            - (6 * E_star * R_2)
+            * c
+            * h
+            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            * np.sqrt(h)
             - (2 * E_star * (R_1 - R_2)) * w_1 * (4 * a + 3 * c) * np.sqrt(h)
         )
         / (c * root),
@@ -794,8 +847,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/two_radii.py.
 
     >>> law = dict(E_star=1.0, R_1=1.0, R_2=1.0)
@@ -885,7 +939,8 @@ def shear_change(
         R_1     relative radius of curvature on the left [m]
         R_2     relative radius of curvature on the right [m]
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
+    regime of the whole half-cycle is MODERATE or LARGE.
     NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
     where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/two_radii.py.
@@ -957,7 +1012,8 @@ def march(
     """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
 
         since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
+            where the whole half-cycle is MIXED it has not, and only its end may be known
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
     Of a Dask array, that axis must be one chunk.

@@ -6,7 +6,18 @@ g(x) = Piecewise((-phi_1*x, x < 0), (phi_2*x, True)), from derive/geometries/une
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    fmax,
+    log1p_quotient,
+    maximum,
+    minimum,
+    only_where,
+)
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -75,15 +86,15 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
     lean = 2 * e
     reach = np.abs(lean)  # how far the moment moves it [m]
     base = (2 / (E_star * (phi_1 + phi_2))) * P  # half-width without the moment [m]
-    quotient = np.minimum(base, reach) / np.maximum(base, reach)
-    root = np.maximum(base, reach) * np.sqrt(quotient**2 + 1)
+    quotient = minimum(base, reach) / maximum(base, reach)
+    root = maximum(base, reach) * np.sqrt(quotient**2 + 1)
     far = reach + root  # the farther edge [m]
     leaning = far * np.sign(lean)  # the farther edge, with the side's sign [m]
     near = base * (2 * P / ((phi_1 + phi_2) * (E_star * far)))  # the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
+    a = maximum(leaning, near)
+    c = maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (minimum(a, c) > LEAST) & (h < MOST)
     return Contact(
         *only_where(
             exists,
@@ -129,22 +140,22 @@ def contact_at_tilt(
     angle = (np.pi / (2 * (phi_1 + phi_2))) * (phi_1 - alpha)  # half the angle of the corner [-]
     scale = (2 / (E_star * phi_1 + E_star * phi_2)) * P
     rest = (np.pi / (2 * (phi_1 + phi_2))) * (alpha + phi_2)  # what it lacks of a right angle [-]
-    tangent = np.tan(np.minimum(angle, rest))
+    tangent = np.tan(minimum(angle, rest))
     far = scale / tangent  # to the farther edge [m]
     leaning = far * np.sign(rest - angle)  # the farther edge, with the side's sign [m]
     near = scale * tangent  # from the corner to the nearer edge [m]
     a = (
-        np.maximum(leaning, near)
+        maximum(leaning, near)
         + (2 / (E_star * (phi_1 + phi_2))) * P / tangent
         - 2 * P / ((E_star * phi_1) * tangent + (E_star * phi_2) * tangent)
     )
     c = (
-        np.maximum(-leaning, near)
+        maximum(-leaning, near)
         + (2 / (E_star * (phi_1 + phi_2))) * P * tangent
         - (2 / (E_star * phi_1 + E_star * phi_2)) * P * tangent
     )
     h = a + c  # contact width [m]
-    exists = (P > 0) & (alpha > -phi_2) & (alpha < phi_1) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (alpha > -phi_2) & (alpha < phi_1) & (minimum(a, c) > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
@@ -174,8 +185,8 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
     # angle of the contact beyond the kink x = 0 [-]
     theta_1 = 2 * np.arctan2(np.sqrt(c), np.sqrt(a))
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (np.pi * phi_1 - theta_1 * phi_1 - theta_1 * phi_2) / np.pi)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
+    return only_where(exists, ((2 * phi_1) * np.arctan(np.sqrt(a / c)) - theta_1 * phi_2) / np.pi)
 
 
 @elementwise
@@ -202,7 +213,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
     '0.153093'
     """
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * (phi_1 + phi_2) / 2) * np.sqrt(a * c))
 
 
@@ -231,7 +242,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
     '0.0191366'
     """
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * (phi_1 + phi_2) / 8) * (a - c) * np.sqrt(a * c))
 
 
@@ -264,12 +275,14 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     '0.0567155'
     """
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = np.minimum((a + x) * (c * 2.0**-64 / h), (c - x) * (a * 2.0**-64 / h))
-    # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.abs(x)))
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (E_star * (phi_1 + phi_2) / np.pi) * L_1)
+    left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = 0 [-]
+    logarithm_1 = log1p_quotient(
+        fmax(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), 0.0), np.abs(x)
+    )
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
+    return only_where(exists, (E_star * (phi_1 + phi_2) / (2 * np.pi)) * logarithm_1)
 
 
 @elementwise
@@ -299,7 +312,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     """
     h = a + c  # contact width [m]
     scale = (E_star * (phi_1 + phi_2) / np.pi) / np.sqrt(a * c * h)
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return Edges(*only_where(exists, c * scale, a * scale))
 
 
@@ -332,7 +345,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     """
     h = a + c  # contact width [m]
     scale = (E_star * (phi_1 + phi_2) / (6 * np.pi)) / np.sqrt(a * c * h)
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 
@@ -618,8 +631,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/unequal_wedge.py.
 
     >>> law = dict(E_star=1.0, phi_1=0.125, phi_2=0.125)
@@ -731,7 +745,8 @@ def shear_change(
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
+    regime of the whole half-cycle is MODERATE or LARGE.
     NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
     where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/unequal_wedge.py.
@@ -807,7 +822,8 @@ def march(
     """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
 
         since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
+            where the whole half-cycle is MIXED it has not, and only its end may be known
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
     Of a Dask array, that axis must be one chunk.

@@ -6,7 +6,19 @@ g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where, select
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    fmax,
+    log1p_quotient,
+    maximum,
+    minimum,
+    only_where,
+    select,
+)
 from ._march import march_of
 from ._shear import shear_change_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -72,15 +84,15 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     lean = 2 * e
     reach = np.abs(lean)  # how far the moment moves it [m]
     base = P / (E_star * phi)  # half-width without the moment [m]
-    quotient = np.minimum(base, reach) / np.maximum(base, reach)
-    root = np.maximum(base, reach) * np.sqrt(quotient**2 + 1)
+    quotient = minimum(base, reach) / maximum(base, reach)
+    root = maximum(base, reach) * np.sqrt(quotient**2 + 1)
     far = reach + root  # the farther edge [m]
     leaning = far * np.sign(lean)  # the farther edge, with the side's sign [m]
     near = base * (P / (phi * (E_star * far)))  # the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
+    a = maximum(leaning, near)
+    c = maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (minimum(a, c) > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, (2 * phi / np.pi) * np.arctan(lean / base)))
 
 
@@ -119,10 +131,10 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     far = scale / tangent  # to the farther edge [m]
     leaning = far * np.sign(alpha)  # the farther edge, with the side's sign [m]
     near = scale * tangent  # from the corner to the nearer edge [m]
-    a = np.maximum(leaning, near)
-    c = np.maximum(-leaning, near)
+    a = maximum(leaning, near)
+    c = maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (minimum(a, c) > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
@@ -149,7 +161,7 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     '0.0160236'
     """
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))))
 
 
@@ -175,7 +187,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.153093'
     """
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * phi) * np.sqrt(a * c))
 
 
@@ -202,7 +214,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.0191366'
     """
     h = a + c  # contact width [m]
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c))
 
 
@@ -233,12 +245,14 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     '0.0567155'
     """
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = np.minimum((a + x) * (c * 2.0**-64 / h), (c - x) * (a * 2.0**-64 / h))
-    # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.maximum(smaller_1, 0.0) / np.abs(x)))
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (2 * E_star * phi / np.pi) * L_1)
+    left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = 0 [-]
+    logarithm_1 = log1p_quotient(
+        fmax(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), 0.0), np.abs(x)
+    )
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
+    return only_where(exists, (E_star * phi / np.pi) * logarithm_1)
 
 
 @elementwise
@@ -266,7 +280,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (2 * E_star * phi / np.pi) / np.sqrt(a * c * h)
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return Edges(*only_where(exists, c * scale, a * scale))
 
 
@@ -297,7 +311,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 
@@ -559,8 +573,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/wedge.py.
 
     >>> law = dict(E_star=1.0, phi=0.125)
@@ -646,7 +661,8 @@ def shear_change(
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
+    regime of the whole half-cycle is MODERATE or LARGE.
     NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
     where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/wedge.py.
@@ -715,7 +731,8 @@ def march(
     """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
 
         since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
+            where the whole half-cycle is MIXED it has not, and only its end may be known
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
     Of a Dask array, that axis must be one chunk.

@@ -6,7 +6,19 @@ g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/we
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where, select
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    fmax,
+    log1p_quotient,
+    maximum,
+    minimum,
+    only_where,
+    select,
+)
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, mended
 from ._shear import shear_change_of, slip_range_of
@@ -81,8 +93,8 @@ def _state(a: Array, c: Array, *, R: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = only_where(
         exists,
@@ -92,7 +104,12 @@ def _state(a: Array, c: Array, *, R: Array, phi: Array) -> State:
             - 2 * w_1 * ((6 * R * phi) * c + 3 * a**2 + 3 * c**2 - (6 * R * phi) * a - 2 * a * c)
         )
         / (96 * R),
-        (2 * np.pi * R * phi + theta_1 * (a - 2 * R * phi - c) - 2 * w_1) / (2 * np.pi * R),
+        (
+            (4 * R * phi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+            + theta_1 * (a - c)
+            - 2 * w_1
+        )
+        / (2 * np.pi * R),
         (a * theta_1 * h - 2 * w_1 * (a - R * phi)) / (2 * np.pi * a * R * np.sqrt(h)),
         (c * theta_1 * h + 2 * w_1 * (R * phi + c)) / (2 * np.pi * c * R * np.sqrt(h)),
     )
@@ -221,14 +238,19 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     '-0.21036'
     """
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = [
         only_where(
             exists,
-            (2 * np.pi * R * phi + theta_1 * (a - 2 * R * phi - c) - 2 * w_1) / (2 * np.pi * R),
+            (
+                (4 * R * phi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                + theta_1 * (a - c)
+                - 2 * w_1
+            )
+            / (2 * np.pi * R),
         )
     ]
     found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, R=R, phi=phi)
@@ -262,8 +284,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = [
         only_where(exists, (E_star / (16 * R)) * (theta_1 * h**2 - 2 * w_1 * (a - 4 * R * phi - c)))
@@ -301,8 +323,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = [
         only_where(
@@ -349,22 +371,23 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.359742'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    # vanishes at both edges [m]
-    smaller_1 = np.minimum(
-        (a + x) * (2.0**-64 * np.maximum(c, 0.0) / h), (c - x) * (2.0**-64 * np.maximum(a, 0.0) / h)
+    left_1 = (a + x) * (2 * maximum(c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * maximum(a, 0.0) / h)  # vanishes at the right edge [m]
+    # twice the logarithm of the kink x = 0 [-]
+    logarithm_1 = fmax(
+        log1p_quotient(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), np.abs(x)), 0.0
     )
-    # logarithm of the kink x = 0 [-]
-    L_1 = np.arcsinh(2.0**32 * np.sqrt(np.fmax(smaller_1 / np.abs(x), 0)))
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (x == x)
     found = [
         only_where(
             exists,
-            (E_star / (np.pi * R)) * L_1 * (R * phi + x) + (theta_1 * E_star / (2 * np.pi * R)) * w,
+            (E_star / (2 * np.pi * R)) * logarithm_1 * (R * phi + x)
+            + (theta_1 * E_star / (2 * np.pi * R)) * w,
         )
     ]
     found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, R=R, phi=phi)
@@ -401,8 +424,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     h = a + c  # contact width [m]
     scale = (E_star / (2 * np.pi * R)) / np.sqrt(h)
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = only_where(
         exists,
@@ -460,8 +483,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     h = a + c  # contact width [m]
     root = np.pi * R
     # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    w_1 = np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))  # root at the kink x = 0 [m]
+    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
+    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     found = only_where(
         exists,
@@ -764,8 +787,9 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
+    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
+    sliding.
     Derived from derive/geometries/wedge_parabola.py.
 
     >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
@@ -855,7 +879,8 @@ def shear_change(
         R       relative radius of curvature on the right [m]
         phi     slope of the left flank [rad]
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then.
+    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
+    regime of the whole half-cycle is MODERATE or LARGE.
     NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
     where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     Derived from derive/geometries/wedge_parabola.py.
@@ -927,7 +952,8 @@ def march(
     """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
 
         since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given
+            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
+            where the whole half-cycle is MIXED it has not, and only its end may be known
 
     Arguments broadcast; the instants of a cycle lie along the last axis.
     Of a Dask array, that axis must be one chunk.

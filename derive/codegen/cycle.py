@@ -116,7 +116,8 @@ CYCLE: tuple[CycleFunction, ...] = (
             "terms at each edge of both contacts, cut behind that power of d, solved as they stand",
         ),
         "Edges(left [m], right [m])",
-        "slip reaches in at both edges and leaves some stick",
+        "slip reaches in at both edges and leaves some stick; to order 3, unless each edge lies "
+        "off every kink by 1e-7 of its own x",
         "Edges",
         (*_MOTION, ("order", "1")),
     ),

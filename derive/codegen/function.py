@@ -10,18 +10,18 @@ from itertools import product
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Gt, Lt, Min, S, Symbol
+from sympy import Expr, Gt, Lt, Min, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.program import LEAST, MOST, TINY, Program, fmax
-from derive.codegen.rewrite import prove_equal, stable_program
+from derive.codegen.program import LEAST, MOST, TINY, Program
+from derive.codegen.rewrite import is_drawn_in, prove_equal, stable_program
 from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
+from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, x
 from derive.units import Dimension, dimension_of, parse_unit
 
 LINE = 100
@@ -110,8 +110,8 @@ class FunctionText:
                 varying.add(step.symbol)
         printer = NumPyPrinter(varying)
         units = self._units()
-        if x in arguments and self.sheet["pressure"].expr.xreplace({w: S.One}).has(x):
-            yield "    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]"
+        if x in arguments and is_drawn_in(self.sheet):
+            yield "    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]"
         for step in self.program.steps:
             note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
             yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
@@ -135,8 +135,7 @@ class FunctionText:
 
     @property
     def _further_checks(self) -> Iterator[str]:
-        if any(step.expr.has(fmax) for step in self.program.steps):
-            yield "x == x"  # fmax would hide that it is not a number
+        yield from ()
 
     def _result(self, values: dict[str, str]) -> Iterator[str]:
         found = f"only_where(exists, {', '.join(values.values())})"

@@ -31,7 +31,8 @@ from derive.symbols import alpha
 _HELPERS = {
     "_arrays": (
         *("LEAST", "MOST", "TINY"),
-        *("chunkwise", "chunkwise_in_time", "elementwise", "only_where", "select"),
+        *("chunkwise", "chunkwise_in_time", "elementwise", "fmax", "log1p_quotient"),
+        *("maximum", "minimum", "only_where", "select"),
     ),
     "_march": ("march_of",),
     "_quadrature": (

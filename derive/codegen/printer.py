@@ -48,15 +48,16 @@ _FUNCTIONS = {
     "cos": "np.cos",
     "cosh": "np.cosh",
     "exp": "np.exp",
-    "fmax": "np.fmax",
     "log": "np.log",
+    "log1p": "np.log1p",
+    "log1p_quotient": "log1p_quotient",
     "sign": "np.sign",
     "sin": "np.sin",
     "sinh": "np.sinh",
     "tan": "np.tan",
     "tanh": "np.tanh",
 }
-_NAMED = ("Max", "Min", "Piecewise")
+_NAMED = ("Max", "Min", "Piecewise", "fmax")
 
 
 _KNOWN = (
@@ -94,6 +95,10 @@ class NumPyPrinter(StrPrinter):
         if name not in _FUNCTIONS:
             raise CannotPrint(f"no NumPy function is known for {name}: {expr}")
         return f"{_FUNCTIONS[name]}({', '.join(map(self._print, expr.args))})"
+
+    def _print_fmax(self, expr: Expr) -> str:
+        first, second = expr.args
+        return f"fmax({self._print(first)}, {self._print(second)}{'.0' * second.is_Integer})"
 
     _print_Abs = _print_sign = _print_log = _print_Function
 
@@ -162,10 +167,10 @@ class NumPyPrinter(StrPrinter):
         return f"{expr.p} / {expr.q}"
 
     def _print_Max(self, expr: Expr) -> str:
-        return self._nested("np.maximum", expr)
+        return self._nested("maximum", expr)
 
     def _print_Min(self, expr: Expr) -> str:
-        return self._nested("np.minimum", expr)
+        return self._nested("minimum", expr)
 
     def _nested(self, name: str, expr: Expr) -> str:
         first, *rest = sorted(expr.args, key=lambda arg: (arg.is_number, str(arg)))

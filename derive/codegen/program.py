@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Expr, Function, Max, Rational, Symbol, UnevaluatedExpr
+from sympy import Abs, Expr, Function, Rational, Symbol, UnevaluatedExpr, log
 
 
 class Kept(UnevaluatedExpr):
@@ -28,6 +28,22 @@ class fmax(Function):
     """The larger of two; unlike Max the other one where one of them is not a number."""
 
     nargs = 2
+    of_one_dimension = True
+    """Its arguments and its value."""
+
+
+class log1p(Function):
+    """log(1 + z), which keeps the digits of a small z."""
+
+    nargs = 1
+
+
+class log1p_quotient(Function):
+    """log(1 + p/q), though p/q may be beyond float64."""
+
+    nargs = 2
+    of_a_quotient = True
+    """Of arguments of one dimension."""
 
 
 @dataclass(frozen=True)
@@ -105,6 +121,8 @@ class Program:
         def written_in(expr: Expr) -> Expr:
             while held := expr.free_symbols & table.keys():
                 expr = expr.xreplace({symbol: table[symbol] for symbol in held})
-            return expr.replace(fmax, Max)
+            expr = expr.replace(fmax, lambda p, q: (p + q + Abs(p - q)) / 2)
+            expr = expr.replace(log1p_quotient, lambda p, q: log(1 + p / q))
+            return expr.replace(log1p, lambda z: log(1 + z))
 
         return {name: written_in(expr) for name, expr in self.outputs.items()}

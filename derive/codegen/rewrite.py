@@ -23,7 +23,6 @@ from sympy import (
     Rational,
     S,
     Symbol,
-    asinh,
     atan,
     atan2,
     cancel,
@@ -40,14 +39,13 @@ from sympy import (
     together,
 )
 
-from derive.codegen.program import TINY, Kept, Program, Step, fmax
+from derive.codegen.program import TINY, Kept, Program, Step, fmax, log1p, log1p_quotient
 from derive.proof.points import Point, named, numeric
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet import FormulaSheet
 from derive.symbols import M, P, a, alpha, c, e, h, w, x
 from derive.theory.frame import KinkFrame
 
-_POWER, _SQUARE = (Kept(Pow(2, n, evaluate=False)) for n in (32, -64))
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
 _half = Dummy("half", positive=True)
@@ -73,7 +71,8 @@ def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point
     """
     program = Program(outputs, tuple(_frame_steps(sheet)))
     program = angles_about_the_right_angle(program, sheet)
-    program = logarithms_to_asinh(program, sheet)
+    program = shares_of_the_half_circle(program, sheet)
+    program = logarithms_to_log1p(program, sheet)
     program = conjugate_roots(program)
     program = roots_under_the_edges(program)
     program = program.with_steps(
@@ -139,6 +138,33 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
                 expr = simplify(-times) * _complement(angle, kinks)
             elif angle in kinks and _vanishes(rest + times * pi):
                 expr = simplify(-times) * _opposite(kinks[angle])
+        return expr
+
+    return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
+
+
+def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
+    """A pi + B theta_j -> A theta_j' + (A + B) theta_j where A + B is simpler than B.
+
+    theta_j' = pi - theta_j is the angle of the other side.  With A = R_2 and B = R_1 - R_2 both
+    terms are positive, where pi R_2 and (R_1 - R_2) theta_j are not.
+    """
+    kinks = {k.theta: k for k in sheet.frame.kinks}
+    of_kinks = {symbol for k in sheet.frame.kinks for symbol in (k.theta, k.w, k.L)}
+
+    def change(expr: Expr) -> Expr:
+        for angle in sorted(expr.free_symbols & kinks.keys(), key=str):
+            for total in sorted(expr.atoms(Add), key=count_ops):
+                times = total.coeff(angle)
+                rest = [term for term in total.args if not term.has(angle)]
+                free = Add(*(term for term in rest if not term.free_symbols & of_kinks))
+                share = factor(times + free / pi)
+                if free == 0 or times == 0 or count_ops(share) >= count_ops(factor(times)):
+                    continue
+                other = factor(free / pi) * _opposite(kinks[angle])
+                left = Add(*(term for term in rest if term.free_symbols & of_kinks))
+                expr = expr.xreplace({total: other + share * angle + left})
+                break
         return expr
 
     return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
@@ -255,38 +281,51 @@ def _signs_inside(product: Expr) -> Expr:
 # ------------------------------------------------------------------ logarithms and roots
 
 
-def logarithms_to_asinh(program: Program, sheet: FormulaSheet) -> Program:
-    """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> asinh sqrt( min(u, v)/(h |x - x_j|) ).
+def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
+    """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> (1/2) log1p(z),
+    z = 2 (min(u, v) + sqrt(u v))/|u - v|.
 
-    From u - v = h (x - x_j), a product of exact differences.  At an edge min(u, v) vanishes instead
-    of a logarithm of one; outside it is clipped.  A power of two, exact in floating point, keeps
-    the quotient finite next to a kink.
+    u - v = h (x - x_j), a product of exact differences; u and v are divided by h.  At an edge z
+    vanishes instead of a logarithm of one; outside u v has no root, and fmax takes the zero.
 
     At x = x_j the pressure of a corner is infinite, where the contact spans it, else zero: fmax
     takes the zero instead of 0/0.  Where the jump vanishes at the kink so does its product with
-    L_j, if only L_j is finite: the distance is at least the smallest number.
+    L_j, if only L_j is finite: the distance is at least TINY.
     """
     symbols = {k.L: k for k in sheet.frame.kinks}
+    inside = is_drawn_in(sheet)
     steps: list[Step] = []
+    halves: dict[Symbol, Expr] = {}
     for step in program.steps:
         if (k := symbols.get(step.symbol)) is None:
             steps.append(step)
             continue
-        smaller = Dummy(f"smaller_{k.kink.number}", real=True)
-        near_left = Kept(k.clip(k.right) * _SQUARE / h) * (a + x)
-        near_right = Kept(k.clip(k.left) * _SQUARE / h) * (c - x)
+        number = k.kink.number
+        left, right = (Dummy(f"{side}_{number}", real=True) for side in ("left", "right"))
+        at_left = Kept(2 * k.clip(k.right) / h) * (a + x)
+        at_right = Kept(2 * k.clip(k.left) / h) * (c - x)
         distance = Abs(x - k.kink.position)
+        both = Min(left, right) + Pow(left * right, S.Half, evaluate=False)
         if k.kink.is_corner and k.clipped:
-            quotient = fmax(smaller / distance, S.Zero)
+            logarithm = fmax(log1p_quotient(both, distance), S.Zero)
         elif k.kink.is_corner:
-            quotient = Max(0, smaller) / distance
+            logarithm = log1p_quotient(both if inside else fmax(both, S.Zero), distance)
         else:
-            quotient = Max(0, smaller) / Max(distance, TINY)
+            logarithm = log1p((both if inside else fmax(both, S.Zero)) / Max(distance, TINY))
+        twice = Dummy(f"logarithm_{number}", nonnegative=True)
         steps += [
-            Step(smaller, Min(near_left, near_right), "vanishes at both edges"),
-            replace(step, expr=asinh(_POWER * Kept(sqrt(quotient)))),
+            Step(left, at_left, "vanishes at the left edge"),
+            Step(right, at_right, "vanishes at the right edge"),
+            Step(twice, logarithm, f"twice the {step.meaning}"),
         ]
-    return replace(program, steps=tuple(steps))
+        halves[step.symbol] = twice / 2
+    program = replace(program, steps=tuple(steps))
+    return program.mapped(lambda expr: expr.xreplace(halves))
+
+
+def is_drawn_in(sheet: FormulaSheet) -> bool:
+    """Whether x is drawn in to the nearest edge, as it stands outside roots and logarithms, too."""
+    return bool(sheet["pressure"].expr.xreplace({w: S.One}).has(x))
 
 
 def conjugate_roots(program: Program) -> Program:

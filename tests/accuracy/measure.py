@@ -2,99 +2,202 @@
 
 import importlib
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import mpmath
 import numpy as np
+from mpmath import mpf
 from sympy import Expr, lambdify
 
 from derive.codegen.contract import CONTRACT, Function
-from tests.accuracy.reference import condition, exact, sheet_of
+from derive.codegen.integrated import is_mended
+from derive.proof.points import numeric
+from tests.accuracy.cycles import CYCLES, Cycle
+from tests.accuracy.inverses import INVERSES
+from tests.accuracy.reference import Point, condition, exact, sheet_of, solved
 from tests.accuracy.regions import Regions, Sample
 from tests.paper_forms import FORMS
+
+CLOSED, MENDED, INTEGRATED, SOLVED, CYCLE = "closed", "mended", "integrated", "solved", "cycle"
+"""How a function computes: a formula; a formula, or quadrature where a kink lies close to an edge
+or to the next kink; quadrature; Newton's method; the conditions of partial slip."""
+
+LIMITS = {
+    CLOSED: 4.0,
+    MENDED: 1e3,  # the quadrature beside a kink is held to 2e-13
+    INTEGRATED: 1e3,
+    SOLVED: 64.0,
+    CYCLE: 64.0,
+}
+"""Largest error over the condition of the problem, in units in the last place."""
+
+WELL = 10.0
+"""A problem of a smaller condition is well conditioned."""
 
 
 @dataclass(frozen=True)
 class Worst:
-    """The worst point of one output in one region.
+    """The worst of one output in one region.
 
-    ulp         error of the generated function there
-    excess      largest error over what the conditioning explains, in the region
-    paper       worst error of the paper's printed form in the region, None where it prints none
+    points      how many were tried
+    lost        how many of them gave no number
+    ulp         largest error, and `condition` of the problem there, at `point`
+    well        largest error where the problem is well conditioned
+    excess      largest error over the condition, which explains that much, at `over`
+    paper       worst error of the paper's printed form, None where it prints none
     """
 
     body: str
     function: str
     output: str
     region: str
+    kind: str
+    points: int
+    lost: int
     ulp: float
-    excess: float
     condition: float
-    point: Mapping[str, float]
-    paper: float | None
+    point: Point
+    well: float
+    excess: float
+    over: Point
+    paper: float | None = None
 
 
-def ulps(value: float, reference: mpmath.mpf) -> float:
+def ulps(value: float, reference: mpf) -> float:
     """|value - reference| in units in the last place of the reference."""
     nearest = float(reference)
     if not np.isfinite(value) or not np.isfinite(nearest):
         return np.inf
     with mpmath.workdps(60):
-        return float(abs(mpmath.mpf(value) - reference) / mpmath.mpf(np.spacing(abs(nearest))))
+        return float(abs(mpf(value) - reference) / mpf(np.spacing(abs(nearest))))
+
+
+@cache
+def kind_of(body: str, function: str) -> str:
+    """How a function of a body computes."""
+    sheet = sheet_of(body)
+    its = next((f for f in CONTRACT if f.name == function), None)
+    if its is None:
+        return CYCLE
+    if not its.available(sheet):
+        return SOLVED
+    if not all(sheet.is_closed(name) for name in its.formulas):
+        return INTEGRATED
+    return MENDED if its.geometric and is_mended(sheet) else CLOSED
+
+
+SHARES = {CLOSED: 1.0, MENDED: 1.0, SOLVED: 0.2, INTEGRATED: 0.02}
+"""How many points are tried in a region, in parts of those asked for: some references are dear."""
+
+
+def functions(body: str) -> Iterator[str]:
+    """Every function of one body that is measured."""
+    yield from (f.name for f in CONTRACT)
+    yield from (cycle.name for cycle in CYCLES if cycle.takes(sheet_of(body)))
 
 
 def worst_of(body: str, count: int, only: str = "") -> Iterator[Worst]:
     """Every function of one body, or one of them, over all its regions."""
-    module, sheet = importlib.import_module(f"generated.{body}"), sheet_of(body)
-    regions = Regions(sheet, module, count)
-    for function in CONTRACT:
-        if function.available(sheet) and only in ("", function.name):
-            for region, sample in regions.of(function.name):
-                yield from _worst_in(body, module, function, region, sample)
+    for name in functions(body):
+        if only in ("", name):
+            kind = kind_of(body, name)
+            cycle = next((c for c in CYCLES if c.name == name), None)
+            points = max(2, round((cycle.share if cycle else SHARES[kind]) * count))
+            regions = Regions(sheet_of(body), importlib.import_module(f"generated.{body}"), points)
+            for region, sample in cycle.regions(regions) if cycle else regions.of(name):
+                if len(next(iter(sample.values()))):
+                    yield from _measured(body, name, kind, region, sample, cycle)
 
 
-def _worst_in(
-    body: str, module: Any, function: Function, region: str, sample: Sample
+def _measured(
+    body: str, name: str, kind: str, region: str, sample: Sample, cycle: Cycle | None
+) -> Iterator[Worst]:
+    function = next((f for f in CONTRACT if f.name == name), None)
+    if cycle is not None:
+        yield from _cycles(body, region, sample, cycle)
+    elif kind == SOLVED:
+        yield from _inverses(body, name, region, sample)
+    elif function is not None:
+        yield from _formulas(body, kind, region, sample, function)
+
+
+# ------------------------------------------------------------------ formulas
+
+
+def _formulas(
+    body: str, kind: str, region: str, sample: Sample, function: Function
 ) -> Iterator[Worst]:
     sheet = sheet_of(body)
     names = [str(s) for s in (*function.arguments, *function.keywords(sheet))]
     given = {name: sample[name] for name in names}
+    module = importlib.import_module(f"generated.{body}")
     result = getattr(module, function.name)(**given)
+    points = _points(given)
     for field, expr in function.outputs(sheet).items():
+        if field and expr.is_Symbol:
+            continue  # an argument, handed back
         expr = sheet.frame.flat(expr)
         got = getattr(result, field) if field else result
-        points = [{n: float(v[i]) for n, v in given.items()} for i in range(len(got))]
-        references = [exact(expr, point) for point in points]
-        errors = np.array([ulps(v, r) for v, r in zip(got, references, strict=True)])
-        at = int(np.argmax(errors))
-        yield Worst(
-            body,
-            function.name,
-            field,
-            region,
-            float(errors[at]),
-            _excess(expr, points, errors),
-            condition(expr, points[at]),
-            points[at],
-            _paper(body, function.name, field, given, references),
+        of = _by_integrals(expr) if kind == INTEGRATED else _by_formula(body, expr)
+        yield _worst(
+            (body, function.name, field, region, kind),
+            got,
+            points,
+            [of.value(point) for point in points],
+            of.condition,
+            _paper(body, function.name, field, given) if kind == CLOSED else None,
         )
 
 
-def _excess(expr: Expr, points: list[dict[str, float]], errors: np.ndarray) -> float:
-    """The largest error over its conditioning, which is asked for where it can matter only."""
-    largest = max((float(error) for error in errors if error <= 1), default=0.0)
-    for i in np.argsort(-errors):
-        if errors[i] <= max(largest, 1):
-            break
-        largest = max(largest, float(errors[i]) / max(1.0, condition(expr, points[i])))
-    return largest
+@dataclass(frozen=True)
+class _Reference:
+    value: Callable[[Point], mpf]
+    condition: Callable[[int, Point], float]
+
+
+@cache
+def _by_formula(body: str, expr: Expr) -> _Reference:
+    kinks = [k.position for k in sheet_of(body).geometry.slope.kinks]
+
+    def beside(point: Point) -> Point:
+        """x beside a kink by nothing to speak of: there a formula is zero times infinity."""
+        if "x" in point and any(exact(place, point) == point["x"] for place in kinks):
+            with mpmath.workdps(400):
+                return {**point, "x": mpf(point["x"]) + mpf(10) ** -300}
+        return point
+
+    return _Reference(
+        lambda point: exact(expr, beside(point)),
+        lambda _, point: max(1.0, condition(expr, beside(point))),
+    )
+
+
+def _by_integrals(expr: Expr) -> _Reference:
+    """The defining integrals, by the rule of the proofs."""
+    function, step = numeric(expr), mpf(10) ** -15
+    names = {str(s): s for s in expr.free_symbols}
+
+    def value(point: Point) -> mpf:
+        with mpmath.workdps(40):
+            known = {s: mpf(point[n]) for n, s in names.items() if n in point}
+            return function(known | {s: mpf(1) for n, s in _edges.items() if n not in names})
+
+    def conditioned(_: int, point: Point) -> float:
+        with mpmath.workdps(40):
+            at = value(point)
+            moved = (value({**point, n: mpf(v) * (1 + step)}) for n, v in point.items())
+            return max(1.0, float(sum(abs((v - at) / (step * at)) for v in moved)))
+
+    _edges: dict[str, Any] = {}
+    return _Reference(value, conditioned)
 
 
 def _paper(
-    body: str, function: str, field: str, given: Sample, references: list[mpmath.mpf]
-) -> float | None:
+    body: str, function: str, field: str, given: Sample
+) -> Callable[[list[mpf]], float] | None:
     expr: Expr | None = FORMS.get(body, {}).get(function, {}).get(field)
     if expr is None:
         return None
@@ -102,4 +205,106 @@ def _paper(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         values = lambdify(held, expr, modules="numpy")(*(given[str(s)] for s in held))
-    return max(ulps(float(v), r) for v, r in zip(values, references, strict=True))
+    return lambda references: max(
+        ulps(float(v), r) for v, r in zip(values, references, strict=True)
+    )
+
+
+# ------------------------------------------------------------------ what is solved
+
+
+def _inverses(body: str, name: str, region: str, sample: Sample) -> Iterator[Worst]:
+    sheet, inverse = sheet_of(body), INVERSES[name]
+    digits = 50 if sheet.geometry.slope.is_polynomial else 36
+    names = [*inverse.arguments, "E_star", *(q.name for q in sheet.geometry.parameters)]
+    given = {n: sample[n] for n in names}
+    result = getattr(importlib.import_module(f"generated.{body}"), name)(**given)
+    points, found = _points(given), list(zip(result.a, result.c, strict=True))
+    answers = [
+        solved(inverse.conditions(body), edges, point, digits) if np.isfinite(edges[0]) else None
+        for edges, point in zip(found, points, strict=True)
+    ]
+    for i, field in enumerate("ac"):
+        yield _of_answers(
+            (body, name, field, region, SOLVED), getattr(result, field), points, answers, i
+        )
+
+
+def _cycles(body: str, region: str, sample: Sample, cycle: Cycle) -> Iterator[Worst]:
+    module = importlib.import_module(f"generated.{body}")
+    results, points = cycle.results(module, sample), _points(sample)
+    answers = [
+        solved(cycle.conditions(body), start, point, cycle.digits)
+        if np.isfinite(start[0])
+        else None
+        for start, point in zip(zip(*results, strict=True), points, strict=True)
+    ]
+    for i, field in enumerate(cycle.fields):
+        got = results[i]
+        yield _of_answers((body, cycle.name, field, region, CYCLE), got, points, answers, i)
+
+
+def _of_answers(
+    names: tuple[str, ...], got: Any, points: list[Point], answers: list[Any], i: int
+) -> Worst:
+    """The worst of one unknown; what was not solved is lost."""
+    there = [k for k, answer in enumerate(answers) if answer is not None]
+    row = _worst(
+        names,
+        np.array([got[k] for k in there]),
+        [points[k] for k in there],
+        [answers[k][0][i] for k in there],
+        lambda k, _: answers[there[k]][1][i],
+        None,
+        lost=len(answers) - len(there),
+    )
+    return row
+
+
+# ------------------------------------------------------------------ the worst of many
+
+
+def _points(given: Sample) -> list[Point]:
+    count = len(next(iter(given.values())))
+    return [{n: float(v[i]) for n, v in given.items()} for i in range(count)]
+
+
+def _worst(
+    names: tuple[str, ...],
+    got: Any,
+    points: list[Point],
+    references: list[mpf],
+    conditioned: Callable[[int, Point], float],
+    paper: Callable[[list[mpf]], float] | None,
+    lost: int = 0,
+) -> Worst:
+    if not points:
+        return Worst(*names, lost, lost, 0.0, 1.0, {}, 0.0, 0.0, {})  # type: ignore[arg-type]
+    errors = np.array([ulps(float(v), r) for v, r in zip(got, references, strict=True)])
+    kappa = np.ones(len(errors))
+    for i in np.flatnonzero(errors > 1):
+        kappa[i] = conditioned(int(i), points[i])
+    at, over = int(np.argmax(errors)), int(np.argmax(errors / kappa))
+    if errors[at] <= 1:
+        kappa[at] = conditioned(at, points[at])
+    well = errors[kappa <= WELL]
+    return Worst(
+        *names,  # type: ignore[arg-type]
+        len(points) + lost,
+        lost,
+        float(errors[at]),
+        float(kappa[at]),
+        points[at],
+        float(np.max(well)) if well.size else 0.0,
+        float(np.max(errors / np.maximum(kappa, 1))),
+        points[over],
+        paper(references) if paper else None,
+    )
+
+
+def worst_rows(rows: Iterable[Worst]) -> dict[tuple[str, str], list[Worst]]:
+    """Rows by body and function."""
+    found: dict[tuple[str, str], list[Worst]] = {}
+    for row in rows:
+        found.setdefault((row.body, row.function), []).append(row)
+    return found

@@ -1,6 +1,6 @@
-"""The exact value of a formula at float64 inputs, to far more digits than float64 holds."""
+"""Exact values at float64 inputs, to far more digits than float64 holds, and their conditioning."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 
 import mpmath
@@ -18,6 +18,8 @@ DIGITS = 60
 AGREE = 40
 """Digits to which the reference must not change when its precision is doubled."""
 
+Point = Mapping[str, float | mpf]
+
 
 @cache
 def sheet_of(body: str) -> FormulaSheet:
@@ -26,37 +28,38 @@ def sheet_of(body: str) -> FormulaSheet:
 
 
 @cache
-def _function(expr: Expr) -> tuple[tuple[str, ...], Callable[..., mpf]]:
+def function_of(expr: Expr) -> tuple[tuple[str, ...], Callable[..., mpf]]:
+    """An expression in mpmath, and the names of its arguments."""
     expr = expr.subs(e, M / P)
     held = sorted(expr.free_symbols, key=str)
     return tuple(map(str, held)), lambdify(held, expr, modules="mpmath")
 
 
-def exact(expr: Expr, point: Mapping[str, float | mpf]) -> mpf:
+def exact(expr: Expr, point: Point) -> mpf:
     """`expr` at `point`; the digits are doubled until the result holds still."""
     if isinstance(expr, Symbol) and str(expr) in point:
         return mpf(point[str(expr)])
-    names, function = _function(expr)
+    names, function = function_of(expr)
     digits, before = DIGITS, None
     while digits < 5000:
-        value = _evaluated(function, [mpf(point[name]) for name in names], digits)
+        value = _evaluated(function, [point[name] for name in names], digits)
         if None not in (value, before) and abs(value - before) <= mpf(10) ** -AGREE * abs(value):
             return value
         before, digits = value, 2 * digits
     raise ArithmeticError(f"{expr} does not settle at {dict(point)}")
 
 
-def _evaluated(function: Callable[..., mpf], values: list[mpf], digits: int) -> mpf | None:
+def _evaluated(function: Callable[..., mpf], values: list[float | mpf], digits: int) -> mpf | None:
     with mpmath.workdps(digits):
         try:
-            return function(*values)
-        except ZeroDivisionError:  # a difference that needs more digits to show
+            return mpmath.re(function(*map(mpf, values)))
+        except (ZeroDivisionError, ValueError):  # a difference that needs more digits to show
             return None
 
 
-def condition(expr: Expr, point: Mapping[str, float]) -> float:
+def condition(expr: Expr, point: Point) -> float:
     """Relative change of the value per relative change of the inputs, summed over them."""
-    names, _ = _function(expr)
+    names, _ = function_of(expr)
     step = mpf(10) ** -30
     with mpmath.workdps(2 * DIGITS):
         value = exact(expr, point)
@@ -67,3 +70,57 @@ def condition(expr: Expr, point: Mapping[str, float]) -> float:
             moved = exact(expr, {**point, name: mpf(point[name]) * (1 + step)})
             total += abs((moved - value) / (step * value))
         return float(total)
+
+
+# ------------------------------------------------------------------ what is solved for
+
+Conditions = Callable[[Sequence[mpf], Mapping[str, mpf]], Sequence[mpf]]
+"""What vanishes at the solution, from the unknowns and the inputs."""
+
+_STEP = mpf(10) ** -18
+"""Of the unknowns and the inputs, relative: differences in place of derivatives."""
+
+
+def solved(
+    conditions: Conditions, start: Sequence[float], point: Point, digits: int = 50
+) -> tuple[list[mpf], list[float]]:
+    """The solution next to `start`, and the condition of each of its numbers.
+
+    Newton's method; `start` is what is judged, so that it must be close, or the solution is not.
+    """
+    with mpmath.workdps(digits):
+        given = {name: mpf(value) for name, value in point.items()}
+        now = [mpf(v) for v in start]
+        for _ in range(12):
+            off, rates = conditions(now, given), _rates(conditions, now, given)
+            step = mpmath.lu_solve(rates, -mpmath.matrix(off))
+            now = [v + d for v, d in zip(now, step, strict=True)]
+            if all(
+                abs(d) <= mpf(10) ** (15 - digits) * abs(v) for v, d in zip(now, step, strict=True)
+            ):
+                return now, _conditioned(conditions, now, given)
+        raise ArithmeticError(f"no solution next to {list(start)} at {dict(point)}")
+
+
+def _rates(conditions: Conditions, now: list[mpf], given: Mapping[str, mpf]) -> mpmath.matrix:
+    at = conditions(now, given)
+    columns = []
+    for i, v in enumerate(now):
+        moved = [*now]
+        moved[i] = v * (1 + _STEP)
+        there = conditions(moved, given)
+        columns.append([(q - p) / (v * _STEP) for p, q in zip(at, there, strict=True)])
+    return mpmath.matrix(columns).T
+
+
+def _conditioned(conditions: Conditions, now: list[mpf], given: dict[str, mpf]) -> list[float]:
+    at, rates = conditions(now, given), _rates(conditions, now, given)
+    total = [mpf(0)] * len(now)
+    for name, value in given.items():
+        if value == 0:
+            continue
+        there = conditions(now, given | {name: value * (1 + _STEP)})
+        change = [(q - p) / _STEP for p, q in zip(at, there, strict=True)]
+        moved = mpmath.lu_solve(rates, mpmath.matrix(change))
+        total = [t + abs(d / v) for t, d, v in zip(total, moved, now, strict=True)]
+    return [max(1.0, float(t)) for t in total]

@@ -1,25 +1,26 @@
 """Where accuracy is measured: random inputs of every function, region by region.
 
-Regions know nothing of any body but what its sheet tells: whether its tilt is bounded, and where
-its kinks are.
+Regions know nothing of any body but what its sheet tells: its parameters and their units, whether
+its tilt is bounded, where its kinks are, and which contacts exist.
 """
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
-from sympy import Expr, lambdify, oo
+from sympy import And, Expr, Symbol, lambdify, oo
 
 from derive.sheet import FormulaSheet
-
-BODIES = ("hertz", "wedge")
-"""Closed both ways; what is solved or integrated is held to 1e-13 in tests/generated."""
 
 Sample = Mapping[str, Any]
 """float64 arrays of one length by argument name."""
 
-EXPONENTS = {"loads": 12, "moments": 8, "edges": 15, "kinks": 300, "limit": 12}
+EXPONENTS = {"loads": 12, "moments": 8, "edges": 15, "kinks": 300, "limit": 12, "slip": 12}
 """How far each corner is explored, in decades."""
+
+WIDEST = {"catenary": 1.0, "circular_arc": -0.1}
+"""Decades of the widest contact, where a body ends or its load leaves float64."""
 
 
 class Regions:
@@ -33,27 +34,23 @@ class Regions:
         """Every region of one function."""
         match function:
             case "contact":
-                yield "bulk", self.loads(0, (-2, 0))
-                yield "extreme loads", self.loads(EXPONENTS["loads"], (-8, 0))
-                yield "large moments", self.loads(3, (0, EXPONENTS["moments"]))
-                yield "no moment", self.loads(EXPONENTS["loads"], None)
+                yield from self.loaded()
             case "contact_at_tilt":
                 yield from self.at_tilt()
             case "pressure":
-                yield from self.inside()
+                for name, given in self.contacts():
+                    yield from self.inside(name, given)
             case "K_T" | "L_T" | "stick_margin":
-                yield "bulk", self.sheared(self.contacts(0, (-2, 0)))
-                yield "extreme loads", self.sheared(self.contacts(EXPONENTS["loads"], (-8, 8)))
+                for name, given in self.contacts():
+                    yield name, self.sheared(given)
             case _:
-                yield "bulk", self.contacts(0, (-2, 0))
-                yield "extreme loads", self.contacts(EXPONENTS["loads"], (-8, 0))
-                yield "large moments", self.contacts(3, (0, EXPONENTS["moments"]))
+                yield from self.contacts()
 
     # ------------------------------------------------------------------ ingredients
 
-    def decades(self, low: float, high: float) -> Any:
+    def decades(self, low: float, high: float, count: int | None = None) -> Any:
         """Numbers spread evenly over the decades from 10**low to 10**high."""
-        return 10.0 ** self.rng.uniform(low, high, self.count)
+        return 10.0 ** self.rng.uniform(low, high, self.count if count is None else count)
 
     @property
     def signs(self) -> Any:
@@ -61,9 +58,76 @@ class Regions:
         return self.rng.choice([-1.0, 1.0], self.count)
 
     def material(self) -> dict[str, Any]:
-        """E_star and the body's parameters."""
-        own = {q.name: self.decades(-3, 0) for q in self.sheet.geometry.parameters}
-        return {"E_star": self.decades(0, 3), **own}
+        """E_star and the body's parameters; the lengths of one body within two decades."""
+        given, scale = {"E_star": self.decades(0, 3)}, self.decades(-3, 0)
+        for q in self.sheet.geometry.parameters:
+            match q.unit:
+                case "m":
+                    given[q.name] = scale * self.decades(-1, 1)
+                case "rad":
+                    given[q.name] = self.decades(-3, 0)
+                case _:
+                    given[q.name] = self.rng.uniform(1.1, 4, self.count)
+        return given
+
+    def size(self, given: Sample) -> Any:
+        """A length of the body's order."""
+        lengths = [q.name for q in self.sheet.geometry.parameters if q.unit == "m"]
+        return given["b" if "b" in lengths else lengths[0]] if lengths else np.ones(self.count)
+
+    @cached_property
+    def exists(self) -> Any:
+        """Whether contacts exist."""
+        conditions = self.sheet["load"].conditions
+        names = sorted({str(s) for condition in conditions for s in condition.free_symbols})
+        test = lambdify(names, And(*conditions), modules="numpy")
+        return lambda given: np.broadcast_to(test(*(given[n] for n in names)), self.count)
+
+    # ------------------------------------------------------------------ contacts
+
+    def contacts(self) -> Iterator[tuple[str, Sample]]:
+        """Contacts in the bulk, of extreme widths, lopsided, level, and with edges at kinks."""
+        widest = min(WIDEST.get(self.sheet.geometry.name, 12.0), EXPONENTS["loads"])
+        yield "bulk", self._of_width((-0.5, min(widest, 1.0)), (-0.45, 0.45))
+        yield "extreme widths", self._of_width((-EXPONENTS["loads"], widest), (-0.45, 0.45))
+        lean = 0.5 - self.decades(-EXPONENTS["moments"], -0.5)
+        yield "lopsided", self._of_width((-2, min(widest, 2.0)), self.signs * lean)
+        level = self.decades(-EXPONENTS["edges"], -1)
+        yield "nearly level", self._of_width((-1, min(widest, 1.0)), self.signs * level)
+        for kink in self.sheet.geometry.slope.kinks:
+            if not kink.position.is_zero or self._may_leave(kink.position):
+                yield f"edge beside kink {kink.number}", self._edge_at(kink.position)
+
+    def _may_leave(self, place: Expr) -> bool:
+        """Whether contacts exist that do not hold a kink."""
+        return any(k.clipped for k in self.sheet.frame.kinks if k.kink.position == place)
+
+    def _of_width(self, widths: tuple[float, float], middle: Any) -> Sample:
+        """Widths so many decades of the body's size; middles in parts of the width."""
+        given = self.material()
+        width = self.size(given) * self.decades(*widths)
+        if isinstance(middle, tuple):
+            middle = self.rng.uniform(*middle, self.count)
+        given |= {"a": width * (0.5 - middle), "c": width * (0.5 + middle)}
+        return self._existing(given)
+
+    def _edge_at(self, place: Expr) -> Sample:
+        """One edge just beyond a kink, or just short of it."""
+        given = self.material()
+        kink, size = self._values(place, given), self.size(given)
+        near = kink + self.signs * size * self.decades(-EXPONENTS["edges"], -1)
+        far = size * self.decades(-0.5, 1)
+        right = self.rng.choice([True, False], self.count)
+        given |= {"a": np.where(right, far - near, -near), "c": np.where(right, near, near + far)}
+        return self._existing(given)
+
+    def _existing(self, given: dict[str, Any]) -> Sample:
+        return self._some(given, self.exists(given) & (given["a"] + given["c"] > 0))
+
+    def _some(self, given: Sample, chosen: Any) -> Sample:
+        return {name: value[chosen] for name, value in given.items()}
+
+    # ------------------------------------------------------------------ loads
 
     def loads(self, decades: float, moments: tuple[float, float] | None) -> dict[str, Any]:
         """P over so many decades, M from so many decades of P times the half-width."""
@@ -73,63 +137,83 @@ class Regions:
         half = self.module.contact(**given).a
         return given | {"M": self.signs * self.decades(*moments) * given["P"] * half}
 
-    def contacts(self, decades: float, moments: tuple[float, float]) -> dict[str, Any]:
-        """Contacts [-a, c] under such loads."""
-        given = self.loads(decades, moments)
-        state = self.module.contact(**given)
-        return {k: v for k, v in given.items() if k not in "PM"} | {"a": state.a, "c": state.c}
+    def loaded(self) -> Iterator[tuple[str, Sample]]:
+        """Loads and moments; of bodies that are solved, those of contacts."""
+        if "contact_a" in self.sheet:
+            yield "bulk", self.loads(0, (-2, 0))
+            yield "extreme loads", self.loads(EXPONENTS["loads"], (-8, 0))
+            yield "large moments", self.loads(3, (0, EXPONENTS["moments"]))
+            yield "no moment", self.loads(EXPONENTS["loads"], None)
+            return
+        for name, given in self.contacts():
+            law = {n: v for n, v in given.items() if n not in "ac"}
+            P, M = (of(given["a"], given["c"], **law) for of in self._laws)
+            yield name, law | {"P": P, "M": M}
 
-    def sheared(self, given: dict[str, Any]) -> dict[str, Any]:
+    @property
+    def _laws(self) -> tuple[Any, Any]:
+        return self.module.load, self.module.moment
+
+    def sheared(self, given: Sample) -> Sample:
         """Contacts with changes of shear and tension of comparable effect."""
-        shear = self.decades(-6, 6)
-        tension = self.signs * shear / (given["a"] + given["c"]) * self.decades(-3, 3)
-        turn = self.signs * shear * (given["a"] + given["c"]) * self.decades(-3, 3)
-        more = self.signs * shear * self.decades(-3, 3)
-        friction = self.decades(-1, 0)
-        return given | {"dQ": shear, "dsigma": tension, "dP": more, "dM": turn, "f": friction}
+        count = len(given["a"])
+        signs = self.rng.choice([-1.0, 1.0], (3, count))
+        shear, width = self.decades(-6, 6, count), given["a"] + given["c"]
+        return {
+            **given,
+            "dQ": shear,
+            "dsigma": signs[0] * shear / width * self.decades(-3, 3, count),
+            "dP": signs[1] * shear * self.decades(-3, 3, count),
+            "dM": signs[2] * shear * width * self.decades(-3, 3, count),
+            "f": self.decades(-1, 0, count),
+        }
 
     # ------------------------------------------------------------------ corners
 
     def at_tilt(self) -> Iterator[tuple[str, Sample]]:
         """Tilts of common contacts, and those close to the largest that the body can take."""
-        for name, decades, moments in (("bulk", 0, (-2, 0)), ("extreme loads", 12, (-8, 0))):
-            given = self.loads(decades, moments)
-            yield name, self._tilted(given, self.module.contact(**given).alpha)
+        for name, given in self.contacts():
+            law = {n: v for n, v in given.items() if n not in "ac"}
+            own = {n: v for n, v in law.items() if n != "E_star"}
+            load = self.module.load(given["a"], given["c"], **law)
+            yield name, law | {"P": load, "alpha": self.module.tilt(given["a"], given["c"], **own)}
         low, high = self.sheet.geometry.slope.limits
         for side, limit in (("left", -high), ("right", -low)):
-            if limit not in (oo, -oo):
-                given = self.loads(3, None)
+            if limit not in (oo, -oo) and "contact_at_tilt_a" in self.sheet:
+                given = {k: v for k, v in self.loads(3, None).items() if k != "M"}
                 short = -np.expm1(-self.decades(-EXPONENTS["limit"], 0))
                 bound = self._values(limit, given)
-                yield f"tilt near its {side} limit", self._tilted(given, bound * (1 - short))
+                yield f"tilt near its {side} limit", given | {"alpha": bound * (1 - short)}
 
-    def _tilted(self, given: dict[str, Any], alpha: Any) -> dict[str, Any]:
-        return {k: v for k, v in given.items() if k != "M"} | {"alpha": alpha}
-
-    def inside(self) -> Iterator[tuple[str, Sample]]:
+    def inside(self, name: str, given: Sample) -> Iterator[tuple[str, Sample]]:
         """Places in the bulk, next to both edges and next to every kink."""
-        for name, decades, moments in (
-            ("", 0, (-2, 0)),
-            (", extreme loads", EXPONENTS["loads"], (-8, 0)),
-            (", large moments", 3, (0, EXPONENTS["moments"])),
-        ):
-            given = self.contacts(decades, moments)
-            a, c = given["a"], given["c"]
-            theta = self.rng.uniform(0.1, np.pi - 0.1, self.count)
-            yield f"bulk{name}", self._placed(given, (c - a) / 2 + (a + c) / 2 * np.cos(theta))
-            near = (a + c) * self.decades(-EXPONENTS["edges"], -1)
-            yield f"left edge{name}", self._placed(given, near - a)
-            yield f"right edge{name}", self._placed(given, c - near)
-            for kink in self.sheet.geometry.slope.kinks:
-                at = self._values(kink.position, given)
-                close = self.signs * self.decades(-EXPONENTS["kinks"], 0) * np.minimum(a, c)
-                yield f"kink {kink.number}{name}", self._placed(given, at + close)
+        a, c = given["a"], given["c"]
+        count = len(a)
+        theta = self.rng.uniform(0.1, np.pi - 0.1, count)
+        yield name, self._placed(given, (c - a) / 2 + (a + c) / 2 * np.cos(theta))
+        near = (a + c) * self.decades(-EXPONENTS["edges"], -1, count)
+        yield f"{name}, x at the left edge", self._placed(given, near - a)
+        yield f"{name}, x at the right edge", self._placed(given, c - near)
+        for kink in self.sheet.geometry.slope.kinks:
+            at = self._values(kink.position, given)
+            signs = self.rng.choice([-1.0, 1.0], count)
+            close = signs * self.decades(-EXPONENTS["kinks"], 0, count) * np.minimum(c - at, a + at)
+            yield f"{name}, x at kink {kink.number}", self._placed(given, at + close)
 
     def _values(self, expr: Expr, given: Sample) -> Any:
         """A place or a slope of the body, in float64."""
         names = sorted(map(str, expr.free_symbols))
-        return np.ones(self.count) * lambdify(names, expr)(*(given[name] for name in names))
+        values = lambdify(names, expr)(*(given[name] for name in names))
+        return np.ones(len(next(iter(given.values())))) * values
 
-    def _placed(self, given: dict[str, Any], x: Any) -> dict[str, Any]:
-        inside = (x > -given["a"]) & (x < given["c"])
-        return {k: v[inside] for k, v in given.items()} | {"x": x[inside]}
+    def _placed(self, given: Sample, x: Any) -> Sample:
+        corners = [k.position for k in self.sheet.geometry.slope.kinks if k.is_corner]
+        chosen = (x > -given["a"]) & (x < given["c"])
+        for place in corners:  # where the pressure is infinite
+            chosen &= x != self._values(place, given)
+        return self._some(dict(given) | {"x": x}, chosen)
+
+
+def names_of(function_symbols: tuple[Symbol, ...]) -> list[str]:
+    """Argument names of a function."""
+    return [str(s) for s in function_symbols]

@@ -1,30 +1,47 @@
-"""`make bench`: generated functions against lambdify of the paper's forms, in one run.
+"""`make bench`: docs/performance.md and docs/performance.svg, all figures of one run.
 
-Each round times the three in turn, so that a change of the machine's pace meets all of them;
-figures are medians over the rounds.  Read the ratios: they hold from machine to machine better
-than times do.
+In each round all contenders are timed in turn; figures are medians over the rounds.  Read the
+ratios: they hold from machine to machine better than times do.
 """
 
 import importlib
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from statistics import median
-from time import perf_counter
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import click
 import numpy as np
 from rich.console import Console
-from rich.progress import track
-from rich.table import Table
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from sympy import lambdify
 
+from derive.codegen.contract import CONTRACT
+from derive.library import library
+from derive.sheet import FormulaSheet
+from generated import _arrays, flat_rounded, wedge
+from tests.benchmarks.cases import CASES, CONTENDERS, EDGES, GENERATED, PUNCH, WEDGE, Case
+from tests.benchmarks.picture import draw
+from tests.benchmarks.stages import Seconds, stages
+from tests.benchmarks.timing import (
+    Call,
+    interleaved,
+    peak_over_result,
+    processor,
+    timed,
+    versions,
+)
 from tests.paper_forms import FORMS
 
-SIZES = (1_000, 100_000, 10_000_000)
+ROOT = Path(__file__).parents[2]
+PAGE, PICTURE = ROOT / "docs" / "performance.md", ROOT / "docs" / "performance.svg"
 
-MATERIAL = {"E_star": 75e9, "phi": 0.05, "R": 0.05}
-"""A titanium-like blade root: SI units."""
+SIZES = tuple(10**n for n in range(8))
+CUT_AT = (1, 10, 100, 1000, 10**4, 16_000, 24_000, 25_000, 40_000, 10**5, 10**6, 10**7)
+"""Where the function is compared with itself uncut: around the lengths at which it is cut, too."""
+MEMORY_AT = (10**6, 10**5, 100)
+"""Memory is measured at the first of these that a contender takes part in."""
 
 VARYING = {
     "contact": {"P": (1e5, 1e7), "M": (-1e3, 1e3)},
@@ -33,15 +50,43 @@ VARYING = {
 }
 """Arguments that are arrays, and their range; a function of (a, c) alone varies both."""
 
-EDGES = {"a": (0.5e-3, 2e-3), "c": (0.5e-3, 2e-3)}
-FIXED = {"a": 1e-3, "c": 1.5e-3}
+MATERIAL = {"E_star": 75e9, "phi": 0.05, "R": 0.05}
+BOTH_EDGES = {"a": (0.5e-3, 2e-3), "c": (0.5e-3, 2e-3)}
 
-Call = Callable[[], Any]
+SCALARS = {
+    **{"P": 2e6, "M": 100.0, "alpha": 0.005, "x": 0.3e-3, "a": 1.5e-3, "c": 1.2e-3},
+    **{"dQ": 1e4, "dsigma": 1e6, "dP": 1e4, "dM": 1.0, "f": 0.5, "E_star": 75e9},
+    **{"phi": 0.05, "phi_1": 0.05, "phi_2": 0.08, "R": 0.05, "R_1": 0.05, "R_2": 0.08},
+    **{"b": 1e-3, "L": 0.05},
+}
+"""Plain numbers for every argument of an explicit formula."""
 
 
-@dataclass(frozen=True)
-class Row:
-    """Times of one function at one size, in seconds a call."""
+# ------------------------------------------------------------------ what is measured
+
+
+def curves(case: Case, sizes: tuple[int, ...], seconds: float) -> dict[str, dict[int, float]]:
+    """Seconds a call, by contender and size."""
+    found: dict[str, dict[int, float]] = {}
+    for size in sizes:
+        for name, time in interleaved(case.at(size), seconds).items():
+            found.setdefault(name, {})[size] = time
+    return found
+
+
+def memory(case: Case, largest: int) -> dict[str, float]:
+    """Most memory during a call over the size of its result, of what tracemalloc can see."""
+    found: dict[str, float] = {}
+    for size in MEMORY_AT:
+        if size <= largest:
+            for name, call in case.at(size).items():
+                if name not in found and name not in ("numba", "numexpr", "one np.log"):
+                    found[name] = peak_over_result(call)
+    return found
+
+
+class Printed(NamedTuple):
+    """One formula that the paper prints: seconds of the generated one, lambdify, with cse."""
 
     name: str
     size: int
@@ -49,27 +94,12 @@ class Row:
     plain: float
     cse: float
 
-    @property
-    def against_plain(self) -> float:
-        """How many times faster than lambdify."""
-        return self.plain / self.generated
 
-    @property
-    def against_cse(self) -> float:
-        """How many times faster than lambdify with common subexpressions taken out."""
-        return self.cse / self.generated
-
-
-def arguments(function: str, size: int) -> dict[str, Any]:
-    """Arrays for what varies, numbers for the rest."""
-    rng = np.random.default_rng(7)
-    varying = VARYING.get(function, EDGES)
-    return FIXED | MATERIAL | {n: rng.uniform(*bounds, size) for n, bounds in varying.items()}
-
-
-def calls(body: str, function: str, size: int) -> tuple[Call, Call, Call]:
+def printed_calls(body: str, function: str, size: int) -> tuple[Call, Call, Call]:
     """The generated function, lambdify and lambdify with cse, on the same arrays."""
-    given = arguments(function, size)
+    rng = np.random.default_rng(7)
+    varying = VARYING.get(function, BOTH_EDGES)
+    given = EDGES | MATERIAL | {n: rng.uniform(*bounds, size) for n, bounds in varying.items()}
     forms = FORMS[body][function]
     held = sorted(set().union(*(f.free_symbols for f in forms.values())), key=str)
     values = [given[str(s)] for s in held]
@@ -80,58 +110,278 @@ def calls(body: str, function: str, size: int) -> tuple[Call, Call, Call]:
     return lambda: generated(**own), lambda: plain(*values), lambda: cse(*values)
 
 
-def measured(body: str, function: str, size: int, seconds: float) -> Row:
-    """One row: rounds of the three, each round in turn, for about `seconds`."""
-    three = calls(body, function, size)
-    once = max(_timed(call, 1) for call in three)
-    repeat = max(1, int(2e-3 / once))
-    rounds = max(5, min(200, int(seconds / (3 * repeat * once))))
-    times = [[_timed(call, repeat) for call in three] for _ in range(rounds)]
-    return Row(f"{body}.{function}", size, *(median(column) for column in zip(*times, strict=True)))
+def printed(size: int, seconds: float) -> Iterator[Printed]:
+    """Every function that the paper prints a form of."""
+    for body, functions in FORMS.items():
+        for function in functions:
+            three = dict(zip("gpc", printed_calls(body, function, size), strict=True))
+            yield Printed(f"{body}.{function}", size, *interleaved(three, seconds).values())
 
 
-def _timed(call: Call, repeat: int) -> float:
-    began = perf_counter()
-    for _ in range(repeat):
-        call()
-    return (perf_counter() - began) / repeat
+@contextmanager
+def uncut() -> Iterator[None]:
+    """Functions compute arrays of every length as a whole."""
+    held = _arrays.WHOLE
+    _arrays.WHOLE = np.iinfo(np.int64).max
+    try:
+        yield
+    finally:
+        _arrays.WHOLE = held
 
 
-def rows(sizes: tuple[int, ...], seconds: float) -> Iterator[Row]:
-    """Every function that the paper prints a form of, at every size."""
-    todo = [(b, f, n) for b, functions in FORMS.items() for f in functions for n in sizes]
-    for body, function, size in track(
-        todo, description="timing", console=Console(stderr=True), transient=True
-    ):
-        yield measured(body, function, size, seconds)
+def cut_or_not(sizes: tuple[int, ...], seconds: float) -> dict[str, dict[int, tuple[float, float]]]:
+    """Seconds of functions as they are, and without blocks."""
+    found: dict[str, dict[int, tuple[float, float]]] = {}
+    for name, call_at in _CUT.items():
+        for size in sizes:
+            call = call_at(size)
+
+            def whole(call: Call = call) -> Any:
+                with uncut():
+                    return call()
+
+            times = interleaved({"cut": call, "whole": whole}, seconds)
+            if size <= 1000:  # the same code runs; what switches it is not counted
+                times["whole"] -= timed(_nothing, 1000)
+            found.setdefault(name, {})[size] = times["cut"], times["whole"]
+    return found
 
 
-def table(found: list[Row]) -> Table:
-    """Times in ns an element, and ratios."""
-    shown = Table(
-        "function",
-        "elements",
-        "generated",
-        "lambdify",
-        "with cse",
-        "times faster than lambdify",
-        "times faster than cse",
-        title="ns an element, medians; ratios of one run",
+def _nothing() -> None:
+    with uncut():
+        pass
+
+
+def _cut_pressure(size: int) -> Call:
+    x = np.random.default_rng(7).uniform(-0.9e-3, 1.4e-3, size)
+    return lambda: wedge.pressure(x, **EDGES, **WEDGE)
+
+
+def _cut_contact(size: int) -> Call:
+    rng = np.random.default_rng(7)
+    P, M = rng.uniform(1e5, 1e7, size), rng.uniform(-1e3, 1e3, size)
+    return lambda: wedge.contact(P, M, **WEDGE)
+
+
+def _cut_punch(size: int) -> Call:
+    x, a, c = np.random.default_rng(7).uniform(2e-3, 4e-3, (3, size))
+    return lambda: flat_rounded.pressure(x - 3e-3, a, c, **PUNCH)
+
+
+_CUT: dict[str, Callable[[int], Call]] = {
+    "wedge.pressure": _cut_pressure,
+    "wedge.contact": _cut_contact,
+    "flat_rounded.pressure": _cut_punch,
+}
+
+
+def scalars(bodies: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
+    """Seconds of a call with plain numbers, of every explicit formula, by body."""
+    from derive.derivation import derive_sheet
+    from derive.library import load_geometry
+
+    found: dict[str, dict[str, float]] = {}
+    for body in bodies or library():
+        geometry = load_geometry(body)
+        if not geometry.slope.is_polynomial:
+            continue
+        sheet: FormulaSheet = derive_sheet(geometry)
+        module = importlib.import_module(f"generated.{body}")
+        calls: dict[str, Call] = {}
+        for function in CONTRACT:
+            if function.available(sheet):
+                names = map(str, (*function.arguments, *function.keywords(sheet)))
+                given = {name: SCALARS[name] for name in names}
+                calls[function.name] = partial(getattr(module, function.name), **given)
+        found[body] = interleaved(calls, 0.2)
+    return found
+
+
+# ------------------------------------------------------------------ the page
+
+
+class Found(NamedTuple):
+    """All figures of one run."""
+
+    curves: Mapping[str, Mapping[str, Mapping[int, float]]]
+    memory: Mapping[str, Mapping[str, float]]
+    printed: list[Printed]
+    cut: Mapping[str, Mapping[int, tuple[float, float]]]
+    scalars: Mapping[str, Mapping[str, float]]
+    stages: Seconds
+
+
+def measured(
+    largest: int, seconds: float, bodies: tuple[str, ...], told: Callable[[str], None]
+) -> Found:
+    """Measure everything; `told` hears what comes next."""
+    sizes = tuple(n for n in SIZES if n <= largest)
+    lines, peaks = {}, {}
+    for case in CASES:
+        told(case.name)
+        lines[case.name] = curves(case, sizes, seconds)
+        peaks[case.name] = memory(case, largest)
+    told("printed formulas")
+    forms = [*printed(min(1_000, largest), seconds / 4), *printed(min(10**6, largest), seconds)]
+    told("with and without blocks")
+    both = cut_or_not(tuple(n for n in CUT_AT if n <= largest), seconds)
+    told("scalar calls")
+    numbers = scalars(bodies)
+    built = stages(bodies, lambda body: told(f"deriving {body}"))
+    return Found(lines, peaks, forms, both, numbers, built)
+
+
+def parts(bodies: tuple[str, ...]) -> int:
+    """How often `measured` tells what comes next."""
+    return len(CASES) + 3 + len(bodies or library())
+
+
+def page(found: Found) -> str:
+    """All of it in Markdown."""
+    return "\n".join(
+        [
+            "# Speed",
+            "",
+            "Made by `make bench`, all in one run; contenders are timed in turn, round by round,",
+            "and figures are medians.  One thread each.  Ratios hold from machine to machine",
+            "better than times do.  Measured with:",
+            "",
+            f"- processor: {processor()}",
+            f"- {versions()}",
+            "",
+            "![ns an element over the number of elements](performance.svg)",
+            "",
+            *_case_tables(found),
+            *_cut_table(found),
+            *_printed_table(found),
+            *_scalar_table(found),
+            *_stage_table(found),
+        ]
     )
-    for row in found:
-        per = [f"{1e9 * t / row.size:.2f}" for t in (row.generated, row.plain, row.cse)]
-        ratios = [f"{row.against_plain:.2f}", f"{row.against_cse:.2f}"]
-        shown.add_row(row.name, f"{row.size:,}", *per, *ratios)
-    return shown
+
+
+def _case_tables(found: Found) -> Iterator[str]:
+    yield from (
+        "What takes too long is left out.  The last column is the most memory held during a call,",
+        f"its result included, over the size of the result, at {MEMORY_AT[0]:,} elements or as",
+        "many as are timed: 1 is the result and nothing else.  tracemalloc sees NumPy's arrays and",
+        "not those of compiled code.  The floor is one logarithm of the same array, `one np.log`.",
+        "",
+    )
+    for case in CASES:
+        lines = found.curves[case.name]
+        ours = lines[GENERATED]
+        sizes = sorted({n for times in lines.values() for n in times})
+        yield from (f"## {case.name}", "", case.words, "")
+        yield f"| ns an element | {' | '.join(f'{n:,}' for n in sizes)} | memory |"
+        yield "| --- |" + " ---: |" * (len(sizes) + 1)
+        for name, times in lines.items():
+            each = [_three(1e9 * times[n] / n) if n in times else "" for n in sizes]
+            peak = found.memory[case.name].get(name)
+            yield f"| {name} | {' | '.join(each)} | {'' if peak is None else f'{peak:.2f}'} |"
+        yield from ("", f"| times faster than | {' | '.join(f'{n:,}' for n in sizes)} |")
+        yield "| --- |" + " ---: |" * len(sizes)
+        for name, times in lines.items():
+            if name in CONTENDERS and name != GENERATED:
+                both = [
+                    _three(times[n] / ours[n]) if n in times and n in ours else "" for n in sizes
+                ]
+                yield f"| {name} | {' | '.join(both)} |"
+        yield ""
+
+
+def _cut_table(found: Found) -> Iterator[str]:
+    yield from (
+        "## Blocks",
+        "",
+        f"Arrays of more than {_arrays.WHOLE:,} elements are computed in blocks of up to "
+        f"{_arrays.BLOCK:,}.  Time in",
+        "blocks over the time of the same function without; under 1 is faster.",
+        "",
+    )
+    sizes = [*next(iter(found.cut.values()))]
+    yield f"| | {' | '.join(f'{n:,}' for n in sizes)} |"
+    yield "| --- |" + " ---: |" * len(sizes)
+    for name, times in found.cut.items():
+        yield f"| {name} | {' | '.join(f'{cut / whole:.2f}' for cut, whole in times.values())} |"
+    yield ""
+
+
+def _printed_table(found: Found) -> Iterator[str]:
+    yield from (
+        "## Every formula that the paper prints",
+        "",
+        "Against `sympy.lambdify` of the printed form.",
+        "",
+        "| function | elements | ns an element | times faster than lambdify | than with cse |",
+        "| --- | ---: | ---: | ---: | ---: |",
+    )
+    for row in found.printed:
+        each = _three(1e9 * row.generated / row.size)
+        ratios = f"{row.plain / row.generated:.2f} | {row.cse / row.generated:.2f}"
+        yield f"| {row.name} | {row.size:,} | {each} | {ratios} |"
+    yield ""
+
+
+def _scalar_table(found: Found) -> Iterator[str]:
+    functions = [f.name for f in CONTRACT if any(f.name in row for row in found.scalars.values())]
+    yield from (
+        "## A call with plain numbers",
+        "",
+        "Microseconds, of explicit formulas.",
+        "",
+        f"| body | {' | '.join(functions)} |",
+        "| --- |" + " ---: |" * len(functions),
+    )
+    for body, row in found.scalars.items():
+        each = [f"{1e6 * row[f]:.1f}" if f in row else "" for f in functions]
+        yield f"| {body} | {' | '.join(each)} |"
+    yield ""
+
+
+def _stage_table(found: Found) -> Iterator[str]:
+    names = [*next(iter(found.stages.values()))]
+    yield from (
+        "## From g(x) to a module",
+        "",
+        "Seconds of each stage, on one core; `derive generate` builds several bodies at once.",
+        "",
+        f"| body | {' | '.join(names)} | all |",
+        "| --- |" + " ---: |" * (len(names) + 1),
+    )
+    for body, row in found.stages.items():
+        each = " | ".join(f"{t:.1f}" for t in row.values())
+        yield f"| {body} | {each} | {sum(row.values()):.1f} |"
+    yield ""
+
+
+def _three(value: float) -> str:
+    """Three digits, none of them in an exponent."""
+    if value >= 100:
+        return f"{float(f'{value:.3g}'):,.0f}"
+    return f"{value:#.3g}"
 
 
 @click.command()
-@click.option("--seconds", default=2.0, help="Time for each function and size.")
+@click.option("--seconds", default=1.0, help="Time for each function and size.")
 @click.option("--largest", default=SIZES[-1], help="Leave out sizes above this.")
-def main(seconds: float, largest: int) -> None:
-    """Compare the generated functions with lambdify of the paper's forms."""
-    found = list(rows(tuple(n for n in SIZES if n <= largest), seconds))
-    Console(width=140).print(table(found))
+@click.option("--body", "bodies", multiple=True, help="Derive these alone.")
+@click.option("--to", default=PAGE, type=click.Path(path_type=Path), help="The page to write.")
+def main(seconds: float, largest: int, bodies: tuple[str, ...], to: Path) -> None:
+    """Measure, print the page, keep it with its picture."""
+    columns = TextColumn("{task.description:32}"), BarColumn(), TimeElapsedColumn()
+    with Progress(*columns, console=Console(stderr=True)) as progress:
+        task = progress.add_task("", total=parts(bodies))
+        begun = iter(range(parts(bodies)))
+
+        def told(what: str) -> None:
+            progress.update(task, completed=next(begun), description=what)
+
+        found = measured(largest, seconds, bodies, told)
+    text = page(found)
+    to.write_text(text, encoding="utf-8")
+    draw(found.curves, to.with_suffix(".svg"))
+    click.echo(text)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,127 @@
+"""Large arrays are computed in blocks and pieces; what comes out is what a whole one gives."""
+
+import tracemalloc
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from generated import _arrays, flat_rounded, hertz, wedge
+from generated._types import Contact
+
+LAW = {"f": 0.5, "E_star": 1.0, "phi": 0.125}
+
+
+def cycles(count: int) -> tuple[Contact, Any, Any]:
+    """Contacts of a wedge, shear from half the friction to twice it, tension of both signs."""
+    a, c, part, over = np.random.default_rng(3).uniform(0.5, 1.5, (4, count))
+    load = wedge.load(a, c, E_star=1.0, phi=0.125)
+    return Contact(a, c, 0 * a), part * load * 0.7, 0.6 * (over - 1)
+
+
+@pytest.fixture
+def small(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_arrays, "PIECE", 7)
+    monkeypatch.setattr(_arrays, "BLOCK", 7)
+    monkeypatch.setattr(_arrays, "WHOLE", 14)
+
+
+def test_pieces_of_a_cycle_make_the_whole(small: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    here, shear, tension = cycles(40)
+    pieces = wedge.stick_zone(here, here, shear, tension, **LAW)
+    monkeypatch.setattr(_arrays, "PIECE", 1000)
+    whole = wedge.stick_zone(here, here, shear, tension, **LAW)
+    assert len(set(whole.regime)) > 2
+    assert pieces.regime.dtype == whole.regime.dtype
+    assert_array_equal(pieces.regime, whole.regime)
+    assert_allclose(pieces.m, whole.m, rtol=1e-12)
+    assert_allclose(pieces.n, whole.n, rtol=1e-12)
+
+
+def test_pieces_broadcast_as_whole_arrays_do(small: None) -> None:
+    a, dQ = np.linspace(0.5, 1.5, 9)[:, None], np.linspace(0.001, 0.02, 11)
+    found = wedge.slip_zones(a, 1.0, dQ, 0.01, **LAW, order=2)
+    assert found.left.shape == (9, 11)
+    for i, j in ((0, 0), (3, 10), (8, 5)):
+        alone = wedge.slip_zones(a[i, 0], 1.0, dQ[j], 0.01, **LAW, order=2)
+        assert_allclose((found.left[i, j], found.right[i, j]), alone, rtol=1e-12)
+
+
+def test_options_reach_every_piece(small: None) -> None:
+    here, shear, tension = cycles(30)
+    third = wedge.slip_zones(here.a, here.c, shear, tension, **LAW, order=3)
+    first = wedge.slip_zones(here.a, here.c, shear, tension, **LAW)
+    both = np.isfinite(first.left) & np.isfinite(third.left)
+    assert np.count_nonzero(both) > 5
+    assert np.all(first.left[both] != third.left[both])
+    with pytest.raises(ValueError, match="order must be 1, 2 or 3; got 4"):
+        wedge.slip_zones(here.a, here.c, shear, tension, **LAW, order=4)
+
+
+def test_what_is_wrong_is_told_of_the_whole_not_of_a_piece(small: None) -> None:
+    a = np.linspace(0.5, 1.5, 30)
+    with pytest.raises(ValueError, match=r"a \(30,\), dQ \(29,\)"):
+        wedge.slip_zones(a, 1.0, a[1:], 0.0, **LAW)
+    with pytest.raises(TypeError, match="first must be a Contact"):
+        wedge.stick_zone(a, a, a, 0.0, **LAW)
+
+
+@pytest.mark.parametrize("count", [1, 13, 14, 15, 21, 22, 50])
+def test_blocks_make_the_whole(small: None, monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+    x, a, c = np.random.default_rng(count).uniform(1.0, 3.0, (3, count))
+    law = {"E_star": 1.0, "R": 1.0, "b": 0.5}
+    blocks = flat_rounded.pressure(x - 2, a, c, **law)
+    monkeypatch.setattr(_arrays, "WHOLE", 1000)
+    assert_allclose(blocks, flat_rounded.pressure(x - 2, a, c, **law), rtol=1e-14)
+
+
+def test_no_block_is_longer_than_allowed() -> None:
+    for shape in ((1,), (100,), (7, 15), (3, 4, 12), (4, 12), (5, 7), (30, 1), (2, 3, 100)):
+        seen = np.zeros(shape)
+        for index in _arrays._blocks(shape, 16):
+            seen[index] += 1
+            assert seen[index].size <= 16
+        assert_array_equal(seen, 1)
+
+
+def test_a_cycle_holds_little_beside_its_result() -> None:
+    count = 400_000
+    here, shear, tension = cycles(count)
+    tracemalloc.start()
+    found = wedge.slip_zones(here.a, here.c, shear, tension, **LAW)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 1.8 * (found.left.nbytes + found.right.nbytes)
+
+
+@pytest.mark.parametrize("function", ["maximum", "minimum", "fmax"])
+def test_the_larger_and_the_smaller_are_those_of_numpy(function: str) -> None:
+    values = [-1.0, 0.0, 2.0, np.nan, np.inf, -np.inf]
+    ours, its = getattr(_arrays, function), getattr(np, function)
+    long = np.resize(values, 5000)
+    for v in map(np.float64, values):
+        for w in (*map(np.float64, values), *values):
+            assert_array_equal(ours(v, w), its(v, w))
+            assert type(ours(v, w)) is np.float64
+        assert_array_equal(ours(long, v), its(long, v))
+        assert_array_equal(ours(v, long.reshape(50, 100)), its(v, long.reshape(50, 100)))
+        assert_array_equal(ours(long[:6], v), its(long[:6], v))
+
+
+def test_a_logarithm_of_a_quotient_beyond_float64() -> None:
+    """log(1 + 1e300/1e-300) = 600 log 10."""
+    with np.errstate(all="ignore"):
+        above, below = np.array([1e300, 1.0, 1.0, 0.0]), np.array([1e-300, 1.0, 0.0, 1.0])
+        found = _arrays.log1p_quotient(above, below)
+        alone = _arrays.log1p_quotient(np.float64(1e300), np.float64(1e-300))
+    assert_allclose(found, [600 * np.log(10), np.log(2), np.inf, 0], rtol=1e-15)
+    assert_allclose(alone, 600 * np.log(10), rtol=1e-15)
+    assert type(alone) is np.float64
+
+
+def test_hertz_needs_none_of_it() -> None:
+    """One number and a million go the same way, to the last bit."""
+    a = np.linspace(1, 2, 100_000)
+    found = hertz.load(a, 1.0, E_star=1.0, R=1.0)
+    assert_array_equal(found[::9999], [hertz.load(v, 1.0, E_star=1.0, R=1.0) for v in a[::9999]])
