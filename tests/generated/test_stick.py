@@ -560,3 +560,20 @@ def test_partial_half_cycles_of_constant_loads_only_grow() -> None:
         assert np.all(regime[:, whole] == code)
         assert np.all(np.diff(m[:, whole], axis=0) < 1e-12)
         assert np.all(np.diff(n[:, whole], axis=0) < 1e-12)
+
+
+@pytest.mark.parametrize("tension", [0.5, 1.2])
+def test_one_edge_that_goes_out_and_one_that_comes_in_tell_nothing_of_what_is_between(
+    tension: float,
+) -> None:
+    """Wedge, P = E* = phi = 1, M from -0.2 to 0.2: the pressure rests inside while shear goes on.
+    The independent solver finds slip to m = 0.6761 at 1.2 times the closing tension, inside both
+    contacts, whose smaller reach is 0.6770; without shear and tension nothing slips."""
+    ends = wedge.contact(1.0, np.array([-0.2, 0.2]), E_star=1.0, phi=1.0)
+    first, second = (Contact(*(v[i] for v in ends)) for i in (0, 1))
+    law = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
+    zone = wedge.stick_zone(first, second, 0.15, tension * 0.206021, **law)
+    assert zone.regime == Regime.MIXED and np.isnan(zone.m)
+    still = wedge.stick_zone(first, second, 0.0, 0.0, **law)
+    assert still.regime == Regime.FULL_STICK
+    assert_allclose((still.m, still.n), np.min([ends.a, ends.c]), rtol=1e-12)

@@ -326,7 +326,12 @@ def _sliding(cycle: _Cycle) -> Found:
 
 
 def _full_stick(cycle: _Cycle) -> Found:
-    """An edge that turns back on the way, lead = 0, could not bear any shear there."""
+    """An edge that turns back on the way, lead = 0, could not bear any shear there.
+
+    Rates of shear and of pressure are lines over w between those of the edges.  If the pressure
+    rises, or falls, at both, friction at the edges is friction all over; else there is a place
+    where it rests while shear goes on, and the edges tell nothing, unless there is no shear.
+    """
     a, c = np.minimum(*cycle.a), np.minimum(*cycle.c)
     sticks = (cycle.dQ == 0) & (cycle.dsigma == 0)
     rows = np.flatnonzero(~cycle.steady)
@@ -334,8 +339,9 @@ def _full_stick(cycle: _Cycle) -> Found:
         there = cycle.on(rows)
         edges = there.way[:2]
         h = edges[0] + edges[1]
-        held = True
-        for pull, lead in zip(there.pulls(h), there.leads(h, *edges), strict=True):
+        pulls, leads = there.pulls(h), there.leads(h, *edges)
+        held = (leads[0] * leads[1] >= 0) | ((pulls[0] == 0) & (pulls[1] == 0))
+        for pull, lead in zip(pulls, leads, strict=True):
             held = held & (np.abs(pull) <= there.f * np.abs(lead)) & (lead * lead[0] >= 0)
         sticks[rows] |= np.all(held, axis=0)
         a[rows], c[rows] = np.min(edges[0], axis=0), np.min(edges[1], axis=0)
