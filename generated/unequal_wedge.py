@@ -101,8 +101,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
             a,
             c,
             (
-                np.pi * phi_1
-                - phi_1 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, lean)
+                phi_1 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, -lean)
                 - phi_2 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, lean)
             )
             / np.pi,

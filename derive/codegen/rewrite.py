@@ -144,16 +144,17 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
 
 
 def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
-    """A pi + B theta_j -> A theta_j' + (A + B) theta_j where A + B is simpler than B.
+    """A pi + B theta -> A theta' + (A + B) theta where A + B is simpler than B.
 
-    theta_j' = pi - theta_j is the angle of the other side.  With A = R_2 and B = R_1 - R_2 both
-    terms are positive, where pi R_2 and (R_1 - R_2) theta_j are not.
+    theta' = pi - theta, of a kink the angle of the other side, and atan2(y, -x) of theta =
+    atan2(y, x) with y > 0.  With A = R_2 and B = R_1 - R_2 both
+    terms are positive, where pi R_2 and (R_1 - R_2) theta are not.
     """
     kinks = {k.theta: k for k in sheet.frame.kinks}
     of_kinks = {symbol for k in sheet.frame.kinks for symbol in (k.theta, k.w, k.L)}
 
     def change(expr: Expr) -> Expr:
-        for angle in sorted(expr.free_symbols & kinks.keys(), key=str):
+        for angle in sorted((expr.free_symbols & kinks.keys()) | expr.atoms(atan2), key=str):
             for total in sorted(expr.atoms(Add), key=count_ops):
                 times = total.coeff(angle)
                 rest = [term for term in total.args if not term.has(angle)]
@@ -161,7 +162,7 @@ def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
                 share = factor(times + free / pi)
                 if free == 0 or times == 0 or count_ops(share) >= count_ops(factor(times)):
                     continue
-                other = factor(free / pi) * _opposite(kinks[angle])
+                other = factor(free / pi) * _other_side(angle, kinks)
                 left = Add(*(term for term in rest if term.free_symbols & of_kinks))
                 expr = expr.xreplace({total: other + share * angle + left})
                 break
@@ -183,6 +184,14 @@ def _complement(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:
         return atan2(along, y)
     k = kinks[angle]
     return atan2(k.kink.side * simplify(k.left - k.right), 2 * k.w)
+
+
+def _other_side(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:
+    """pi - angle, by what it lacks."""
+    if isinstance(angle, atan2):
+        y, along = angle.args
+        return atan2(y, -along)
+    return _opposite(kinks[angle])
 
 
 def _opposite(k: KinkFrame) -> Expr:

@@ -89,7 +89,7 @@ def kind_of(body: str, function: str) -> str:
     return MENDED if its.geometric and is_mended(sheet) else CLOSED
 
 
-SHARES = {CLOSED: 1.0, MENDED: 1.0, SOLVED: 0.2, INTEGRATED: 0.02}
+SHARES = {CLOSED: 1.0, MENDED: 1.0, SOLVED: 0.1, INTEGRATED: 0.005}
 """How many points are tried in a region, in parts of those asked for: some references are dear."""
 
 
@@ -105,7 +105,10 @@ def worst_of(body: str, count: int, only: str = "") -> Iterator[Worst]:
         if only in ("", name):
             kind = kind_of(body, name)
             cycle = next((c for c in CYCLES if c.name == name), None)
-            points = max(2, round((cycle.share if cycle else SHARES[kind]) * count))
+            share = cycle.share if cycle else SHARES[kind]
+            if kind == SOLVED and not sheet_of(body).geometry.slope.is_polynomial:
+                share = SHARES[INTEGRATED] / 2  # each is many integrals
+            points = max(1, round(share * count))
             regions = Regions(sheet_of(body), importlib.import_module(f"generated.{body}"), points)
             for region, sample in cycle.regions(regions) if cycle else regions.of(name):
                 if len(next(iter(sample.values()))):

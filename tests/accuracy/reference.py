@@ -93,7 +93,7 @@ def solved(
         now = [mpf(v) for v in start]
         for _ in range(12):
             off, rates = conditions(now, given), _rates(conditions, now, given)
-            step = mpmath.lu_solve(rates, -mpmath.matrix(off))
+            step = _of_two(rates, [-v for v in off])
             now = [v + d for v, d in zip(now, step, strict=True)]
             if all(
                 abs(d) <= mpf(10) ** (15 - digits) * abs(v) for v, d in zip(now, step, strict=True)
@@ -102,7 +102,15 @@ def solved(
         raise ArithmeticError(f"no solution next to {list(start)} at {dict(point)}")
 
 
-def _rates(conditions: Conditions, now: list[mpf], given: Mapping[str, mpf]) -> mpmath.matrix:
+def _of_two(columns: list[list[mpf]], right: Sequence[mpf]) -> list[mpf]:
+    """Two linear equations, by determinants: no pivot is too small for numbers of any size."""
+    (a_11, a_21), (a_12, a_22) = columns
+    by = a_11 * a_22 - a_12 * a_21
+    return [(right[0] * a_22 - right[1] * a_12) / by, (a_11 * right[1] - a_21 * right[0]) / by]
+
+
+def _rates(conditions: Conditions, now: list[mpf], given: Mapping[str, mpf]) -> list[list[mpf]]:
+    """By each of the unknowns, a column each."""
     at = conditions(now, given)
     columns = []
     for i, v in enumerate(now):
@@ -110,7 +118,7 @@ def _rates(conditions: Conditions, now: list[mpf], given: Mapping[str, mpf]) -> 
         moved[i] = v * (1 + _STEP)
         there = conditions(moved, given)
         columns.append([(q - p) / (v * _STEP) for p, q in zip(at, there, strict=True)])
-    return mpmath.matrix(columns).T
+    return columns
 
 
 def _conditioned(conditions: Conditions, now: list[mpf], given: dict[str, mpf]) -> list[float]:
@@ -121,6 +129,6 @@ def _conditioned(conditions: Conditions, now: list[mpf], given: dict[str, mpf]) 
             continue
         there = conditions(now, given | {name: value * (1 + _STEP)})
         change = [(q - p) / _STEP for p, q in zip(at, there, strict=True)]
-        moved = mpmath.lu_solve(rates, mpmath.matrix(change))
+        moved = _of_two(rates, change)
         total = [t + abs(d / v) for t, d, v in zip(total, moved, now, strict=True)]
     return [max(1.0, float(t)) for t in total]

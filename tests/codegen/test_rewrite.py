@@ -12,11 +12,13 @@ import mpmath
 import numpy as np
 import pytest
 from mpmath import mpf
-from sympy import Expr, Piecewise, Rational, lambdify, nan
+from sympy import Expr, Piecewise, Rational, Symbol, atan2, lambdify, nan, pi
 
 from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.program import Program
-from derive.codegen.rewrite import prove_equal, stable_program
+from derive.codegen.rewrite import prove_equal, shares_of_the_half_circle, stable_program
+from derive.derivation import derive_sheet
+from derive.library import load_geometry
 from derive.proof.points import contacts, loads
 from derive.proof.verdict import Proof, Verdict
 from derive.symbols import P, a, c
@@ -397,3 +399,27 @@ def test_the_cylinder_s_contact_keeps_its_digits_under_extreme_loads(
     got = hertz.contact(load, moment, E_star=E_star, R=R)
     assert got.alpha == 0 if lean == 0 else ulps(got.alpha, exact[2]) <= ULPS
     assert max(ulps(got.a, exact[0]), ulps(got.c, exact[1])) <= ULPS
+
+
+# ------------------------------------------------------------------ shares of the half circle
+
+
+def test_angles_become_shares_of_the_half_circle() -> None:
+    """pi R_2 + (R_1 - R_2) theta = R_2 theta' + R_1 theta: both positive; and of an atan2 alike."""
+    two = derive_sheet(load_geometry("two_radii"))
+    (kink,) = two.frame.kinks
+    R_1, R_2 = (q.symbol for q in two.geometry.parameters)
+    lean, reach = Symbol("lean", real=True), Symbol("reach", positive=True)
+    for angle in (kink.theta, atan2(reach, lean)):
+        source = pi * R_2 + angle * (R_1 - R_2)
+        found = shares_of_the_half_circle(Program({"": source}), two).outputs[""]
+        assert found.coeff(angle) == R_1
+        assert not found.has(pi)
+        both = [expr.xreplace({kink.theta: kink.angle}) for expr in (source, found)]
+        held = sorted(set().union(*(v.free_symbols for v in both)), key=str)
+        for values in ((2, 3, 5, 7), (0.5, 11, 3, 0.25)):
+            numbers = dict(zip(held, map(mpf, values), strict=False))
+            first, second = (lambdify(held, v, modules="mpmath")(*numbers.values()) for v in both)
+            assert abs(first - second) < mpf(10) ** -13
+    unlike = kink.theta * R_1 + pi * lean
+    assert shares_of_the_half_circle(Program({"": unlike}), two).outputs[""] == unlike
