@@ -143,16 +143,8 @@ def contact_at_tilt(
     far = scale / tangent  # to the farther edge [m]
     leaning = far * np.sign(rest - angle)  # the farther edge, with the side's sign [m]
     near = scale * tangent  # from the corner to the nearer edge [m]
-    a = (
-        maximum(leaning, near)
-        + (2 / (E_star * (phi_1 + phi_2))) * P / tangent
-        - 2 * P / ((E_star * phi_1) * tangent + (E_star * phi_2) * tangent)
-    )
-    c = (
-        maximum(-leaning, near)
-        + (2 / (E_star * (phi_1 + phi_2))) * P * tangent
-        - (2 / (E_star * phi_1 + E_star * phi_2)) * P * tangent
-    )
+    a = maximum(leaning, near)
+    c = maximum(-leaning, near)
     h = a + c  # contact width [m]
     exists = (P > 0) & (alpha > -phi_2) & (alpha < phi_1) & (minimum(a, c) > LEAST) & (h < MOST)
     return Contact(*only_where(exists, a, c, alpha.copy()))

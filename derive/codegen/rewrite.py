@@ -243,10 +243,11 @@ def tangents_from_both_ends(program: Program, example: Point) -> Program:
 
 def _power_of_tangent(expr: Expr) -> tuple[Expr, int, Expr]:
     """(F, n, rest) of F t**n + rest, n = 1 or -1; n = 0 where t is not held so."""
-    held = [term for term in Add.make_args(expand(expr)) if term.has(_t)]
+    terms = Add.make_args(expand(expr))
+    held = [term for term in terms if term.has(_t)]
     for power in (1, -1):
         if len(held) == 1 and not (times := cancel(held[0] / _t**power)).has(_t):
-            return times, power, expr - held[0]
+            return times, power, Add(*(term for term in terms if not term.has(_t)))
     return S.One, 0, expr
 
 

@@ -2,7 +2,7 @@
 
 import importlib
 import warnings
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -17,7 +17,7 @@ from derive.codegen.integrated import is_mended
 from derive.proof.points import numeric
 from tests.accuracy.cycles import CYCLES, Cycle
 from tests.accuracy.inverses import INVERSES
-from tests.accuracy.reference import Point, condition, exact, sheet_of, solved
+from tests.accuracy.reference import Conditions, Point, condition, exact, sheet_of, solved
 from tests.accuracy.regions import Regions, Sample
 from tests.paper_forms import FORMS
 
@@ -106,11 +106,14 @@ def worst_of(body: str, count: int, only: str = "") -> Iterator[Worst]:
             kind = kind_of(body, name)
             cycle = next((c for c in CYCLES if c.name == name), None)
             share = cycle.share if cycle else SHARES[kind]
-            if kind == SOLVED and not sheet_of(body).geometry.slope.is_polynomial:
+            integrated = not sheet_of(body).geometry.slope.is_polynomial
+            if kind == SOLVED and integrated:
                 share = SHARES[INTEGRATED] / 2  # each is many integrals
             points = max(1, round(share * count))
             regions = Regions(sheet_of(body), importlib.import_module(f"generated.{body}"), points)
             for region, sample in cycle.regions(regions) if cycle else regions.of(name):
+                if integrated and "extreme widths" in region:
+                    continue  # the proofs' quadrature does not reach so far
                 if len(next(iter(sample.values()))):
                     yield from _measured(body, name, kind, region, sample, cycle)
 
@@ -224,7 +227,7 @@ def _inverses(body: str, name: str, region: str, sample: Sample) -> Iterator[Wor
     result = getattr(importlib.import_module(f"generated.{body}"), name)(**given)
     points, found = _points(given), list(zip(result.a, result.c, strict=True))
     answers = [
-        solved(inverse.conditions(body), edges, point, digits) if np.isfinite(edges[0]) else None
+        _answer(inverse.conditions(body), edges, point, digits)
         for edges, point in zip(found, points, strict=True)
     ]
     for i, field in enumerate("ac"):
@@ -237,14 +240,22 @@ def _cycles(body: str, region: str, sample: Sample, cycle: Cycle) -> Iterator[Wo
     module = importlib.import_module(f"generated.{body}")
     results, points = cycle.results(module, sample), _points(sample)
     answers = [
-        solved(cycle.conditions(body), start, point, cycle.digits)
-        if np.isfinite(start[0])
-        else None
+        _answer(cycle.conditions(body), start, point, cycle.digits)
         for start, point in zip(zip(*results, strict=True), points, strict=True)
     ]
     for i, field in enumerate(cycle.fields):
         got = results[i]
         yield _of_answers((body, cycle.name, field, region, CYCLE), got, points, answers, i)
+
+
+def _answer(conditions: Conditions, start: Sequence[float], point: Point, digits: int) -> Any:
+    """The solution next to what a function gave; None where there is none."""
+    if not np.isfinite(start[0]):
+        return None
+    try:
+        return solved(conditions, start, point, digits)
+    except ArithmeticError:
+        return None
 
 
 def _of_answers(

@@ -64,14 +64,14 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         f"- well: largest error among problems whose condition is at most {WELL:g}.",
         "- ulp/condition: largest error over the condition (at least 1) of its point; 4 or less is",
         "  what closed formulas are held to.",
-        "- lost: points at which the function gave no number, of all.",
+        "- lost: points at which the function gave no number, or none next to a solution.",
         "- paper: worst error of the printed form, where there is one.",
         "",
         "Regions: contacts in the bulk; widths, or loads, over 24 decades; lopsided ones, down to",
         "1e-8 of the width on one side of the origin; nearly level ones; an edge beside a kink,",
         "from 1e-15 to a tenth of the body's size; x beside each edge, and beside each kink down",
         "to 1e-300; tilts near their limit; tiny slip zones, down to 1e-12 of the load; tension",
-        "near its threshold.",
+        "near its threshold.  Integrated bodies are not tried at extreme widths.",
         "",
     ]
     grouped = worst_rows(rows)
