@@ -37,7 +37,7 @@ class Body:
     closed: tuple[str, ...]
     numerical: tuple[str, ...]
     verdicts: tuple[tuple[str, Verdict], ...]
-    proofs: tuple[tuple[str, str], ...] = ()
+    proofs: tuple[tuple[str, str], ...] = field(default=(), compare=False)
     struck: str = ""
     kept: bool = field(default=False, compare=False)
 
