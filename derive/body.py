@@ -26,7 +26,7 @@ class Body:
     closed     parts of its contact law that are closed formulas
     numerical  parts that are not
     verdicts   every formula with what is known of it
-    proofs     every formula with how that was shown, in words
+    proofs     every formula with how that was shown, in words; no default, as pages are made of it
     struck     what to tell if the search for closed forms was ended by its limit
     kept       whether an earlier run built it
     """
@@ -37,7 +37,7 @@ class Body:
     closed: tuple[str, ...]
     numerical: tuple[str, ...]
     verdicts: tuple[tuple[str, Verdict], ...]
-    proofs: tuple[tuple[str, str], ...] = field(default=(), compare=False)
+    proofs: tuple[tuple[str, str], ...] = field(compare=False)
     struck: str = ""
     kept: bool = field(default=False, compare=False)
 

@@ -220,6 +220,8 @@ def _read(content: bytes, key: str) -> Body:
     facts = entry["body"]
     if entry["digest"] != _digest([key, facts]):
         raise ValueError("not as it was written")
+    if [name for name, _ in facts["proofs"]] != [name for name, _ in facts["verdicts"]]:
+        raise ValueError("verdicts without their proofs")
     return Body(
         name=facts["name"],
         text=facts["text"],
@@ -227,6 +229,7 @@ def _read(content: bytes, key: str) -> Body:
         closed=tuple(facts["closed"]),
         numerical=tuple(facts["numerical"]),
         verdicts=tuple((name, Verdict(found)) for name, found in facts["verdicts"]),
+        proofs=tuple((str(name), str(words)) for name, words in facts["proofs"]),
         struck=facts["struck"],
         kept=True,
     )

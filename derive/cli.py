@@ -145,7 +145,7 @@ def _show_pages(name: str | None, out: Path | None, limit: float) -> None:
     """One body's page, or those of the library with their index."""
     from derive import derive_sheet, load_geometry
     from derive.derivation import with_closed_forms
-    from derive.handbook.page import entry, index, page
+    from derive.handbook.page import entry, index, page, proven
     from derive.handbook.shelf import demand_replaceable, put_page, put_pages
     from derive.library import library
 
@@ -155,7 +155,10 @@ def _show_pages(name: str | None, out: Path | None, limit: float) -> None:
     sources = library() if name is None else (name,)
     bodies = _built(sources, None, False, limit)
     derived = (derive_sheet(load_geometry(source)) for source in sources)
-    sheets = [with_closed_forms(sheet, limit) for sheet in derived]
+    sheets = [
+        proven(with_closed_forms(sheet, limit), body)
+        for sheet, body in zip(derived, bodies, strict=True)
+    ]
     if name is not None:
         (sheet,), (body,) = sheets, bodies
         path = out or Path(f"{body.name}.html")

@@ -4,7 +4,7 @@ import json
 import os
 import shutil
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, fields, replace
 from hashlib import sha256
 from importlib import metadata
 from pathlib import Path
@@ -31,7 +31,9 @@ from tests.tasks import KEY, write_often
 
 OTHER = "1" * 64
 VERDICTS = (("tilt", Verdict.PROVED), ("L_N_left", Verdict.NUMERICAL))
-BODY = Body("hertz", 'text = "α ≤ φ"\r\n', 1.25, ("forward",), ("from (P, M)",), VERDICTS)
+PROOFS = (("tilt", "proved: I_0 = 0; α"), ("L_N_left", "numerical: 31 digits at 24 points"))
+FORMS = ("forward",), ("from (P, M)",)
+BODY = Body("hertz", 'text = "α ≤ φ"\r\n', 1.25, *FORMS, VERDICTS, PROOFS, "struck")
 PLAIN = """from sympy import Abs
 from derive import Geometry, parameter, x
 geometry = Geometry("body", g=parameter("phi", "slope", unit="rad") * Abs(x))
@@ -67,6 +69,28 @@ def test_what_was_kept_is_found(cache: Cache) -> None:
     assert found is not None
     assert (found.seconds, found.kept, BODY.kept) == (1.25, True, False)
     assert all(isinstance(verdict, Verdict) for _, verdict in found.verdicts)
+
+
+def test_nothing_of_a_body_is_lost(cache: Cache) -> None:
+    """Field by field: equality does not see all of them."""
+    found = cache.get(KEY)
+    assert found is not None
+    assert asdict(found) == asdict(BODY) | {"kept": True}
+    for of in fields(Body):  # each could be lost: none of them is what it is by default
+        assert of.name == "kept" or getattr(BODY, of.name) != of.default
+
+
+@pytest.mark.parametrize("proofs", [None, [], [["tilt", "proved: I_0 = 0"]]])
+def test_a_body_without_its_proofs_is_as_good_as_none(
+    cache: Cache, file: Path, proofs: list[list[str]] | None
+) -> None:
+    """As a version without proofs, or one that lost them, would have kept it: whole, but no more."""
+    body = json.loads(file.read_bytes())["body"]
+    del body["proofs"]
+    body |= {} if proofs is None else {"proofs": proofs}
+    digest = derive.cache._digest([KEY, body])
+    file.write_text(json.dumps({"body": body, "digest": digest}))
+    assert cache.get(KEY) is None
 
 
 def test_under_another_key_there_is_nothing(cache: Cache) -> None:

@@ -21,6 +21,7 @@ from derive.proof.verdict import Verdict
 ROOT = Path(__file__).parents[1]
 
 VERDICTS = (("tilt", Verdict.PROVED),)
+PROOFS = (("tilt", "proved: a stand-in for a proof"),)
 CONCAVE = """from derive import Geometry, parameter, x
 geometry = Geometry("body", g=-x**2 / parameter("R", "radius", unit="m"))
 """
@@ -36,7 +37,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         for stage in STAGES:
             report(source, stage)
         path = FOLDER / f"{source}.py" if source in library() else Path(source)
-        return Body(Path(source).stem, path.read_text(), 0.5, ("forward",), (), VERDICTS)
+        return Body(Path(source).stem, path.read_text(), 0.5, ("forward",), (), VERDICTS, PROOFS)
 
     monkeypatch.setattr(derive.pipeline, "build", build)
     return sources

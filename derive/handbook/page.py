@@ -1,6 +1,7 @@
 """One page of the handbook for one body, and the index of several."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
 from derive.body import Body
+from derive.errors import NotProven
 from derive.handbook.curves import pictures
 from derive.handbook.mathml import mathml
 from derive.notation import latex_of
@@ -47,8 +49,26 @@ class Entry(NamedTuple):
     formulas: int
 
 
+def proven(sheet: FormulaSheet, body: Body) -> FormulaSheet:
+    """The sheet without the closed forms whose proofs its body does not hold.
+
+    The search for them has a limit: it may find now what it did not find as the body was built.
+    All other formulas stay; `page` demands their proofs.
+    """
+    known = dict(body.proofs)
+    lost = [name for name, formula in sheet.items() if formula.closes and name not in known]
+    if not lost:
+        return sheet
+    kept = {name: formula for name, formula in sheet.items() if name not in lost}
+    remark = f"{sheet.remark}  Not proven, and so not shown: {', '.join(lost)}."
+    return replace(sheet, formulas=kept, remark=body.struck or remark)
+
+
 def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
-    """The page of one body; `index`: whether the index of a set lies beside it."""
+    """The page of one body; `index`: whether the index of a set lies beside it.
+
+    Raises NotProven for a formula of the sheet whose proof the body does not hold.
+    """
     geometry = sheet.geometry
     names = {p.symbol.name for p in geometry.parameters}
     held = {str(s) for f in sheet.values() for s in (*f.arguments, *f.expr.free_symbols)}
@@ -90,8 +110,8 @@ def entry(sheet: FormulaSheet, body: Body) -> Entry:
 
 def _rows(sheet: FormulaSheet, proofs: Mapping[str, str]) -> Iterator[Row]:
     for name, formula in sheet.items():
-        if name not in proofs:  # a closed form that was found only now
-            continue
+        if name not in proofs:
+            raise NotProven(f"{name} of {sheet.geometry.name!r}: no proof came with its body")
         latex = f"{formula.left} = {latex_of(sheet.shown(name))}"
         conditions = tuple(mathml(latex_of(c), "inline") for c in formula.conditions)
         proof = proofs[name]
