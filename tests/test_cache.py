@@ -84,7 +84,7 @@ def test_nothing_of_a_body_is_lost(cache: Cache) -> None:
 def test_a_body_without_its_proofs_is_as_good_as_none(
     cache: Cache, file: Path, proofs: list[list[str]] | None
 ) -> None:
-    """As a version without proofs, or one that lost them, would have kept it: whole, but no more."""
+    """As a version that knew of none, or lost them, would have kept it: whole, but no more."""
     body = json.loads(file.read_bytes())["body"]
     del body["proofs"]
     body |= {} if proofs is None else {"proofs": proofs}

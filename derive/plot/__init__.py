@@ -4,6 +4,7 @@
     ---------   --------------------------------------------------------------------
     style       the look that all pictures share, applied in a context
     measure     what stands on an axis: a symbol and its unit, or a ratio
+    given       what cannot be drawn, refused with one clear error
     tractions   pressure; shear over a half-cycle; slip and the friction's work
     zones       stick and slip over a cycle, or over a parameter
     live        the same under sliders, in a notebook

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from derive.errors import MissingLibrary
 from derive.plot.measure import Array, unit
 from derive.plot.style import COLOURS, FORWARD, REVERSE, style
+from derive.plot.tractions import peak
 from derive.plot.zones import senses
 
 PLACES = 241
@@ -38,16 +39,25 @@ class Live:
     """A picture of a steady cycle at constant normal loads that is redrawn in place.
 
     body       a generated module
-    largest    the largest loads there will be; they set the axes
+    largest    the largest loads; the axes hold the contact under their P and M, of either sign
     constants  E_star and the body's own parameters
+
+    What reaches further, such as a contact under M and little P, takes the axes along.
     """
 
     def __init__(self, body: ModuleType, largest: Loads, **constants: float) -> None:
+        _demand_largest(largest)
         self.body, self.constants = body, constants
-        farthest = body.contact(largest.P, largest.M, **constants)
-        reach = 1.04 * float(max(farthest.a, farthest.c))
-        top = 1.6 * largest.P / float(farthest.a + farthest.c)
-        self.length, self.stress = unit(reach, "m"), unit(top, "Pa")
+        moments = np.array([largest.M, -largest.M])
+        farthest = body.contact(largest.P, moments, **constants)
+        if not np.any(np.isfinite(farthest.a)):
+            raise ValueError(
+                f"there is no contact under largest.P = {largest.P:g} and largest.M = "
+                f"{largest.M:g} of either sign: give loads that the body can take"
+            )
+        self.reach = 1.04 * float(np.nanmax([farthest.a, farthest.c]))
+        self.top = 1.6 * largest.P / float(np.nanmin(farthest.a + farthest.c))
+        self.length, self.stress = unit(self.reach, "m"), unit(self.top, "Pa")
         with style():
             self.figure = Figure(figsize=(8.4, 4.6), dpi=90)
             # Axes that stay where they are: laying them out anew takes longer than drawing them.
@@ -56,14 +66,12 @@ class Live:
             self.below = self.figure.add_axes((0.09, 0.11, 0.89, 0.42))
             self.above = self.figure.add_axes((0.09, 0.56, 0.89, 0.42), sharex=self.below)
             self.above.tick_params(labelbottom=False)
-            self._prepare(reach, top)
+            self._prepare()
 
-    def _prepare(self, reach: float, top: float) -> None:
-        """Axes and artists; `show` gives the artists their data."""
-        limit = float(self.length(reach))
-        self.above.set(ylabel=self.stress.label("p"), ylim=(0, float(self.stress(top))))
+    def _prepare(self) -> None:
+        """Axes and artists; `show` gives the artists their data, and the axes their limits."""
+        self.above.set(ylabel=self.stress.label("p"))
         self.below.set(xlabel=self.length.label("x"), ylabel=self.stress.label(r"\Delta q"))
-        self.below.set(xlim=(-limit, limit), ylim=np.array([-1, 1]) * float(self.stress(top)))
         (self.pressure,) = self.above.plot([], [], color=COLOURS["blue"])
         grey: dict[str, Any] = {"color": "#888888", "linewidth": 1}
         (self.upper,) = self.below.plot([], [], label=r"$\pm 2 f p$", **grey)
@@ -91,8 +99,27 @@ class Live:
             (self.shear, dq),
         ):
             line.set_data(self.length(x), self.stress(values))
+        self._hold(state, p, loads.f)
         self._shade(state, zone, loads.dsigma)
         return self._told(state, zone, loads)
+
+    def _hold(self, state: Any, p: Array, f: float) -> None:
+        """Limits of the axes: those of the largest loads, moved or widened to hold what is drawn.
+
+        The peak of a corner is cut off.
+        """
+        low, high = -self.reach, self.reach
+        if np.isfinite(state.a):
+            margin = self.reach / 26
+            left, right = -float(state.a) - margin, float(state.c) + margin
+            wide = max(2 * self.reach, right - left)
+            low = min(max(low, right - wide), left)
+            high = low + wide
+        height = 1.08 * peak(p)
+        upper, lower = max(self.top, height), max(self.top, 2 * f * height)
+        self.above.set_ylim(0, float(self.stress(upper)))
+        self.below.set_ylim(*(way * float(self.stress(lower)) for way in (-1, 1)))
+        self.below.set_xlim(float(self.length(low)), float(self.length(high)))
 
     def _shade(self, state: Any, zone: Any, dsigma: float) -> None:
         ways = senses(zone, dsigma)
@@ -110,6 +137,8 @@ class Live:
         def lengths(*values: Array) -> str:
             return ", ".join(f"{float(self.length(value)):.4f}" for value in values)
 
+        if not np.isfinite(state.a):
+            return "no contact: the body cannot take these loads"
         regime = self.body.Regime(int(zone.regime)).name.lower().replace("_", " ")
         name = self.length.name
         parts = [f"{regime}: contact [{lengths(-state.a, state.c)}] {name}"]
@@ -132,6 +161,30 @@ class Live:
         return target.getvalue()
 
 
+def _demand_largest(largest: Loads) -> None:
+    """The ends of the sliders: finite, and none below zero."""
+    for name, value in largest._asdict().items():
+        positive = name in ("P", "dQ", "f")
+        allowed = "a positive number" if positive else "a number that is not negative"
+        right = np.ndim(value) == 0 and np.isfinite(value) and value >= 0
+        if not right or (positive and value == 0):
+            raise ValueError(
+                f"largest.{name} is {value}; it is where a slider ends: give {allowed}"
+            )
+
+
+def _demand_start(start: Loads, largest: Loads) -> None:
+    """Where the sliders begin is between their ends."""
+    for name, value in start._asdict().items():
+        most = getattr(largest, name)
+        least = -most if name in ("M", "dsigma") else 0
+        if np.ndim(value) or not least <= value <= most:
+            raise ValueError(
+                f"start.{name} is {value}, and its slider runs from {least:g} to {most:g}: give a "
+                f"number between them, or raise largest.{name}"
+            )
+
+
 def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) -> Any:
     """Sliders from no load to the largest, and the picture that follows them.
 
@@ -142,6 +195,7 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
     import ipywidgets
 
     live = Live(body, largest, **constants)
+    _demand_start(start, largest)
     picture, told = ipywidgets.Image(format="png"), ipywidgets.HTML()
     scales = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": ""}
     controls = {}

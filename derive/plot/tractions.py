@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from derive.plot.given import demand_contact, demand_contacts, demand_numbers
 from derive.plot.measure import Array, Measure, unit
-from derive.plot.style import COLOURS, FORWARD, REVERSE, style, subplots
-from derive.plot.zones import senses
+from derive.plot.style import COLOURS, style, subplots
+from derive.plot.zones import AREAS, MIXED, senses
 
 SAMPLES = 401
 """Places along a contact; closer together towards its edges."""
@@ -43,7 +44,7 @@ def pressures(
     stress     what the pressure is divided by
     constants  E_star and the body's own parameters
     """
-    _demand_states(states)
+    demand_contacts(states, labels)
     lines = []
     for state in states:
         x = places(-float(state.a), float(state.c))
@@ -62,28 +63,25 @@ def pressures(
     return axes
 
 
-def _demand_states(states: Sequence[Any]) -> None:
-    """A Contact is a tuple itself: one instead of a list of them is a likely mistake."""
-    for state in states:
-        if not hasattr(state, "a"):
-            raise ValueError(
-                f"states holds {state!r}, which is no Contact; give a list of what "
-                "`contact` returns, such as [body.contact(P, M, ...)]"
-            )
-
-
 def _typical(p: Array) -> Array:
     """Pressures without the peak of a corner, which has no height."""
     finite = p[np.isfinite(p)]
     return finite if finite.size < 2 else finite[finite <= np.quantile(finite, 0.97)]
 
 
+def peak(*drawn: Array) -> float:
+    """The greatest of all pressures; that of a corner has no height: cut off above the rest."""
+    finite = [p[np.isfinite(p)] for p in drawn]
+    top = max(float(np.max(p, initial=0.0)) for p in finite)
+    rest = max(float(np.max(_typical(p), initial=0.0)) for p in finite)
+    return min(top, 1.35 * rest)
+
+
 def _from_zero(axes: Axes, drawn: Sequence[Array]) -> None:
-    """Pressure is drawn from zero, and a corner's peak is cut off above the rest."""
-    top = max(float(np.nanmax(p, initial=0.0)) for p in drawn)
-    rest = max(float(np.max(_typical(p), initial=0.0)) for p in drawn)
-    if rest > 0:
-        axes.set_ylim(0, 1.08 * min(top, 1.35 * rest))
+    """Pressure is drawn from zero."""
+    top = peak(*drawn)
+    if top > 0:
+        axes.set_ylim(0, 1.08 * top)
 
 
 def tractions(
@@ -94,6 +92,7 @@ def tractions(
     dsigma: float,
     *,
     f: float,
+    mixed: bool = False,
     axes: Sequence[Axes] | None = None,
     length: Measure | None = None,
     stress: Measure | None = None,
@@ -102,21 +101,24 @@ def tractions(
     """Pressure at both ends of a half-cycle above, the change of shear over it below.
 
     Where the change of shear touches the band, f (p1 + p2), the surfaces slip; those parts are
-    shaded in the colour of the sense of slip.
+    shaded in the colour of the sense of slip.  Where slip turns round within the half-cycle the
+    zone is dotted, and the shear may not be known: then the picture says so.
 
     body           a generated module
     first, second  Contacts at the start and at the end of the half-cycle that raises the shear
     dQ, dsigma     changes of the shear load and of the tension over it
+    mixed          whether stick zones are solved for where slip turns round, as by `stick_zone`
     axes           two Axes, or None for new ones
     length         what x is divided by; the unit that suits, unless it is given
     stress         what pressure and shear are divided by
     constants      E_star and the body's own parameters
     """
+    _demand_half_cycle(first, second, dQ, dsigma, f)
     law = {"f": f, **constants}
     x = places(-float(max(first.a, second.a)), float(max(first.c, second.c)))
     p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
     shear = body.shear_change(x, first, second, dQ, dsigma, **law)
-    zone = body.stick_zone(first, second, dQ, dsigma, **law)
+    zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
     length, stress = length or unit(x, "m"), stress or unit(_typical(np.append(p1, p2)), "Pa")
     with style():
         if axes is None:
@@ -148,25 +150,29 @@ def tractions(
     return axes
 
 
+def _demand_half_cycle(first: Any, second: Any, dQ: float, dsigma: float, f: float) -> None:
+    demand_contact("first", first)
+    demand_contact("second", second)
+    demand_numbers(dQ=dQ, dsigma=dsigma, f=f)
+
+
 def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Measure) -> None:
-    """Slip zones in the colour of their sense; the last of the Axes holds what a legend says."""
+    """Slip zones in the look of their sense; the last of the Axes holds what a legend says."""
     if not np.isfinite(zone.m):
         return
+    turns = "slip turns round" if int(zone.regime) == MIXED else ""
     told = set()
     for (start, end), sense in zip(
         ((-at.a, -zone.m), (zone.n, at.c)), senses(zone, dsigma), strict=True
     ):
-        if sense:
-            name, colour = _SENSES[int(sense)]
-            for place in axes:
-                label = name if place is axes[-1] and name not in told else None
-                place.axvspan(
-                    float(length(start)), float(length(end)), color=colour, lw=0, label=label
-                )
-            told.add(name)
-
-
-_SENSES = {1: ("forward slip", FORWARD), -1: ("reverse slip", REVERSE)}
+        name = {1: "forward slip", -1: "reverse slip"}.get(int(sense), turns)
+        if not name:
+            continue
+        for place in axes:
+            label = name if place is axes[-1] and name not in told else None
+            here = float(length(start)), float(length(end))
+            place.axvspan(*here, label=label, zorder=0.5, **AREAS[name])
+        told.add(name)
 
 
 def _key(axes: Axes) -> None:
@@ -195,6 +201,7 @@ def slip(
     dsigma: float,
     *,
     f: float,
+    mixed: bool = False,
     axes: Sequence[Axes] | None = None,
     length: Measure | None = None,
     **constants: float,
@@ -206,8 +213,9 @@ def slip(
 
     Arguments are those of `tractions`.
     """
+    _demand_half_cycle(first, second, dQ, dsigma, f)
     law = {"f": f, **constants}
-    zone = body.stick_zone(first, second, dQ, dsigma, **law)
+    zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
     left, right = -float(min(first.a, second.a)), float(min(first.c, second.c))
     ends = (-float(zone.m), float(zone.n)) if np.isfinite(zone.m) else (left, right)
     x = np.append(places(left, ends[0], IN_A_ZONE), places(ends[1], right, IN_A_ZONE))

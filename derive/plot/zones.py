@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 
+from derive.plot.given import demand_fitting, demand_row
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import FORWARD, LINES, REVERSE, STICK, style, subplots
 
@@ -61,7 +62,7 @@ def sweep(
     parameter: Array,
     contact: Any,
     zone: Any,
-    dsigma: Array = 0.0,
+    dsigma: Array,
     *,
     label: str = "",
     axes: Axes | None = None,
@@ -73,16 +74,33 @@ def sweep(
     parameter  what grows to the right
     contact    Contact at the end of the half-cycle; one for all, or one for each
     zone       StickZone of each, as `stick_zone` returns it
-    dsigma     change of tension of each; its sign tells which edge slips which way
+    dsigma     change of tension, one for all or one for each; its sign tells which edge slips
+               which way
     label      what stands along the axis
     """
     at = np.asarray(parameter, dtype=float)
+    demand_row("parameter", at)
+    named = {"contact.a": contact.a, "contact.c": contact.c, "zone.m": zone.m, "zone.n": zone.n}
+    demand_fitting(at.shape, dsigma=dsigma, **named)
+    _demand_tension(zone, dsigma)
     left, right = senses(zone, dsigma)
     given = contact.a, contact.c, zone.m, zone.n, left, right, zone.regime
     zones = _Zones(*(np.broadcast_to(value, at.shape) for value in given))
     axes = _map(at, zones, axes, length, legend)
     axes.set_xlabel(label)
     return axes
+
+
+def _demand_tension(zone: Any, dsigma: Array) -> None:
+    """Without tension no edge slips against the other, and its sign decides which one does."""
+    regime, none = np.asarray(zone.regime), np.asarray(dsigma) == 0
+    wrong = ((regime == LARGE) | ((regime == MIXED) & np.isfinite(zone.m))) & none
+    if np.any(wrong):
+        name = "large" if np.any(wrong & (regime == LARGE)) else "mixed"
+        raise ValueError(
+            f"dsigma is 0 where the regime is {name}, and there its sign tells which edge slips "
+            "which way: give the dsigma that stick_zone was given"
+        )
 
 
 class _Zones(NamedTuple):
@@ -97,7 +115,7 @@ class _Zones(NamedTuple):
     regime: Array
 
 
-_AREAS: dict[str, Any] = {
+AREAS: dict[str, Any] = {
     "stick": {"color": STICK, "linewidth": 0},
     "forward slip": {"color": FORWARD, "linewidth": 0},
     "reverse slip": {"color": REVERSE, "linewidth": 0},
@@ -116,7 +134,7 @@ def _map(at: Array, zones: _Zones, axes: Axes | None, length: Measure | None, le
             _, axes = subplots(size=(5.6, 3.6))
         labels = set()
         for i, (name, edges, where) in enumerate(_areas(zones, low, high, start, end)):
-            look = {**_AREAS[name], "label": None if name in labels else name}
+            look = {**AREAS[name], "label": None if name in labels else name}
             axes.fill_between(at, *edges, where=where, zorder=0.5 + i / 100, **look)
             labels.add(name)
         for edge in (low, high):

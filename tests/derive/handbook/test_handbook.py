@@ -188,7 +188,7 @@ def test_a_formula_without_its_proof_is_on_no_page() -> None:
 
 
 def test_closed_forms_that_are_found_only_now_stay_away() -> None:
-    """The formulas of a body that was built while its search was ended by its limit, and the rest."""
+    """As where the search was ended by its limit while the body was built."""
     sheet, body = made("hertz")
     closed = replace(sheet["load"], name="load_closed", closes="load")
     more = replace(sheet.plus(closed), remark="Closed forms stand behind.")

@@ -177,6 +177,69 @@ def test_one_contact_instead_of_a_list_is_refused() -> None:
         plot.pressures(hertz, STATE, **STEEL)
 
 
+NO_CONTACT = hertz.contact(-1.0, 0.0, **STEEL)
+SEVERAL = hertz.contact(np.array([P, 2 * P]), M, **STEEL)
+
+
+@pytest.mark.parametrize(
+    ("states", "labels", "told"),
+    [
+        ([], (), "states is empty; give a list of one Contact"),
+        ([STATE, NO_CONTACT], (), r"states\[1\] is no contact: its edges are NaN"),
+        ([SEVERAL], (), r"states\[0\] holds contacts in the shape \(2,\), and one is drawn"),
+        ([3.0], (), r"states\[0\] is 3.0, which is no Contact; give what `contact` returns"),
+        ([STATE, STATE], ["one"], "1 labels are given for 2 states; give one for each, or none"),
+        ([STATE], ["one", "two"], "2 labels are given for 1 states"),
+    ],
+)
+def test_pressures_that_cannot_be_drawn_are_refused(
+    states: list[Any], labels: list[str], told: str
+) -> None:
+    with pytest.raises(ValueError, match=told):
+        plot.pressures(hertz, states, labels, **STEEL)
+    assert not matplotlib.pyplot.get_fignums()
+
+
+@pytest.mark.parametrize("draw", [plot.tractions, plot.slip])
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"first": NO_CONTACT}, "first is no contact: its edges are NaN"),
+        ({"second": SEVERAL}, r"second holds contacts in the shape \(2,\)"),
+        ({"second": None}, "second is None, which is no Contact"),
+        ({"dQ": np.ones(3)}, r"dQ is values in the shape \(3,\); one half-cycle is drawn"),
+        ({"dsigma": np.nan}, "dsigma is nan"),
+        ({"f": [0.3, 0.6]}, "f is values in the shape"),
+    ],
+)
+def test_a_half_cycle_that_cannot_be_drawn_is_refused(
+    draw: Any, changed: dict[str, Any], told: str
+) -> None:
+    given = {"first": STATE, "second": STATE, "dQ": DQ, "dsigma": 0.0, **FRICTION} | changed
+    with pytest.raises(ValueError, match=told):
+        draw(hertz, **given)
+    assert not matplotlib.pyplot.get_fignums()
+
+
+def test_a_mixed_cycle_shows_its_zone_where_it_is_asked_for() -> None:
+    """The right edge slips, too, and its slip has no one sense; the shear is not known."""
+    zone = hertz.stick_zone(STATE, STATE, DQ, WINDOW, mixed=True, **FRICTION)
+    assert np.isfinite(zone.m) and zone.n < STATE.c
+    _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, mixed=True, **FRICTION)
+    left, right = below.patches
+    assert to_hex(left.get_facecolor()) == FORWARD
+    assert right.get_hatch() == "..."
+    assert left.get_x() + left.get_width() == pytest.approx(-1e3 * zone.m)
+    assert (right.get_x(), right.get_width()) == pytest.approx(
+        (1e3 * zone.n, 1e3 * (STATE.c - zone.n))
+    )
+    assert "slip turns round" in [text.get_text() for text in below.get_legend().get_texts()]
+    assert [text.get_text() for text in below.texts] == ["mixed: the shear is not known"]
+    above, _ = plot.slip(hertz, STATE, STATE, DQ, WINDOW, mixed=True, **FRICTION)
+    assert len(above.patches) == 2
+    assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
+
+
 def test_places_are_dense_at_both_edges_and_end_there() -> None:
     x = places(-1.0, 2.0)
     assert_allclose((x[0], x[-1]), (-1, 2))
@@ -232,7 +295,7 @@ def test_shear_is_known_where_forward_slip_overtakes_and_slip_is_not() -> None:
     assert zone.regime == Regime.MIXED and np.isfinite(zone.m)
     _, below = plot.tractions(wedge, here, here, 0.15, 0.93 * 0.20602, **law)
     assert not below.texts
-    assert len(below.patches) == 1
+    assert [patch.get_hatch() for patch in below.patches] == [None, "..."]
     above, _ = plot.slip(wedge, here, here, 0.15, 0.93 * 0.20602, **law)
     assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
 
@@ -350,9 +413,47 @@ def test_a_sweep_may_change_the_contact() -> None:
     loads = np.linspace(0.5e6, 1e6, 11)
     states = hertz.contact(loads, 0.0, **STEEL)
     zone = hertz.stick_zone(states, states, DQ, 0.0, **FRICTION)
-    axes = plot.sweep(1e-6 * loads, states, zone)
+    axes = plot.sweep(1e-6 * loads, states, zone, 0.0)
     (stick,) = areas(axes)[STICK]
     assert span(stick)[3] == pytest.approx(1e3 * states.c.max())
+
+
+def test_a_sweep_needs_the_tension_where_its_sign_decides() -> None:
+    """Large tension of either sign: the left edge slips forward only if it is positive."""
+    friction = np.linspace(0.4, 0.8, 5)
+    law = {"f": friction, **STEEL}
+    for pull, mixed in ((LARGE_PULL, False), (-LARGE_PULL, False), (WINDOW, True)):
+        zone = hertz.stick_zone(STATE, STATE, DQ, pull, mixed=mixed, **law)
+        with pytest.raises(TypeError, match="dsigma"):
+            plot.sweep(friction, STATE, zone)  # type: ignore[call-arg]
+        name = "mixed" if mixed else "large"
+        for none in (0.0, np.where(friction > 0.7, 0.0, pull)):
+            with pytest.raises(ValueError, match=f"dsigma is 0 where the regime is {name}.*give"):
+                plot.sweep(friction, STATE, zone, none)
+        found = areas(plot.sweep(friction, STATE, zone, pull))
+        (forward,) = found[FORWARD]
+        left = span(forward)[3] < 1e3 * (STATE.c - STATE.a) / 2
+        assert left == (pull > 0)
+    assert plot.sweep(friction, STATE, hertz.stick_zone(STATE, STATE, DQ, 0.0, **law), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"parameter": 1.0}, r"parameter has the shape \(\); a map needs two values or more"),
+        ({"parameter": [1.0]}, r"parameter has the shape \(1,\)"),
+        ({"parameter": np.ones((2, 2))}, r"parameter has the shape \(2, 2\)"),
+        ({"parameter": [0.0, np.nan]}, "parameter holds NaN"),
+        ({"dsigma": np.ones(3)}, r"dsigma has the shape \(3,\) where 2 values stand"),
+        ({"contact": hertz.contact(np.ones(3), 0.0, **STEEL)}, r"contact.a has the shape \(3,\)"),
+    ],
+)
+def test_a_sweep_that_cannot_be_drawn_is_refused(changed: dict[str, Any], told: str) -> None:
+    zone = hertz.stick_zone(STATE, STATE, DQ, 0.0, **FRICTION)
+    given = {"parameter": [0.0, 1.0], "contact": STATE, "zone": zone, "dsigma": 0.0} | changed
+    with pytest.raises(ValueError, match=told):
+        plot.sweep(**given)
+    assert not matplotlib.pyplot.get_fignums()
 
 
 def test_boundaries_are_the_zone_that_is_given() -> None:
@@ -425,6 +526,73 @@ def test_the_live_picture_knows_where_nothing_is_known() -> None:
         assert "nan" not in told
         assert not any(span.get_visible() for span in live.spans)
         assert live.png()
+
+
+REACHED = [
+    *(START._replace(P=part * LARGEST.P, M=M) for part in (1, 0.1, 0.005) for M in (-300, 0, 300)),
+    LARGEST,
+    LARGEST._replace(M=-300.0, dsigma=-800e6),
+    LARGEST._replace(f=0.005),
+]
+
+
+@pytest.mark.parametrize("body", ["hertz", "wedge_parabola", "flat_rounded"])
+@pytest.mark.parametrize("loads", REACHED)
+def test_the_live_picture_holds_all_that_the_sliders_reach(body: str, loads: plot.Loads) -> None:
+    module: ModuleType = import_module(f"generated.{body}")
+    own = {"wedge_parabola": {"phi": 0.02}, "flat_rounded": {"b": 1e-3}}.get(body, {})
+    live = plot.Live(module, LARGEST, **STEEL, **own)
+    before = live.show(START)
+    limits = live.above.axis(), live.below.axis()
+    assert "nan" not in live.show(loads)
+    for axes, lines in ((live.above, [live.pressure]), (live.below, [live.upper, live.lower])):
+        left, right, low, high = axes.axis()
+        for line in lines:
+            x, y = line.get_data()
+            seen = np.isfinite(y)
+            inside = (left < x) & (x < right) & (low <= y) & (y <= high)
+            corner = body == "wedge_parabola"  # whose peak has no height
+            assert np.all(left < x) and np.all(x < right)
+            assert np.mean(inside[seen]) > (0.95 if corner else 0.999)
+        assert right - left < 60 * np.ptp(live.pressure.get_xdata()) or loads.P < 0.1 * LARGEST.P
+    assert live.show(START) == before
+    assert (live.above.axis(), live.below.axis()) == limits  # and comes back
+
+
+def test_the_live_picture_without_a_contact_says_so() -> None:
+    live = plot.Live(hertz, LARGEST, **STEEL)
+    assert live.show(START._replace(P=-1.0)).startswith("no contact")
+    assert live.png()
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"P": -1.0}, "largest.P is -1.0; it is where a slider ends: give a positive number"),
+        ({"P": 0.0}, "largest.P is 0.0.*positive"),
+        ({"P": np.nan}, "largest.P is nan"),
+        ({"M": -1.0}, "largest.M is -1.0.*give a number that is not negative"),
+        ({"M": 1.0}, r"start.M is 60.0, and its slider runs from -1 to 1: give"),
+        ({"f": np.ones(2)}, "largest.f is"),
+    ],
+)
+def test_loads_that_no_slider_can_have_are_refused(changed: dict[str, Any], told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        plot.sliders(hertz, LARGEST._replace(**changed), START, **STEEL)
+
+
+def test_largest_loads_without_a_contact_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"there is no contact under largest\.P"):
+        plot.Live(hertz, LARGEST, E_star=115e9, R=-1.0)
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
+def test_sliders_without_moment_and_tension() -> None:
+    box = plot.sliders(
+        hertz, LARGEST._replace(M=0.0, dsigma=0.0), START._replace(M=0, dsigma=0), **STEEL
+    )
+    assert box.children[2].value.startswith("moderate")
 
 
 def test_the_live_picture_is_drawn_in_a_moment() -> None:
