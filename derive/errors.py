@@ -93,13 +93,14 @@ class DimensionMismatch(UserError):
     where: str
     found: str
     expected: str
+    remedy: str = "check the units of the parameters and the powers of x"
 
     @property
     def message(self) -> str:
         """Which dimensions do not agree."""
         return (
             f"{self.where} has the dimension {self.found} where {self.expected} is needed: "
-            "check the units of the parameters and the powers of x"
+            f"{self.remedy}"
         )
 
 

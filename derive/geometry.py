@@ -2,14 +2,15 @@
 
 import keyword
 import re
+from collections.abc import Iterable
 from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
 from sympy import Expr, I, Symbol, SympifyError, nan, oo, sympify, zoo
 
-from derive.errors import BadName, BadProfile, UnknownSymbol
+from derive.errors import BadName, BadProfile, DimensionMismatch, UnknownSymbol
 from derive.profile import Slope, read_slope
 from derive.symbols import QUANTITIES, RESERVED, Quantity, x
 from derive.units import Dimension, check, parse_unit
@@ -80,6 +81,23 @@ def _expression(name: str, g: Any) -> Expr:
     return given
 
 
+_NUMBERS = (
+    "a number has no unit: write it as a parameter with its unit, such as R in x**2/(2*R), and "
+    "give its value in the call"
+)
+
+
+def without_x(name: str, parameters: Iterable[str]) -> BadProfile:
+    """What is to be said of a profile that does not depend on x."""
+    held = ", ".join(parameters)
+    others = f", only parameters ({held})" if held else ""
+    return BadProfile(
+        name,
+        f"is straight, as there is no x in it{others}",
+        "x is the place along the contact; write g(x) with it, such as x**2/(2*R)",
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class Geometry:
     """One body that presses on a half-plane, given by its profile g(x) before loading.
@@ -116,8 +134,18 @@ class Geometry:
                 raise UnknownSymbol(self.name, str(symbol))
         object.__setattr__(self, "g", given.xreplace({p: q.symbol for p, q in plain.items()}))
         object.__setattr__(self, "parameters", tuple(plain.values()))
-        check(self.g, "m", f"g of {self.name!r}", self.dimensions)
+        self._demand_length()
+        if x not in self.g.free_symbols:
+            raise without_x(self.name, (q.name for q in self.parameters))
         self.slope  # noqa: B018  (a profile that cannot be read is refused here)
+
+    def _demand_length(self) -> None:
+        """Refuse a g(x) that is no length, and say that no number in it can make it one."""
+        try:
+            check(self.g, "m", f"g of {self.name!r}", self.dimensions)
+        except DimensionMismatch as error:
+            first = f"{error.remedy}; " if self.parameters else ""
+            raise replace(error, remedy=f"{first}{_NUMBERS}") from None
 
     @cached_property
     def slope(self) -> Slope:

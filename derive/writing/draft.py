@@ -13,12 +13,12 @@ from sympy import Abs
 
 from derive.codegen.module import formatted
 from derive.errors import BadName, BadOption, BadProfile, BadUnit, UserError
-from derive.geometry import Geometry, parameter
+from derive.geometry import Geometry, parameter, without_x
 from derive.library import is_in_library
 from derive.symbols import RESERVED, x
-from derive.writing.grammar import Node, parse
+from derive.writing.grammar import Name, Node, parse
 from derive.writing.lengths import units
-from derive.writing.meaning import Meaning, names, read
+from derive.writing.meaning import Meaning, names, read, walk
 from derive.writing.python import Python
 from derive.writing.vocabulary import refusal
 
@@ -105,6 +105,8 @@ def draft(wanted: Wanted) -> Draft:
         _demand_held(option, given, tuple(names(tree)))
     for unit in wanted.units.values():
         _demand_plain(unit)
+    if "x" not in (node.name for node in walk(tree) if isinstance(node, Name)):
+        raise without_x(wanted.name, names(tree))
     parameters = _parameters(wanted, tree)
     return Draft(_geometry(wanted, tree, parameters), _text(wanted, tree, parameters))
 

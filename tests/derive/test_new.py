@@ -150,7 +150,8 @@ def test_units_that_stay_open_are_asked_for(text: str, parameters: tuple[str, ..
 def test_a_dimension_that_cannot_agree_is_refused_as_by_geometry(name: str) -> None:
     with pytest.raises(DimensionMismatch) as caught:
         draft(Wanted("body", name))
-    assert "check the units" in caught.value.message
+    assert "a number has no unit: write it as a parameter with its unit" in caught.value.message
+    assert ("check the units" in caught.value.message) == ("R" in name)
 
 
 # The draft
@@ -295,7 +296,10 @@ def test_a_parameter_without_influence_is_refused(text: str, column: int) -> Non
     [
         ("-x**2/R", BadProfile, "not convex"),
         ("phi*x", BadProfile, "straight"),
-        ("R", BadProfile, "straight"),
+        ("R", BadProfile, "there is no x in it, only parameters (R)"),
+        ("y**2/(2*R)", BadProfile, "no x in it, only parameters (y, R)"),
+        ("y**2/(R*k)", BadProfile, "write g(x) with it, such as x**2/(2*R)"),
+        ("10*x**2", DimensionMismatch, "write it as a parameter with its unit, such as R in"),
         ("0", BadProfile, "straight"),
         ("phi*x*sign(x - b)", BadProfile, "jumps"),
         ("x**3/R**2", BadProfile, "not convex"),
