@@ -51,8 +51,20 @@ def by_form(is_closed: Callable[[str], bool]) -> tuple[tuple[str, ...], tuple[st
 
     is_closed: whether the formula of this name is one.
 
+    What has a closed form by special functions, beside an integral that code evaluates, is both.
+
     >>> by_form({"load", "contact_a"}.__contains__)
     (('forward', 'from (P, M)'), ('from (P, alpha)',))
+    >>> by_form({"load_closed"}.__contains__)
+    (('forward by special functions',), ('forward in code', 'from (P, M)', 'from (P, alpha)'))
     """
-    closed = tuple(part for part, formula in _PARTS.items() if is_closed(formula))
-    return closed, tuple(part for part in _PARTS if part not in closed)
+    closed, numerical = [], []
+    for part, formula in _PARTS.items():
+        if is_closed(formula):
+            closed.append(part)
+        elif is_closed(f"{formula}_closed"):
+            closed.append(f"{part} by special functions")
+            numerical.append(f"{part} in code")
+        else:
+            numerical.append(part)
+    return tuple(closed), tuple(numerical)

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from shutil import which
 from typing import TYPE_CHECKING
 
 import click
@@ -46,7 +47,7 @@ class _Commands(click.Group):
         try:
             return super().invoke(ctx)
         except UserError as error:
-            _complain("Error", error.message)
+            _complain("Error", error.message.replace("`derive ", f"`{_command()} "))
             ctx.exit(BAD_INPUT)
         except NotProven as error:
             _complain("Not proven", str(error))
@@ -73,10 +74,11 @@ def main() -> None:
 def list_() -> None:
     """Every geometry, its g(x), what is closed form and what is numerical."""
     from derive import load_geometry, view
-    from derive.derivation import derive_law
+    from derive.derivation import derive_law, with_closed_forms
     from derive.library import library
 
-    _print(view.listing(derive_law(load_geometry(name)) for name in library()))
+    laws = (derive_law(load_geometry(name)) for name in library())
+    _print(view.listing(with_closed_forms(law) for law in laws))
 
 
 @main.command()
@@ -228,8 +230,9 @@ def new(
     click.echo(f"Wrote {shown}: g(x) = {made.geometry.g}")
     for parameter in made.geometry.parameters:
         click.echo(f"  {parameter.name} [{parameter.unit}]  {parameter.meaning}")
-    click.echo(f"See its formulas:    derive show {shlex.quote(shown)}")
-    click.echo(f"Make a module of it: derive generate {shlex.quote(shown)} --out DIRECTORY")
+    derive, file = _command(), shlex.quote(shown)
+    click.echo(f"See its formulas:    {derive} show {file}")
+    click.echo(f"Make a module of it: {derive} generate {file} --out DIRECTORY")
 
 
 @main.command()
@@ -353,7 +356,7 @@ def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:
         return
     _print(view.drift(found))
     where = f" --out {_shown(order.target)}" if order.folder else ""
-    _print(f"Update with: derive generate{''.join(f' {s}' for s in order.sources)}{where}")
+    _print(f"Update with: {_command()} generate{''.join(f' {s}' for s in order.sources)}{where}")
     sys.exit(FELL_SHORT)
 
 
@@ -395,7 +398,31 @@ def _complain(what: str, message: str) -> None:
     click.echo(f"{click.style(f'{what}:', fg='red', bold=True)} {message}", err=True)
 
 
+def _command() -> str:
+    """This command as the user can type it again: derive, .venv/bin/derive, python -m derive."""
+    called = Path(sys.argv[0])
+    if called.parent == Path(__file__).parent:  # a module that an interpreter was given by -m
+        return f"{_typed(Path(sys.orig_argv[0]))} -m derive"
+    if called.stem != "derive":  # called by another program
+        return "derive"
+    return _typed(called)
+
+
+def _typed(program: Path) -> str:
+    """A program by its name, if that finds it; else by the shortest path that does."""
+    found = which(program.name)
+    if found and Path(found).absolute() == program.absolute():
+        return shlex.quote(program.name)
+    if program.parent == Path():
+        return shlex.quote(str(program))
+    return shlex.quote(_shown(program.absolute()))
+
+
 def _shown(path: Path) -> str:
     """A path as the user would type it."""
     here = Path.cwd()
     return str(path.relative_to(here) if path.is_relative_to(here) else path)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,6 +1,7 @@
 """The commands: what they print, what they write, and with which status they leave."""
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -259,6 +260,56 @@ def test_list_names_every_geometry_and_its_profile() -> None:
     assert "phi*Abs(x)" in printed
     assert "closed form" in printed
     assert "numerical" in printed
+    rows = {row.split()[1]: row for row in printed.splitlines() if len(row.split()) > 1}
+    assert "│ forward by special functions │ forward in code, from (P, M)" in " ".join(
+        rows["hyperbola"].split()
+    )
+    assert "special" not in rows["quartic"]
+
+
+@pytest.mark.parametrize("module", ["derive", "derive.cli"])
+def test_the_command_is_a_module_too(tmp_path: Path, module: str) -> None:
+    command = [sys.executable, "-m", module, "new", "body", "x**2/R"]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    ended = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stderr
+    assert (tmp_path / "body.py").is_file()
+    told = re.search("^See its formulas: +(.*) show body.py$", ended.stdout, re.M)
+    assert told is not None
+    again = f"{told[1]} new body x**2/R"
+    ended = subprocess.run(again, shell=True, cwd=tmp_path, env=environment, capture_output=True)
+    assert (ended.returncode, b"is there already" in ended.stderr) == (2, True), ended.stderr
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        (".venv/bin/derive", ".venv/bin/derive"),
+        ("derive", "derive"),
+        ("{here}/.venv/bin/derive", ".venv/bin/derive"),
+        ("{here}/on path/derive", "derive"),
+        ("{else}/of mine/derive", "'{else}/of mine/derive'"),
+        ("{else}/pytest/__main__.py", "derive"),
+    ],
+)
+def test_advice_names_the_command_as_it_was_typed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, typed: str, told: str
+) -> None:
+    folders = {"here": tmp_path / "here", "else": tmp_path / "else"}
+    on_path = folders["here"] / "on path"
+    on_path.mkdir(parents=True)
+    (on_path / "derive").write_text("#!/bin/sh\n")
+    (on_path / "derive").chmod(0o755)
+    (folders["here"] / ".venv").mkdir()
+    monkeypatch.chdir(folders["here"])
+    monkeypatch.setenv("PATH", str(on_path))
+    monkeypatch.setattr(sys, "argv", [typed.format(**folders), "new"])
+    (folders["here"] / "body.py").write_text(CYLINDER)
+    told = told.format(**folders)
+    refused = run("generate", "body.py")
+    assert f"`{told} generate body.py --out my_package`" in refused.stderr
+    assert f"See its formulas:    {told} show mine.py" in done("new", "mine", "x**2/R")
+    assert f"Make a module of it: {told} generate" in done("new", "other", "x**2/R")
 
 
 @pytest.fixture
