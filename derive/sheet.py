@@ -16,7 +16,7 @@ from derive.errors import NotProven
 from derive.geometry import Geometry
 from derive.notation import latex_of, text_of
 from derive.proof.verdict import Proof
-from derive.symbols import P, a, alpha, c, h
+from derive.symbols import QUANTITIES, P, Quantity, a, alpha, c, h
 from derive.theory.frame import Frame
 from derive.units import NUMBER, Dimension, check, dimension_of, parse_unit
 
@@ -150,6 +150,14 @@ class FormulaSheet(Mapping[str, Formula]):
         """Whether a formula is here, and is no integral that is left to quadrature."""
         return name in self and not self[name].expr.has(Integral)
 
+    @cached_property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """What the formulas' symbols mean: the body's own parameters, and the theory's symbols."""
+        own = {p.symbol.name for p in self.geometry.parameters}
+        held = {str(s) for f in self.values() for s in (*f.arguments, *f.expr.free_symbols)}
+        theory = (q for name, q in QUANTITIES.items() if name in held and name not in own)
+        return (*self.geometry.parameters, *theory)
+
     @property
     def latex(self) -> str:
         """All formulas as one LaTeX display."""
@@ -185,11 +193,9 @@ class FormulaSheet(Mapping[str, Formula]):
                 f"    {formula.proof or 'not proven yet'}",
                 f"    source: {formula.source}",
             ]
-        if self.definitions:
-            lines += ["where"]
-            lines += [
-                f"    {s} = {text_of(definition)}" for s, definition in self.definitions.items()
-            ]
+        lines += ["where"]
+        lines += [f"    {s} = {text_of(definition)}" for s, definition in self.definitions.items()]
+        lines += [f"    {q.name}: {q.meaning} [{q.unit}]" for q in self.quantities]
         return "\n".join(lines)
 
 

@@ -84,6 +84,8 @@ def formulas(sheet: "FormulaSheet") -> Group:
         )
     for symbol, definition in sheet.definitions.items():
         table.add_row(Text(str(symbol), style="cyan"), f"{symbol} = {text_of(definition)}")
+    for q in sheet.quantities:
+        table.add_row(Text(q.name, style="cyan"), Text(f"{q.meaning} [{q.unit}]"))
     remark = [sheet.remark] if sheet.remark else []
     return Group(Text(sheet.title, style="bold"), *remark, "", table)
 

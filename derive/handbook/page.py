@@ -18,7 +18,6 @@ from derive.handbook.mathml import mathml
 from derive.notation import latex_of
 from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet
-from derive.symbols import QUANTITIES
 
 SHOWN = 40
 """Lines of a module from which on its code is folded away."""
@@ -70,9 +69,7 @@ def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
     Raises NotProven for a formula of the sheet whose proof the body does not hold.
     """
     geometry = sheet.geometry
-    names = {p.symbol.name for p in geometry.parameters}
-    held = {str(s) for f in sheet.values() for s in (*f.arguments, *f.expr.free_symbols)}
-    symbols = [q for name, q in QUANTITIES.items() if name in held and name not in names]
+    symbols = [q for q in sheet.quantities if q not in geometry.parameters]
     defined = [
         (mathml(f"{latex_of(s)} = {latex_of(expr)}"), str(s))
         for s, expr in sheet.definitions.items()

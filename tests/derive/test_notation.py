@@ -1,13 +1,17 @@
 """How formulas are written: what is printed says the same as the expression."""
 
+import re
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
+from rich.console import Console
 from sympy import Expr, Rational, Symbol, lambdify, parse_expr, pi, sqrt, symbols
 
 from derive.notation import gathered, is_half_power, latex_of, text_of
 from derive.symbols import QUANTITIES, E_star, P, alpha, dQ, dsigma
+from derive.view import formulas
 from tests.derive.bodies import VALUES, close, sheet
 
 p, q, r = symbols("p q r", positive=True)
@@ -110,6 +114,22 @@ def test_a_sheet_prints_every_formula_and_every_definition(name: str) -> None:
         assert any(formula.source in line for line in lines)
     for symbol, definition in body.definitions.items():
         assert f"{symbol} = {text_of(definition)}" in lines
+
+
+@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded"])
+def test_every_symbol_of_a_printed_sheet_is_told(name: str) -> None:
+    """As the lever arm e, which no formula defines."""
+    body, printed = sheet(name), str(sheet(name))
+    terminal = Console(width=400)
+    with terminal.capture() as shown:
+        terminal.print(formulas(body))
+    held = set().union(*({*f.arguments, *body.shown(key).free_symbols} for key, f in body.items()))
+    held = held.union(*(of.free_symbols for of in body.definitions.values()))
+    told = {q.name: q.meaning for q in body.quantities}
+    for symbol in held - set(body.definitions):
+        assert f"    {symbol}: {told[str(symbol)]} [" in printed
+        assert re.search(rf"^{symbol} +{re.escape(told[str(symbol)])} \[", shown.get(), re.M)
+    assert name != "hertz" or "    e: lever arm M/P" in printed
 
 
 @pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded"])
