@@ -4,6 +4,7 @@ import doctest
 import importlib.util
 import re
 import shlex
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -62,3 +63,19 @@ def test_every_link_leads_somewhere() -> None:
     assert links
     for link in links:
         assert (README.parent / link).exists(), link
+
+
+def test_it_says_which_python_before_the_first_example() -> None:
+    before = README.read_text().partition("\n>>> ")[0]
+    assert "`.venv/bin/python`" in before
+    assert "`.venv/bin/derive`" in before
+    assert "directory" in before
+
+
+def test_make_brings_what_it_says() -> None:
+    project = tomllib.loads((README.parent / "pyproject.toml").read_text())
+    brought = project["project"]["optional-dependencies"]["tests"]
+    assert "-e '.[tests]'" in (README.parent / "Makefile").read_text()
+    assert ("`make` has brought matplotlib" in README.read_text()) == any(
+        of.startswith("matplotlib") for of in brought
+    )
