@@ -99,9 +99,11 @@ def markdown(rows: Iterable[Row]) -> str:
 def percent(part: float) -> str:
     """A part of one as per cent, and what has no number.
 
-    >>> percent(-0.123), percent(float("nan"))
-    ('-12 %', 'none')
+    >>> percent(-0.123), percent(1.234), percent(float("nan"))
+    ('-12 %', '123 %', 'none')
     """
     if np.isnan(part):
         return "none"
-    return f"{100 * part:.2g} %" if abs(part) > 1e-9 else "0 %"
+    if abs(part) < 1e-9:
+        return "0 %"
+    return f"{100 * part:{'.2g' if abs(part) < 0.995 else '.0f'}} %"
