@@ -852,7 +852,16 @@ time.sleep(600)
 {CYLINDER}"""
 
 
-@pytest.mark.parametrize("bad", ["concave.py", "syntax.py", "unit.py", "nowhere.py", "zeta"])
+@pytest.mark.parametrize(
+    "bad",
+    [
+        "concave.py",
+        *(
+            pytest.param(bad, marks=pytest.mark.slow)
+            for bad in ("syntax.py", "unit.py", "nowhere.py", "zeta")
+        ),
+    ],
+)
 def test_bad_input_is_told_by_several_processes_as_by_one(here: Path, bad: str) -> None:
     """The other body is not waited for."""
     written(here)
