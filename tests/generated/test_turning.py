@@ -74,7 +74,13 @@ def test_another_solution_finds_the_same(
     assert_allclose((zone.m, zone.n), other, atol=2e-6 * (a + c))
 
 
-@pytest.mark.parametrize("name", ["wedge", "hertz", "two_radii", "quartic"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "hertz",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("wedge", "two_radii", "quartic")),
+    ],
+)
 def test_the_zone_goes_over_into_those_of_both_neighbours(name: str) -> None:
     """a + n(moderate) = 8 dQ/(pi dsigma) at the lower border, m + n(large) at the upper one."""
     tension = np.linspace(0.95, 1.45, 251)
