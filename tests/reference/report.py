@@ -82,7 +82,8 @@ Where no zone inside both contacts meets the conditions, the kind tells where th
 * sticks: it is all that touches always; what slips is only what comes into contact and leaves it.
 
 "off" is how far a zone is from the solver's at its worse end: that of the conditions, that of the
-smallest ends over partial half-cycles there and back, and the exact one of constant mean loads.
+smallest ends over partial half-cycles there and back, and the exact one of loads P and M that stand
+still at their means.
 """
 
 AROUND_TEXT = """## Varying loads around the threshold
@@ -94,7 +95,7 @@ A negative range is the cycle of the positive one from its other end: the zones 
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A Markdown table, numbers to the right.
+    """A Markdown table, numbers to the right; ValueError where a row is not as long as its head.
 
     >>> print(table(["case", "n"], [["a", "1"]]))
     | case | n |
@@ -102,7 +103,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     | a | 1 |
     """
     rule = ["---", *["---:"] * (len(head) - 1)]
-    return "\n".join(f"| {' | '.join(row)} |" for row in (head, rule, *rows))
+    lines = [head, rule, *rows]
+    if {len(line) for line in lines} != {len(head)}:
+        raise ValueError(f"every row needs {len(head)} cells: {', '.join(head)}")
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def _small(value: float) -> str:
@@ -182,6 +186,7 @@ FIGURES = [
     "±",
     "off",
     "smallest, off",
+    "constant, off",
     "kind",
     "premise there",
     "and back",
