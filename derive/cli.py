@@ -385,9 +385,16 @@ def _progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str
 
 
 def _console(stderr: bool = False) -> Console:
-    stream = sys.stderr if stderr else sys.stdout
-    width = None if stream.isatty() else _WIDE
-    return Console(stderr=stderr, width=width, highlight=False, markup=False, emoji=False)
+    """What is printed may be coloured into a pipe, by FORCE_COLOR; what moves is for terminals."""
+    there = (sys.stderr if stderr else sys.stdout).isatty()
+    return Console(
+        stderr=stderr,
+        force_terminal=False if stderr and not there else None,
+        width=None if there else _WIDE,
+        highlight=False,
+        markup=False,
+        emoji=False,
+    )
 
 
 def _print(what: RenderableType) -> None:

@@ -1018,6 +1018,22 @@ def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) ->
     ]
 
 
+@pytest.mark.parametrize("variable", ["FORCE_COLOR", "TTY_COMPATIBLE"])
+def test_what_moves_is_left_out_of_a_pipe(
+    here: Path,
+    variable: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """Spinner and bar, however colours are asked for."""
+    monkeypatch.setenv(variable, "1")
+    done = run("new", "body", "x**2/R")
+    assert (done.exit_code, done.stderr) == (0, "")
+    with derive.cli._progress(1, STAGES) as step:
+        step("a", STAGES[0])
+    assert capsys.readouterr().err == ""
+
+
 class TestSlip:
     """`derive show NAME --slip ORDER`."""
 
