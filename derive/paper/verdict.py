@@ -7,30 +7,39 @@ printed one was: the same points, the same steps.
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
+from itertools import islice
+from typing import TypeVar
 
 import mpmath
 from sympy import Expr, Integral, Symbol, count_ops
 
-from derive.paper.claim import SCALE, Claim, Convention, Meaning, Point, Relation, Verdict
-from derive.paper.numbers import (
-    DIGITS,
-    LEAST,
-    Pair,
-    Undecided,
-    apart,
-    both,
-    near,
-    numbers,
-    points,
-    variables,
+from derive.limit import LimitReached, within
+from derive.paper.claim import (
+    SCALE,
+    Bound,
+    Claim,
+    Convention,
+    Meaning,
+    Point,
+    Range,
+    Relation,
+    Verdict,
 )
+from derive.paper.draw import LEAST, further, has_integral, points, spread, variables
+from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
 from derive.paper.repair import KINDS, Edit, edits, plain_edits
-from derive.paper.zero import vanishes
+from derive.paper.values import Care, Undecided
+from derive.paper.zero import constant, vanishes
+
+Result = TypeVar("Result")
 
 _SCREENED = 3
 """Points at which a repair is looked at before it is judged in full."""
+_OFF = 6
+"""Points on either side of a bound."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +86,7 @@ class Finding:
     under       the same equation judged under that map
     repair      the corrected equation, if one was found
     tried       how many repairs of each kind were looked at
+    stopped     why the search for them came to no end, if it did not
     """
 
     claim: Claim
@@ -86,6 +96,7 @@ class Finding:
     under: Judged | None = None
     repair: Repair | None = None
     tried: Counter[str] | None = None
+    stopped: str = ""
 
     @property
     def as_expected(self) -> bool:
@@ -95,12 +106,38 @@ class Finding:
 
 
 def check(claim: Claim) -> Finding:
-    """The verdict of one claim."""
+    """The verdict of one claim; what stops its judging makes it unchecked, with the reason."""
     if claim.unchecked:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, claim.unchecked))
-    judged = judge(claim, claim.left, claim.right, claim.meaning)
+    judged, stopped = _attempted(claim, lambda: judge_as_printed(claim))
+    if judged is None:
+        return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, stopped))
     if judged.verdict != Verdict.FAILS:
         return Finding(claim, judged.verdict, judged)
+    finding, stopped = _attempted(claim, lambda: _mended(claim, judged))
+    return finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
+
+
+def _attempted(claim: Claim, work: Callable[[], Result]) -> tuple[Result | None, str]:
+    """What comes of work within the claim's time, or why nothing does."""
+    try:
+        with within(claim.seconds) if claim.seconds is not None else nullcontext():
+            return work(), ""
+    except LimitReached:
+        return None, f"not done within {claim.seconds:g} s"
+    except RecursionError:
+        return None, "stopped: an expression is nested too deep"
+    except Exception as error:  # SymPy's own, for one claim among many
+        return None, f"stopped by {type(error).__name__}: {error}"
+
+
+def judge_as_printed(claim: Claim) -> Judged:
+    """The printed sides under the claim's own meaning."""
+    return judge(claim, claim.left, claim.right, claim.meaning)
+
+
+def _mended(claim: Claim, judged: Judged) -> Finding:
+    """A claim that fails, with its repair and the map of signs that makes it true."""
     repair, tried = repaired(claim)
     for convention in claim.conventions:
         under = judge(claim, claim.left, claim.right, {**claim.meaning, **convention.meaning})
@@ -113,65 +150,140 @@ def check(claim: Claim) -> Finding:
 def judge(claim: Claim, left: Expr, right: Expr, meaning: Meaning) -> Judged:
     """Two sides under a meaning, at all points and, if they agree there, symbolically."""
     left, right = claim.sides(left, right)
-    found: list[Pair] = []
+    judging = _Judging(claim, left, right, meaning)
     try:
-        for point in points(claim):
-            pair = _at(claim, left, right, meaning, point, first=not found)
-            found.append(pair)
-            if not _stands(claim, pair):
-                return Judged(Verdict.FAILS, _example(claim, pair), tuple(found))
+        return judging.whole()
     except Undecided as error:
-        return Judged(Verdict.UNCHECKED, str(error), tuple(found))
-    if len(found) < LEAST:
-        return Judged(Verdict.UNCHECKED, f"only {len(found)} points were drawn", tuple(found))
-    if claim.is_inequality and not all(pair.agree for pair in found):
-        return Judged(Verdict.NUMERICAL, f"true at {len(found)} points", tuple(found))
-    return _proven(claim, left, right, meaning, tuple(found))
+        return Judged(Verdict.UNCHECKED, str(error), tuple(judging.found))
 
 
-def _proven(
-    claim: Claim, left: Expr, right: Expr, meaning: Meaning, found: tuple[Pair, ...]
-) -> Judged:
-    worst = min(pair.digits for pair in found)
-    agree = f"both sides agree to {min(worst, 2 * DIGITS)} digits at {len(found)} points"
-    how = "" if claim.samples else _vanishing(claim, (left - right).xreplace(dict(meaning)))
-    if how:
-        return Judged(Verdict.HOLDS, f"{how}; {agree}", found)
-    return Judged(Verdict.NUMERICAL, agree, found)
+class _Judging:
+    """Two sides under one meaning, point by point.
+
+    found     what was found so far
+    left_out  further points at which no number came out
+    """
+
+    def __init__(self, claim: Claim, left: Expr, right: Expr, meaning: Meaning) -> None:
+        self.claim, self.left, self.right, self.meaning = claim, left, right, meaning
+        self.found: list[Pair] = []
+        self.left_out = 0
+        self.integrals = has_integral(claim)
+
+    def whole(self) -> Judged:
+        """The verdict; raises Undecided."""
+        for point in points(self.claim):
+            if not self._stands_at(self._pair(point)):
+                return self._fails()
+        if len(self.found) < LEAST and not self.claim.cases:
+            return self._judged(Verdict.UNCHECKED, f"only {len(self.found)} points were drawn")
+        for point in further(self.claim, self._in_ours()):
+            try:
+                pair = self._pair(point)
+            except Undecided:
+                self.left_out += 1
+                continue
+            if not self._stands_at(pair):
+                return self._fails()
+        if self.claim.is_inequality and not all(pair.agree for pair in self.found):
+            return self._judged(Verdict.NUMERICAL, f"true {self._where()}")
+        if self.claim.reached is not None:
+            wrong = self._off_the_bound(self.claim.reached)
+            if wrong:
+                return self._judged(Verdict.FAILS, wrong)
+        return self._proven()
+
+    def _pair(self, point: Point, meaning: Meaning | None = None) -> Pair:
+        """Both sides at one point; a printed integral is written in our symbols first."""
+        meaning = self.meaning if meaning is None else meaning
+        left, right = self.left, self.right
+        if left.has(Integral) or right.has(Integral):
+            left, right = left.xreplace(dict(meaning)), right.xreplace(dict(meaning))
+
+        def value(care: Care) -> Point:
+            return numbers(self.claim, meaning, point, care)
+
+        pair = apart(left, right, value, point) if not self.found else None
+        return pair or both(left, right, value, point, self.integrals)
+
+    def _stands_at(self, pair: Pair) -> bool:
+        self.found.append(pair)
+        if not self.claim.is_inequality:
+            return pair.agree
+        return _is_met(self.claim.relation, pair)
+
+    def _off_the_bound(self, bound: Bound) -> str:
+        """Where the printed relation says something else than it should, if anywhere."""
+        relation = self.claim.relation
+        for entries, met, word in ((bound.allowed, True, "false"), (bound.beyond, False, "true")):
+            meaning = {**self.meaning, **entries}
+            for point in islice(points(self.claim), _OFF):
+                pair = self._pair(point, meaning)
+                if _is_met(relation, pair) != met:
+                    side = "inside" if met else "beyond"
+                    return f"{word} {side} the bound: {_example(pair)}"
+        return ""
+
+    def _in_ours(self) -> list[Expr]:
+        table = dict(self.meaning)
+        return [side.xreplace(table) for side in (self.left, self.right)]
+
+    def _proven(self) -> Judged:
+        worst = min(min(pair.digits, pair.known) for pair in self.found)
+        agree = f"both sides agree to {min(worst, 2 * DIGITS)} digits {self._where()}"
+        if self.claim.reached is not None:
+            agree += f"; off the bound the relation is right on both sides at {_OFF} points each"
+        if self.claim.samples:
+            return self._judged(Verdict.NUMERICAL, agree)
+        left, right = self._in_ours()
+        how = vanishes(left - right, _ranges(self.claim))
+        if how:
+            return self._judged(Verdict.HOLDS, f"{how}; {agree}")
+        apart_by = constant(left - right)
+        if apart_by is not None:
+            return self._judged(Verdict.FAILS, f"left less right is {apart_by}")
+        return self._judged(Verdict.NUMERICAL, agree)
+
+    def _where(self) -> str:
+        """How many points were looked at, and from where to where they reach."""
+        count = len(self.found)
+        told = spread([pair.point for pair in self.found])
+        if self.claim.cases:
+            return f"in {count} {'case' if count == 1 else 'cases'}" + (f": {told}" if told else "")
+        left_out = f"; no number at {self.left_out} more" if self.left_out else ""
+        return f"at {count} points" + (f" ({told}{left_out})" if told else "")
+
+    def _fails(self) -> Judged:
+        return self._judged(Verdict.FAILS, _example(self.found[-1]))
+
+    def _judged(self, verdict: Verdict, why: str) -> Judged:
+        return Judged(verdict, why, tuple(self.found))
 
 
-def _vanishing(claim: Claim, difference: Expr) -> str:
-    places = {symbol: claim.ranges.get(symbol, SCALE).place for symbol in variables(claim)}
-    return vanishes(difference, places)
+def _ranges(claim: Claim) -> dict[Symbol, Range]:
+    return {symbol: claim.ranges.get(symbol, SCALE) for symbol in variables(claim)}
 
 
-def _at(claim: Claim, left: Expr, right: Expr, meaning: Meaning, point: Point, first: bool) -> Pair:
-    """Both sides at one point; a printed integral is written in our symbols first."""
-    if left.has(Integral) or right.has(Integral):
-        left, right = left.xreplace(dict(meaning)), right.xreplace(dict(meaning))
-
-    def value() -> Point:
-        return numbers(claim, meaning, point)
-
-    return (first and apart(left, right, value, point)) or both(left, right, value, point)
-
-
-def _stands(claim: Claim, pair: Pair) -> bool:
-    if not claim.is_inequality:
-        return pair.agree
+def _is_met(relation: Relation, pair: Pair) -> bool:
+    """Whether a relation is true of two numbers."""
     if pair.agree:
-        return not claim.relation.is_strict
+        return not relation.is_strict
+    if not relation.is_ordered:
+        return False
     difference = pair.left - pair.right
     if mpmath.im(difference) != 0:
         raise Undecided("complex numbers are neither above nor below each other")
-    below = claim.relation in (Relation.BELOW, Relation.AT_MOST)
+    below = relation in (Relation.BELOW, Relation.AT_MOST)
     return bool(mpmath.re(difference) < 0) == below
 
 
-def _example(claim: Claim, pair: Pair) -> str:
+def _example(pair: Pair) -> str:
     where = ", ".join(f"{symbol} = {mpmath.nstr(v, 6)}" for symbol, v in pair.point.items())
     left, right = mpmath.nstr(pair.left, 12), mpmath.nstr(pair.right, 12)
-    return f"left {left}, right {right}" + (f" at {where}" if where else "")
+    told = f"left {left}, right {right}"
+    if left == right:
+        told += f", left less right {mpmath.nstr(pair.left - pair.right, 3)}"
+    return told + (f" at {where}" if where else "")
 
 
 # ------------------------------------------------------------------ what it should have been
@@ -251,7 +363,8 @@ class _Screen:
     def __init__(self, claim: Claim) -> None:
         self.claim = claim
         self.points = list(points(claim, _SCREENED, "screen"))
-        self.known: dict[tuple[int, int], Point] = {}
+        self.known: dict[tuple[int, int, Care], Point] = {}
+        self.integrals = has_integral(claim)
 
     def fits(self, left: Expr, right: Expr) -> bool:
         """Whether a candidate agrees at the screen's points."""
@@ -265,14 +378,17 @@ class _Screen:
             return False
 
     def _agrees(self, left: Expr, right: Expr, n: int) -> bool:
-        if not near(left, right, lambda: self._numbers(n)):
-            return False
-        return both(left, right, lambda: self._numbers(n), self.points[n]).agree
+        def value(care: Care) -> Point:
+            return self._numbers(n, care)
 
-    def _numbers(self, n: int) -> Point:
-        key = (n, mpmath.mp.dps)
+        if not near(left, right, value):
+            return False
+        return both(left, right, value, self.points[n], self.integrals).agree
+
+    def _numbers(self, n: int, care: Care) -> Point:
+        key = (n, mpmath.mp.dps, care)
         if key not in self.known:
-            self.known[key] = numbers(self.claim, self.claim.meaning, self.points[n])
+            self.known[key] = numbers(self.claim, self.claim.meaning, self.points[n], care)
         return self.known[key]
 
 

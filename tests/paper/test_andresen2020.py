@@ -8,7 +8,8 @@ import pytest
 from derive.paper import exact
 from derive.paper.andresen2020 import paper
 from derive.paper.claim import Verdict
-from derive.paper.numbers import DIGITS, LEAST
+from derive.paper.draw import LEAST
+from derive.paper.numbers import DIGITS
 from derive.paper.report import (
     as_latex,
     as_markdown,

@@ -22,10 +22,22 @@ from sympy import (
 )
 
 from derive.paper import anybody
-from derive.paper.claim import FRACTION, SIGNED, Claim, Convention, Paper, Range, Relation, Verdict
-from derive.paper.numbers import DIGITS, Undecided, both, evaluated, points, variables
+from derive.paper.claim import (
+    FRACTION,
+    SCALE,
+    SIGNED,
+    Claim,
+    Convention,
+    Paper,
+    Range,
+    Relation,
+    Verdict,
+)
+from derive.paper.draw import points, variables
+from derive.paper.numbers import DIGITS, both
 from derive.paper.quick import Unknown, approximately
 from derive.paper.repair import edits
+from derive.paper.values import Undecided, evaluated
 from derive.paper.verdict import check
 from derive.paper.zero import vanishes
 
@@ -203,12 +215,12 @@ def test_integrals(integrand: Expr, low: int, high: int, value: Expr) -> None:
 
 def test_digits_that_cancel_are_computed_again() -> None:
     tiny = (1 + b) - 1
-    pair = both(tiny, b, lambda: {b: mpf(2) ** -60}, {})
+    pair = both(tiny, b, lambda care: {b: mpf(2) ** -60}, {})
     assert pair.agree
 
 
 def test_a_sum_that_cancels_wholly_is_zero() -> None:
-    pair = both(a, sqrt(b) ** 2 - b, lambda: {a: mpf(0), b: mpf(3)}, {})
+    pair = both(a, sqrt(b) ** 2 - b, lambda care: {a: mpf(0), b: mpf(3)}, {})
     assert pair.agree
 
 
@@ -219,7 +231,7 @@ def test_an_integral_over_two_variables_is_undecided() -> None:
 
 def test_what_is_not_finite_is_undecided() -> None:
     with pytest.raises(Undecided):
-        both(a, 1 / (b - b * a), lambda: {a: mpf(1), b: mpf(3)}, {})
+        both(a, 1 / (b - b * a), lambda care: {a: mpf(1), b: mpf(3)}, {})
 
 
 def test_a_few_digits_in_no_time() -> None:
@@ -244,14 +256,14 @@ def test_a_few_digits_in_no_time() -> None:
     ],
 )
 def test_identities_vanish(expr: Expr) -> None:
-    assert vanishes(expr, {u: S.One, v: S.One})
+    assert vanishes(expr, {u: SCALE, v: SCALE})
 
 
 @pytest.mark.parametrize(
     "expr", [u - v, sin(u) - u, asin(u) - atan(u), Integral(s, (s, 0, u)) - u**2 / 2, u / 10**30]
 )
 def test_what_is_not_shown_to_vanish_does_not(expr: Expr) -> None:
-    assert vanishes(expr, {u: S.One, v: S.One}) == ""
+    assert vanishes(expr, {u: SCALE, v: SCALE}) == ""
 
 
 # ------------------------------------------------------------------ repairs and lemmas

@@ -1,0 +1,277 @@
+"""Where a claim is looked at: random points of its assumptions, the same on every machine.
+
+points    of a moderate size, or spread evenly over a declared range
+further   over many decades, next to the ends of ranges, and on both sides of places where a
+          modulus, a logarithm, a root, ... inside the claim changes
+"""
+
+import hashlib
+import random
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
+
+import mpmath
+import numpy as np
+from mpmath import mpf
+from sympy import Expr, Integral, Symbol, lambdify
+from sympy.printing.codeprinter import PrintMethodNotImplementedError
+
+from derive.paper.claim import SCALE, Claim, Point, Range, Relation
+from derive.paper.kinks import Switch, switches
+
+POINTS = 24
+"""Points at which both sides are compared, before further ones."""
+LEAST = 20
+"""Points where an integral is in it; below that nothing is decided."""
+DECADES = 6
+"""A positive variable without a range is drawn from 10**-6 to 10**6 at further points."""
+_FEWER_DECADES = 2
+"""The same where an integral is in it."""
+_WIDE, _AT_ENDS, _CHANGES = 8, 6, 12
+_FEWER_WIDE, _FEWER_AT_ENDS, _FEWER_CHANGES = 3, 2, 4
+_CLOSEST = 6
+"""Decades by which a point may be closer to an end of a range than the range is long."""
+_SWITCHES = 10
+"""Switches of a claim that are looked at."""
+_GRID = 97
+"""Places of a variable at which the sign of a switch is looked at."""
+
+
+def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]:
+    """Points of a moderate size; those of the claim, if it has its own."""
+    if claim.cases:
+        yield from ({symbol: mpf(text) for symbol, text in case.items()} for case in claim.cases)
+        return
+    symbols, rng = variables(claim), _random(claim, seed)
+    for _ in range(count if count < POINTS or not has_integral(claim) else LEAST):
+        yield {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+
+
+def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
+    """Points where a claim that holds at moderate ones may not."""
+    symbols = variables(claim)
+    if claim.cases or claim.samples or not symbols:
+        return
+    few = has_integral(claim)
+    rng = _random(claim, "further")
+    yield from _wide(claim, symbols, rng, few)
+    yield from _at_ends(claim, symbols, rng, _FEWER_AT_ENDS if few else _AT_ENDS)
+    exprs = list(exprs)
+    if claim.is_inequality and not few:
+        yield from _closest(claim, symbols, rng, exprs[0] - exprs[1])
+    if not (few and claim.family):
+        most = _FEWER_CHANGES if few else _CHANGES
+        yield from _changes(claim, symbols, rng, exprs, most)
+
+
+def _random(claim: Claim, seed: str) -> random.Random:
+    digest = hashlib.sha256(f"{claim.family or claim.label}{seed}".encode()).digest()
+    return random.Random(int.from_bytes(digest[:8], "big"))
+
+
+def _range(claim: Claim, symbol: Symbol) -> Range:
+    return claim.ranges.get(symbol, SCALE)
+
+
+def _drawn(span: Range, rng: random.Random) -> mpf:
+    value = mpf(rng.uniform(span.low, span.high))
+    return mpf(2) ** value if span.powers else value
+
+
+def has_integral(claim: Claim) -> bool:
+    """Whether a side, or what a symbol of it means, is an integral."""
+    return any(expr.has(Integral) for expr in _exprs(claim))
+
+
+def _exprs(claim: Claim) -> list[Expr]:
+    return [*claim.sides(claim.left, claim.right), *claim.meaning.values()]
+
+
+def variables(claim: Claim) -> list[Symbol]:
+    """Our symbols that a point must give a number to."""
+    sides = claim.sides(claim.left, claim.right)
+    held = set().union(*(side.free_symbols for side in sides))
+    found: set[Symbol] = set(claim.ranges)
+    for symbol in held:
+        found |= claim.meaning.get(symbol, symbol).free_symbols
+    return sorted(found - set(claim.samples) - _bound(claim), key=in_order)
+
+
+def in_order(symbol: Symbol) -> tuple[str, str]:
+    """A key for symbols, of which two may have one name."""
+    return symbol.name, str(symbol.assumptions0)
+
+
+def _bound(claim: Claim) -> set[Symbol]:
+    """Variables of integration; a sheet's own place x is one only where it is integrated over."""
+    integrals = {over for expr in _exprs(claim) for over in expr.atoms(Integral)}
+    return {limit[0] for over in integrals for limit in over.limits} - set(claim.ranges)
+
+
+# ------------------------------------------------------------------ further points
+
+
+def _wide(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, few: bool
+) -> Iterator[Point]:
+    """Variables without a range over many decades."""
+    decades = _FEWER_DECADES if few else DECADES
+    free = [symbol for symbol in symbols if symbol not in claim.ranges]
+    for _ in range((_FEWER_WIDE if few else _WIDE) if free else 0):
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        yield point | {symbol: mpf(10) ** rng.uniform(-decades, decades) for symbol in free}
+
+
+def _at_ends(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, count: int
+) -> Iterator[Point]:
+    """Variables next to the ends of their ranges: all high, all low, then as it comes."""
+    limited = [symbol for symbol in symbols if symbol in claim.ranges]
+    for n in range(count if limited else 0):
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        for symbol in limited:
+            span = _range(claim, symbol)
+            share = 10 ** rng.uniform(-_CLOSEST, -1)
+            high = n == 0 or (n > 1 and rng.random() < 0.5)
+            place = mpf(1 - share if high else share)
+            value = span.low + place * (mpf(span.high) - span.low)
+            point[symbol] = mpf(2) ** value if span.powers else value
+        yield point
+
+
+def _changes(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr], most: int
+) -> Iterator[Point]:
+    """Pairs of points, with a zero of a switch between them."""
+    found = 0
+    for switch in _looked_at(exprs, symbols):
+        of, held = _for_arrays(switch.of)
+        for variable in held:
+            if of is None or found >= most:
+                break
+            point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+            grid = _grid(claim.ranges.get(variable))
+            between = _sign_change(of, held, variable, point, grid)
+            if between is not None:
+                found += 2
+                yield from _either_side(of, held, variable, point, between, rng)
+
+
+def _looked_at(exprs: Iterable[Expr], symbols: Sequence[Symbol]) -> list[Switch]:
+    """Switches that may change their sign, the shortest first."""
+    known = set(symbols)
+    found = {
+        switch
+        for expr in exprs
+        for switch in switches(expr)
+        if switch.of.free_symbols <= known and not switch.of.is_nonzero
+    }
+    return sorted(found, key=lambda s: (len(str(s.of)), str(s.of), s.kind))[:_SWITCHES]
+
+
+def _grid(span: Range | None) -> Any:
+    if span is None:
+        return np.logspace(-DECADES, DECADES, _GRID)
+    values = np.linspace(span.low, span.high, _GRID)
+    return 2.0**values if span.powers else values
+
+
+_OfArrays = Callable[..., Any]
+
+
+def _for_arrays(expr: Expr) -> tuple[_OfArrays | None, list[Symbol]]:
+    held = sorted(expr.free_symbols, key=in_order)
+    try:
+        return lambdify(held, expr, modules="numpy"), held
+    except PrintMethodNotImplementedError:
+        return None, held
+
+
+def _values(
+    of: _OfArrays, held: Sequence[Symbol], variable: Symbol, point: Point, along: Any
+) -> Any:
+    """A switch along one variable, in double precision; not a number where it is none."""
+    with np.errstate(all="ignore"):
+        try:
+            found = of(*(along if s == variable else float(point[s]) for s in held))
+        except (ArithmeticError, TypeError, ValueError):
+            return np.full(along.shape, np.nan)
+    return np.broadcast_to(np.asarray(found), along.shape)
+
+
+def _sign_change(
+    of: _OfArrays, held: Sequence[Symbol], variable: Symbol, point: Point, grid: Any
+) -> tuple[float, float] | None:
+    """Two places of a variable between which a switch changes its sign."""
+    values = _values(of, held, variable, point, grid)
+    if np.iscomplexobj(values):
+        return None
+    with np.errstate(all="ignore"):
+        changes = np.nonzero(values[:-1] * values[1:] < 0)[0]
+    if not len(changes):
+        return None
+    n = int(changes[len(changes) // 2])
+    return float(grid[n]), float(grid[n + 1])
+
+
+def _either_side(
+    of: _OfArrays,
+    held: Sequence[Symbol],
+    variable: Symbol,
+    point: Point,
+    between: tuple[float, float],
+    rng: random.Random,
+) -> Iterator[Point]:
+    """A point on each side of the zero, somewhere between it and the places given."""
+    low, high = between
+    for _ in range(40):
+        middle = (low + high) / 2
+        ends = _values(of, held, variable, point, np.array([low, middle]))
+        low, high = (low, middle) if ends[0] * ends[1] <= 0 else (middle, high)
+    for end in between:
+        share = 10 ** rng.uniform(-4, 0)
+        yield point | {variable: mpf(low) + (mpf(end) - mpf(low)) * mpf(share)}
+
+
+def _closest(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, difference: Expr
+) -> Iterator[Point]:
+    """Where the sides of an inequality are next to each other along one variable, or cross."""
+    of, held = _for_arrays(difference)
+    if of is None or not set(held) <= set(symbols):
+        return
+    for variable in held[:_SWITCHES]:
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        grid = _grid(claim.ranges.get(variable))
+        values = _values(of, held, variable, point, grid)
+        if np.iscomplexobj(values) or not np.any(np.isfinite(values)):
+            continue
+        rising = claim.relation in (Relation.BELOW, Relation.AT_MOST)
+        heights = values if rising else -values
+        n = int(np.nanargmax(np.where(np.isfinite(heights), heights, np.nan)))
+        low, high = grid[max(n - 1, 0)], grid[min(n + 1, len(grid) - 1)]
+        for _ in range(30):
+            finer = np.linspace(low, high, 9)
+            heights = _values(of, held, variable, point, finer) * (1 if rising else -1)
+            if not np.all(np.isfinite(heights)):
+                break
+            best = int(np.argmax(heights))
+            low, high = finer[max(best - 1, 0)], finer[min(best + 1, 8)]
+        yield point | {variable: mpf(float(low + high) / 2)}
+
+
+# ------------------------------------------------------------------ in words
+
+
+def spread(found: Sequence[Point]) -> str:
+    """From where to where the variables of points reach, those alike told together."""
+    told: dict[str, list[str]] = {}
+    for symbol in sorted(set().union(*found) if found else set(), key=in_order):
+        values = [point[symbol] for point in found if symbol in point]
+        span = f"{_short(min(values))} to {_short(max(values))}"
+        told.setdefault(span, []).append(symbol.name)
+    return "; ".join(f"{', '.join(names)} from {span}" for span, names in told.items())
+
+
+def _short(value: mpf) -> str:
+    return str(mpmath.nstr(value, 2))
