@@ -52,10 +52,10 @@ series: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.series
 
 solver: $(STAMP)
-	$(BIN)/python -m tests.reference
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.reference
 
 comparison: $(STAMP)
-	$(BIN)/python -m tests.comparison
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.comparison
 
 accuracy: $(STAMP)
 	$(BIN)/python -m tests.accuracy.report

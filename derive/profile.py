@@ -405,7 +405,8 @@ def _demands(name: str, pieces: list[Piece]) -> tuple[Boolean, ...]:
     """What the parameters must meet, that the body be convex: factors whose sign is open.
 
     A corner's jump and the factors of a curvature that do not hold x are positive, or the body is
-    convex for no or for some parameters only, such as k > 1 for Abs(x)**k.
+    convex for no or for some parameters only, such as k > 1 for Abs(x)**k.  Where such a power is
+    one term of several, or multiplied by a function, what stands before it at its root decides.
     """
     found: dict[Boolean, None] = {}
 
@@ -415,10 +416,22 @@ def _demands(name: str, pieces: list[Piece]) -> tuple[Boolean, ...]:
                 found[_above(part)] = None
 
     for piece in pieces:
-        demand(piece.curvature)
+        for part in (piece.curvature, *_leading(piece)):
+            demand(part)
     for left, right in pairwise(pieces):
         demand(_step(left, right, tuple(found)))
     return tuple(found)
+
+
+def _leading(piece: Piece) -> Iterator[Expr]:
+    """What stands in g'' before (x - r)^(k - 2), k a parameter, at the root r."""
+    curvature = expand(piece.curvature)
+    for power in sorted(curvature.atoms(Pow), key=str):
+        if power.exp.free_symbols and power.base.has(x) and not diff(power.base, x).has(x):
+            root = x - power.base / diff(power.base, x)
+            before = simplify(curvature.coeff(power) * (x - root) ** 2).subs(x, root)
+            if before.is_finite and not before.has(nan):
+                yield before
 
 
 def _above(expr: Expr) -> Boolean:
@@ -559,7 +572,8 @@ def _negative_at(place: Expr) -> str:
 
 def _demand_steps(name: str, pieces: list[Piece], values: dict[Symbol, Rational]) -> None:
     for left, right in pairwise(pieces):
-        if _step(left, right) < 0:
+        step = _step(left, right)
+        if not step.is_extended_real or step < 0:
             raise _not_convex(name, f"its slope falls at x = {right.lower}", values)
 
 

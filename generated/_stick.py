@@ -33,6 +33,9 @@ from ._turning import turning_zone
 from ._types import Contact, Regime, StickZone, Threshold
 from ._zones import Task, bounded_change, force_rates, pulls, stick_between
 
+STRIP, BESIDE = 2e-3, 4e-3
+"""How far past its end the moderate zone is led on where tables fail, and whence, over a + c."""
+
 PARTS = 8
 """Parts of a half-cycle at which the growth of slip is tested."""
 
@@ -118,6 +121,8 @@ def stick_zone_of(
     rows = rows[np.isnan(m[rows])] if mixed else rows[:0]
     if rows.size:
         m[rows], n[rows] = _turning(cycle.on(rows))
+        left = rows[np.isnan(m[rows])]
+        m[left], n[left] = _led_on(cycle.on(left))
         regime[rows[np.isnan(m[rows])]] = Regime.UNSOLVED
     unsolved = (regime == Regime.LARGE) & ~np.isfinite(m)
     regime[unsolved] = Regime.UNSOLVED
@@ -413,11 +418,43 @@ def _overtaken(cycle: _Cycle) -> tuple[Array, Array]:
     at once as far as pull = 0, to a + n0 = 8 dQ/(pi dsigma), and sticks again at once as the left
     zone grows.  Slip that then comes in forward as under moderate tension, beyond n0, overtakes it.
     """
+    patch, past = _past(cycle)
+    inside = (patch.a <= cycle.a[0]) & (patch.c <= cycle.c[0])
+    exact = inside & (past <= 0)
+    return np.where(exact, patch.a, np.nan), np.where(exact, patch.c, np.nan)
+
+
+def _past(cycle: _Cycle) -> tuple[Contact, Array]:
+    """The moderate zone, and how far a + n is past 8 dQ/(pi dsigma), in parts of the contact."""
     patch = _patch(cycle, cycle.load, cycle.tilt, 1.0)
     whole = np.where(cycle.dsigma < 0, cycle.c[0] + patch.a, cycle.a[0] + patch.c)
-    inside = (patch.a <= cycle.a[0]) & (patch.c <= cycle.c[0])
-    exact = inside & (np.pi * whole * np.abs(cycle.dsigma) / 8 <= cycle.dQ)
-    return np.where(exact, patch.a, np.nan), np.where(exact, patch.c, np.nan)
+    room = 8 * cycle.dQ / (np.pi * np.abs(cycle.dsigma))
+    return patch, (whole - room) / (cycle.a[0] + cycle.c[0])
+
+
+def _led_on(cycle: _Cycle) -> tuple[Array, Array]:
+    """m and n a little past the end of the moderate zone, where the tables of `_turning` fail.
+
+    n parts from the moderate one like the square of what a + n is past 8 dQ/(pi dsigma), m far
+    less.  By how much is taken from a tension a little larger.
+    """
+    m, n = np.full((2, cycle.dQ.size), np.nan)
+    past = _past(cycle)[1]
+    rows = np.flatnonzero((past > 0) & (past <= STRIP))
+    if rows.size:
+        m[rows], n[rows] = _from_beside(cycle.on(rows))
+    return m, n
+
+
+def _from_beside(cycle: _Cycle) -> tuple[Array, Array]:
+    patch, past = _past(cycle)
+    farther = replace(cycle, dsigma=cycle.dsigma * (1 + STRIP))
+    rate = (_past(farther)[1] - past) / STRIP
+    beside = replace(cycle, dsigma=cycle.dsigma * (1 + (BESIDE - past) / rate))
+    m, n = _turning(beside)
+    there, far = _past(beside)
+    share = (past / far) ** 2
+    return patch.a + share * (m - there.a), patch.c + share * (n - there.c)
 
 
 def _turning(cycle: _Cycle) -> tuple[Array, Array]:

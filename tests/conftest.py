@@ -12,6 +12,13 @@ settings.load_profile("ci")
 
 _NUMBERS = count()
 
+LONGEST = "test_the_committed_package_is_as_generated"
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The longest test first, then the slow ones; short ones fill up both workers at the end."""
+    items.sort(key=lambda item: (item.name != LONGEST, item.get_closest_marker("slow") is None))
+
 
 @pytest.fixture(autouse=True)
 def empty_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:

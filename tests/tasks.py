@@ -1,4 +1,7 @@
-"""What the tests let other processes do; those find it here by its name."""
+"""What the tests let other processes do; those find it here by its name.
+
+Nothing here imports SymPy at once: a process that does little begins without it.
+"""
 
 import os
 import time
@@ -7,7 +10,6 @@ from pathlib import Path
 
 from derive.body import Body
 from derive.cache import Cache
-from derive.codegen.printer import CannotPrint
 from derive.errors import BadUnit, NotProven, UnknownGeometry
 from derive.parallel import Report
 
@@ -45,11 +47,18 @@ class Strange(Exception):
         super().__init__(f"{first} and {second}")
 
 
+def cannot_print() -> Exception:
+    """Of the printer, which needs SymPy."""
+    from derive.codegen.printer import CannotPrint
+
+    return CannotPrint("no NumPy code is known for zeta: zeta(3)")
+
+
 ERRORS: dict[str, Callable[[], BaseException]] = {
     "user": lambda: UnknownGeometry(given="sphere", known=("hertz", "wedge")),
     "object": lambda: BadUnit(lambda: 3, "is no text"),
     "proof": lambda: NotProven("tilt of 'body': unknown: no point drawn"),
-    "print": lambda: CannotPrint("no NumPy code is known for zeta: zeta(3)"),
+    "print": cannot_print,
     "strange": lambda: Strange(1, 2),
     "fault": lambda: AssertionError("a fault of the program"),
     "end": lambda: EOFError("of a file"),

@@ -7,7 +7,20 @@ Out: the text of the body's `Profile`, piece by piece, and of the functions that
 
 from collections.abc import Iterator
 
-from sympy import Expr, S, Symbol, cse, diff, factor, numbered_symbols, simplify
+from sympy import (
+    Add,
+    Expr,
+    Pow,
+    S,
+    Symbol,
+    cse,
+    diff,
+    expand,
+    factor,
+    numbered_symbols,
+    powsimp,
+    simplify,
+)
 
 from derive.codegen.function import FunctionText, own_parameters
 from derive.codegen.printer import NumPyPrinter
@@ -164,9 +177,9 @@ def _tuple_of(
 
 def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) -> Iterator[str]:
     """g', g'' and g''' at t beside a break."""
-    slope = simplify(piece.slope.subs(x, place + sense * _t))
-    curvature = _positive_form(sense * diff(slope, _t))
-    change = simplify(sense * diff(curvature, _t))
+    slope = _joined(simplify(piece.slope.subs(x, place + sense * _t)))
+    curvature = _joined(_positive_form(sense * diff(slope, _t)))
+    change = _joined(simplify(sense * diff(curvature, _t)))
     steps, values = cse([slope, curvature, change], symbols=numbered_symbols("s_"))
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     side = "right" if sense > 0 else "left"
@@ -181,6 +194,24 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
 def _positive_form(curvature: Expr) -> Expr:
     """A form of g'' without a difference, if there is one."""
     return factor(simplify(curvature))
+
+
+def _joined(expr: Expr) -> Expr:
+    """t^k/t^2 as t^(k - 2), k a parameter: apart, both are 0 at a t that its power may well reach.
+
+    >>> from sympy import cosh, Symbol
+    >>> k = Symbol("k", positive=True)
+    >>> _joined(_t**k * (k * (k - 1) * cosh(_t) / _t**2 + 1))
+    k*t**(k - 2)*(k - 1)*cosh(t) + t**k
+    """
+    powers = [power.exp for power in expr.atoms(Pow) if power.base == _t]
+    if not (any(e.free_symbols for e in powers) and any(e.is_negative for e in powers)):
+        return expr
+    terms: dict[Expr, Expr] = {}
+    for term in Add.make_args(expand(expr)):
+        apart, with_t = powsimp(term).as_independent(_t, as_Add=False)
+        terms[with_t] = terms.get(with_t, S.Zero) + apart
+    return Add(*(factor(apart) * with_t for with_t, apart in terms.items()))
 
 
 def carried_text(sheet: FormulaSheet) -> str:

@@ -44,7 +44,7 @@ def formula(body: str, name: str) -> Expr:
 
 def parameter_of(body: str, name: str) -> Symbol:
     """The symbol of a body's parameter."""
-    return _sheet(body)[0].geometry.quantities[name].symbol
+    return load_geometry(body).quantities[name].symbol
 
 
 def at(expr: Expr, left: Expr, right: Expr) -> Expr:

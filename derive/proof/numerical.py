@@ -4,7 +4,6 @@ In:  FormulaSheet, and the name of a formula.
 Out: Proof with the verdict *numerical*, *refuted* or *unknown*; None where there is no such route.
 """
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,6 +14,7 @@ from sympy import Symbol
 
 from derive.proof.points import Point, contacts, loads, named, numeric
 from derive.proof.quadrature import Contact
+from derive.proof.rule import Function, remembered
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, f, w, x
@@ -126,19 +126,14 @@ class NumericalRoutes:
 
     def _p(self, point: Point) -> Callable[[mpf], mpf]:
         """p(x) at one contact; load and moment ask for it at the same places."""
-        p, known = numeric(self.sheet.flat("pressure")), self._pressures[named(point)]
-
-        def at(place: mpf) -> mpf:
-            asked = (place, mpmath.mp.prec)
-            if asked not in known:
-                known[asked] = p({**point, x: place})
-            return known[asked]
-
-        return at
+        if named(point) not in self._pressures:
+            p = numeric(self.sheet.flat("pressure"))
+            self._pressures[named(point)] = remembered(lambda place: p({**point, x: place}))
+        return self._pressures[named(point)]
 
     @cached_property
-    def _pressures(self) -> dict[str, dict[tuple[mpf, int], mpf]]:
-        return defaultdict(dict)
+    def _pressures(self) -> dict[str, Function]:
+        return {}
 
     def _second_left(self, point: Point, contact: Contact) -> Pairs:
         yield self._at("L_N_left", point), self._second("left", point, contact)

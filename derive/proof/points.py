@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import mpmath
 from mpmath import mpf
-from sympy import Dummy, Expr, Integral, Symbol, lambdify
+from sympy import Dummy, Expr, Integral, Piecewise, Pow, Symbol, count_ops, lambdify
 from sympy.logic.boolalg import Boolean
 
 from derive.geometry import Geometry
@@ -99,7 +99,7 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
     integrals = {found: Dummy("I") for found in sorted(expr.atoms(Integral), key=str)}
     values = [over_contact(found) for found in integrals]
     symbols = [*held, *integrals.values()]
-    function = lambdify(symbols, expr.xreplace(integrals), modules="mpmath")
+    function = _compiled(symbols, expr.xreplace(integrals), count_ops(expr) > _LONG)
 
     def at(point: Point) -> mpf:
         given = [point[symbol] for symbol in held]
@@ -119,7 +119,11 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
     """
     variable, low, high = over.limits[0]
     held = sorted(over.free_symbols, key=str)
-    integrand = lambdify([variable, *held], over.function, modules="mpmath")
+    fixed = {
+        p: Dummy("C") for p in sorted(over.function.atoms(Pow), key=str) if _is_fixed(p, variable)
+    }
+    integrand = _compiled([variable, *held, *fixed.values()], over.function.xreplace(fixed), True)
+    constants = lambdify(held, [*fixed], modules="mpmath")
     power = 3 if has_sharp_power(over.function, variable) else 1
     ends = lambdify(held, [low, high], modules="mpmath")
     known: dict[tuple[mpf, ...], mpf] = {}
@@ -135,24 +139,58 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
     def integrated(left: mpf, right: mpf, start: mpf, end: mpf, given: tuple[mpf, ...]) -> mpf:
         if end <= start:
             return mpf(0)
+        width, node = _nodes(left, right, start, end, power)
         with mpmath.workdps(_INSIDE):
-            half, middle = (left + right) / 2, (right - left) / 2
-            angles = [mpmath.acos(max(-1, min(1, (p - middle) / half))) for p in (end, start)]
+            numbers = (*given, *constants(*given))
 
         def along(t: mpf) -> mpf:
             with mpmath.workdps(_INSIDE):
-                near, far = t**power, (1 - t) ** power
-                theta = (angles[0] * far + angles[1] * near) / (near + far)
-                rate = (t * (1 - t)) ** (power - 1) / (near + far) ** 2
-                place = max(start, min(end, middle + half * mpmath.cos(theta)))
-                value = integrand(place, *given)
-                return value * half * mpmath.sin(theta) * rate
+                place, weight = node(t)
+                return integrand(place, *numbers) * weight
 
         with mpmath.workdps(_OUTSIDE):
-            return power * (angles[1] - angles[0]) * integral(along, [mpf(0), mpf(1)])
+            return power * width * integral(along, [mpf(0), mpf(1)])
 
     return at
 
+
+def _compiled(symbols: list[Symbol], expr: Expr, shared: bool) -> Callable[..., mpf]:
+    """`expr` in mpmath; what it repeats is computed once if asked for.
+
+    Never of branches: one that is not taken may have no value.
+    """
+    return lambdify(symbols, expr, modules="mpmath", cse=shared and not expr.has(Piecewise))
+
+
+def _is_fixed(power: Pow, variable: Symbol) -> bool:
+    """Whether a power costs a logarithm, and is the same all over the contact."""
+    return not power.has(variable) and not power.exp.is_Rational
+
+
+@lru_cache(maxsize=128)
+def _nodes(
+    left: mpf, right: mpf, start: mpf, end: mpf, power: int
+) -> tuple[mpf, Callable[[mpf], tuple[mpf, mpf]]]:
+    """The part's width in theta; place and weight at every t from 0 to 1, which integrals share."""
+    with mpmath.workdps(_INSIDE):
+        half, middle = (left + right) / 2, (right - left) / 2
+        low, high = (mpmath.acos(max(-1, min(1, (p - middle) / half))) for p in (end, start))
+
+    @cache
+    def node(t: mpf) -> tuple[mpf, mpf]:
+        with mpmath.workdps(_INSIDE):
+            near, far = t**power, (1 - t) ** power
+            theta = (low * far + high * near) / (near + far)
+            rate = (t * (1 - t)) ** (power - 1) / (near + far) ** 2
+            place = max(start, min(end, middle + half * mpmath.cos(theta)))
+            return place, half * mpmath.sin(theta) * rate
+
+    with mpmath.workdps(_OUTSIDE):
+        return high - low, node
+
+
+_LONG = 200
+"""Operations of a formula from which on it pays to look for what it repeats."""
 
 _INSIDE, _OUTSIDE = 160, 40
 """Digits of an integrand, and of the integral."""

@@ -16,7 +16,7 @@ from mpmath import mpf
 from sympy import Expr, Piecewise, Symbol, diff, lambdify, nan, piecewise_fold, zoo
 
 from derive.geometry import Geometry
-from derive.proof.rule import Function, integral
+from derive.proof.rule import Function, integral, remembered
 from derive.symbols import x
 
 
@@ -33,7 +33,7 @@ class Contact:
     @cached_property
     def slope(self) -> Function:
         """g'(x) from g as it was given, not from the pieces that the derivation uses."""
-        return _numeric(_slope_as_given(self.geometry.g), self.values)
+        return remembered(_numeric(_slope_as_given(self.geometry.g), self.values))
 
     @cached_property
     def kinks(self) -> list[mpf]:
@@ -51,9 +51,10 @@ class Contact:
         """Middle of the contact."""
         return (self.c - self.a) / 2
 
-    def at(self, theta: mpf) -> mpf:
+    @cached_property
+    def at(self) -> Function:
         """The x at the angle theta."""
-        return self.mid + self.h / 2 * mpmath.cos(theta)
+        return remembered(lambda theta: self.mid + self.h / 2 * mpmath.cos(theta))
 
     def angle(self, place: mpf) -> mpf:
         """The angle of a place in the contact."""

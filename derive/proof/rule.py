@@ -19,6 +19,19 @@ _CUTS = 6
 """How often every part is halved at most."""
 
 
+def remembered(function: Function) -> Function:
+    """`function`, computed once at every place and precision: integrals share their nodes."""
+    known: dict[tuple[mpf, int], mpf] = {}
+
+    def at(place: mpf) -> mpf:
+        asked = (place, mpmath.mp.prec)
+        if asked not in known:
+            known[asked] = function(place)
+        return known[asked]
+
+    return at
+
+
 def integral(integrand: Function, cuts: Sequence[mpf], method: str = "tanh-sinh") -> mpf:
     """int integrand over [cuts[0], cuts[-1]]; a node where it divides by zero has no weight."""
 

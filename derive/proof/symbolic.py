@@ -41,6 +41,9 @@ _RATE = "(2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated"
 _PUNCHES = "grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt"
 _SHORT = 60
 """Operations up to which an inverse is put back symbolically."""
+_LONG = 200
+"""Operations from which on a pressure is compared edge by edge: products of its derivatives take
+half a minute."""
 
 
 def symbolic_proof(sheet: FormulaSheet, name: str) -> Proof | None:
@@ -123,7 +126,7 @@ def _pressure(sheet: FormulaSheet, name: str) -> str | None:
     """
     frame = sheet.frame
     tilt, load, p = (sheet[key].expr for key in ("tilt", "load", name))
-    if len(frame.kinks) > 1:
+    if len(frame.kinks) > 1 or count_ops(p) > _LONG:
         return _PUNCHES if _grows_by_punches(sheet, p) else None
     by_a, by_c = frame.diff(tilt, a), frame.diff(tilt, c)
 

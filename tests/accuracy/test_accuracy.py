@@ -45,6 +45,11 @@ def rows_of(body: str) -> tuple[Worst, ...]:
     return tuple(row for name in cheap for row in worst_of(body, POINTS, name))
 
 
+QUICK = ("hertz", "wedge", "flat_sloped", "quartic", "power")
+QUICK_AND_SLOW = pytest.mark.parametrize(
+    "body", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in library()]
+)
+
 EXPLICIT = ("hertz", "wedge")
 """Bodies that are closed both ways, and whose formulas do not cancel."""
 
@@ -57,7 +62,7 @@ CANCELLING = {
 """Sums and differences of given numbers: what rounding does to these shows in any form."""
 
 
-@pytest.mark.parametrize("body", library())
+@QUICK_AND_SLOW
 def test_closed_formulas_lose_nothing_that_the_problem_keeps(body: str) -> None:
     rows = [row for row in rows_of(body) if row.kind == CLOSED]
     assert rows
@@ -69,7 +74,7 @@ def test_closed_formulas_lose_nothing_that_the_problem_keeps(body: str) -> None:
             assert row.ulp <= LIMITS[CLOSED], f"{what}: {row.ulp:.1f} ulp at {row.point}"
 
 
-@pytest.mark.parametrize("body", library())
+@QUICK_AND_SLOW
 def test_formulas_that_are_mended_keep_thirteen_digits(body: str) -> None:
     for row in (row for row in rows_of(body) if row.kind == MENDED):
         what = f"{row.function}.{row.output} in {row.region}"
@@ -119,6 +124,7 @@ def test_a_solution_and_its_condition() -> None:
     assert conditions == pytest.approx([1, 1.5])  # at least 1
 
 
+@pytest.mark.slow
 def test_every_kind_is_measured() -> None:
     kinds = {kind_of(body, name) for body in library() for name in functions(body)}
     assert kinds == {CLOSED, MENDED, INTEGRATED, SOLVED, CYCLE}

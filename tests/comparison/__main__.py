@@ -5,21 +5,21 @@ python -m tests.comparison
 
 from pathlib import Path
 
-from rich.progress import Progress
-
+from tests.comparison import around, table
 from tests.comparison.cases import EVERY
-from tests.comparison.table import table
+from tests.reference.parallel import at_once
 
 TABLE = Path(__file__).parents[2] / "notebooks" / "comparison.md"
 
 
 def main() -> None:
-    """All cycles, one after the other."""
-    with Progress() as progress:
-        task = progress.add_task("cycles", total=len(EVERY))
-        text = table(EVERY, lambda name: progress.advance(task))
-    TABLE.write_text(text, encoding="utf-8")
-    print(text)
+    """All cycles, as many at once as there are cores."""
+    with at_once(len(EVERY) + len(around.CYCLES)) as work:
+        parts = [
+            table.markdown(work(table.row, EVERY)),
+            around.markdown(work(around.row, around.CYCLES)),
+        ]
+    TABLE.write_text("\n".join(parts), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -126,6 +126,8 @@ FEW = settings(max_examples=25)
 number = st.floats(0.125, 8, allow_nan=False, width=32)
 _at = st.floats(0.03125, 0.96875, width=32)
 SIDED = ("unequal_wedge", "shifted_wedge", "two_radii", "half_parabola", "spline", "skew")
+LONG = ("two_radii", "spline", "skew")
+"""Seconds of derivation, mirrored or shifted: bodies for the slow tests."""
 
 
 def contact(name: str, left: float, right: float) -> dict[str, mpf]:
@@ -140,7 +142,9 @@ def inside(edges: dict[str, mpf], share: float) -> mpf:
     return place + mpf("1e-7") if any(place == k for k in (0, 0.5, -0.5)) else place
 
 
-@pytest.mark.parametrize("name", SIDED)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow if n in LONG else ()) for n in SIDED]
+)
 @FEW
 @given(number, number, _at)
 def test_a_mirrored_body_has_mirrored_formulas(
@@ -293,7 +297,7 @@ def shifted(name: str) -> FormulaSheet:
     return derive_sheet(Geometry(f"{name}_shifted", g=BODIES[name].g.subs(x, x - bodies.b)))
 
 
-@pytest.mark.parametrize("name", ["hertz", "quartic", "skew"])
+@pytest.mark.parametrize("name", ["hertz", "quartic", pytest.param("skew", marks=pytest.mark.slow)])
 @FEW
 @given(number, number, number, _at)
 def test_a_shifted_body_has_a_shifted_contact(

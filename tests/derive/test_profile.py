@@ -314,7 +314,11 @@ def test_a_straight_body_is_refused(g: Expr) -> None:
         (R - sqrt(R**2 - x**2), (-R, R), (-oo, oo), (0,)),
         (Abs(x) ** Rational(3, 2) / sqrt(R), (-oo, oo), (-oo, oo), (0,)),
         (R**2 / (R + x), (-R, oo), (-oo, 0), (0,)),
-        (Max(0, Abs(x) - b) ** Rational(5, 2) / R ** Rational(3, 2), (-oo, oo), (-oo, oo), (-b, b)),
+        pytest.param(
+            Max(0, Abs(x) - b) ** Rational(5, 2) / R ** Rational(3, 2),
+            *((-oo, oo), (-oo, oo), (-b, b)),
+            marks=pytest.mark.slow,
+        ),
     ],
     ids=str,
 )

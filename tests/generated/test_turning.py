@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.optimize import brentq
 
 from generated import wedge
 from generated._types import Contact, Regime
@@ -73,7 +74,13 @@ def test_another_solution_finds_the_same(
     assert_allclose((zone.m, zone.n), other, atol=2e-6 * (a + c))
 
 
-@pytest.mark.parametrize("name", ["wedge", "hertz", "two_radii", "quartic"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "hertz",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("wedge", "two_radii", "quartic")),
+    ],
+)
 def test_the_zone_goes_over_into_those_of_both_neighbours(name: str) -> None:
     """a + n(moderate) = 8 dQ/(pi dsigma) at the lower border, m + n(large) at the upper one."""
     tension = np.linspace(0.95, 1.45, 251)
@@ -130,6 +137,31 @@ def test_nearly_all_random_cycles_are_solved(name: str) -> None:
     assert np.count_nonzero(solved) >= 10
     assert np.count_nonzero(solved) >= 3 * np.count_nonzero(lost)
     assert np.all((zone.m <= a)[solved] & (zone.n <= c)[solved] & (zone.m + zone.n > 0)[solved])
+
+
+@pytest.mark.parametrize("name", ["wedge", "hertz", "two_radii"])
+def test_there_is_no_hole_beside_the_moderate_regime(name: str) -> None:
+    """Past a + n(moderate) = 8 dQ/(pi dsigma), by d in parts of the contact, the zone parts from
+    the moderate one like d**2: quarter the step, a sixteenth of the way."""
+    a, c, shear = 1.0, 1.25, 0.3
+    body, law = module(name), {"E_star": E_STAR, **OWN[name]}
+    _, dQ, top = cycle(name, a, c, shear, 1.0)
+    load, tilt = body.load(a, c, **law) - dQ / (2 * F), body.tilt(a, c, **OWN[name])
+
+    def patch(part: Any) -> Any:
+        return body.contact_at_tilt(load, tilt - part * top / (4 * F * E_STAR), **law)
+
+    def past(part: float) -> float:
+        return float((a + patch(part).c) / (a + c) - 1 / part)
+
+    border = brentq(past, 0.9, 1.1)
+    part = border + np.geomspace(1e-6, 1e-2, 60)
+    zone = zone_of(name, a, c, shear, part)
+    assert np.all(zone.regime == Regime.MIXED)
+    d = np.array([past(each) for each in part])
+    apart = np.abs(zone.n - patch(part).c) / (a + c)
+    assert np.all(apart <= 1.5 * d**2 + 1e-9)
+    assert np.all(apart[d > 1e-3] >= 0.2 * d[d > 1e-3] ** 2)
 
 
 def test_the_second_window_begins_where_the_large_zone_gets_too_narrow() -> None:

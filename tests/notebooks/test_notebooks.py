@@ -99,6 +99,7 @@ def test_the_number_of_a_widget_is_left_out() -> None:
     assert "1f" not in nbformat.writes(running.clean(notebook_of(shown)))
 
 
+@pytest.mark.slow
 def test_a_run_that_differs_is_told(tmp_path: Path) -> None:
     notebook = notebook_of(stream("2\n"))
     notebook.cells[0].source = "print(1 + 2)"

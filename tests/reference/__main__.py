@@ -3,9 +3,8 @@
 from pathlib import Path
 
 import click
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from tests.reference.parallel import at_once
 from tests.reference.report import CYCLES, findings
 
 FINDINGS = Path(__file__).with_name("FINDINGS.md")
@@ -13,17 +12,11 @@ FINDINGS = Path(__file__).with_name("FINDINGS.md")
 
 @click.command()
 @click.option("--out", type=click.Path(path_type=Path), default=FINDINGS, help="Markdown file.")
-def main(out: Path) -> None:
+@click.option("--jobs", type=click.IntRange(1), default=None, help="Processes; all cores if left.")
+def main(out: Path, jobs: int | None) -> None:
     """Compare the solver with what is known, and explore what is not."""
-    columns = TextColumn("{task.description:50}"), BarColumn(), MofNCompleteColumn()
-    with Progress(*columns, TimeElapsedColumn(), console=Console(stderr=True)) as progress:
-        task = progress.add_task("", total=CYCLES + 1)
-
-        def step(description: str) -> None:
-            progress.update(task, advance=1, description=description)
-
-        text = findings(step)
-        step("written")
+    with at_once(CYCLES, jobs) as work:
+        text = findings(work)
     out.write_text(text, encoding="utf-8")
 
 

@@ -29,10 +29,16 @@ MODERATE, LARGE = 1, -1
 NOWHERE = Zone(np.nan, np.nan)
 
 EXACT = 1e-9
-"""What may be missing in the conditions, over dQ."""
+"""What may be missing in the conditions, over dQ or what tension makes of it."""
 
 STARTS = (0.8, 0.6, 0.4, 0.99)
 """Parts of what is in contact at both ends, from which a zone is searched for."""
+
+PARTS = np.sin(np.linspace(np.pi / 2, 0, 24, endpoint=False)[1:]) ** 2
+"""Parts of a half-cycle at which its premise is asked, from the whole to its beginning."""
+
+PLACES = np.linspace(0, 1, 9)[:-1] ** 2
+"""Where, from the inner end of what is still to slip outwards."""
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(160)
 
@@ -116,7 +122,8 @@ class HalfCycle:
         found = root(missing, guess, tol=1e-13)
         zone, always = Zone(*map(float, found.x)), self.always
         within = -zone.m < zone.n <= always.n and zone.m <= always.m
-        return zone if within and np.abs(found.fun).max() <= EXACT * self.dQ else NOWHERE
+        scale = max(abs(self.dQ), np.pi * abs(self.dsigma) * (always.m + always.n) / 8)
+        return zone if within and np.abs(found.fun).max() <= EXACT * scale else NOWHERE
 
 
 @dataclass(frozen=True)
@@ -177,17 +184,20 @@ class Premise(Enum):
     BEYOND = "shear beyond friction"
 
 
-def premise(half: HalfCycle, kappa: int, zone: Zone, count: int = 16) -> Premise:
+def premise(half: HalfCycle, kappa: int, zone: Zone) -> Premise:
     """Whether this half-cycle may pass through its partial ones.
 
     It may if both slip zones grow with the part that is gone, inside both contacts; and if, where
     slip is still to come, the shear, which begins at friction, stays within it:
-    kappa dq >= f (p1 - p) there.
+    kappa dq >= f (p1 - p) there.  The least room for that is where a half-cycle begins, which
+    `starts_within` asks by itself, and at the inner end of what is still to slip.
     """
     if np.isnan(zone.m):
         return Premise.NO_ZONE
+    if not starts_within(half, kappa, zone):
+        return Premise.BEYOND
     wider = zone
-    for part in np.sin(np.linspace(np.pi / 2, 0, count, endpoint=False)[1:]) ** 2:
+    for part in PARTS:
         gone = half.partial(float(part))
         before, wider = wider, gone.zone(kappa, wider)
         if np.isnan(wider.m) or wider.m < before.m or wider.n < before.n:
@@ -197,12 +207,35 @@ def premise(half: HalfCycle, kappa: int, zone: Zone, count: int = 16) -> Premise
     return Premise.HOLDS
 
 
-def _beyond(gone: HalfCycle, kappa: int, zone: Zone, wider: Zone, count: int = 8) -> bool:
+def starts_within(half: HalfCycle, kappa: int, zone: Zone) -> bool:
+    """Whether shear leaves friction inwards where a half-cycle begins: kappa dq' >= -f dp'.
+
+    All sticks for an instant, and a flat punch tells both rates, at s from the middle of [-a, c]:
+
+        dq' = (dQ - (pi/4) dsigma s)/(pi w),    dp' = (dP - 8 (dM + d dP) s/h^2)/(pi w),
+
+    w = sqrt(h^2/4 - s^2), d the middle, int p x dx = -M.  Over 1/w both are linear: the ends of
+    what is still to slip decide.
+    """
+    first, second = half.first, half.second
+    contact, _ = half.ends
+    h, middle = contact.a + contact.c, (contact.c - contact.a) / 2
+    dP, dM = second.P - first.P, second.M - first.M
+    for sense, inner, outer in ((1, -zone.m, -contact.a), (kappa, zone.n, contact.c)):
+        s = np.array([inner, outer]) - middle
+        shear = half.dQ - np.pi * half.dsigma / 4 * s
+        pressure = dP - 8 * (dM + middle * dP) * s / h**2
+        if np.any(sense * shear < -half.f * pressure):
+            return False
+    return True
+
+
+def _beyond(gone: HalfCycle, kappa: int, zone: Zone, wider: Zone) -> bool:
     """Whether shear passes friction between the whole's stick zone and the wider one so far."""
     first, now = gone.ends
     slip = gone.slip(wider, kappa)
     for sense, inner, outer in ((1, -zone.m, -wider.m), (kappa, zone.n, wider.n)):
-        x = inner + (outer - inner) * (np.arange(count) + 0.5) / count
+        x = inner + (outer - inner) * PLACES
         least = gone.f * (first.p(x) - now.p(x))
         change = np.array([slip.shear(place) for place in x])
         if np.any(sense * change < least - EXACT * gone.f * first.p(x)):

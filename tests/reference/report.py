@@ -1,19 +1,21 @@
 """The findings as Markdown: every figure in it is of the run that writes it."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from tests.reference.cases import CLOSED, Known
 from tests.reference.conditions import LARGE, MODERATE
 from tests.reference.explore import (
+    AROUND,
     COUNTS,
-    MEANS,
-    RANGES,
     STEPS,
-    TENSIONS,
+    VARYING_MOMENT,
     WINDOW,
     Explored,
+    Kind,
+    Point,
     at_constant_loads,
     cycle,
     explored,
@@ -22,24 +24,23 @@ from tests.reference.explore import (
     threshold,
     window,
 )
+from tests.reference.parallel import Work
 from tests.reference.solver import reference
 from tests.reference.stick import Zone
 
-Step = Callable[[str], None]
-"""Told what is done next, once a cycle."""
+Row = list[str]
 
-COARSE = 1e-3
-"""An estimate from which on the solver has not settled the matter."""
+REFINED = ("Hertz, large, P and M vary", "tilted wedge, large, M varies")
+"""Cycles on which elements and steps are refined one by one."""
 
-MAP = [(mean, span, part) for mean in MEANS for span in RANGES for part in TENSIONS]
-
-CYCLES = len(CLOSED) + len(WINDOW) + len(MAP)
-"""How often `Step` is called."""
+CYCLES = len(CLOSED) + len(REFINED) + len(WINDOW) + len(VARYING_MOMENT) + len(AROUND)
+"""How many items the work has."""
 
 
-def findings(step: Step) -> str:
+def findings(work: Work) -> str:
     """The whole file."""
-    return "\n\n".join([HEAD.strip(), *_closed(step), *_window(step), *_map(step)]) + "\n"
+    parts = [HEAD.strip(), *_closed(work), *_refined(work), *_window(work), *_maps(work)]
+    return "\n\n".join(parts) + "\n"
 
 
 HEAD = f"""# What the independent solver finds
@@ -64,18 +65,37 @@ follows from the loads alone; it is the regime in the table.  What follows "±" 
 from the solver's.
 """
 
+REFINED_TEXT = """## Elements and steps, one by one
+
+The error at the worse end with so many elements between two breaks, and so many load steps a
+half-cycle.  Where slip only grows, steps change nothing but where the edges' way is known.
+"""
+
 MAP_TEXT = """## Varying moment
 
 The same wedge; M goes from its mean less half its range to its mean plus half of it while Q and
 sigma rise.  The premise is asked of both half-cycles, from the loads alone: zones of partial
 half-cycles grow inside both contacts, and shear that has not slipped yet stays within friction.
-"off" is how far a zone is from the solver's at its worse end: that of the conditions, and that of
-the smallest ends over partial half-cycles there and back.
+Where no zone inside both contacts meets the conditions, the kind tells where the solver's ends:
+
+* an edge runs ahead: at one edge it is all that touches always; slip does not follow the edge;
+* sticks: it is all that touches always; what slips is only what comes into contact and leaves it.
+
+"off" is how far a zone is from the solver's at its worse end: that of the conditions, that of the
+smallest ends over partial half-cycles there and back, and the exact one of loads P and M that stand
+still at their means.
+"""
+
+AROUND_TEXT = """## Varying loads around the threshold
+
+The same wedge and the same questions; P goes from 1 less half its range to 1 plus half of it, M
+from minus half its range to half of it, while Q and sigma rise; the threshold is the one of P = 1.
+A negative range is the cycle of the positive one from its other end: the zones have to agree.
 """
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A Markdown table, numbers to the right.
+    """A Markdown table, numbers to the right; ValueError where a row is not as long as its head.
 
     >>> print(table(["case", "n"], [["a", "1"]]))
     | case | n |
@@ -83,7 +103,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     | a | 1 |
     """
     rule = ["---", *["---:"] * (len(head) - 1)]
-    return "\n".join(f"| {' | '.join(row)} |" for row in (head, rule, *rows))
+    lines = [head, rule, *rows]
+    if {len(line) for line in lines} != {len(head)}:
+        raise ValueError(f"every row needs {len(head)} cells: {', '.join(head)}")
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def _small(value: float) -> str:
@@ -97,18 +120,16 @@ def _zone(zone: Zone) -> str:
 # ------------------------------------------------------------------ closed cases
 
 
-def _closed(step: Step) -> list[str]:
-    rows = [_closed_row(known, step) for known in CLOSED]
+def _closed(work: Work) -> list[str]:
     head = ["cycle", "m, n exact", *_meshes(), "±", "order", "rounds"]
-    return [CLOSED_TEXT.strip(), table(head, rows)]
+    return [CLOSED_TEXT.strip(), table(head, work(_closed_row, CLOSED))]
 
 
-def _meshes() -> list[str]:
+def _meshes() -> Row:
     return [f"error, {count}" for count in COUNTS]
 
 
-def _closed_row(known: Known, step: Step) -> list[str]:
-    step(known.name)
+def _closed_row(known: Known) -> Row:
     found, exact = reference(known.case, COUNTS, STEPS), known.exact
     errors = np.abs(np.subtract(found.zones, exact)).max(axis=1)
     order = np.log(errors[0] / errors[-1]) / np.log(COUNTS[-1] / COUNTS[0])
@@ -117,18 +138,33 @@ def _closed_row(known: Known, step: Step) -> list[str]:
     return [known.name, _zone(exact), *figures]
 
 
+def _refined(work: Work) -> list[str]:
+    cycles = [known for known in CLOSED if known.name in REFINED]
+    head = ["cycle, refined", "steps", *_meshes()]
+    rows = [row for rows in work(_refined_rows, cycles) for row in rows]
+    return [REFINED_TEXT.strip(), table(head, rows)]
+
+
+def _refined_rows(known: Known) -> list[Row]:
+    return [[known.name, str(number), *_errors(known, number)] for number in (1, *STEPS)]
+
+
+def _errors(known: Known, steps: int) -> Row:
+    zones = reference(known.case, COUNTS, [steps] * len(COUNTS)).zones
+    return [_small(error) for error in np.abs(np.subtract(zones, known.exact)).max(axis=1)]
+
+
 # ------------------------------------------------------------------ constant loads
 
 
-def _window(step: Step) -> list[str]:
-    rows = [_window_row(part, step) for part in WINDOW]
+def _window(work: Work) -> list[str]:
     candidates = ["exact", "moderate", "large", "smallest of parts"]
     head = ["dsigma / threshold", "regime", "H", "m, n solver", "±", *candidates]
-    return [WINDOW_TEXT.strip().format(threshold(), *window()), table(head, rows)]
+    text = WINDOW_TEXT.strip().format(threshold(), *window())
+    return [text, table(head, work(_window_row, WINDOW))]
 
 
-def _window_row(part: float, step: Step) -> list[str]:
-    step(f"constant loads, {part} of the threshold")
+def _window_row(part: float) -> Row:
     known = cycle(part * threshold())
     half, found = known.half_cycle, reference(known.case, COUNTS, STEPS)
     regime, exact = at_constant_loads(half)
@@ -143,65 +179,87 @@ def _window_row(part: float, step: Step) -> list[str]:
     ]
 
 
-# ------------------------------------------------------------------ varying moment
+# ------------------------------------------------------------------ varying loads
+
+FIGURES = [
+    "m, n solver",
+    "±",
+    "off",
+    "smallest, off",
+    "constant, off",
+    "kind",
+    "premise there",
+    "and back",
+    "rounds",
+]
 
 
-def _map(step: Step) -> list[str]:
-    points = [_explored(*point, step) for point in MAP]
-    rows = [_map_row(*at, point) for at, point in zip(MAP, points, strict=True)]
-    premises = ["premise there", "and back", "rounds"]
-    head = [
-        "M mean, range",
-        "dsigma / threshold",
-        "m, n solver",
-        "±",
-        "off",
-        "smallest, off",
-        *premises,
+def _maps(work: Work) -> list[str]:
+    moment, around = work(_explored, VARYING_MOMENT), work(_explored, AROUND)
+    rows = [
+        [f"{at.mean:g}, {at.span:g}", f"{at.tension:g}", *_figures(found)]
+        for at, found in zip(VARYING_MOMENT, moment, strict=True)
     ]
-    return [MAP_TEXT.strip(), _summary(points), table(head, rows)]
-
-
-def _explored(mean: float, span: float, part: float, step: Step) -> Explored:
-    step(f"moment {mean} ± {span / 2:g}, {part} of the threshold")
-    return explored(cycle(part * threshold(), (mean - span / 2, mean + span / 2)))
-
-
-def _map_row(mean: float, span: float, part: float, point: Explored) -> list[str]:
-    best = point.best
+    near = [
+        [f"{at.load:g}, {at.span:g}", f"{at.tension:g}", *_figures(found)]
+        for at, found in zip(AROUND, around, strict=True)
+    ]
     return [
-        f"{mean:g}, {span:g}",
-        f"{part:g}",
-        _zone(point.found.zone),
-        _small(point.error),
-        _small(point.off(best.zone)),
-        _small(point.off(point.smallest)),
+        MAP_TEXT.strip(),
+        _summary(moment),
+        table(["M mean, range", "dsigma / threshold", *FIGURES], rows),
+        AROUND_TEXT.strip(),
+        _summary(around),
+        table(["P range, M range", "dsigma / threshold", *FIGURES], near),
+    ]
+
+
+def _explored(point: Point) -> Explored:
+    return explored(point.cycle)
+
+
+def _figures(found: Explored) -> Row:
+    best = found.best
+    return [
+        _zone(found.zone),
+        _small(found.estimate),
+        _small(found.off(best.zone)),
+        _small(found.off(found.smallest)),
+        _small(found.off(found.constant)),
+        found.kind.value,
         best.there.value,
         best.back.value,
-        str(point.found.finest.cycle.rounds),
+        str(found.rounds),
     ]
 
 
 def _summary(points: Sequence[Explored]) -> str:
-    holds = [p for p in points if p.best.holds]
-    fails = [p for p in points if not p.best.holds and not np.isnan(p.best.zone.m)]
-    none = [p for p in points if np.isnan(p.best.zone.m)]
-    worst = max((p.off(p.best.zone) / p.error for p in holds), default=np.nan)
-    beyond = sum(p.off(p.best.zone) > p.error for p in fails)
-    largest = max((p.off(p.best.zone) for p in fails), default=np.nan)
-    shrinks = [p for p in fails if p.best.shrinks]
-    turns = max((p.off(p.smallest) / p.error for p in shrinks), default=np.nan)
-    ahead = sum(
-        abs(p.found.zone.n - p.known.half_cycle.always.n) <= p.found.error.n < COARSE for p in none
-    )
-    coarse = sum(p.error >= COARSE for p in none)
+    """What the premise says against what the solver finds, counted."""
+    kinds = Counter(point.kind for point in points)
+
+    def of(*some: Kind) -> list[Explored]:
+        return [point for point in points if point.kind in some]
+
+    holds, fails = of(Kind.HOLDS), of(Kind.SHRINKS, Kind.BEYOND)
+    turning = [point for point in fails if point.best.shrinks]
+    beyond = sum(point.off(point.best.zone) > point.estimate for point in fails)
+    within = _worst(point.off(point.best.zone) / point.estimate for point in holds)
+    least = _worst(point.off(point.smallest) / point.estimate for point in turning)
+    coarsest = _worst(point.estimate for point in points)
+    farthest = _worst(point.off(point.best.zone) for point in fails)
     return f"""\
 * The premise holds in {len(holds)} of {len(points)} cycles.  There the conditions are off by at
-  most {worst:.2f} of the solver's estimate.
-* In {len(fails)} cycles it fails, but the conditions have a zone: {beyond} of these are off by more
-  than the estimate, by up to {largest:.1e}.
-* In {len(shrinks)} of those it holds in one half-cycle, and in the other one a zone only shrinks.
-  There the smallest ends over partial half-cycles are off by at most {turns:.2f} of the estimate.
-* In {len(none)} there is no zone inside both contacts.  In {ahead} of these the solver's n is where
-  the contact ends at its smallest: the edge runs ahead of slip.  In {coarse} the solver's own
-  estimate is above {COARSE:g}."""
+  most {within:.2f} of the solver's estimate.
+* In {len(fails)} it fails, though the conditions have a zone: a slip zone shrinks in
+  {kinds[Kind.SHRINKS]}, shear passes friction in {kinds[Kind.BEYOND]}.  Of these zones {beyond}
+  are off by more than the estimate, by up to {farthest:.1e}.
+* In {len(turning)} of those the premise holds in one half-cycle, and in the other a zone only
+  shrinks.  There the smallest ends over partial half-cycles are off by at most {least:.2f} of the
+  estimate.
+* In {kinds[Kind.AHEAD]} an edge runs ahead of slip, and in {kinds[Kind.STICKS]} all that touches
+  always sticks; {kinds[Kind.OPEN]} are neither, without a zone that meets the conditions.
+* The solver's estimate of its own error is {coarsest:.1e} or less."""
+
+
+def _worst(values: Iterable[float]) -> float:
+    return max(values, default=np.nan)

@@ -129,6 +129,28 @@ def test_the_transient_does_not_matter() -> None:
     assert hertz(0.2, 0.1, mean=0.2).zone == pytest.approx(hertz(0.2, 0.1).zone, abs=1e-4)
 
 
+@pytest.mark.parametrize(
+    "known",
+    [
+        Known("", WEDGE, LARGE, 0.15, 1.0, (1, 1), (0.1, 0.2)),
+        Known("", WEDGE, LARGE, 0.15, 1.0, (0.9, 1.1), (0.05, 0.1)),
+        Known("", WEDGE, LARGE, 0.15, 0.2, (0.99, 1.01)),  # around the threshold
+    ],
+    ids=["M varies", "P and M vary", "threshold"],
+)
+def test_where_the_cycle_starts_does_not_matter(known: Known) -> None:
+    # loads rise from nothing to the first state, under its P and M, or to the second
+    surface = Surface(mesh())
+    first, second = known.states
+    there, back = (
+        level(Case(WEDGE.body, F, *states), surface, 8)
+        for states in ((first, second), (second, first))
+    )
+    assert there.zone == pytest.approx(back.zone, abs=1e-9)
+    bound = F * max(contact.p.max() for contact in there.contacts)
+    np.testing.assert_allclose(there.cycle.there.q, back.cycle.back.q, atol=1e-8 * bound)
+
+
 def test_sliding_is_refused() -> None:
     with pytest.raises(NoSolution, match="slides"):
         hertz(1.01, 0.0)

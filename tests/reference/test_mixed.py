@@ -12,8 +12,6 @@ from tests.reference.mesh import graded
 from tests.reference.mixed import NotInWindow, turning
 from tests.reference.solver import level, reference
 
-pytestmark = pytest.mark.slow
-
 
 def slow(part: float) -> object:
     """A cycle that `make quick` leaves out."""
@@ -28,6 +26,7 @@ def test_wedge(part: float) -> None:
     assert max(found.error) < 3e-4
 
 
+@pytest.mark.slow
 def test_hertz() -> None:
     # the paper's threshold, 4 f E*/R (b - sqrt(b^2 - 2 R dQ/(pi E* f))), with b = R = E* = 1
     dQ, f = 0.15 * HERTZ_LOAD, 0.5
@@ -69,6 +68,7 @@ def test_the_window_closes_where_the_large_zone_is_wide_enough() -> None:
         turning(cycle(1.092 * threshold()).half_cycle)
 
 
+@pytest.mark.slow
 def test_finer_pieces_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     half = cycle(threshold()).half_cycle
     fine = turning(half)
@@ -76,6 +76,7 @@ def test_finer_pieces_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert turning(half).zone == pytest.approx(fine.zone, abs=1e-8)
 
 
+@pytest.mark.slow
 def test_the_solver_ends_the_half_cycle_as_phase_three_does() -> None:
     # q = f p right of n_end, and less between n and n_end, which stuck again
     known = cycle(threshold())

@@ -184,7 +184,7 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         return np.abs(value), value
 
     shared = _Contact(body, constants, -a, c, h, ())
-    _, total = _integrals(shared, integrand, 2, positive=1)
+    _, total = _integrals(shared, integrand, 2, positive=0)
     for piece in shared.pieces():
         r_0 = np.sqrt(piece.start_low / np.maximum(piece.length + piece.end_high, _TINY))
         psi = 2 * r_0 - 1.5 * np.arctan(r_0) - r_0 / (2 * (1 + r_0**2))
@@ -412,7 +412,11 @@ def _integrals(
     count: int,
     positive: int,
 ) -> list[Array]:
-    """Integrals over the windows, NaN where the sums do not agree; the first few are positive."""
+    """Integrals over the windows, NaN where the sums do not agree.
+
+    The first few are positive, and each of these has to agree for itself; where there is none, the
+    last one has to, against the first one, which is its size and need not be smooth.
+    """
     sums = np.full((count, contact.width.size), np.nan)
     rows = np.flatnonzero(contact.width > 0)
     sums[:, contact.width == 0] = 0.0
@@ -423,7 +427,8 @@ def _integrals(
         here = contact.on(rows)
         fresh = _level_sums(here, integrand, count, level)
         now = before + fresh if level == COARSEST else before / 2 + fresh
-        off = np.abs(now[:positive] - before[:positive]) - AGREED * np.abs(now[:positive])
+        judged, size = (slice(positive),) * 2 if positive else (slice(-1, None), slice(1))
+        off = np.abs(now[judged] - before[judged]) - AGREED * np.abs(now[size])
         agreed = (np.all(off <= 0, axis=0) & (level > COARSEST)) | np.any(np.isnan(off), axis=0)
         sums[:, rows[agreed]] = now[:, agreed]
         rows, before = rows[~agreed], now[:, ~agreed]

@@ -179,6 +179,7 @@ for body in ("hertz", "wedge"):
 """
 
 
+@pytest.mark.slow
 def test_formulas_and_points_are_the_same_whatever_the_hash_seed() -> None:
     printed = [
         subprocess.run(

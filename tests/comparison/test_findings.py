@@ -1,0 +1,95 @@
+"""The stick zone of the package against the zones that the solver found, cycle by cycle.
+
+FINDINGS.md holds what `make solver` computed: two maps of the upright wedge, P = E* = phi = 1 on
+average, f = 1/2, dQ = 0.15.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from generated import wedge
+from generated._types import Regime
+from tests.reference import explore
+from tests.reference.explore import AROUND, VARYING_MOMENT, Kind, Point, threshold
+
+FINDINGS = Path(explore.__file__).with_name("FINDINGS.md")
+
+GIVEN = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
+
+
+class Line(NamedTuple):
+    """A line of a map."""
+
+    point: Point
+    m: float
+    n: float
+    error: float
+    kind: Kind
+
+
+def lines() -> list[Line]:
+    """Both maps."""
+    maps: dict[str, list[list[str]]] = {"M mean, range": [], "P range, M range": []}
+    rows: list[list[str]] = []
+    for text in FINDINGS.read_text(encoding="utf-8").splitlines():
+        row = [cell.strip() for cell in text.split("|")[1:-1]]
+        if row and row[0] in maps:
+            rows = maps[row[0]]
+        elif not row:
+            rows = []  # of no map
+        elif row[0] != "---":
+            rows.append(row)
+    return [*map(_of_moment, maps["M mean, range"]), *map(_around, maps["P range, M range"])]
+
+
+def _of_moment(row: list[str]) -> Line:
+    mean, span = (float(word) for word in row[0].split(","))
+    return _line(Point(float(row[1]), mean, span), row)
+
+
+def _around(row: list[str]) -> Line:
+    load, span = (float(word) for word in row[0].split(","))
+    return _line(Point(float(row[1]), 0.0, span, load), row)
+
+
+def _line(point: Point, row: list[str]) -> Line:
+    m, n = (float(word) for word in row[2].split(","))
+    return Line(point, m, n, float(row[3]), Kind(row[7]))
+
+
+def zone(point: Point) -> wedge.StickZone:
+    """What the package says."""
+    known = point.cycle
+    law = {"E_star": 1.0, "phi": 1.0}
+    ends = (wedge.contact(P, M, **law) for P, M in zip(known.P, known.M, strict=True))
+    return wedge.stick_zone(*ends, known.dQ, point.tension * threshold(), **GIVEN)
+
+
+LINES = lines()
+EACH = pytest.mark.parametrize("line", LINES, ids=lambda line: "-".join(map(str, line.point)))
+
+
+def test_both_maps_are_there() -> None:
+    assert [line.point for line in LINES] == [*VARYING_MOMENT, *AROUND]
+
+
+@EACH
+def test_a_zone_is_told_where_the_solver_s_premise_holds_and_nowhere_else(line: Line) -> None:
+    found = zone(line.point)
+    assert np.isfinite(found.m) == np.isfinite(found.n) == (line.kind is Kind.HOLDS)
+    assert (found.regime == Regime.MIXED) == (line.kind is not Kind.HOLDS)
+
+
+@EACH
+def test_what_is_told_is_what_the_solver_found(line: Line) -> None:
+    found = zone(line.point)
+    if np.isfinite(found.m):
+        assert abs(found.m - line.m) <= line.error
+        assert abs(found.n - line.n) <= line.error
+
+
+def test_the_maps_hold_cycles_of_every_kind() -> None:
+    assert {line.kind for line in LINES} == set(Kind)
