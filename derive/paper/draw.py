@@ -33,8 +33,8 @@ _CLOSEST = 6
 """Decades by which a point may be closer to an end of a range than the range is long."""
 _SWITCHES = 10
 """Switches of a claim that are looked at."""
-_GRID = 97
-"""Places of a variable at which the sign of a switch is looked at."""
+_GRID = 96
+"""Places of a variable at which the sign of a switch is looked at; none is in the middle."""
 
 
 def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]:
@@ -43,6 +43,9 @@ def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]
         yield from ({symbol: mpf(text) for symbol, text in case.items()} for case in claim.cases)
         return
     symbols, rng = variables(claim), _random(claim, seed)
+    if not symbols:
+        yield {}
+        return
     for _ in range(count if count < POINTS or not has_integral(claim) else LEAST):
         yield {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
 
@@ -80,7 +83,10 @@ def _drawn(span: Range, rng: random.Random) -> mpf:
 
 def has_integral(claim: Claim) -> bool:
     """Whether a side, or what a symbol of it means, is an integral."""
-    return any(expr.has(Integral) for expr in _exprs(claim))
+    sides = claim.sides(claim.left, claim.right)
+    held = set().union(*(side.free_symbols for side in sides))
+    meant = [expr for symbol, expr in claim.meaning.items() if symbol in held]
+    return any(expr.has(Integral) for expr in (*sides, *meant))
 
 
 def _exprs(claim: Claim) -> list[Expr]:

@@ -133,7 +133,7 @@ def both(left: Expr, right: Expr, value: Numbers, point: Point, integrals: bool 
         if _FEW < pair.digits < DIGITS:
             _demand_same_anew(left, right, value, pair)
         return pair
-    return _sharpened(left, right, value, pair) if pair.agree else pair
+    return _sharpened(left, right, value, pair) if pair.agree or pair.digits > _FEW else pair
 
 
 def _computed(
@@ -160,12 +160,19 @@ def _shared(before: tuple[Value, Value], now: tuple[Value, Value]) -> int:
 
 
 def _sharpened(left: Expr, right: Expr, value: Numbers, pair: Pair) -> Pair:
-    """The pair with more digits, where they can be had."""
+    """The pair with more digits, where they can be had; raises Undecided.
+
+    A small difference that more digits do not show is none to go by.
+    """
     if pair.left == 0 or pair.right == 0:
         return pair
     before, now = (_sides(left, right, value, working) for working in _SHARP)
     known = _shared(before, now)
-    return Pair(*now, pair.point, known) if known >= DIGITS else pair
+    if known >= DIGITS:
+        return Pair(*now, pair.point, known)
+    if not pair.agree:
+        raise Undecided(f"both sides share {pair.digits} digits, and no more are known")
+    return pair
 
 
 def _demand_grown(pair: Pair) -> None:

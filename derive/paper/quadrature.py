@@ -95,7 +95,8 @@ def demand_no_pole(along: Along, parts: Sequence[Cut], variable: str) -> None:
             if not mpmath.isfinite(grown) or grown > _STEEPEST:
                 where = mpmath.nstr(cut.place, 6)
                 raise NotComputed(
-                    f"the integral diverges: its integrand has a pole at {variable} = {where}"
+                    f"the integral diverges: its integrand has a pole at {variable} = {where} "
+                    "(no principal value is taken)"
                 )
 
 

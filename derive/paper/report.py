@@ -68,6 +68,8 @@ def evidence(finding: Finding) -> str:
         parts.append(f"corrected ({_changes(finding.repair)}): {finding.repair.judged.why}")
     if finding.tried:
         parts.append(f"tried: {_tried(finding.tried)}")
+    if finding.stopped:
+        parts.append(f"the search for a correction: {finding.stopped}")
     return "; ".join(parts)
 
 
@@ -302,6 +304,8 @@ def _convention(finding: Finding) -> list[str]:
 
 def _correction(finding: Finding) -> list[str]:
     told = [f"tried: {_tried(finding.tried)}"] if finding.tried else []
+    if finding.stopped:
+        return [f"the search for one: {finding.stopped}"]
     if finding.repair is None:
         return told and [*told, "none of these is true"]
     repair = finding.repair

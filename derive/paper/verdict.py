@@ -16,7 +16,7 @@ from typing import TypeVar
 import mpmath
 from sympy import Expr, Integral, Symbol, count_ops
 
-from derive.limit import LimitReached, within
+from derive.limit import LimitReached, LookAtClock, within
 from derive.paper.claim import (
     SCALE,
     Bound,
@@ -109,20 +109,24 @@ def check(claim: Claim) -> Finding:
     """The verdict of one claim; what stops its judging makes it unchecked, with the reason."""
     if claim.unchecked:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, claim.unchecked))
-    judged, stopped = _attempted(claim, lambda: judge_as_printed(claim))
+    judged, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
     if judged is None:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, stopped))
     if judged.verdict != Verdict.FAILS:
         return Finding(claim, judged.verdict, judged)
-    finding, stopped = _attempted(claim, lambda: _mended(claim, judged))
+    finding, stopped = _attempted(claim, lambda look: _mended(claim, judged, look))
     return finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
 
 
-def _attempted(claim: Claim, work: Callable[[], Result]) -> tuple[Result | None, str]:
+def _no_clock() -> None:
+    """Looks at no clock: there is no limit."""
+
+
+def _attempted(claim: Claim, work: Callable[[LookAtClock], Result]) -> tuple[Result | None, str]:
     """What comes of work within the claim's time, or why nothing does."""
     try:
-        with within(claim.seconds) if claim.seconds is not None else nullcontext():
-            return work(), ""
+        with within(claim.seconds) if claim.seconds is not None else nullcontext(_no_clock) as look:
+            return work(look), ""
     except LimitReached:
         return None, f"not done within {claim.seconds:g} s"
     except RecursionError:
@@ -131,26 +135,29 @@ def _attempted(claim: Claim, work: Callable[[], Result]) -> tuple[Result | None,
         return None, f"stopped by {type(error).__name__}: {error}"
 
 
-def judge_as_printed(claim: Claim) -> Judged:
+def judge_as_printed(claim: Claim, look: LookAtClock = _no_clock) -> Judged:
     """The printed sides under the claim's own meaning."""
-    return judge(claim, claim.left, claim.right, claim.meaning)
+    return judge(claim, claim.left, claim.right, claim.meaning, look)
 
 
-def _mended(claim: Claim, judged: Judged) -> Finding:
+def _mended(claim: Claim, judged: Judged, look: LookAtClock) -> Finding:
     """A claim that fails, with its repair and the map of signs that makes it true."""
-    repair, tried = repaired(claim)
+    repair, tried = repaired(claim, look)
     for convention in claim.conventions:
-        under = judge(claim, claim.left, claim.right, {**claim.meaning, **convention.meaning})
+        meaning = {**claim.meaning, **convention.meaning}
+        under = judge(claim, claim.left, claim.right, meaning, look)
         if under.good:
             verdict = Verdict.CONVENTION
             return Finding(claim, verdict, judged, convention, under, repair, tried)
     return Finding(claim, Verdict.FAILS, judged, None, None, repair, tried)
 
 
-def judge(claim: Claim, left: Expr, right: Expr, meaning: Meaning) -> Judged:
+def judge(
+    claim: Claim, left: Expr, right: Expr, meaning: Meaning, look: LookAtClock = _no_clock
+) -> Judged:
     """Two sides under a meaning, at all points and, if they agree there, symbolically."""
     left, right = claim.sides(left, right)
-    judging = _Judging(claim, left, right, meaning)
+    judging = _Judging(claim, left, right, meaning, look)
     try:
         return judging.whole()
     except Undecided as error:
@@ -164,8 +171,11 @@ class _Judging:
     left_out  further points at which no number came out
     """
 
-    def __init__(self, claim: Claim, left: Expr, right: Expr, meaning: Meaning) -> None:
+    def __init__(
+        self, claim: Claim, left: Expr, right: Expr, meaning: Meaning, look: LookAtClock
+    ) -> None:
         self.claim, self.left, self.right, self.meaning = claim, left, right, meaning
+        self.look = look
         self.found: list[Pair] = []
         self.left_out = 0
         self.integrals = has_integral(claim)
@@ -175,7 +185,7 @@ class _Judging:
         for point in points(self.claim):
             if not self._stands_at(self._pair(point)):
                 return self._fails()
-        if len(self.found) < LEAST and not self.claim.cases:
+        if len(self.found) < LEAST and variables(self.claim) and not self.claim.cases:
             return self._judged(Verdict.UNCHECKED, f"only {len(self.found)} points were drawn")
         for point in further(self.claim, self._in_ours()):
             try:
@@ -195,6 +205,7 @@ class _Judging:
 
     def _pair(self, point: Point, meaning: Meaning | None = None) -> Pair:
         """Both sides at one point; a printed integral is written in our symbols first."""
+        self.look()
         meaning = self.meaning if meaning is None else meaning
         left, right = self.left, self.right
         if left.has(Integral) or right.has(Integral):
@@ -247,6 +258,8 @@ class _Judging:
     def _where(self) -> str:
         """How many points were looked at, and from where to where they reach."""
         count = len(self.found)
+        if not variables(self.claim):
+            return "as they stand, without a variable"
         told = spread([pair.point for pair in self.found])
         if self.claim.cases:
             return f"in {count} {'case' if count == 1 else 'cases'}" + (f": {told}" if told else "")
@@ -289,24 +302,25 @@ def _example(pair: Pair) -> str:
 # ------------------------------------------------------------------ what it should have been
 
 
-def repaired(claim: Claim) -> tuple[Repair | None, Counter[str]]:
+def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None, Counter[str]]:
     """The plainest change that makes the claim true, and what was tried.
 
     One change at a time; where none does, two, a sign or a swap before any other.
     """
     if claim.is_inequality:
-        return _other_relation(claim)
+        return _other_relation(claim, look)
     tried: Counter[str] = Counter()
     screened = _Screen(claim)
     for candidates in (_single(claim), _double(claim)):
         fitting = []
         for left, right, edit in candidates:
+            look()
             tried[edit.kind] += 1
             if screened.fits(left, right):
                 fitting.append((left, right, edit))
         fitting.sort(key=_plainness)
         for left, right, edit in fitting:
-            judged = judge(claim, left, right, claim.meaning)
+            judged = judge(claim, left, right, claim.meaning, look)
             if judged.good:
                 also = tuple(f"{e.kind} {e.what}" for _, _, e in fitting if e != edit)
                 relation = claim.relation
@@ -314,12 +328,13 @@ def repaired(claim: Claim) -> tuple[Repair | None, Counter[str]]:
     return None, tried
 
 
-def _other_relation(claim: Claim) -> tuple[Repair | None, Counter[str]]:
+def _other_relation(claim: Claim, look: LookAtClock) -> tuple[Repair | None, Counter[str]]:
     """Whether the sides of an inequality are equal, or the other way round."""
     tried: Counter[str] = Counter()
     for relation in (Relation.EQUAL, claim.relation.turned):
         tried["relation"] += 1
-        judged = judge(replace(claim, relation=relation), claim.left, claim.right, claim.meaning)
+        other = replace(claim, relation=relation)
+        judged = judge(other, claim.left, claim.right, claim.meaning, look)
         if judged.good:
             what = f"{relation} for {claim.relation}"
             return Repair(claim.left, claim.right, "relation", what, judged, relation), tried
