@@ -262,7 +262,7 @@ class _Judging:
             return "as they stand, without a variable"
         told = spread([pair.point for pair in self.found])
         if self.claim.cases:
-            return f"in {count} {'case' if count == 1 else 'cases'}" + (f": {told}" if told else "")
+            return f"in {count} {'case' if count == 1 else 'cases'}"
         left_out = f"; no number at {self.left_out} more" if self.left_out else ""
         return f"at {count} points" + (f" ({told}{left_out})" if told else "")
 

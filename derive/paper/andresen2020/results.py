@@ -36,9 +36,9 @@ from derive.paper.andresen2020.symbols import (
     phi,
     xi,
 )
-from derive.paper.andresen2020.wedge import edge_printed, stuck, threshold_claim
+from derive.paper.andresen2020.wedge import direction_claim, edge_printed, stuck, threshold_claim
 from derive.paper.bodies import formula, r, t, wedge
-from derive.paper.claim import FRACTION, Claim, Point, Range, Relation, Verdict
+from derive.paper.claim import FRACTION, SIGNED, Claim, Point, Range, Relation, Verdict
 from derive.symbols import E_star, M, P, dQ, dsigma, f, x
 
 _rs = Symbol("r_s", positive=True)
@@ -57,12 +57,43 @@ _CARRIED = S(17) / 20
 def claims() -> tuple[Claim, ...]:
     """Eqs. (35) to (39), and what the text concludes."""
     return (
+        _one_end_at_a_time(),
         *_constant_load(),
         *_varying_load(),
+        direction_claim(),
         threshold_claim(),
         *_conditions_of_large_tension(),
         *_text_on_tension(),
         *_text_on_tilt(),
+    )
+
+
+# ------------------------------------------------------------------ 5, before 5.1
+
+
+def _one_end_at_a_time() -> Claim:
+    """Eq. (20) where tension has turned the sense of slip: K_T is negative there."""
+    turned = Symbol("sense", real=True)
+    slip, pressed = Symbol("l_d", positive=True), Symbol("K", positive=True)
+    return Claim(
+        label="section 5/one end at a time",
+        place="section 5, before section 5.1, on eq. (20)",
+        says="whether the tension is moderate or large is irrelevant to the edge terms (constant "
+        "normal load)",
+        left=d,
+        right=Delta_K_T / (f * K_N),
+        meaning={d: slip, Delta_K_T: sgn(turned) * f * pressed * slip, K_N: pressed},
+        against="the edge terms for slip of either sense, |K_T| = f K_N d",
+        ranges={turned: SIGNED},
+        steps=(
+            "Slip changes its sign with K_T; the zone where f K_N sqrt(s) is reached does not.",
+            "Where the tension is large K_T is negative at one edge.",
+        ),
+        expected=Verdict.FAILS,
+        consequence=lambda: (
+            "with eqs. (20) and (32) as printed the slip zone is negative at the edge where a "
+            "large tension turns the slip; its modulus is right to first order"
+        ),
     )
 
 
@@ -352,8 +383,9 @@ def _text_on_tension() -> tuple[Claim, ...]:
                 relation=Relation.ABOVE,
                 meaning={d: zone},
                 samples={_exact[side]: _exact_large(side, 2)},
-                against="both conditions of stick solved at 20 digits",
-                ranges={r: Range(-1.5, 1.5, powers=True)},
+                against="both conditions of stick solved at 20 digits, Delta Q = 0.3 f P: one "
+                "number, as both sides are proportional to the contact",
+                cases=(dict.fromkeys((r, phi, E_star, f), "1"),),
                 expected=Verdict.NUMERICAL,
             )
         )
@@ -405,8 +437,8 @@ def _accuracy_falls() -> tuple[Claim, ...]:
                         _large: _error(side, "2", relative),
                     },
                     against="both conditions of stick solved at 20 digits, untilted wedge, "
-                    "Delta Q = 0.3 f P",
-                    ranges={r: Range(-1.5, 1.5, powers=True)},
+                    "Delta Q = 0.3 f P: one number",
+                    cases=({},),
                     steps=(
                         "Both slip zones are larger at twice the threshold.",
                         "At the right edge the zone has just opened at 1.2 times the threshold; "
