@@ -17,7 +17,7 @@ from sympy import Expr, Integral, Symbol, lambdify
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from derive.paper.claim import SCALE, Claim, Point, Range, Relation
-from derive.paper.kinks import Switch, switches
+from derive.paper.kinks import Switch, peaked, switches
 
 POINTS = 24
 """Points at which both sides are compared, before further ones."""
@@ -65,6 +65,7 @@ def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     if not (few and claim.family):
         most = _FEWER_CHANGES if few else _CHANGES
         yield from _changes(claim, symbols, rng, exprs, most)
+        yield from _peaks(claim, symbols, rng, exprs, most)
 
 
 def _random(claim: Claim, seed: str) -> random.Random:
@@ -163,6 +164,27 @@ def _changes(
                 yield from _either_side(of, held, variable, point, between, rng)
 
 
+def _peaks(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr], most: int
+) -> Iterator[Point]:
+    """Points where an exponent or a divisor is stationary along a variable, as at a spike."""
+    known = set(symbols)
+    inside = {n for expr in exprs for n in peaked(expr) if n.free_symbols <= known}
+    found = 0
+    for inner in sorted(inside, key=lambda n: (len(str(n)), str(n)))[:_SWITCHES]:
+        for variable in sorted(inner.free_symbols, key=in_order):
+            of, held = _for_arrays(inner.diff(variable))
+            if of is None or variable not in held or found >= most:
+                continue
+            point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+            grid = _grid(claim.ranges.get(variable))
+            between = _sign_change(of, held, variable, point, grid)
+            if between is not None:
+                found += 1
+                low, high = _narrowed(of, held, variable, point, between)
+                yield point | {variable: mpf(float(low + high) / 2)}
+
+
 def _looked_at(exprs: Iterable[Expr], symbols: Sequence[Symbol]) -> list[Switch]:
     """Switches that may change their sign, the shortest first."""
     known = set(symbols)
@@ -229,14 +251,26 @@ def _either_side(
     rng: random.Random,
 ) -> Iterator[Point]:
     """A point on each side of the zero, somewhere between it and the places given."""
-    low, high = between
-    for _ in range(40):
-        middle = (low + high) / 2
-        ends = _values(of, held, variable, point, np.array([low, middle]))
-        low, high = (low, middle) if ends[0] * ends[1] <= 0 else (middle, high)
+    low, _ = _narrowed(of, held, variable, point, between)
     for end in between:
         share = 10 ** rng.uniform(-4, 0)
         yield point | {variable: mpf(low) + (mpf(end) - mpf(low)) * mpf(share)}
+
+
+def _narrowed(
+    of: _OfArrays,
+    held: Sequence[Symbol],
+    variable: Symbol,
+    point: Point,
+    between: tuple[float, float],
+) -> tuple[float, float]:
+    """Two places next to each other with a change of sign between them."""
+    low, high = between
+    for _ in range(60):
+        middle = (low + high) / 2
+        ends = _values(of, held, variable, point, np.array([low, middle]))
+        low, high = (low, middle) if ends[0] * ends[1] <= 0 else (middle, high)
+    return low, high
 
 
 def _closest(

@@ -141,7 +141,7 @@ def places(expr: Expr, variable: Symbol) -> tuple[Place, ...]:
         if switch.of.has(variable):
             polynomials = _polynomials(switch.of, variable, _ROOTS)
             found[switch.of, switch.kind] = Place(switch.of, switch.kind, polynomials)
-    for inner in _peaked(expr):
+    for inner in peaked(expr):
         if inner.has(variable) and inner.is_polynomial(variable):
             slope = inner.diff(variable)
             if slope.has(variable):
@@ -149,7 +149,7 @@ def places(expr: Expr, variable: Symbol) -> tuple[Place, ...]:
     return tuple(found[key] for key in sorted(found, key=str))
 
 
-def _peaked(expr: Expr) -> Iterator[Expr]:
+def peaked(expr: Expr) -> Iterator[Expr]:
     """What stands in an exponent, or is divided by."""
     for node in expr.atoms(Pow, exp, cosh):
         if isinstance(node, Pow):

@@ -25,6 +25,8 @@ _WORKING = (36, 44, 80)
 """Working digits, tried in this order."""
 _MORE = (160, 240)
 """Those after them, where no integral is to be computed."""
+_SHARPEST = 200
+"""Working digits that decide whether a gap beyond them is noise."""
 _SHARP = (80, 120)
 """Working digits at which two sides that agree are compared once more, without integrals."""
 _ALL = 10**6
@@ -169,10 +171,22 @@ def _sharpened(left: Expr, right: Expr, value: Numbers, pair: Pair) -> Pair:
     before, now = (_sides(left, right, value, working) for working in _SHARP)
     known = _shared(before, now)
     if known >= DIGITS:
-        return Pair(*now, pair.point, known)
+        found = Pair(*now, pair.point, known)
+        return _held_against_more(left, right, value, found) if found.agree else found
     if not pair.agree:
         raise Undecided(f"both sides share {pair.digits} digits, and no more are known")
     return pair
+
+
+def _held_against_more(left: Expr, right: Expr, value: Numbers, pair: Pair) -> Pair:
+    """The pair, or one that does not agree: a gap that stays as it is with more digits is one."""
+    if pair.digits > _SHARP[1] - _NOISE:
+        return pair
+    more = _sides(left, right, value, _SHARPEST)
+    gaps = pair.left - pair.right, more[0] - more[1]
+    if gaps[1] == 0 or agreement(*gaps) <= _FEW:
+        return pair
+    return Pair(*more, pair.point, _SHARPEST)
 
 
 def _demand_grown(pair: Pair) -> None:
