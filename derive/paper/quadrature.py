@@ -24,7 +24,6 @@ _SPARE = 5
 """Digits of the working precision that an integral may lack."""
 _TRUSTED = 0.6
 """The part of the working digits that a rule must claim for the last word it has."""
-_SAME = mpf(10) ** -12
 _SECOND = 1e-6
 """What both rules may differ by, as a part of the integral of the modulus."""
 _NEAR = (mpf(10) ** -9, mpf(10) ** -13)

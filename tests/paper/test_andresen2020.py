@@ -1,6 +1,7 @@
 """The paper is complete, its verdicts are computed, and what holds holds for a reason."""
 
 from collections import Counter, defaultdict
+from dataclasses import replace
 
 import mpmath
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from derive.paper import exact
 from derive.paper.andresen2020 import paper
 from derive.paper.claim import Verdict
-from derive.paper.draw import LEAST
+from derive.paper.draw import LEAST, variables
 from derive.paper.numbers import DIGITS
 from derive.paper.report import (
     as_latex,
@@ -17,9 +18,10 @@ from derive.paper.report import (
     corrected,
     errata,
     evidence,
+    printed,
     signs,
 )
-from derive.paper.verdict import Finding
+from derive.paper.verdict import Finding, check
 from tests.paper.displayed import DISPLAYED
 from tests.paper.mutants import FEWEST, mutants, survives
 
@@ -91,7 +93,7 @@ def test_every_verdict_is_the_expected_one_and_has_evidence(
         assert finding.claim.expected is not None, label
         assert finding.as_expected, f"{label}: {finding.verdict}"
         assert evidence(finding), label
-        if finding.judged.good and not finding.claim.cases:
+        if finding.judged.good and variables(finding.claim) and not finding.claim.cases:
             assert len(finding.judged.pairs) >= LEAST
         if finding.verdict in (Verdict.HOLDS, Verdict.NUMERICAL):
             strict = finding.claim.is_inequality
@@ -122,6 +124,29 @@ def test_the_error_falls_only_relatively_and_where_a_zone_has_just_opened(
     assert len(said) == 4
     wrong = [label for label, verdict in said.items() if verdict == Verdict.FAILS]
     assert wrong == ["section 5.3/accuracy/right/relative"]
+
+
+@pytest.mark.parametrize(
+    "label",
+    ["fullstickinequality/left", "fullstickinequality/right", "inequalitywedge/direction"]
+    + ["inequality"],
+)
+def test_the_direction_of_a_bound_is_judged(label: str) -> None:
+    claim = paper()[label]
+    assert check(claim).verdict == Verdict.HOLDS
+    assert check(replace(claim, relation=claim.relation.turned)).verdict == Verdict.FAILS
+
+
+def test_a_computed_number_is_counted_once(findings: dict[str, Finding]) -> None:
+    for label, found in findings.items():
+        if "/accuracy/" in label or "5.3/overestimated" in label:
+            assert len(found.judged.pairs) == 1
+
+
+def test_what_sympy_would_write_otherwise_is_shown_as_printed() -> None:
+    assert printed(paper()["section 3.2/limit"]).count("sqrt(x + a_2 - d_2)") == 2
+    assert "c - x" in printed(paper()["eqn:FlatPunchCP"])
+    assert "gamma_t" in printed(paper()["m and gamma_2/strain"])
 
 
 def test_every_corrected_equation_is_proven(findings: dict[str, Finding]) -> None:

@@ -26,6 +26,7 @@ from derive.paper.claim import (
     FRACTION,
     SCALE,
     SIGNED,
+    Bound,
     Claim,
     Convention,
     Paper,
@@ -37,6 +38,7 @@ from derive.paper.draw import points, variables
 from derive.paper.numbers import DIGITS, both
 from derive.paper.quick import Unknown, approximately
 from derive.paper.repair import edits
+from derive.paper.report import printed
 from derive.paper.values import Undecided, evaluated
 from derive.paper.verdict import check
 from derive.paper.zero import vanishes
@@ -264,6 +266,47 @@ def test_identities_vanish(expr: Expr) -> None:
 )
 def test_what_is_not_shown_to_vanish_does_not(expr: Expr) -> None:
     assert vanishes(expr, {u: SCALE, v: SCALE}) == ""
+
+
+def test_equal_derivatives_prove_nothing_across_a_jump() -> None:
+    """atan x + atan 1/x is pi/2 for x > 0 and -pi/2 for x < 0; its derivative is 0 for both."""
+    w = Symbol("w", real=True)
+    for symbol, span, shown in ((u, SCALE, True), (w, SIGNED, False), (w, Range(0.1, 2), True)):
+        found = vanishes(atan(symbol) + atan(1 / symbol) - pi / 2, {symbol: span})
+        assert bool(found) == shown
+    modulus = log(Abs(w + S(199) / 100)) - log(w + S(199) / 100)
+    assert vanishes(modulus, {w: SIGNED}) == ""
+    assert vanishes(modulus, {w: Range(-0.9, 0.9)})
+
+
+def test_a_bound_is_judged_off_it() -> None:
+    """a <= b for a = u b is right below u = 1 and wrong above; the turned one is neither."""
+    made = {
+        "meaning": {a: v, b: v},
+        "reached": Bound({a: v * u}, {a: v / u}),
+        "ranges": {u: FRACTION},
+    }
+    for relation, verdict in (
+        (Relation.AT_MOST, Verdict.HOLDS),
+        (Relation.BELOW, Verdict.HOLDS),
+        (Relation.AT_LEAST, Verdict.FAILS),
+        (Relation.ABOVE, Verdict.FAILS),
+    ):
+        assert check(claim(a, b, relation=relation, **made)).verdict == verdict
+
+
+def test_a_number_is_counted_once() -> None:
+    finding = check(claim(a, b, meaning={a: S(1), b: S(2)}, relation=Relation.BELOW))
+    assert len(finding.judged.pairs) == 1
+    finding = check(claim(a, b, meaning={a: u, b: u}, cases=({u: "1"}, {u: "2.5"})))
+    assert len(finding.judged.pairs) == 2
+    assert "in 2 cases" in finding.judged.why
+
+
+def test_the_source_s_own_form_is_what_is_printed() -> None:
+    one = claim(a, b, meaning={a: u, b: u}, source="a = b + b - b")
+    assert printed(one) == "a = b + b - b"
+    assert printed(claim(a, b)) == "a = b"
 
 
 # ------------------------------------------------------------------ repairs and lemmas
