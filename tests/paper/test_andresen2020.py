@@ -128,8 +128,10 @@ def test_the_error_falls_only_relatively_and_where_a_zone_has_just_opened(
 
 @pytest.mark.parametrize(
     "label",
-    ["fullstickinequality/left", "fullstickinequality/right", "inequalitywedge/direction"]
-    + ["inequality"],
+    (
+        *("fullstickinequality/left", "fullstickinequality/right"),
+        *("inequalitywedge/direction", "inequality"),
+    ),
 )
 def test_the_direction_of_a_bound_is_judged(label: str) -> None:
     claim = paper()[label]

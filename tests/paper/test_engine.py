@@ -38,7 +38,7 @@ from derive.paper.draw import points, variables
 from derive.paper.numbers import DIGITS, both
 from derive.paper.quick import Unknown, approximately
 from derive.paper.repair import edits
-from derive.paper.report import printed
+from derive.paper.report import printed as printed_form
 from derive.paper.values import Undecided, evaluated
 from derive.paper.verdict import check
 from derive.paper.zero import vanishes
@@ -305,8 +305,8 @@ def test_a_number_is_counted_once() -> None:
 
 def test_the_source_s_own_form_is_what_is_printed() -> None:
     one = claim(a, b, meaning={a: u, b: u}, source="a = b + b - b")
-    assert printed(one) == "a = b + b - b"
-    assert printed(claim(a, b)) == "a = b"
+    assert printed_form(one) == "a = b + b - b"
+    assert printed_form(claim(a, b)) == "a = b"
 
 
 # ------------------------------------------------------------------ repairs and lemmas
