@@ -24,6 +24,7 @@ from sympy import (
     acos,
     acosh,
     asin,
+    atan2,
     atanh,
     cos,
     cosh,
@@ -87,6 +88,8 @@ def _own(expr: Expr) -> Iterator[tuple[str, Expr]]:
         )
     elif isinstance(expr, acosh):
         yield "root", expr.args[0] - 1
+    elif isinstance(expr, atan2):
+        yield "kink", expr.args[0]
     elif isinstance(expr, tan):
         yield "pole", cos(expr.args[0])
     elif isinstance(expr, elliptic_k | elliptic_e | elliptic_pi):

@@ -55,7 +55,7 @@ from derive.paper.formula import Names, equation, usable
 from derive.paper.formula import formula as read_formula
 from derive.paper.latex import Latex
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, f, x
+from derive.symbols import E_star, M, P, e, f, x
 
 Read = TypeVar("Read")
 
@@ -266,7 +266,7 @@ class _File:
             call = min(calls, key=lambda c: (len(str(c)), str(c)))
             assert self.sheet is not None
             sheet = self.sheet[call.func.__name__]
-            body = formula(self.sheet.geometry.name, sheet.name)
+            body = formula(self.sheet.geometry.name, sheet.name).xreplace({e: M / P})
             table = dict(zip(sheet.arguments, call.args, strict=True))
             expr = expr.xreplace({call: at(body.subs(table, simultaneous=True), *_EDGES)})
         return expr

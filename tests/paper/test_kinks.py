@@ -98,6 +98,24 @@ def test_the_load_of_a_body_with_kinks_of_its_own(tmp_path: Path, right: str) ->
     assert judged(tmp_path, "I = P + E_star*l/10**9", head).verdict == Verdict.FAILS
 
 
+@pytest.mark.parametrize("body", ["hertz", "wedge", "unequal_wedge"])
+def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, body: str) -> None:
+    head = f"""
+    body = "{body}"
+    [variables]
+    l = "left half-width"
+    r = "right half-width"
+    [symbols]
+    A = "contact_a(load(l, r), moment(l, r))"
+    C = "contact_c(load(l, r), moment(l, r))"
+    T = "contact_alpha(load(l, r), moment(l, r))"
+    alpha = "tilt(l, r)"
+    """
+    for true, false in (("A = l", "A = r"), ("C = r", "C = l"), ("T = alpha", "T = -alpha")):
+        assert judged(tmp_path, true, head).verdict in GOOD
+        assert judged(tmp_path, false, "seconds = 2\n" + head).verdict == Verdict.FAILS
+
+
 # ------------------------------------------------------------------ constants, decades, spikes
 
 
