@@ -335,8 +335,9 @@ _EDGES = (Symbol("a", real=True), Symbol("c", real=True))
 
 
 def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
-    """What both sides depend on, in ours; variables of integration are not among them."""
-    return set().union(*(side.xreplace(dict(meaning)).free_symbols for side in (left, right)))
+    """What both sides, or what their symbols stand for, depend on; some may cancel in the end."""
+    held = left.free_symbols | right.free_symbols
+    return set().union(*(meaning.get(symbol, symbol).free_symbols for symbol in held))
 
 
 def _places(held: set[Symbol]) -> dict[Symbol, Range]:

@@ -176,6 +176,22 @@ def test_a_spike_that_a_quadrature_passes_by_decides_nothing(tmp_path: Path) -> 
     assert finding.verdict in (Verdict.UNCHECKED, Verdict.FAILS)
 
 
+def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
+    """sqrt(1 - k) is real for k < 1 alone, and drops out of A - B."""
+    head = """
+    [variables]
+    a = "a length"
+    k = { low = 0.1, high = 0.9 }
+    [symbols]
+    A = "a + sqrt(1 - k)"
+    B = "sqrt(1 - k) - a"
+    """
+    finding = judged(tmp_path, "A - B = 2*a", head)
+    assert finding.verdict == Verdict.HOLDS
+    (k,) = (s for s in finding.judged.pairs[0].point if s.name == "k")
+    assert all(0.1 <= pair.point[k] <= 0.9 for pair in finding.judged.pairs)
+
+
 @pytest.mark.parametrize(
     "printed",
     [
