@@ -222,7 +222,7 @@ def _values(
     with np.errstate(all="ignore"):
         try:
             found = of(*(along if s == variable else float(point[s]) for s in held))
-        except (ArithmeticError, TypeError, ValueError):
+        except (ArithmeticError, NameError, TypeError, ValueError):
             return np.full(along.shape, np.nan)
     return np.broadcast_to(np.asarray(found), along.shape)
 

@@ -67,7 +67,7 @@ def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf], care: Care = Care.TWICE
     given = [numbers[symbol] for symbol in held]
     try:
         found = [_quadrature(each, numbers, care) for each in integrals]
-        value = mpmath.mpmathify(function(*given, *found))
+        value = +mpmath.mpmathify(function(*given, *found))  # pi itself has no digits as yet
     except NotComputed as error:
         raise Undecided(str(error)) from error
     except (ArithmeticError, MemoryError, ValueError, TypeError) as error:
@@ -193,7 +193,7 @@ def _integrand(expr: Expr, variable: Symbol, numbers: Mapping[Symbol, mpf]) -> A
     def at(place: mpf) -> Value:
         if spot is not None:
             given[spot] = place
-        return mpmath.mpmathify(function(*given))
+        return +mpmath.mpmathify(function(*given))
 
     return at
 
@@ -213,7 +213,10 @@ def _at_once(
     plain = [value if value is None else float(value) for value in given]
 
     def at(places_: Any) -> Any:
-        values = function(*(places_ if value is None else value for value in plain))
+        try:
+            values = function(*(places_ if value is None else value for value in plain))
+        except NameError:  # a function that NumPy has not
+            values = np.nan
         return np.broadcast_to(np.asarray(values), places_.shape)
 
     return at
@@ -311,7 +314,7 @@ def _signs(at_once: Callable[[Any], Any] | None, grid: list[mpf]) -> list[float 
         return None
     with np.errstate(all="ignore"):
         values = at_once(np.array([float(at) for at in grid]))
-    if np.iscomplexobj(values):
+    if np.iscomplexobj(values) or not np.any(np.isfinite(values)):
         return None
     return [float(value) if np.isfinite(value) else None for value in values]
 

@@ -52,6 +52,12 @@ def judged(folder: Path, printed: str, head: str = HEAD) -> Finding:
         "integral(Heaviside(s - a), s, 0, 2*a) = a",
         "integral(1/sqrt(abs(s)), s, -1, 4) = 6",
         "integral(log(abs(w + 1.99)), s, 0, 1) = log(w + 1.99)",
+        "integral(1/sqrt((1 - s)*(1 + s)), s, -1, 1) = pi",
+        "pi = integral(2*sqrt(1 - s**2), s, -1, 1)",
+        "integral(elliptic_k(s), s, 0, 1) = 2",
+        "integral(elliptic_e(s), s, 0, 1) = 4/3",
+        "integral(abs(abs(s) - 1/2), s, -1, 1) = 1/2",
+        "integral(Heaviside(s - w)*s, s, -1, 1) = (1 - w**2)/2",
     ],
 )
 def test_true_integrals_with_kinks_are_found_true(tmp_path: Path, printed: str) -> None:
