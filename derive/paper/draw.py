@@ -31,6 +31,8 @@ _WIDE, _AT_ENDS, _CHANGES = 8, 6, 12
 _FEWER_WIDE, _FEWER_AT_ENDS, _FEWER_CHANGES = 3, 2, 4
 _CLOSEST = 6
 """Decades by which a point may be closer to an end of a range than the range is long."""
+_TOUCHING = 1e-10
+"""The part of the gap of two sides nearby that is none in double precision."""
 _SWITCHES = 10
 """Switches of a claim that are looked at."""
 _GRID = 96
@@ -61,7 +63,8 @@ def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     yield from _at_ends(claim, symbols, rng, _FEWER_AT_ENDS if few else _AT_ENDS)
     exprs = list(exprs)
     if claim.is_inequality and not few:
-        yield from _closest(claim, symbols, rng, exprs[0] - exprs[1])
+        found = _closest(claim, symbols, rng, exprs[0] - exprs[1])
+        yield from (point for point, _ in found)
     if not (few and claim.family):
         most = _FEWER_CHANGES if few else _CHANGES
         yield from _changes(claim, symbols, rng, exprs, most)
@@ -275,29 +278,50 @@ def _narrowed(
 
 def _closest(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, difference: Expr
-) -> Iterator[Point]:
-    """Where the sides of an inequality are next to each other along one variable, or cross."""
+) -> Iterator[tuple[Point, tuple[Point, ...]]]:
+    """Where the sides of an inequality are next to each other along one variable, or cross.
+
+    If they touch there, inside the range, as far as double precision can tell: with a point on
+    either side, near it.
+    """
     of, held = _for_arrays(difference)
     if of is None or not set(held) <= set(symbols):
         return
+    sense = 1 if claim.relation in (Relation.BELOW, Relation.AT_MOST) else -1
     for variable in held[:_SWITCHES]:
         point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
         grid = _grid(claim.ranges.get(variable))
-        values = _values(of, held, variable, point, grid)
-        if np.iscomplexobj(values) or not np.any(np.isfinite(values)):
+        heights = _values(of, held, variable, point, grid)
+        if np.iscomplexobj(heights) or not np.any(np.isfinite(heights)):
             continue
-        rising = claim.relation in (Relation.BELOW, Relation.AT_MOST)
-        heights = values if rising else -values
-        n = int(np.nanargmax(np.where(np.isfinite(heights), heights, np.nan)))
+        heights = sense * np.where(np.isfinite(heights), heights, np.nan)
+        n = int(np.nanargmax(heights))
         low, high = grid[max(n - 1, 0)], grid[min(n + 1, len(grid) - 1)]
+        best = float(heights[n])
         for _ in range(30):
             finer = np.linspace(low, high, 9)
-            heights = _values(of, held, variable, point, finer) * (1 if rising else -1)
-            if not np.all(np.isfinite(heights)):
+            found = _values(of, held, variable, point, finer) * sense
+            if not np.all(np.isfinite(found)):
                 break
-            best = int(np.argmax(heights))
-            low, high = finer[max(best - 1, 0)], finer[min(best + 1, 8)]
-        yield point | {variable: mpf(float(low + high) / 2)}
+            m = int(np.argmax(found))
+            low, high, best = finer[max(m - 1, 0)], finer[min(m + 1, 8)], float(found[m])
+        inside = 0 < n < len(grid) - 1
+        around = np.abs(heights[n - 1 : n + 2]) if inside else np.zeros(1)
+        place = float(low + high) / 2
+        beside = tuple[Point, ...]()
+        if inside and abs(best) <= _TOUCHING * np.max(around):
+            steps = [(float(grid[other]) - place) / 1000 for other in (n - 1, n + 1)]
+            beside = tuple(point | {variable: mpf(place + step)} for step in steps)
+        yield point | {variable: mpf(place)}, beside
+
+
+def touching(claim: Claim, exprs: Sequence[Expr]) -> Iterator[tuple[Point, tuple[Point, ...]]]:
+    """Points where the sides of an inequality seem to touch, with those beside them."""
+    if claim.cases or claim.samples or has_integral(claim) or not variables(claim):
+        return
+    rng = _random(claim, "touching")
+    found = _closest(claim, variables(claim), rng, exprs[0] - exprs[1])
+    yield from ((point, beside) for point, beside in found if beside)
 
 
 # ------------------------------------------------------------------ in words

@@ -14,7 +14,9 @@ from itertools import islice
 from typing import TypeVar
 
 import mpmath
-from sympy import Expr, Integral, Symbol, count_ops
+from mpmath import mpf
+from mpmath.libmp import to_rational
+from sympy import Expr, Integral, Rational, Symbol, count_ops
 
 from derive.limit import LimitReached, LookAtClock, within
 from derive.paper.claim import (
@@ -28,11 +30,19 @@ from derive.paper.claim import (
     Relation,
     Verdict,
 )
-from derive.paper.draw import LEAST, further, has_integral, points, spread, variables
+from derive.paper.draw import (
+    LEAST,
+    further,
+    has_integral,
+    points,
+    spread,
+    touching,
+    variables,
+)
 from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
 from derive.paper.repair import KINDS, Edit, edits, plain_edits
 from derive.paper.values import Care, Undecided
-from derive.paper.zero import constant, vanishes
+from derive.paper.zero import constant, vanishes, vanishes_at
 
 Result = TypeVar("Result")
 
@@ -168,6 +178,7 @@ class _Judging:
     """Two sides under one meaning, point by point.
 
     found     what was found so far
+    equal     whether both sides are shown to be equal everywhere; None if nobody has asked
     left_out  further points at which no number came out
     """
 
@@ -178,6 +189,7 @@ class _Judging:
         self.look = look
         self.found: list[Pair] = []
         self.left_out = 0
+        self.equal: bool | None = None
         self.integrals = has_integral(claim)
 
     def whole(self) -> Judged:
@@ -189,12 +201,18 @@ class _Judging:
             return self._judged(Verdict.UNCHECKED, f"only {len(self.found)} points were drawn")
         for point in further(self.claim, self._in_ours()):
             try:
-                pair = self._pair(point)
+                stands = self._stands_at(self._pair(point))
             except Undecided:
                 self.left_out += 1
                 continue
-            if not self._stands_at(pair):
+            if not stands:
                 return self._fails()
+        if self.claim.is_inequality and self.claim.relation.is_strict:
+            for point, beside in touching(self.claim, self._in_ours()):
+                pair, *others = (self._pair(each) for each in (point, *beside))
+                if all(_gap(pair) < _gap(other) for other in others):
+                    why = f"the sides touch, or nearly so: {_example(pair)}"
+                    return self._judged(Verdict.UNCHECKED, why)
         if self.claim.is_inequality and not all(pair.agree for pair in self.found):
             return self._judged(Verdict.NUMERICAL, f"true {self._where()}")
         if self.claim.reached is not None:
@@ -218,10 +236,22 @@ class _Judging:
         return pair or both(left, right, value, point, self.integrals)
 
     def _stands_at(self, pair: Pair) -> bool:
-        self.found.append(pair)
+        relation = self.claim.relation
         if not self.claim.is_inequality:
+            self.found.append(pair)
             return pair.agree
-        return _is_met(self.claim.relation, pair)
+        if relation.is_strict and pair.agree and not self._are_equal_at(pair.point):
+            raise Undecided("which side is the larger is beyond all digits")
+        self.found.append(pair)
+        return _is_met(relation, pair)
+
+    def _are_equal_at(self, point: Point) -> bool:
+        """Whether both sides are shown to be equal: at one point, or everywhere."""
+        left, right = self._in_ours()
+        if self.equal is None:
+            self.equal = bool(vanishes(left - right, _ranges(self.claim)))
+        exact = {symbol: Rational(*to_rational(value._mpf_)) for symbol, value in point.items()}
+        return self.equal or vanishes_at(left - right, exact)
 
     def _off_the_bound(self, bound: Bound) -> str:
         """Where the printed relation says something else than it should, if anywhere."""
@@ -275,6 +305,10 @@ class _Judging:
 
 def _ranges(claim: Claim) -> dict[Symbol, Range]:
     return {symbol: claim.ranges.get(symbol, SCALE) for symbol in variables(claim)}
+
+
+def _gap(pair: Pair) -> mpf:
+    return abs(pair.left - pair.right)
 
 
 def _is_met(relation: Relation, pair: Pair) -> bool:

@@ -12,6 +12,7 @@ from sympy import (
     Expr,
     Integral,
     Pow,
+    Rational,
     Symbol,
     cancel,
     count_ops,
@@ -58,6 +59,12 @@ def vanishes(expr: Expr, ranges: Mapping[Symbol, Range]) -> str:
                 return f"the difference does not change with {variable}, and is zero at {place}"
             expr = held_at
     return ""
+
+
+def vanishes_at(expr: Expr, point: Mapping[Symbol, Rational]) -> bool:
+    """Whether `expr` is shown to be zero at one exact point."""
+    placed = expr.xreplace(dict(point))
+    return not _is_too_long(placed) and _is_zero(placed)
 
 
 def constant(expr: Expr) -> Expr | None:

@@ -74,6 +74,10 @@ def test_no_displayed_equation_is_missing() -> None:
     assert len(DISPLAYED) == 49
 
 
+def test_no_claim_is_without_a_limit_in_time() -> None:
+    assert all(claim.seconds for claim in paper().claims)
+
+
 def test_labels_and_places_are_those_of_the_source() -> None:
     by_number = defaultdict(list)
     for claim in paper().claims:

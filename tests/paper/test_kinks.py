@@ -182,6 +182,25 @@ def test_a_spike_that_a_quadrature_passes_by_decides_nothing(tmp_path: Path) -> 
     assert finding.verdict in (Verdict.UNCHECKED, Verdict.FAILS)
 
 
+@pytest.mark.parametrize(
+    ("printed", "verdict"),
+    [
+        ("tanh(a) < 1", Verdict.NUMERICAL),  # nearer than any digits where a is large
+        ("exp(-a) > 0", Verdict.NUMERICAL),
+        ("abs(x) > x", Verdict.FAILS),
+        ("sqrt(a**2) > a", Verdict.FAILS),
+        ("sin(x) < 1", Verdict.UNCHECKED),  # equal at pi/2 alone
+        ("a/b + b/a > 2", Verdict.UNCHECKED),
+        ("a/b + b/a >= 2", Verdict.NUMERICAL),
+        ("a + 1/a > 2.000000001", Verdict.FAILS),
+    ],
+)
+def test_strict_inequalities_where_the_sides_touch(
+    tmp_path: Path, printed: str, verdict: Verdict
+) -> None:
+    assert judged(tmp_path, printed).verdict == verdict
+
+
 def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
     """sqrt(1 - k) is real for k < 1 alone, and drops out of A - B."""
     head = """
