@@ -13,6 +13,7 @@ from sympy import (
     Pow,
     S,
     Symbol,
+    Tuple,
     cse,
     diff,
     expand,
@@ -20,6 +21,7 @@ from sympy import (
     numbered_symbols,
     powsimp,
     simplify,
+    sqrt,
 )
 
 from derive.codegen.function import FunctionText, own_parameters
@@ -28,6 +30,8 @@ from derive.codegen.program import Program
 from derive.profile import Piece, breaks_of, has_sharp_power
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, x
+
+Steps = list[tuple[Symbol, Expr]]
 
 _t = Symbol("t", positive=True)
 """Distance from a break."""
@@ -180,7 +184,8 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     slope = _joined(simplify(piece.slope.subs(x, place + sense * _t)))
     curvature = _joined(_positive_form(sense * diff(slope, _t)))
     change = _joined(simplify(sense * diff(curvature, _t)))
-    steps, values = cse([slope, curvature, change], symbols=numbered_symbols("s_"))
+    found = cse([slope, curvature, change], symbols=numbered_symbols("s_"))
+    steps, values = _roots_once(*found)
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     side = "right" if sense > 0 else "left"
     yield f"def {name}{signature} -> Curve:"
@@ -189,6 +194,31 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
         yield f"    {symbol} = {printer.doprint(value)}"
     yield f"    return Curve({', '.join(printer.doprint(value) for value in values)})"
     yield ""
+
+
+def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
+    """Several half powers of t or of one step by its root, which is a step of its own.
+
+    >>> from sympy import Rational, symbols
+    >>> s, y = symbols("s y", positive=True)
+    >>> _roots_once([(s, _t + 1)], [y / sqrt(s), y / s ** Rational(3, 2)])
+    ([(s, t + 1), (r_0, sqrt(s))], [y/r_0, y/(r_0*s)])
+    """
+    powers: dict[Expr, set[Pow]] = {base: set() for base in (_t, *(name for name, _ in steps))}
+    for power in Tuple(*values, *(value for _, value in steps)).atoms(Pow):
+        if power.base in powers and power.exp.is_Rational and power.exp.q == 2:
+            powers[power.base].add(power)
+    named, shared, roots = numbered_symbols("r_"), {}, {}
+    for base in [base for base, found in powers.items() if len(found) > 1]:
+        roots[base] = next(named)
+        for power in powers[base]:
+            sense = 1 if power.exp > 0 else -1
+            shared[power] = base ** (power.exp - S(sense) / 2) * roots[base] ** sense
+    found = [(roots[_t], sqrt(_t))] if _t in roots else []
+    for name, value in steps:
+        found.append((name, value.xreplace(shared)))
+        found += [(roots[name], sqrt(name))] if name in roots else []
+    return found, [value.xreplace(shared) for value in values]
 
 
 def _positive_form(curvature: Expr) -> Expr:
