@@ -5,7 +5,7 @@ Out: the text of the body's `Profile`, piece by piece, and of the functions that
      method is support/_quadrature.py.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from sympy import (
     Add,
@@ -181,9 +181,13 @@ def _tuple_of(
 
 def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) -> Iterator[str]:
     """g', g'' and g''' at t beside a break."""
-    slope = _joined(simplify(piece.slope.subs(x, place + sense * _t)))
-    curvature = _joined(_positive_form(sense * diff(slope, _t)))
-    change = _joined(simplify(sense * diff(curvature, _t)))
+
+    def rates(expr: Expr) -> list[Expr]:
+        return [sense * diff(term, _t) for term in Add.make_args(expr)]
+
+    slope = _shortest(simplify, Add.make_args(piece.slope.subs(x, place + sense * _t)))
+    curvature = _shortest(_positive_form, rates(slope), is_positive=True)
+    change = _shortest(simplify, rates(curvature))
     found = cse([slope, curvature, change], symbols=numbered_symbols("s_"))
     steps, values = _roots_once(*found)
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
@@ -224,6 +228,22 @@ def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
 def _positive_form(curvature: Expr) -> Expr:
     """A form of g'' without a difference, if there is one."""
     return factor(simplify(curvature))
+
+
+def _shortest(
+    form: Callable[[Expr], Expr], terms: Sequence[Expr], is_positive: bool = False
+) -> Expr:
+    """A form of a sum, whole or term by term, whichever is shorter.
+
+    is_positive: term by term only if none of them is known to be subtracted.
+
+    >>> _shortest(simplify, [1 / (1 + _t), 1 / (2 + _t)])
+    1/(t + 2) + 1/(t + 1)
+    """
+    forms, whole = [form(term) for term in terms], form(Add(*terms))
+    apart = Add(*map(_joined, forms))
+    subtracts = is_positive and any(term.is_nonpositive for term in forms)
+    return _joined(whole) if subtracts or whole.count_ops() <= apart.count_ops() else apart
 
 
 def _joined(expr: Expr) -> Expr:
