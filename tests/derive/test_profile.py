@@ -1,5 +1,6 @@
 """Reading g(x): one slope for every way to write a body, and a reason for every refusal."""
 
+from collections.abc import Callable
 from fractions import Fraction
 
 import pytest
@@ -341,6 +342,25 @@ def test_an_exponent_must_lie_above_one() -> None:
     assert [str(demand) for demand in found.demands] == ["k > 1"]
     assert found.kinks[0].step == 0
     assert found.limits == (-oo, oo)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "beside",
+    [
+        lambda power: power * cosh(x / b),
+        lambda power: power + phi * sqrt(x**2 + b**2),
+        lambda power: power + Abs(x) ** Rational(7, 3) / R ** Rational(4, 3),
+    ],
+    ids=["times cosh", "beside a hyperbola", "beside |x|^(7/3)"],
+)
+def test_an_exponent_beside_other_terms_must_lie_above_one(beside: Callable[[Expr], Expr]) -> None:
+    """At the origin |x|^(k - 2) outgrows what stands beside it unless k >= 2; its factor in g'' is
+    k (k - 1) b^(1 - k) times 1, the cosh's value there."""
+    k = parameter("k", "exponent", unit="-")
+    found = slope(beside(b * (Abs(x) / b) ** k))
+    assert [str(demand) for demand in found.demands] == ["k > 1"]
+    assert found.kinks == () or found.kinks[0].step == 0
 
 
 def test_a_corner_whose_sign_hangs_on_a_parameter() -> None:
