@@ -180,6 +180,7 @@ class _Judging:
     found     what was found so far
     equal     whether both sides are shown to be equal everywhere; None if nobody has asked
     left_out  further points at which no number came out
+    unreal    points at which neither side is real, and the sides are on different branches
     """
 
     def __init__(
@@ -188,15 +189,18 @@ class _Judging:
         self.claim, self.left, self.right, self.meaning = claim, left, right, meaning
         self.look = look
         self.found: list[Pair] = []
-        self.left_out = 0
+        self.left_out, self.unreal = 0, 0
         self.equal: bool | None = None
         self.integrals = has_integral(claim)
 
     def whole(self) -> Judged:
         """The verdict; raises Undecided."""
-        for point in points(self.claim):
+        for point in self._first_points():
             if not self._stands_at(self._pair(point)):
                 return self._fails()
+        if self.unreal and len(self.found) < LEAST:
+            why = f"neither side is real at {self.unreal} points: say where the variables are"
+            return self._judged(Verdict.UNCHECKED, why)
         if len(self.found) < LEAST and variables(self.claim) and not self.claim.cases:
             return self._judged(Verdict.UNCHECKED, f"only {len(self.found)} points were drawn")
         for point in further(self.claim, self._in_ours()):
@@ -221,6 +225,14 @@ class _Judging:
                 return self._judged(Verdict.FAILS, wrong)
         return self._proven()
 
+    def _first_points(self) -> Iterator[Point]:
+        """Points of a moderate size; more of them where neither side was real."""
+        yield from points(self.claim)
+        if self.unreal and not self.claim.cases:
+            for point in points(self.claim, seed="more"):
+                if len(self.found) < LEAST:
+                    yield point
+
     def _pair(self, point: Point, meaning: Meaning | None = None) -> Pair:
         """Both sides at one point; a printed integral is written in our symbols first."""
         self.look()
@@ -238,6 +250,9 @@ class _Judging:
     def _stands_at(self, pair: Pair) -> bool:
         relation = self.claim.relation
         if not self.claim.is_inequality:
+            if not pair.agree and mpmath.im(pair.left) != 0 and mpmath.im(pair.right) != 0:
+                self.unreal += 1
+                return True
             self.found.append(pair)
             return pair.agree
         if relation.is_strict and pair.agree and not self._are_equal_at(pair.point):
@@ -294,6 +309,7 @@ class _Judging:
         if self.claim.cases:
             return f"in {count} {'case' if count == 1 else 'cases'}"
         left_out = f"; no number at {self.left_out} more" if self.left_out else ""
+        left_out += f"; neither side is real at {self.unreal} more" if self.unreal else ""
         return f"at {count} points" + (f" ({told}{left_out})" if told else "")
 
     def _fails(self) -> Judged:

@@ -201,6 +201,19 @@ def test_strict_inequalities_where_the_sides_touch(
     assert judged(tmp_path, printed).verdict == verdict
 
 
+def test_branches_where_neither_side_is_real_do_not_count(tmp_path: Path) -> None:
+    """log of a negative quotient is +pi i or -pi i away; where it is real both sides agree."""
+    finding = judged(tmp_path, "log((1 - a)/(1 - b)) = log(1 - a) - log(1 - b)")
+    assert finding.verdict == Verdict.NUMERICAL
+    assert "neither side is real at " in evidence(finding)
+    assert len(finding.judged.pairs) >= 20
+    assert judged(tmp_path, "a*sqrt(1 - b) = 2*a*sqrt(1 - b)").verdict == Verdict.FAILS
+    assert judged(tmp_path, "a*sqrt(1 - b) = a*sqrt(1 - b)").verdict == Verdict.HOLDS
+    hidden = judged(tmp_path, "sqrt(w - 2) = 2*sqrt(w - 2)")
+    assert hidden.verdict == Verdict.UNCHECKED
+    assert "neither side is real" in evidence(hidden)
+
+
 def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
     """sqrt(1 - k) is real for k < 1 alone, and drops out of A - B."""
     head = """
