@@ -292,10 +292,14 @@ class _Judging:
         if self.claim.samples:
             return self._judged(Verdict.NUMERICAL, agree)
         left, right = self._in_ours()
-        how = vanishes(left - right, _ranges(self.claim))
+        try:
+            how = vanishes(left - right, _ranges(self.claim))
+            apart_by = None if how else constant(left - right)
+        except LimitReached:
+            why = f"{agree}; no proof within {self.claim.seconds:g} s"
+            return self._judged(Verdict.NUMERICAL, why)
         if how:
             return self._judged(Verdict.HOLDS, f"{how}; {agree}")
-        apart_by = constant(left - right)
         if apart_by is not None:
             return self._judged(Verdict.FAILS, f"left less right is {apart_by}")
         return self._judged(Verdict.NUMERICAL, agree)

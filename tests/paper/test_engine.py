@@ -21,6 +21,7 @@ from sympy import (
     zoo,
 )
 
+from derive.limit import LimitReached
 from derive.paper import anybody
 from derive.paper.claim import (
     FRACTION,
@@ -293,6 +294,16 @@ def test_a_bound_is_judged_off_it() -> None:
         (Relation.ABOVE, Verdict.FAILS),
     ):
         assert check(claim(a, b, relation=relation, **made)).verdict == verdict
+
+
+def test_a_proof_that_takes_too_long_leaves_the_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    def slow(*_: object) -> str:
+        raise LimitReached
+
+    monkeypatch.setattr("derive.paper.verdict.vanishes", slow)
+    finding = check(claim(a, b, meaning={a: u, b: u}, seconds=3.0))
+    assert finding.verdict == Verdict.NUMERICAL
+    assert "no proof within 3 s" in finding.judged.why
 
 
 def test_a_number_is_counted_once() -> None:
