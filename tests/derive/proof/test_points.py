@@ -15,10 +15,10 @@ from sympy import Integral, Rational, Symbol, sqrt, symbols
 from derive.proof.points import Point, contacts, draws, holds, loads, named, numeric
 from derive.proof.verdict import POINTS
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, e, x
-from tests.derive.bodies import BODIES, sheet
+from tests.derive.bodies import BODIES, EACH, sheet
 
 ROOT = Path(__file__).parents[3]
-EVERY = pytest.mark.parametrize("name", BODIES)
+EVERY = pytest.mark.parametrize("name", EACH)
 CLOSED = pytest.mark.parametrize("name", ["hertz", "wedge", "unequal_wedge", "shifted_wedge"])
 
 
