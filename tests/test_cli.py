@@ -306,6 +306,7 @@ def test_a_formula_is_never_broken_where_no_terminal_is() -> None:
         assert sheet("wedge").equation(name) in printed
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("shown_unproven")
 def test_a_long_formula_is_not_broken_either(here: Path) -> None:
     (here / "flat_rounded.py").write_text(FLAT_ROUNDED)
@@ -342,6 +343,7 @@ def test_a_limit_is_no_negative_number() -> None:
         assert "--limit" in result.stderr
 
 
+@pytest.mark.slow
 def test_generate_tells_of_a_limit_that_struck(
     here: Path, unproven: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -858,6 +860,7 @@ time.sleep(600)
 {CYLINDER}"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "bad",
     [
@@ -884,6 +887,7 @@ def test_bad_input_is_told_by_several_processes_as_by_one(here: Path, bad: str) 
     assert {k: v for k, v in contents(here).items() if not k.startswith("waits/")} == before
 
 
+@pytest.mark.slow
 def test_what_is_not_proven_in_a_process_is_not_generated(here: Path) -> None:
     (here / "waits").mkdir()
     (here / "waits.py").write_text(WAITS)
@@ -913,6 +917,7 @@ main(["generate", "waits.py", "waits_too.py", "hertz", "--out", "new", "--jobs",
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="Ctrl-C is sent to a group of processes")
 def test_ctrl_c_ends_every_process_and_writes_nothing(here: Path) -> None:
     """Both processes are in the middle of their bodies."""

@@ -453,6 +453,7 @@ def test_an_unusual_condition_is_refused() -> None:
     assert "use <, <=, >, >=" in caught.value.remedy
 
 
+@pytest.mark.slow
 def test_whether_a_body_is_accepted_does_not_hang_on_its_name() -> None:
     """Convex for psi > phi only: the same answer under every name."""
     g = Piecewise((-phi * x, x < 0), ((psi - 2 * phi) * x, True))

@@ -105,6 +105,7 @@ def test_the_load_of_a_body_with_kinks_of_its_own(tmp_path: Path, right: str) ->
     assert judged(tmp_path, "I = P + E_star*l/10**9", head).verdict == Verdict.FAILS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", ["hertz", "wedge", "unequal_wedge"])
 def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, body: str) -> None:
     head = f"""
@@ -126,6 +127,7 @@ def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, body: str) ->
 # ------------------------------------------------------------------ constants, decades, spikes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "printed",
     [
@@ -165,6 +167,7 @@ def test_how_far_was_looked_is_told(tmp_path: Path) -> None:
     assert high > 1e2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "printed",
     [
