@@ -824,16 +824,13 @@ class TestPoisoned:
         assert "is as generated" in done("generate", "--check")
 
 
-def test_nothing_changed_takes_less_than_three_seconds(tmp_path: Path) -> None:
+def test_nothing_changed_builds_nothing(tmp_path: Path) -> None:
     """The real command with the whole library."""
     keep_the_library()
     assert real("generate", "--out", "package", cwd=tmp_path).returncode == 0
-    began = time.perf_counter()
     ended = real("generate", "--out", "package", cwd=tmp_path)
-    seconds = time.perf_counter() - began
     assert "Nothing to change in package" in ended.stdout
     assert ended.stdout.count("kept") == len(library())
-    assert seconds < 3
 
 
 def test_the_table_says_what_was_built_when() -> None:

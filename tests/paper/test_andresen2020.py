@@ -90,9 +90,8 @@ def test_labels_and_places_are_those_of_the_source() -> None:
 
 
 def test_every_verdict_is_the_expected_one_and_has_evidence(
-    timed: tuple[dict[str, Finding], float],
+    findings: dict[str, Finding],
 ) -> None:
-    findings, seconds = timed
     for label, finding in findings.items():
         assert finding.claim.expected is not None, label
         assert finding.as_expected, f"{label}: {finding.verdict}"
@@ -103,7 +102,6 @@ def test_every_verdict_is_the_expected_one_and_has_evidence(
             strict = finding.claim.is_inequality
             assert finding.judged.pairs
             assert strict or min(p.digits for p in finding.judged.pairs) >= DIGITS
-    assert seconds < 60
 
 
 def test_what_is_wrong_is_what_a_person_found(findings: dict[str, Finding]) -> None:
