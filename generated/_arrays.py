@@ -21,15 +21,12 @@ Array = Any
 Function = TypeVar("Function", bound=Callable[..., Any])
 Shape = tuple[int, ...]
 
-BLOCK = 13_000
-"""Elements evaluated at once at most: a few arrays of this length stay in a core's own cache.
-
-Below 128 KiB (16,384 elements), from where common allocators ask the system for each array anew and
-hand it back at once; that costs more than the arithmetic.  Eight of them are less than a tenth of
-a million elements.
+BLOCK = 9_000
+"""Elements evaluated at once at most: a few arrays of this length stay in a core's own cache, and
+ten of them are less than a tenth of a million elements.
 """
 
-WHOLE = 2 * BLOCK
+WHOLE = 16_000
 """Arrays of up to this length are not cut: two calls would cost more than the cache saves."""
 
 TINY = 1e-150
@@ -38,7 +35,7 @@ TINY = 1e-150
 LEAST, MOST = 1e-75, 1e75
 """The shortest and the longest length, in metres, whose products stay well inside float64."""
 
-PIECE = 2 * BLOCK
+PIECE = 26_000
 """Elements of a cycle computed at once: enough to make the overhead of a call small."""
 
 _FLOAT64 = np.dtype(np.float64)
@@ -49,6 +46,14 @@ _MANY = 3_000
 
 _ZEROS = np.zeros(BLOCK)
 _ZEROS.flags.writeable = False
+
+_HEAP = 1 << 20
+"""Bytes: about what a block's temporaries need."""
+
+# glibc gives free memory above 128 KiB back to the system, and asks for each page anew in the next
+# call, which takes longer than the arithmetic: until the process has once let go of a larger piece,
+# and then above twice its size.  This piece is never touched.
+np.empty(_HEAP, np.uint8)
 
 
 def elementwise(function: Function) -> Function:

@@ -102,8 +102,9 @@ def state_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> State:
     shared = _Contact(body, constants, -a, c, h, ())
     force, left, right, lean, arm = _integrals(shared, integrand, 5, positive=3)
     for part in shared.pieces():
-        if part.piece.straight:
-            lean = lean + np.where(part.length > 0, part.at_high().slope * part.angle(), 0.0)
+        slope = part.at_high().slope if part.piece.straight else 0.0
+        if np.any(slope):
+            lean = lean + np.where(part.length > 0, slope * part.angle(), 0.0)
     for _, jump, A, B in _corners(body, a, c, constants):
         root = np.where((A > 0) & (B > 0), np.sqrt(A * B), 0.0)
         inside = root > 0
@@ -413,7 +414,7 @@ def _integrals(
     count: int,
     positive: int,
 ) -> list[Array]:
-    """Integrals over the windows, NaN where the sums do not agree.
+    """Integrals over the windows, NaN where the sums do not agree; straight pieces add nothing.
 
     The first few are positive, and each of these has to agree for itself; where there is none, the
     last one has to, against the first one, which is its size and need not be smooth.
@@ -421,6 +422,9 @@ def _integrals(
     sums = np.full((count, contact.width.size), np.nan)
     rows = np.flatnonzero(contact.width > 0)
     sums[:, contact.width == 0] = 0.0
+    if all(piece.straight for piece in contact.body.pieces):
+        sums[:, rows] = 0.0
+        return [*sums]
     before = np.zeros((count, rows.size))
     for level in range(COARSEST, FINEST + 1):
         if not rows.size:
@@ -450,14 +454,15 @@ def _level_sums(
         if part.piece.straight or not np.any(part.length):
             continue
         nodes = _nodes(level, contact.body.reach)
+        share = np.zeros_like(total)
         for near_left in (True, False):
             mine = nodes[:, (nodes[0] < 0.5) == near_left, None]
             for start in range(0, mine.shape[1], many):
                 q, rest, weight = mine[:, start : start + many]
                 values = integrand(part.at(near_left, q, rest), of)
                 for i, value in enumerate(values):
-                    added = np.sum(weight * value, axis=0) * part.length
-                    total[i] += np.where(part.length > 0, added, 0.0)
+                    share[i] += np.sum(weight * value, axis=0)
+        total += np.where(part.length > 0, share * part.length, 0.0)
     return total
 
 

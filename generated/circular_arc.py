@@ -59,10 +59,11 @@ def _piece_0_from_right(t: Array, *, R: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
     s_0 = R**2
     s_1 = s_0 - t**2
+    r_0 = np.sqrt(s_1)
     return Curve(
-        -(t / np.sqrt(s_1)),
+        -(t / r_0),
         s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-        -(3 * s_0 * t / (s_1**2 * np.sqrt(s_1))),
+        -(3 * s_0 * t / (r_0 * s_1**2)),
     )
 
 
@@ -70,10 +71,11 @@ def _piece_1_from_left(t: Array, *, R: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
     s_0 = R**2
     s_1 = s_0 - t**2
+    r_0 = np.sqrt(s_1)
     return Curve(
-        t / np.sqrt(s_1),
+        t / r_0,
         s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-        3 * s_0 * t / (s_1**2 * np.sqrt(s_1)),
+        3 * s_0 * t / (r_0 * s_1**2),
     )
 
 

@@ -14,9 +14,15 @@ _NUMBERS = count()
 
 LONGEST = "test_the_committed_package_is_as_generated"
 
+SLOW_EXAMPLES = {"derive.proof.prove.prove_sheet"}
+"""Examples in docstrings cannot be marked where they stand."""
+
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The longest test first, then the slow ones; short ones fill up both workers at the end."""
+    for item in items:
+        if item.name in SLOW_EXAMPLES:
+            item.add_marker("slow")
     items.sort(key=lambda item: (item.name != LONGEST, item.get_closest_marker("slow") is None))
 
 

@@ -5,7 +5,7 @@ Out: the text of the body's `Profile`, piece by piece, and of the functions that
      method is support/_quadrature.py.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from sympy import (
     Add,
@@ -13,6 +13,7 @@ from sympy import (
     Pow,
     S,
     Symbol,
+    Tuple,
     cse,
     diff,
     expand,
@@ -20,6 +21,7 @@ from sympy import (
     numbered_symbols,
     powsimp,
     simplify,
+    sqrt,
 )
 
 from derive.codegen.function import FunctionText, own_parameters
@@ -28,6 +30,8 @@ from derive.codegen.program import Program
 from derive.profile import Piece, breaks_of, has_sharp_power
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, x
+
+Steps = list[tuple[Symbol, Expr]]
 
 _t = Symbol("t", positive=True)
 """Distance from a break."""
@@ -177,10 +181,15 @@ def _tuple_of(
 
 def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) -> Iterator[str]:
     """g', g'' and g''' at t beside a break."""
-    slope = _joined(simplify(piece.slope.subs(x, place + sense * _t)))
-    curvature = _joined(_positive_form(sense * diff(slope, _t)))
-    change = _joined(simplify(sense * diff(curvature, _t)))
-    steps, values = cse([slope, curvature, change], symbols=numbered_symbols("s_"))
+
+    def rates(expr: Expr) -> list[Expr]:
+        return [sense * diff(term, _t) for term in Add.make_args(expr)]
+
+    slope = _shortest(simplify, Add.make_args(piece.slope.subs(x, place + sense * _t)))
+    curvature = _shortest(_positive_form, rates(slope), is_positive=True)
+    change = _shortest(simplify, rates(curvature))
+    found = cse([slope, curvature, change], symbols=numbered_symbols("s_"))
+    steps, values = _roots_once(*found)
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     side = "right" if sense > 0 else "left"
     yield f"def {name}{signature} -> Curve:"
@@ -191,9 +200,50 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     yield ""
 
 
+def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
+    """Several half powers of t or of one step by its root, which is a step of its own.
+
+    >>> from sympy import Rational, symbols
+    >>> s, y = symbols("s y", positive=True)
+    >>> _roots_once([(s, _t + 1)], [y / sqrt(s), y / s ** Rational(3, 2)])
+    ([(s, t + 1), (r_0, sqrt(s))], [y/r_0, y/(r_0*s)])
+    """
+    powers: dict[Expr, set[Pow]] = {base: set() for base in (_t, *(name for name, _ in steps))}
+    for power in Tuple(*values, *(value for _, value in steps)).atoms(Pow):
+        if power.base in powers and power.exp.is_Rational and power.exp.q == 2:
+            powers[power.base].add(power)
+    named, shared, roots = numbered_symbols("r_"), {}, {}
+    for base in [base for base, found in powers.items() if len(found) > 1]:
+        roots[base] = next(named)
+        for power in powers[base]:
+            sense = 1 if power.exp > 0 else -1
+            shared[power] = base ** (power.exp - S(sense) / 2) * roots[base] ** sense
+    found = [(roots[_t], sqrt(_t))] if _t in roots else []
+    for name, value in steps:
+        found.append((name, value.xreplace(shared)))
+        found += [(roots[name], sqrt(name))] if name in roots else []
+    return found, [value.xreplace(shared) for value in values]
+
+
 def _positive_form(curvature: Expr) -> Expr:
     """A form of g'' without a difference, if there is one."""
     return factor(simplify(curvature))
+
+
+def _shortest(
+    form: Callable[[Expr], Expr], terms: Sequence[Expr], is_positive: bool = False
+) -> Expr:
+    """A form of a sum, whole or term by term, whichever is shorter.
+
+    is_positive: term by term only if none of them is known to be subtracted.
+
+    >>> _shortest(simplify, [1 / (1 + _t), 1 / (2 + _t)])
+    1/(t + 2) + 1/(t + 1)
+    """
+    forms, whole = [form(term) for term in terms], form(Add(*terms))
+    apart = Add(*map(_joined, forms))
+    subtracts = is_positive and any(term.is_nonpositive for term in forms)
+    return _joined(whole) if subtracts or whole.count_ops() <= apart.count_ops() else apart
 
 
 def _joined(expr: Expr) -> Expr:

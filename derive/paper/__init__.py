@@ -3,7 +3,12 @@
     module       in                          out
     ----------   -------------------------   ---------------------------------------------------
     claim                                    a printed equation as data
-    numbers      an expression, a point      its value to 30 digits that are known to be right
+    kinks        an expression               where it may kink, jump, peak or be infinite
+    domain       an expression, ranges       whether it is shown to be continuous
+    draw         a claim                     points: random, over decades, at kinks and spikes
+    quadrature   an integrand, cuts          its integral, by two rules that agree
+    values       an expression, a point      its value at the working precision
+    numbers      two sides, a point          both to 30 digits that are known to be right
     zero         an expression               whether it vanishes identically, by exact steps alone
     repair       a printed equation          others that a slip of the pen could have made of it
     exact        a contact and its loads     the permanent stick zone, from its two conditions

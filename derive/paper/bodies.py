@@ -48,9 +48,13 @@ def parameter_of(body: str, name: str) -> Symbol:
 
 
 def at(expr: Expr, left: Expr, right: Expr) -> Expr:
-    """`expr` of the contact [-left, right], its angles as plain arcs."""
+    """`expr` of the contact [-left, right], its angles as plain arcs where they are acute."""
     placed = expr.subs({a: left, c: right}, simultaneous=True)
-    return placed.replace(atan2, lambda over, under: atan(powsimp(over / under)))
+    return placed.replace(atan2, _arc)
+
+
+def _arc(over: Expr, under: Expr) -> Expr:
+    return atan(powsimp(over / under)) if under.is_positive else atan2(over, under)
 
 
 def wedge(name: str, size: Expr = r, skew: Expr = t) -> Expr:

@@ -80,6 +80,18 @@ class Convention:
 
 
 @dataclass(frozen=True)
+class Bound:
+    """How a condition is judged whose meaning puts both sides where it is just reached.
+
+    There they must be equal.  Off it the direction shows: with `allowed` in the place of entries of
+    the meaning the printed relation must be true, with `beyond` it must not.
+    """
+
+    allowed: Meaning
+    beyond: Meaning
+
+
+@dataclass(frozen=True)
 class Range:
     """Where a variable is drawn: evenly between two bounds, or over powers of two."""
 
@@ -111,7 +123,7 @@ class Claim:
     says         what it says, in words
     left, right  the printed sides, in the source's symbols
     relation     between them
-    reached      a bound that is judged where it is reached, as an equation
+    reached      a bound that is judged where it is reached, as an equation, and off it
     meaning      what the symbols stand for, in ours
     against      what it is compared with, in words
     ranges       where ours are drawn; those not named are positive and drawn by SCALE
@@ -119,6 +131,10 @@ class Claim:
     through      two expressions that must agree once `left`, a symbol, is replaced by `right`;
                  for a definition, which by itself says nothing that could be wrong
     samples      numbers that stand for symbols of the meaning which no formula gives
+    cases        the points themselves, where few are all that can be afforded; numbers as text
+    source       the equation as the source has it, as text, where the sides cannot keep its form:
+                 SymPy takes a - a for zero as soon as it is written
+    seconds      that the verdict, and then the search for a correction, may take
     family       claims of one family are looked at in the same points, their integrals done once
     swaps        symbols that may have been mistaken for each other
     steps        how the comparison was derived, for `--explain`
@@ -133,7 +149,7 @@ class Claim:
     left: Expr = S.Zero
     right: Expr = S.Zero
     relation: Relation = Relation.EQUAL
-    reached: bool = False
+    reached: Bound | None = None
     equation: str = ""
     meaning: Meaning = field(default_factory=dict)
     against: str = ""
@@ -142,6 +158,9 @@ class Claim:
     through: tuple[Expr, Expr] | None = None
     samples: Mapping[Symbol, Sample] = field(default_factory=dict)
     swaps: tuple[Symbol, ...] = ()
+    cases: tuple[Mapping[Symbol, str], ...] = ()
+    source: str = ""
+    seconds: float | None = None
     family: str = ""
     steps: tuple[str, ...] = ()
     unchecked: str = ""
@@ -158,7 +177,7 @@ class Claim:
     @property
     def is_inequality(self) -> bool:
         """Whether it is judged by which side is larger."""
-        return self.relation.is_ordered and not self.reached
+        return self.relation.is_ordered and self.reached is None
 
     @property
     def has_modulus(self) -> bool:

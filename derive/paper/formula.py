@@ -34,7 +34,7 @@ from sympy import (
 from derive.errors import BadFormula, BadText
 from derive.paper.claim import Relation
 from derive.writing.limits import STEEPEST, fault, reach
-from derive.writing.tokens import END, NAME, NUMBER, Token, tokens
+from derive.writing.tokens import END, LONGEST, NAME, NUMBER, Token, tokens
 from derive.writing.vocabulary import FUNCTIONS
 
 _DEEPEST = 40
@@ -85,6 +85,9 @@ def equation(text: str, names: Names) -> tuple[Expr, Relation, Expr]:
 
 def formula(text: str, names: Names) -> Expr:
     """The expression that `text` is; raises BadFormula."""
+    if len(text) > LONGEST:
+        why = f"the formula has {len(text)} characters, {LONGEST} are the most"
+        raise BadFormula(names.where, text[:LONGEST], LONGEST, why, "name parts of it as symbols")
     try:
         return _Reader(text, names).whole()
     except BadText as error:

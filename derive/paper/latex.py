@@ -4,17 +4,17 @@ LaTeX is no formula: `f(x)` may be a call or a product, and a parser that must n
 So the text is first cut into symbols that the claims file declares, numbers, and a few commands;
 everything else is refused where it stands.  Each symbol and number becomes a plain x_{aa}, which
 SymPy's parser (by lark) reads; a reading in which a declared quantity is called as a function is
-no reading.  Where the argument of a function or a power ends must be plain from the print: a
-function with its argument is read first, and is one symbol to the parser.  If exactly one reading
-is left it is printed as text, and read once more by derive.paper.formula: what goes on is that
-text, which the claims file must accept.
+no reading.  A product without a sign gets one, except where it may stand below a slash; braces that
+do not print hold one factor at most.  Where the argument of a function or a power ends must be
+plain from the print: a function with its argument is read first, and is one symbol to the parser.
+If exactly one reading is left it is printed as text, and read once more by derive.paper.formula:
+what goes on is that text, which the claims file must accept.
 """
 
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
-from itertools import pairwise
 
 from sympy import Expr, Symbol, sstr
 from sympy.core.function import AppliedUndef
@@ -38,9 +38,8 @@ _CLOSING = {"(": ")", "{": "}", "[": "]"}
 _ENDS = frozenset(("+", "-", ")", "}", "]", "|"))
 """What may follow the argument of a function."""
 _OPERATORS = frozenset(("*", "/", r"\cdot", r"\times"))
+_AFTER_BRACKETS = _OPERATORS | {*_FUNCTIONS, *_FRACTIONS, r"\sqrt"}
 """What may, too, where parentheses show the end of the argument."""
-_CALLS = 12
-"""Symbols before a parenthesis, each of which may be called or multiplied."""
 _TOLD = 3
 """Readings that a message shows."""
 _PLAIN = frozenset("-+*/(){}^|[]")
@@ -95,7 +94,7 @@ class Latex:
         _demand_parser(self.where)
         if len(self.text) > _LONGEST:
             raise self._refusal(_LONGEST, "the equation is too long", f"stay below {_LONGEST}")
-        sides, relation = self._halves(self._marked())
+        sides, relation = self._halves(self._braced(self._marked()))
         for side in sides:
             self._demand_plain(side)
         left, right = (self._side(side) for side in sides)
@@ -155,6 +154,111 @@ class Latex:
         relation = Relation(_RELATIONS[pieces[at].text])
         return (pieces[:at], pieces[at + 1 :]), relation
 
+    def _braced(self, pieces: list[_Piece]) -> list[_Piece]:
+        r"""The pieces with braces about what \frac and \sqrt take where there are none."""
+        made, place = list[_Piece](), 0
+        while place < len(pieces):
+            head = pieces[place]
+            made.append(head)
+            place += 1
+            if head.text in _FRACTIONS:
+                place = self._arguments(pieces, place, made)
+            elif head.text == r"\sqrt" and place < len(pieces) and _is_one(pieces[place]):
+                made += _in_braces(pieces[place])
+                place += 1
+        return made
+
+    def _arguments(self, pieces: list[_Piece], place: int, made: list[_Piece]) -> int:
+        """Both arguments of a fraction put to what is made, and where they end."""
+        wanted = 2
+        while wanted and place < len(pieces):
+            piece = pieces[place]
+            if piece.text == "{":
+                end = self._group(pieces, place)
+                made += [piece, *self._braced(pieces[place + 1 : end - 1]), pieces[end - 1]]
+                place, wanted = end, wanted - 1
+                continue
+            digits = piece.text[1:]
+            if not _is_one(piece) and not (piece.is_number and wanted == len(digits) == 2):
+                why = "what this fraction is of is unclear"
+                raise self._refusal(piece.column, why, "put both of its parts into braces")
+            for part in digits if piece.is_number else [digits]:
+                made += _in_braces(_Piece(f"={part}", piece.column))
+                wanted -= 1
+            place += 1
+        return place
+
+    def _with_signs(self, pieces: list[_Piece]) -> list[_Piece]:
+        """The pieces with a sign in every product that has none; raises BadFormula."""
+        made, place, before, below = list[_Piece](), 0, False, False
+        bars = [n for n, piece in enumerate(pieces) if piece.text == "|"]
+        while place < len(pieces):
+            piece = pieces[place]
+            if not _starts_factor(piece) or (piece.text == "|" and len(bars) != 2):
+                before, below = False, piece.text == "/" or (below and piece.text in _OPERATORS)
+                made.append(piece)
+                place += 1
+                continue
+            end = self._factor(pieces, place)
+            if before and below:
+                why = "whether this stands below the slash is unclear"
+                raise self._refusal(piece.column, why, "write \\frac, or parentheses")
+            if before:
+                made.append(_Piece(r"\cdot", piece.column))
+            made += self._inside(pieces[place:end])
+            before, place = True, end
+        return made
+
+    def _factor(self, pieces: list[_Piece], place: int) -> int:
+        """Where the factor that starts here ends, its powers included."""
+        piece, end = pieces[place], place + 1
+        if piece.text in _CLOSING:
+            end = self._group(pieces, place)
+        elif piece.text == "|":
+            end = self._closing_bar(pieces, place) + 1
+        elif piece.text == r"\sqrt" or piece.text in _FRACTIONS:
+            while end < len(pieces) and pieces[end].text in ("{", "["):
+                last = piece.text in _FRACTIONS and end != place + 1
+                end, root = self._group(pieces, end), pieces[end].text == "{"
+                if last or (root and piece.text not in _FRACTIONS):
+                    break
+        while end + 1 < len(pieces) and pieces[end].text == "^":
+            end = self._group(pieces, end + 1)
+        return end
+
+    def _closing_bar(self, pieces: list[_Piece], start: int) -> int:
+        for place in range(start + 1, len(pieces)):
+            if pieces[place].text == "|":
+                return place
+        raise self._refusal(pieces[start].column, "this is not closed", "add |")
+
+    def _inside(self, factor: list[_Piece]) -> list[_Piece]:
+        """A factor with signs in the products of all that stands in brackets in it."""
+        made, place = list[_Piece](), 0
+        while place < len(factor):
+            piece = factor[place]
+            if piece.text in _CLOSING:
+                end = self._group(factor, place)
+                inner = factor[place + 1 : end - 1]
+                if piece.text == "{" and place == 0 and self._end_of_one(inner) != len(inner):
+                    why = "braces do not print, and here they would matter"
+                    raise self._refusal(piece.column, why, "use parentheses")
+                ends = piece, factor[end - 1]
+                if piece.text == "[" and place == 0:
+                    ends = _Piece("(", ends[0].column), _Piece(")", ends[1].column)
+                made += [ends[0], *self._with_signs(inner), ends[1]]
+                place = end
+            elif piece.text == "|" and place == 0:
+                place = self._closing_bar(factor, 0) + 1
+                made += [piece, *self._with_signs(factor[1 : place - 1]), factor[place - 1]]
+            else:
+                made.append(piece)
+                place += 1
+        return made
+
+    def _end_of_one(self, pieces: list[_Piece]) -> int:
+        return self._factor(pieces, 0) if pieces and _starts_factor(pieces[0]) else 0
+
     def _demand_plain(self, pieces: list[_Piece]) -> None:
         """No power, root or product that looks unlike what it says."""
         ends = _Piece("", len(self.text))
@@ -167,11 +271,6 @@ class Latex:
             if piece.is_number and after.is_number:
                 why = "two numbers stand side by side"
                 raise self._refusal(after.column, why, "put \\cdot between them")
-            if piece.is_mark and after.text == "(":
-                calls = sum(p.is_mark and q.text == "(" for p, q in pairwise(pieces))
-                if calls > _CALLS:
-                    why = f"more than {_CALLS} symbols before a parenthesis have too many readings"
-                    raise self._refusal(piece.column, why, "put \\cdot between factors")
 
     def _demand_exponent(self, pieces: list[_Piece], place: int, after: _Piece) -> None:
         if after.text != "{" and not _is_one(after):
@@ -238,9 +337,14 @@ class Latex:
             end = self._group(pieces, end) if end < len(pieces) else end
         elif first.text in ("(", "{") or first.is_mark:
             end = self._group(pieces, start)
+            if first.text == "{" and any(p.text in "+-" for p in pieces[start:end]):
+                why = "braces do not print, so that this sum is not seen to be the argument"
+                raise self._refusal(first.column, why, "use parentheses")
+        elif first.text == "|":
+            end = self._closing_bar(pieces, start) + 1
         else:
             raise self._refusal(first.column, "this is no argument of a function", "add ( and )")
-        allowed = _ENDS | _OPERATORS if first.text == "(" else _ENDS
+        allowed = _ENDS | _AFTER_BRACKETS if first.text in ("(", "|") else _ENDS
         if end < len(pieces) and pieces[end].text not in allowed:
             why = "where the argument of the function ends is unclear"
             remedy = "put the function and its argument into parentheses, as in (\\sin(a)) b"
@@ -252,7 +356,7 @@ class Latex:
         marks: dict[str, str] = {}
         columns: list[tuple[int, int]] = []
         text = ""
-        for piece in self._applied(pieces):
+        for piece in self._with_signs(self._applied(pieces)):
             columns.append((len(text), piece.column))
             if piece.is_mark:
                 mark = f"x_{{{_letters(len(marks))}}}"
@@ -306,6 +410,14 @@ def _letters(number: int) -> str:
 def _grouped(name: str) -> str:
     """A number in parentheses where it is no plain integer, so that no power mistakes it."""
     return name if re.fullmatch(r"[A-Za-z_]\w*|[0-9]+|[a-z]+\(.*\)", name) else f"({name})"
+
+
+def _in_braces(piece: _Piece) -> list[_Piece]:
+    return [_Piece("{", piece.column), piece, _Piece("}", piece.column)]
+
+
+def _starts_factor(piece: _Piece) -> bool:
+    return piece.is_mark or piece.text in (*_CLOSING, "|", r"\sqrt", *_FRACTIONS)
 
 
 def _is_one(piece: _Piece) -> bool:

@@ -33,7 +33,10 @@ def _value(expr: Expr, numbers: Mapping[Symbol, complex]) -> complex:
 
 @cache
 def _constant(expr: Expr) -> complex:
-    return complex(expr)
+    try:
+        return complex(expr)
+    except TypeError as error:  # a sum of SymPy's that is no number in the end
+        raise Unknown(str(expr)) from error
 
 
 def _of_one(function: Callable[[complex], complex]) -> Callable[[list[complex]], complex]:

@@ -20,7 +20,7 @@ _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
 
 def printed(claim: Claim) -> str:
     """The printed equation as text; empty for a claim without one."""
-    return "" if claim.unchecked else _text(claim, claim.relation)
+    return "" if claim.unchecked else claim.source or _text(claim, claim.relation)
 
 
 def _text(equation: Claim | Repair, relation: Relation) -> str:
@@ -68,6 +68,8 @@ def evidence(finding: Finding) -> str:
         parts.append(f"corrected ({_changes(finding.repair)}): {finding.repair.judged.why}")
     if finding.tried:
         parts.append(f"tried: {_tried(finding.tried)}")
+    if finding.stopped:
+        parts.append(f"the search for a correction: {finding.stopped}")
     return "; ".join(parts)
 
 
@@ -193,7 +195,7 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
     for finding in errata(findings):
         lines += [f"### {finding.claim.place}: {finding.claim.says}", ""]
         lines += [f"{finding.verdict}, `{finding.claim.label}`.", ""]
-        lines += [f"- printed: ${_latex(finding.claim, finding.claim.relation)}$"]
+        lines += [f"- printed: {_in_markdown(finding.claim)}"]
         if finding.repair:
             lines.append(f"- corrected: ${_latex(finding.repair, finding.repair.relation)}$")
         lines.append(f"- evidence: {evidence(finding)}")
@@ -201,6 +203,10 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
             lines.append(f"- consequence: {told}")
         lines.append("")
     return "\n".join(lines)
+
+
+def _in_markdown(claim: Claim) -> str:
+    return f"`{claim.source}`" if claim.source else f"${_latex(claim, claim.relation)}$"
 
 
 _ESCAPED = {
@@ -243,13 +249,19 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
     lines.append(r"\section*{Errata}")
     for finding in errata(findings):
         lines += [rf"\subsection*{{{_plain(finding.claim.place)}: {_plain(finding.claim.says)}}}"]
-        lines += [f"{finding.verdict}. Printed:", *_display(finding.claim, finding.claim.relation)]
+        lines += [f"{finding.verdict}. Printed:", *_printed_in_latex(finding.claim)]
         if finding.repair:
             lines += ["Corrected:", *_display(finding.repair, finding.repair.relation)]
         lines.append(rf"Evidence: {_plain(evidence(finding))}.")
         if told := consequence(finding):
             lines.append(rf"\par Consequence: {_plain(told)}.")
     return "\n".join([*lines, r"\end{document}", ""])
+
+
+def _printed_in_latex(claim: Claim) -> list[str]:
+    if claim.source:
+        return [rf"\texttt{{{_plain(claim.source)}}}."]
+    return _display(claim, claim.relation)
 
 
 def _display(equation: Claim | Repair, relation: Relation) -> list[str]:
@@ -302,6 +314,8 @@ def _convention(finding: Finding) -> list[str]:
 
 def _correction(finding: Finding) -> list[str]:
     told = [f"tried: {_tried(finding.tried)}"] if finding.tried else []
+    if finding.stopped:
+        return [f"the search for one: {finding.stopped}"]
     if finding.repair is None:
         return told and [*told, "none of these is true"]
     repair = finding.repair

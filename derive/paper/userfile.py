@@ -1,6 +1,7 @@
 """A claims file in TOML: data only, of which nothing is ever executed.
 
     title = "..."
+    seconds = 30                      # that the verdict on a claim, then its mending, may take
     body = "hertz"                    # whose sheet's formulas may be called, load(a, c) say
 
     [variables]                       # drawn at random; all else is written in them
@@ -26,10 +27,11 @@ both sides of zero where [variables] gives them no range of their own.
 """
 
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-from typing import Any, TypeGuard
+from typing import Any, TypeGuard, TypeVar
 
 from sympy import Expr, Integral, Symbol
 from sympy.core.function import AppliedUndef
@@ -37,6 +39,7 @@ from sympy.core.function import AppliedUndef
 from derive.derivation import derive_sheet
 from derive.errors import BadClaimsFile, NotAccepted
 from derive.library import is_in_library, library
+from derive.limit import LimitReached, within
 from derive.paper.bodies import at, formula
 from derive.paper.claim import (
     SCALE,
@@ -52,14 +55,19 @@ from derive.paper.formula import Names, equation, usable
 from derive.paper.formula import formula as read_formula
 from derive.paper.latex import Latex
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, f, x
+from derive.symbols import E_star, M, P, e, f, x
+
+Read = TypeVar("Read")
 
 _LARGEST = 200_000
 """Bytes of a claims file."""
 _MOST = 500
 """Claims of a file."""
+_SECONDS = 30.0
+"""Seconds that the verdict on a claim may take, and then the search for a correction."""
+_MOST_SECONDS = 86_400
 _PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
-_KEYS = frozenset({"title", "body", "variables", "symbols", "latex", "claims"})
+_KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims"})
 _OF_A_VARIABLE = frozenset({"meaning", "low", "high"})
 _OF_A_CONVENTION = frozenset({"what", "symbols", "contradicts"})
 _OF_A_CLAIM = frozenset(
@@ -102,7 +110,7 @@ class _File:
             if not text.replace("\n", "").replace("\t", "").isprintable():
                 raise self._bad(f"{text!r} holds a control character", "leave it out")
         self._demand_known(self.data, _KEYS, "the file")
-        self.sheet = self._sheet()
+        self.sheet, self.seconds = self._sheet(), self._limit()
         self.variables = {**_PLACES, "E_star": E_star, "f": f, **self._parameters()}
         for name, said in self._table("variables").items():
             self._declare(name, said)
@@ -126,6 +134,24 @@ class _File:
             known = ", ".join(library())
             raise self._bad(f"body = {body!r} is not in the library", f"name one of {known}")
         return derive_sheet(load_geometry(body))
+
+    def _limit(self) -> float:
+        given = self.data.get("seconds", _SECONDS)
+        if type(given) not in (int, float) or not 0 < given <= _MOST_SECONDS:
+            remedy = f"write a number above 0, at most {_MOST_SECONDS}"
+            raise self._bad(f"seconds = {given!r} is no limit in time", remedy)
+        return float(given)
+
+    def _in_time(self, where: str, read: Callable[[], Read]) -> Read:
+        """What comes of reading a text; raises BadClaimsFile where it takes too long."""
+        try:
+            with within(self.seconds):
+                return read()
+        except LimitReached:
+            why = f"{where} is not read within {self.seconds:g} s"
+            raise self._bad(why, "write it plainer, or raise seconds") from None
+        except RecursionError:
+            raise self._bad(f"{where} is nested too deep", "write it plainer") from None
 
     def _parameters(self) -> dict[str, Expr]:
         if self.sheet is None:
@@ -169,9 +195,12 @@ class _File:
             return Claim(unchecked=self._text(given, "unchecked", where), **common)
         symbols = {**self._table("symbols"), **self._inner(given, "symbols", where)}
         names = self._names(where, symbols)
-        left, relation, right = equation(self._printed(given, where, names), names)
+        left, relation, right = self._in_time(
+            where, lambda: equation(self._printed(given, where, names), names)
+        )
         meaning = self._meaning(where, symbols)
         self._demand_single(where, left, right, meaning)
+        held = _variables(left, right, meaning)
         return Claim(
             left=left,
             right=right,
@@ -179,8 +208,9 @@ class _File:
             meaning=meaning,
             against=f"the formulas of {self.name}"
             + (f" and the sheet of {self.sheet.geometry.name}" if self.sheet else ""),
-            ranges={**_places(left, right, meaning), **self.ranges},
+            ranges=_places(held) | {s: r for s, r in self.ranges.items() if s in held},
             conventions=self._conventions(given, where),
+            seconds=self.seconds,
             swaps=tuple(Symbol(name) for name in symbols if _held(name, left, right)),
             **common,
         )
@@ -215,7 +245,9 @@ class _File:
         calls = {name: len(formula_.arguments) for name, formula_ in (self.sheet or {}).items()}
         names = Names(where, self.variables, calls)
         return {
-            Symbol(name): self._put_in(read_formula(str(text), names))
+            Symbol(name): self._put_in(
+                self._in_time(f"{where}: {name}", partial(read_formula, str(text), names))
+            )
             for name, text in symbols.items()
         }
 
@@ -234,7 +266,7 @@ class _File:
             call = min(calls, key=lambda c: (len(str(c)), str(c)))
             assert self.sheet is not None
             sheet = self.sheet[call.func.__name__]
-            body = formula(self.sheet.geometry.name, sheet.name)
+            body = formula(self.sheet.geometry.name, sheet.name).xreplace({e: M / P})
             table = dict(zip(sheet.arguments, call.args, strict=True))
             expr = expr.xreplace({call: at(body.subs(table, simultaneous=True), *_EDGES)})
         return expr
@@ -302,9 +334,14 @@ class _File:
 _EDGES = (Symbol("a", real=True), Symbol("c", real=True))
 
 
-def _places(left: Expr, right: Expr, meaning: Meaning) -> dict[Symbol, Range]:
+def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
+    """What both sides, or what their symbols stand for, depend on; some may cancel in the end."""
+    held = left.free_symbols | right.free_symbols
+    return set().union(*(meaning.get(symbol, symbol).free_symbols for symbol in held))
+
+
+def _places(held: set[Symbol]) -> dict[Symbol, Range]:
     """Places that nobody gave a range are drawn on both sides of zero."""
-    held = set().union(*(side.xreplace(dict(meaning)).free_symbols for side in (left, right)))
     return {place: SIGNED for place in _PLACES.values() if place in held}
 
 

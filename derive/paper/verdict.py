@@ -7,30 +7,49 @@ printed one was: the same points, the same steps.
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
+from itertools import islice
+from typing import TypeVar
 
 import mpmath
-from sympy import Expr, Integral, Symbol, count_ops
+from mpmath import mpf
+from mpmath.libmp import to_rational
+from sympy import Expr, Integral, Rational, Symbol, count_ops
 
-from derive.paper.claim import SCALE, Claim, Convention, Meaning, Point, Relation, Verdict
-from derive.paper.numbers import (
-    DIGITS,
+from derive.limit import LimitReached, LookAtClock, within
+from derive.paper.claim import (
+    SCALE,
+    Bound,
+    Claim,
+    Convention,
+    Meaning,
+    Point,
+    Range,
+    Relation,
+    Verdict,
+)
+from derive.paper.draw import (
     LEAST,
-    Pair,
-    Undecided,
-    apart,
-    both,
-    near,
-    numbers,
+    further,
+    has_integral,
     points,
+    spread,
+    touching,
     variables,
 )
+from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
 from derive.paper.repair import KINDS, Edit, edits, plain_edits
-from derive.paper.zero import vanishes
+from derive.paper.values import Care, Undecided
+from derive.paper.zero import constant, vanishes, vanishes_at
+
+Result = TypeVar("Result")
 
 _SCREENED = 3
 """Points at which a repair is looked at before it is judged in full."""
+_OFF = 6
+"""Points on either side of a bound."""
 
 
 @dataclass(frozen=True)
@@ -77,6 +96,7 @@ class Finding:
     under       the same equation judged under that map
     repair      the corrected equation, if one was found
     tried       how many repairs of each kind were looked at
+    stopped     why the search for them came to no end, if it did not
     """
 
     claim: Claim
@@ -86,6 +106,7 @@ class Finding:
     under: Judged | None = None
     repair: Repair | None = None
     tried: Counter[str] | None = None
+    stopped: str = ""
 
     @property
     def as_expected(self) -> bool:
@@ -95,106 +116,265 @@ class Finding:
 
 
 def check(claim: Claim) -> Finding:
-    """The verdict of one claim."""
+    """The verdict of one claim; what stops its judging makes it unchecked, with the reason."""
     if claim.unchecked:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, claim.unchecked))
-    judged = judge(claim, claim.left, claim.right, claim.meaning)
+    judged, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
+    if judged is None:
+        return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, stopped))
     if judged.verdict != Verdict.FAILS:
         return Finding(claim, judged.verdict, judged)
-    repair, tried = repaired(claim)
+    finding, stopped = _attempted(claim, lambda look: _mended(claim, judged, look))
+    return finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
+
+
+def _no_clock() -> None:
+    """Looks at no clock: there is no limit."""
+
+
+def _attempted(claim: Claim, work: Callable[[LookAtClock], Result]) -> tuple[Result | None, str]:
+    """What comes of work within the claim's time, or why nothing does."""
+    try:
+        with within(claim.seconds) if claim.seconds is not None else nullcontext(_no_clock) as look:
+            return work(look), ""
+    except LimitReached:
+        return None, f"not done within {claim.seconds:g} s"
+    except RecursionError:
+        return None, "stopped: an expression is nested too deep"
+    except Exception as error:  # SymPy's own, for one claim among many
+        return None, f"stopped by {type(error).__name__}: {error}"
+
+
+def judge_as_printed(claim: Claim, look: LookAtClock = _no_clock) -> Judged:
+    """The printed sides under the claim's own meaning."""
+    return judge(claim, claim.left, claim.right, claim.meaning, look)
+
+
+def _mended(claim: Claim, judged: Judged, look: LookAtClock) -> Finding:
+    """A claim that fails, with its repair and the map of signs that makes it true."""
+    repair, tried = repaired(claim, look)
     for convention in claim.conventions:
-        under = judge(claim, claim.left, claim.right, {**claim.meaning, **convention.meaning})
+        meaning = {**claim.meaning, **convention.meaning}
+        under = judge(claim, claim.left, claim.right, meaning, look)
         if under.good:
             verdict = Verdict.CONVENTION
             return Finding(claim, verdict, judged, convention, under, repair, tried)
     return Finding(claim, Verdict.FAILS, judged, None, None, repair, tried)
 
 
-def judge(claim: Claim, left: Expr, right: Expr, meaning: Meaning) -> Judged:
+def judge(
+    claim: Claim, left: Expr, right: Expr, meaning: Meaning, look: LookAtClock = _no_clock
+) -> Judged:
     """Two sides under a meaning, at all points and, if they agree there, symbolically."""
     left, right = claim.sides(left, right)
-    found: list[Pair] = []
+    judging = _Judging(claim, left, right, meaning, look)
     try:
-        for point in points(claim):
-            pair = _at(claim, left, right, meaning, point, first=not found)
-            found.append(pair)
-            if not _stands(claim, pair):
-                return Judged(Verdict.FAILS, _example(claim, pair), tuple(found))
+        return judging.whole()
     except Undecided as error:
-        return Judged(Verdict.UNCHECKED, str(error), tuple(found))
-    if len(found) < LEAST:
-        return Judged(Verdict.UNCHECKED, f"only {len(found)} points were drawn", tuple(found))
-    if claim.is_inequality and not all(pair.agree for pair in found):
-        return Judged(Verdict.NUMERICAL, f"true at {len(found)} points", tuple(found))
-    return _proven(claim, left, right, meaning, tuple(found))
+        return Judged(Verdict.UNCHECKED, str(error), tuple(judging.found))
 
 
-def _proven(
-    claim: Claim, left: Expr, right: Expr, meaning: Meaning, found: tuple[Pair, ...]
-) -> Judged:
-    worst = min(pair.digits for pair in found)
-    agree = f"both sides agree to {min(worst, 2 * DIGITS)} digits at {len(found)} points"
-    how = "" if claim.samples else _vanishing(claim, (left - right).xreplace(dict(meaning)))
-    if how:
-        return Judged(Verdict.HOLDS, f"{how}; {agree}", found)
-    return Judged(Verdict.NUMERICAL, agree, found)
+class _Judging:
+    """Two sides under one meaning, point by point.
+
+    found     what was found so far
+    equal     whether both sides are shown to be equal everywhere; None if nobody has asked
+    left_out  further points at which no number came out
+    unreal    points at which neither side is real, and the sides are on different branches
+    """
+
+    def __init__(
+        self, claim: Claim, left: Expr, right: Expr, meaning: Meaning, look: LookAtClock
+    ) -> None:
+        self.claim, self.left, self.right, self.meaning = claim, left, right, meaning
+        self.look = look
+        self.found: list[Pair] = []
+        self.left_out, self.unreal = 0, 0
+        self.equal: bool | None = None
+        self.integrals = has_integral(claim)
+
+    def whole(self) -> Judged:
+        """The verdict; raises Undecided."""
+        for point in self._first_points():
+            if not self._stands_at(self._pair(point)):
+                return self._fails()
+        if self.unreal and len(self.found) < LEAST:
+            why = f"neither side is real at {self.unreal} points: say where the variables are"
+            return self._judged(Verdict.UNCHECKED, why)
+        if len(self.found) < LEAST and variables(self.claim) and not self.claim.cases:
+            return self._judged(Verdict.UNCHECKED, f"only {len(self.found)} points were drawn")
+        for point in further(self.claim, self._in_ours()):
+            try:
+                stands = self._stands_at(self._pair(point))
+            except Undecided:
+                self.left_out += 1
+                continue
+            if not stands:
+                return self._fails()
+        if self.claim.is_inequality and self.claim.relation.is_strict:
+            for point, beside in touching(self.claim, self._in_ours()):
+                pair, *others = (self._pair(each) for each in (point, *beside))
+                if all(_gap(pair) < _gap(other) for other in others):
+                    why = f"the sides touch, or nearly so: {_example(pair)}"
+                    return self._judged(Verdict.UNCHECKED, why)
+        if self.claim.is_inequality and not all(pair.agree for pair in self.found):
+            return self._judged(Verdict.NUMERICAL, f"true {self._where()}")
+        if self.claim.reached is not None:
+            wrong = self._off_the_bound(self.claim.reached)
+            if wrong:
+                return self._judged(Verdict.FAILS, wrong)
+        return self._proven()
+
+    def _first_points(self) -> Iterator[Point]:
+        """Points of a moderate size; more of them where neither side was real."""
+        yield from points(self.claim)
+        if self.unreal and not self.claim.cases:
+            for point in points(self.claim, seed="more"):
+                if len(self.found) < LEAST:
+                    yield point
+
+    def _pair(self, point: Point, meaning: Meaning | None = None) -> Pair:
+        """Both sides at one point; a printed integral is written in our symbols first."""
+        self.look()
+        meaning = self.meaning if meaning is None else meaning
+        left, right = self.left, self.right
+        if left.has(Integral) or right.has(Integral):
+            left, right = left.xreplace(dict(meaning)), right.xreplace(dict(meaning))
+
+        def value(care: Care) -> Point:
+            return numbers(self.claim, meaning, point, care)
+
+        pair = apart(left, right, value, point) if not self.found else None
+        return pair or both(left, right, value, point, self.integrals)
+
+    def _stands_at(self, pair: Pair) -> bool:
+        relation = self.claim.relation
+        if not self.claim.is_inequality:
+            if not pair.agree and mpmath.im(pair.left) != 0 and mpmath.im(pair.right) != 0:
+                self.unreal += 1
+                return True
+            self.found.append(pair)
+            return pair.agree
+        if relation.is_strict and pair.agree and not self._are_equal_at(pair.point):
+            raise Undecided("which side is the larger is beyond all digits")
+        self.found.append(pair)
+        return _is_met(relation, pair)
+
+    def _are_equal_at(self, point: Point) -> bool:
+        """Whether both sides are shown to be equal: at one point, or everywhere."""
+        left, right = self._in_ours()
+        if self.equal is None:
+            self.equal = bool(vanishes(left - right, _ranges(self.claim)))
+        exact = {symbol: Rational(*to_rational(value._mpf_)) for symbol, value in point.items()}
+        return self.equal or vanishes_at(left - right, exact)
+
+    def _off_the_bound(self, bound: Bound) -> str:
+        """Where the printed relation says something else than it should, if anywhere."""
+        relation = self.claim.relation
+        for entries, met, word in ((bound.allowed, True, "false"), (bound.beyond, False, "true")):
+            meaning = {**self.meaning, **entries}
+            for point in islice(points(self.claim), _OFF):
+                pair = self._pair(point, meaning)
+                if _is_met(relation, pair) != met:
+                    side = "inside" if met else "beyond"
+                    return f"{word} {side} the bound: {_example(pair)}"
+        return ""
+
+    def _in_ours(self) -> list[Expr]:
+        table = dict(self.meaning)
+        return [side.xreplace(table) for side in (self.left, self.right)]
+
+    def _proven(self) -> Judged:
+        worst = min(min(pair.digits, pair.known) for pair in self.found)
+        agree = f"both sides agree to {min(worst, 2 * DIGITS)} digits {self._where()}"
+        if self.claim.reached is not None:
+            agree += f"; off the bound the relation is right on both sides at {_OFF} points each"
+        if self.claim.samples:
+            return self._judged(Verdict.NUMERICAL, agree)
+        left, right = self._in_ours()
+        try:
+            how = vanishes(left - right, _ranges(self.claim))
+            apart_by = None if how else constant(left - right)
+        except LimitReached:
+            why = f"{agree}; no proof within {self.claim.seconds:g} s"
+            return self._judged(Verdict.NUMERICAL, why)
+        if how:
+            return self._judged(Verdict.HOLDS, f"{how}; {agree}")
+        if apart_by is not None:
+            return self._judged(Verdict.FAILS, f"left less right is {apart_by}")
+        return self._judged(Verdict.NUMERICAL, agree)
+
+    def _where(self) -> str:
+        """How many points were looked at, and from where to where they reach."""
+        count = len(self.found)
+        if not variables(self.claim):
+            return "as they stand, without a variable"
+        told = spread([pair.point for pair in self.found])
+        if self.claim.cases:
+            return f"in {count} {'case' if count == 1 else 'cases'}"
+        left_out = f"; no number at {self.left_out} more" if self.left_out else ""
+        left_out += f"; neither side is real at {self.unreal} more" if self.unreal else ""
+        return f"at {count} points" + (f" ({told}{left_out})" if told else "")
+
+    def _fails(self) -> Judged:
+        return self._judged(Verdict.FAILS, _example(self.found[-1]))
+
+    def _judged(self, verdict: Verdict, why: str) -> Judged:
+        return Judged(verdict, why, tuple(self.found))
 
 
-def _vanishing(claim: Claim, difference: Expr) -> str:
-    places = {symbol: claim.ranges.get(symbol, SCALE).place for symbol in variables(claim)}
-    return vanishes(difference, places)
+def _ranges(claim: Claim) -> dict[Symbol, Range]:
+    return {symbol: claim.ranges.get(symbol, SCALE) for symbol in variables(claim)}
 
 
-def _at(claim: Claim, left: Expr, right: Expr, meaning: Meaning, point: Point, first: bool) -> Pair:
-    """Both sides at one point; a printed integral is written in our symbols first."""
-    if left.has(Integral) or right.has(Integral):
-        left, right = left.xreplace(dict(meaning)), right.xreplace(dict(meaning))
-
-    def value() -> Point:
-        return numbers(claim, meaning, point)
-
-    return (first and apart(left, right, value, point)) or both(left, right, value, point)
+def _gap(pair: Pair) -> mpf:
+    return abs(pair.left - pair.right)
 
 
-def _stands(claim: Claim, pair: Pair) -> bool:
-    if not claim.is_inequality:
-        return pair.agree
+def _is_met(relation: Relation, pair: Pair) -> bool:
+    """Whether a relation is true of two numbers."""
     if pair.agree:
-        return not claim.relation.is_strict
+        return not relation.is_strict
+    if not relation.is_ordered:
+        return False
     difference = pair.left - pair.right
     if mpmath.im(difference) != 0:
         raise Undecided("complex numbers are neither above nor below each other")
-    below = claim.relation in (Relation.BELOW, Relation.AT_MOST)
+    below = relation in (Relation.BELOW, Relation.AT_MOST)
     return bool(mpmath.re(difference) < 0) == below
 
 
-def _example(claim: Claim, pair: Pair) -> str:
+def _example(pair: Pair) -> str:
     where = ", ".join(f"{symbol} = {mpmath.nstr(v, 6)}" for symbol, v in pair.point.items())
     left, right = mpmath.nstr(pair.left, 12), mpmath.nstr(pair.right, 12)
-    return f"left {left}, right {right}" + (f" at {where}" if where else "")
+    told = f"left {left}, right {right}"
+    if left == right:
+        told += f", left less right {mpmath.nstr(pair.left - pair.right, 3)}"
+    return told + (f" at {where}" if where else "")
 
 
 # ------------------------------------------------------------------ what it should have been
 
 
-def repaired(claim: Claim) -> tuple[Repair | None, Counter[str]]:
+def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None, Counter[str]]:
     """The plainest change that makes the claim true, and what was tried.
 
     One change at a time; where none does, two, a sign or a swap before any other.
     """
     if claim.is_inequality:
-        return _other_relation(claim)
+        return _other_relation(claim, look)
     tried: Counter[str] = Counter()
     screened = _Screen(claim)
     for candidates in (_single(claim), _double(claim)):
         fitting = []
         for left, right, edit in candidates:
+            look()
             tried[edit.kind] += 1
             if screened.fits(left, right):
                 fitting.append((left, right, edit))
         fitting.sort(key=_plainness)
         for left, right, edit in fitting:
-            judged = judge(claim, left, right, claim.meaning)
+            judged = judge(claim, left, right, claim.meaning, look)
             if judged.good:
                 also = tuple(f"{e.kind} {e.what}" for _, _, e in fitting if e != edit)
                 relation = claim.relation
@@ -202,12 +382,13 @@ def repaired(claim: Claim) -> tuple[Repair | None, Counter[str]]:
     return None, tried
 
 
-def _other_relation(claim: Claim) -> tuple[Repair | None, Counter[str]]:
+def _other_relation(claim: Claim, look: LookAtClock) -> tuple[Repair | None, Counter[str]]:
     """Whether the sides of an inequality are equal, or the other way round."""
     tried: Counter[str] = Counter()
     for relation in (Relation.EQUAL, claim.relation.turned):
         tried["relation"] += 1
-        judged = judge(replace(claim, relation=relation), claim.left, claim.right, claim.meaning)
+        other = replace(claim, relation=relation)
+        judged = judge(other, claim.left, claim.right, claim.meaning, look)
         if judged.good:
             what = f"{relation} for {claim.relation}"
             return Repair(claim.left, claim.right, "relation", what, judged, relation), tried
@@ -251,7 +432,8 @@ class _Screen:
     def __init__(self, claim: Claim) -> None:
         self.claim = claim
         self.points = list(points(claim, _SCREENED, "screen"))
-        self.known: dict[tuple[int, int], Point] = {}
+        self.known: dict[tuple[int, int, Care], Point] = {}
+        self.integrals = has_integral(claim)
 
     def fits(self, left: Expr, right: Expr) -> bool:
         """Whether a candidate agrees at the screen's points."""
@@ -265,14 +447,17 @@ class _Screen:
             return False
 
     def _agrees(self, left: Expr, right: Expr, n: int) -> bool:
-        if not near(left, right, lambda: self._numbers(n)):
-            return False
-        return both(left, right, lambda: self._numbers(n), self.points[n]).agree
+        def value(care: Care) -> Point:
+            return self._numbers(n, care)
 
-    def _numbers(self, n: int) -> Point:
-        key = (n, mpmath.mp.dps)
+        if not near(left, right, value):
+            return False
+        return both(left, right, value, self.points[n], self.integrals).agree
+
+    def _numbers(self, n: int, care: Care) -> Point:
+        key = (n, mpmath.mp.dps, care)
         if key not in self.known:
-            self.known[key] = numbers(self.claim, self.claim.meaning, self.points[n])
+            self.known[key] = numbers(self.claim, self.claim.meaning, self.points[n], care)
         return self.known[key]
 
 

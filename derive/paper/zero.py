@@ -1,7 +1,8 @@
 """Whether an expression vanishes identically, by exact steps alone.
 
-Each step keeps the value, so a zero at its end is a proof; no zero at the end says nothing.  There
-is no time limit, by which the answer would depend on the machine: what is too long is left alone.
+Each step keeps the value, so a zero at its end is a proof, and another number a disproof; anything
+else says nothing.  What has no derivative vanishes where it does so at one place, if it is shown to
+be continuous between there and everywhere else.  What is too long is left alone.
 """
 
 from collections.abc import Callable, Mapping
@@ -11,6 +12,7 @@ from sympy import (
     Expr,
     Integral,
     Pow,
+    Rational,
     Symbol,
     cancel,
     count_ops,
@@ -26,6 +28,8 @@ from sympy import (
     trigsimp,
 )
 
+from derive.paper.claim import Range
+from derive.paper.domain import is_continuous
 from derive.writing.limits import terms
 
 _LONGEST = 400
@@ -36,16 +40,19 @@ _SHORT = 90
 """Operations up to which SymPy's own search for a simpler form is tried."""
 
 
-def vanishes(expr: Expr, places: Mapping[Symbol, Expr]) -> str:
+def vanishes(expr: Expr, ranges: Mapping[Symbol, Range]) -> str:
     """How `expr` was shown to vanish; empty if it was not.
 
-    places: every variable with a value that it may have, preferably one at which roots come out.
+    ranges: every variable with where it may be.
     """
-    if expr.has(Integral) or count_ops(expr) > _LONGEST or terms(expr) > _MOST_TERMS:
+    if _is_too_long(expr):
         return ""
     if _is_zero(expr):
         return "the difference of both sides is zero"
-    for variable, place in places.items():
+    if not is_continuous(expr, ranges):
+        return ""
+    for variable, span in ranges.items():
+        place = span.place
         if expr.has(variable) and _is_zero(diff(_plain(expr), variable)):
             held_at = expr.subs(variable, place)
             if _is_zero(held_at):
@@ -54,8 +61,26 @@ def vanishes(expr: Expr, places: Mapping[Symbol, Expr]) -> str:
     return ""
 
 
+def vanishes_at(expr: Expr, point: Mapping[Symbol, Rational]) -> bool:
+    """Whether `expr` is shown to be zero at one exact point."""
+    placed = expr.xreplace(dict(point))
+    return not _is_too_long(placed) and _is_zero(placed)
+
+
+def constant(expr: Expr) -> Expr | None:
+    """The number other than zero that `expr` is shown to be; None if it is not."""
+    if _is_too_long(expr):
+        return None
+    left = _reduced(expr)
+    return left if left.is_number and left.is_nonzero else None
+
+
+def _is_too_long(expr: Expr) -> bool:
+    return expr.has(Integral) or count_ops(expr) > _LONGEST or terms(expr) > _MOST_TERMS
+
+
 def _plain(expr: Expr) -> Expr:
-    """log f for log|f|: the derivative of both is f'/f."""
+    """log f for log|f|: the derivative of both is f'/f where f is not zero."""
     return expr.replace(
         lambda n: isinstance(n, log) and isinstance(n.args[0], Abs),
         lambda n: log(n.args[0].args[0]),
@@ -63,13 +88,18 @@ def _plain(expr: Expr) -> Expr:
 
 
 def _is_zero(expr: Expr) -> bool:
+    return bool(_reduced(expr) == 0)
+
+
+def _reduced(expr: Expr) -> Expr:
+    """What is left of `expr` after all steps, or once it is a rational number."""
     for step in _STEPS:
-        if expr == 0:
-            return True
+        if expr.is_Rational:
+            return expr
         expr = step(expr)
         if count_ops(expr) > 4 * _LONGEST:
-            return False
-    return bool(expr == 0)
+            return expr
+    return expr
 
 
 def _angles(expr: Expr) -> Expr:

@@ -106,6 +106,7 @@ def test_what_is_asked_may_not_exist() -> None:
     assert np.isnan(found.a).tolist() == [False] + 6 * [True]
 
 
+@pytest.mark.slow
 def test_neighbours_do_not_matter() -> None:
     """Every element alone gives the same bits as among hard ones and impossible ones."""
     rng = np.random.default_rng(3)

@@ -4,6 +4,7 @@ FINDINGS.md holds what `make solver` computed: two maps of the upright wedge, P 
 average, f = 1/2, dQ = 0.15.
 """
 
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -60,6 +61,7 @@ def _line(point: Point, row: list[str]) -> Line:
     return Line(point, m, n, float(row[3]), Kind(row[7]))
 
 
+@cache
 def zone(point: Point) -> wedge.StickZone:
     """What the package says."""
     known = point.cycle
@@ -69,7 +71,14 @@ def zone(point: Point) -> wedge.StickZone:
 
 
 LINES = lines()
-EACH = pytest.mark.parametrize("line", LINES, ids=lambda line: "-".join(map(str, line.point)))
+EACH = pytest.mark.parametrize(
+    "line",
+    [
+        pytest.param(line, marks=() if i % 10 == 0 else pytest.mark.slow)
+        for i, line in enumerate(LINES)
+    ],
+    ids=lambda line: "-".join(map(str, line.point)),
+)
 
 
 def test_both_maps_are_there() -> None:

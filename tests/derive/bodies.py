@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 
+import pytest
 from mpmath import mpf
 from sympy import Abs, Expr, Max, Piecewise, lambdify
 
@@ -119,8 +120,23 @@ BODIES = {
 CORNERED = ("wedge", "unequal_wedge", "shifted_wedge", "wedge_on_parabola", "three_corners")
 """Bodies whose pressure is infinite at a corner."""
 
-CASES = [(name, a, c) for name, body in BODIES.items() for a, c in body.contacts]
-IDS = [f"{name}[{-a:g},{c:g}]" for name, a, c in CASES]
+DEAR = {
+    *("wedge_on_the_left", "flat_cornered", "skew", "spline", "wedge_on_parabola"),
+    *("half_parabola", "three_corners"),
+}
+"""Long formulas: they wait for the slow run."""
+
+CASES = [
+    pytest.param(
+        *(name, a, c),
+        marks=pytest.mark.slow if name in DEAR else (),
+        id=f"{name}[{-a:g},{c:g}]",
+    )
+    for name, body in BODIES.items()
+    for a, c in body.contacts
+]
+EACH = [pytest.param(name, marks=pytest.mark.slow if name in DEAR else ()) for name in BODIES]
+"""What tests are parametrized with: contacts of every body, and every body."""
 
 
 @cache

@@ -85,6 +85,7 @@ def test_loading_leaves_no_bytecode_in_a_fresh_interpreter(cylinder: Path) -> No
     assert [p.name for p in cylinder.parent.iterdir()] == ["cylinder.py"]
 
 
+@pytest.mark.slow
 def test_the_library_s_own_files_leave_no_bytecode() -> None:
     for name in library():
         load_geometry(name)

@@ -1,5 +1,6 @@
 """Reading g(x): one slope for every way to write a body, and a reason for every refusal."""
 
+from collections.abc import Callable
 from fractions import Fraction
 
 import pytest
@@ -343,6 +344,25 @@ def test_an_exponent_must_lie_above_one() -> None:
     assert found.limits == (-oo, oo)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "beside",
+    [
+        lambda power: power * cosh(x / b),
+        lambda power: power + phi * sqrt(x**2 + b**2),
+        lambda power: power + Abs(x) ** Rational(7, 3) / R ** Rational(4, 3),
+    ],
+    ids=["times cosh", "beside a hyperbola", "beside |x|^(7/3)"],
+)
+def test_an_exponent_beside_other_terms_must_lie_above_one(beside: Callable[[Expr], Expr]) -> None:
+    """At the origin |x|^(k - 2) outgrows what stands beside it unless k >= 2; its factor in g'' is
+    k (k - 1) b^(1 - k) times 1, the cosh's value there."""
+    k = parameter("k", "exponent", unit="-")
+    found = slope(beside(b * (Abs(x) / b) ** k))
+    assert [str(demand) for demand in found.demands] == ["k > 1"]
+    assert found.kinks == () or found.kinks[0].step == 0
+
+
 def test_a_corner_whose_sign_hangs_on_a_parameter() -> None:
     """x**2/(2 R) + (phi - 1/200) |x| is convex for phi > 1/200 alone."""
     found = slope(x**2 / (2 * R) + Abs(x) * (phi - Rational(1, 200)))
@@ -433,6 +453,7 @@ def test_an_unusual_condition_is_refused() -> None:
     assert "use <, <=, >, >=" in caught.value.remedy
 
 
+@pytest.mark.slow
 def test_whether_a_body_is_accepted_does_not_hang_on_its_name() -> None:
     """Convex for psi > phi only: the same answer under every name."""
     g = Piecewise((-phi * x, x < 0), ((psi - 2 * phi) * x, True))

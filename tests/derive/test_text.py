@@ -484,6 +484,7 @@ def test_a_text_means_what_it_means_in_python(pair: Pair) -> None:
     assert read_or_skip(text) == computed(code)
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(formulas())
 def test_the_python_that_is_written_is_exactly_what_was_read(pair: Pair) -> None:

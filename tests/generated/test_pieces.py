@@ -1,5 +1,7 @@
 """Large arrays are computed in blocks and pieces; what comes out is what a whole one gives."""
 
+import subprocess
+import sys
 import tracemalloc
 from typing import Any
 
@@ -125,3 +127,26 @@ def test_hertz_needs_none_of_it() -> None:
     a = np.linspace(1, 2, 100_000)
     found = hertz.load(a, 1.0, E_star=1.0, R=1.0)
     assert_array_equal(found[::9999], [hertz.load(v, 1.0, E_star=1.0, R=1.0) for v in a[::9999]])
+
+
+FRESH = """
+import resource
+import numpy as np
+from generated import wedge
+
+P = np.linspace(1.0, 2.0, {count})
+faults = []
+for _ in range(12):
+    wedge.contact(P, 0.1, E_star=1.0, phi=0.125)
+    faults.append(resource.getrusage(resource.RUSAGE_SELF).ru_minflt)
+print(faults[-1] - faults[1])
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts pages as Linux does")
+@pytest.mark.parametrize("count", [6_000, 13_000, 26_000])
+def test_temporaries_take_no_new_pages_call_by_call(count: int) -> None:
+    """A page is 512 numbers: ten calls that asked for theirs anew would take hundreds."""
+    code = [sys.executable, "-c", FRESH.format(count=count)]
+    told = subprocess.run(code, capture_output=True, text=True, check=True)
+    assert int(told.stdout) < 10 * count / 512

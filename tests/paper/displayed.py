@@ -42,7 +42,7 @@ DISPLAYED = (
     ("(34)", "", "4.2", 1),
     ("(35)", "am", "5.1", 2),
     ("(36)", "d", "5.1", 2),
-    ("(37)", "inequalitywedge", "5.3", 1),
+    ("(37)", "inequalitywedge", "5.3", 2),
     ("(38)", "eq17", "5.3", 1),
     ("(39)", "eq18", "5.3", 1),
     ("(40)", "pressure_distribution_Hertz", "appendix", 1),

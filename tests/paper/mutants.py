@@ -7,7 +7,7 @@ from itertools import islice
 from sympy import Expr, count_ops, pi
 
 from derive.paper.claim import Claim, Verdict
-from derive.paper.numbers import has_integral
+from derive.paper.draw import has_integral
 from derive.paper.repair import Edit, edits
 from derive.paper.verdict import Judged, judge
 

@@ -21,11 +21,26 @@ from sympy import (
     zoo,
 )
 
+from derive.limit import LimitReached
 from derive.paper import anybody
-from derive.paper.claim import FRACTION, SIGNED, Claim, Convention, Paper, Range, Relation, Verdict
-from derive.paper.numbers import DIGITS, Undecided, both, evaluated, points, variables
+from derive.paper.claim import (
+    FRACTION,
+    SCALE,
+    SIGNED,
+    Bound,
+    Claim,
+    Convention,
+    Paper,
+    Range,
+    Relation,
+    Verdict,
+)
+from derive.paper.draw import points, variables
+from derive.paper.numbers import DIGITS, both
 from derive.paper.quick import Unknown, approximately
 from derive.paper.repair import edits
+from derive.paper.report import printed as printed_form
+from derive.paper.values import Undecided, evaluated
 from derive.paper.verdict import check
 from derive.paper.zero import vanishes
 
@@ -203,12 +218,12 @@ def test_integrals(integrand: Expr, low: int, high: int, value: Expr) -> None:
 
 def test_digits_that_cancel_are_computed_again() -> None:
     tiny = (1 + b) - 1
-    pair = both(tiny, b, lambda: {b: mpf(2) ** -60}, {})
+    pair = both(tiny, b, lambda care: {b: mpf(2) ** -60}, {})
     assert pair.agree
 
 
 def test_a_sum_that_cancels_wholly_is_zero() -> None:
-    pair = both(a, sqrt(b) ** 2 - b, lambda: {a: mpf(0), b: mpf(3)}, {})
+    pair = both(a, sqrt(b) ** 2 - b, lambda care: {a: mpf(0), b: mpf(3)}, {})
     assert pair.agree
 
 
@@ -219,7 +234,7 @@ def test_an_integral_over_two_variables_is_undecided() -> None:
 
 def test_what_is_not_finite_is_undecided() -> None:
     with pytest.raises(Undecided):
-        both(a, 1 / (b - b * a), lambda: {a: mpf(1), b: mpf(3)}, {})
+        both(a, 1 / (b - b * a), lambda care: {a: mpf(1), b: mpf(3)}, {})
 
 
 def test_a_few_digits_in_no_time() -> None:
@@ -244,14 +259,65 @@ def test_a_few_digits_in_no_time() -> None:
     ],
 )
 def test_identities_vanish(expr: Expr) -> None:
-    assert vanishes(expr, {u: S.One, v: S.One})
+    assert vanishes(expr, {u: SCALE, v: SCALE})
 
 
 @pytest.mark.parametrize(
     "expr", [u - v, sin(u) - u, asin(u) - atan(u), Integral(s, (s, 0, u)) - u**2 / 2, u / 10**30]
 )
 def test_what_is_not_shown_to_vanish_does_not(expr: Expr) -> None:
-    assert vanishes(expr, {u: S.One, v: S.One}) == ""
+    assert vanishes(expr, {u: SCALE, v: SCALE}) == ""
+
+
+def test_equal_derivatives_prove_nothing_across_a_jump() -> None:
+    """atan x + atan 1/x is pi/2 for x > 0 and -pi/2 for x < 0; its derivative is 0 for both."""
+    w = Symbol("w", real=True)
+    for symbol, span, shown in ((u, SCALE, True), (w, SIGNED, False), (w, Range(0.1, 2), True)):
+        found = vanishes(atan(symbol) + atan(1 / symbol) - pi / 2, {symbol: span})
+        assert bool(found) == shown
+    modulus = log(Abs(w + S(199) / 100)) - log(w + S(199) / 100)
+    assert vanishes(modulus, {w: SIGNED}) == ""
+    assert vanishes(modulus, {w: Range(-0.9, 0.9)})
+
+
+def test_a_bound_is_judged_off_it() -> None:
+    """a <= b for a = u b is right below u = 1 and wrong above; the turned one is neither."""
+    made = {
+        "meaning": {a: v, b: v},
+        "reached": Bound({a: v * u}, {a: v / u}),
+        "ranges": {u: FRACTION},
+    }
+    for relation, verdict in (
+        (Relation.AT_MOST, Verdict.HOLDS),
+        (Relation.BELOW, Verdict.HOLDS),
+        (Relation.AT_LEAST, Verdict.FAILS),
+        (Relation.ABOVE, Verdict.FAILS),
+    ):
+        assert check(claim(a, b, relation=relation, **made)).verdict == verdict
+
+
+def test_a_proof_that_takes_too_long_leaves_the_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    def slow(*_: object) -> str:
+        raise LimitReached
+
+    monkeypatch.setattr("derive.paper.verdict.vanishes", slow)
+    finding = check(claim(a, b, meaning={a: u, b: u}, seconds=3.0))
+    assert finding.verdict == Verdict.NUMERICAL
+    assert "no proof within 3 s" in finding.judged.why
+
+
+def test_a_number_is_counted_once() -> None:
+    finding = check(claim(a, b, meaning={a: S(1), b: S(2)}, relation=Relation.BELOW))
+    assert len(finding.judged.pairs) == 1
+    finding = check(claim(a, b, meaning={a: u, b: u}, cases=({u: "1"}, {u: "2.5"})))
+    assert len(finding.judged.pairs) == 2
+    assert "in 2 cases" in finding.judged.why
+
+
+def test_the_source_s_own_form_is_what_is_printed() -> None:
+    one = claim(a, b, meaning={a: u, b: u}, source="a = b + b - b")
+    assert printed_form(one) == "a = b + b - b"
+    assert printed_form(claim(a, b)) == "a = b"
 
 
 # ------------------------------------------------------------------ repairs and lemmas

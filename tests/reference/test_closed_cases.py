@@ -56,6 +56,7 @@ def test_slip_grows_all_through_both_half_cycles(known: Known) -> None:
         assert premise(half, known.kappa, known.exact) is Premise.HOLDS
 
 
+@pytest.mark.slow
 def test_conditions_of_the_other_regime_do_not_hold() -> None:
     for known in CLOSED:
         other = known.half_cycle.exact(-known.kappa)

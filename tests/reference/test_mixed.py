@@ -18,6 +18,7 @@ def slow(part: float) -> object:
     return pytest.param(part, marks=pytest.mark.slow)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [slow(0.95), 1.0, slow(1.05), slow(1.085)])
 def test_wedge(part: float) -> None:
     known = cycle(part * threshold())

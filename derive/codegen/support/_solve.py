@@ -182,6 +182,39 @@ def _is_met(load: Array, goal: Any, a: Array, c: Array, now: State) -> Array:
     return met & (allowed < ROUGHEST)
 
 
+class _Widths(NamedTuple):
+    """Contact widths between which the load is met, while it is far off.
+
+    narrow, wide: too narrow and too wide, as far as known.
+    gap: how far apart they were when last looked at, a logarithm.
+    """
+
+    narrow: Array
+    wide: Array
+    gap: Array
+
+    @classmethod
+    def unknown(cls, count: int) -> "_Widths":
+        """Nothing is known of so many."""
+        return cls(np.zeros(count), np.full(count, np.inf), np.full(count, np.inf))
+
+    def beside(self, h: Array, need: Array, scaling: Array) -> "_Widths":
+        """With what a width h tells whose load is off by the factor exp(need)."""
+        more = np.isnan(need) | (need > 0)
+        narrow = np.where(scaling & more, np.maximum(self.narrow, h), self.narrow)
+        wide = np.where(scaling & ~more, np.minimum(self.wide, h), self.wide)
+        return self._replace(narrow=narrow, wide=wide)
+
+    def next(self, h: Array, step: Array) -> tuple[Array, "_Widths"]:
+        """The width to try: h exp(step), or one between where that leaves or hardly closes in."""
+        narrow, wide, gap = self
+        by_step = h * np.exp(np.clip(step, -40, 40))
+        between = np.where(wide < np.inf, np.sqrt(np.maximum(narrow, h / 64) * wide), 8 * h)
+        closer = np.log(wide / narrow)
+        inside = (by_step > narrow) & (by_step < wide) & ~(closer > gap / 2)
+        return np.where(inside, by_step, between), self._replace(gap=closer)
+
+
 def _newton(
     load: Array, goal: Any, size: Array, state: Callable[[Array, Array, Rows], State]
 ) -> tuple[Array, Array]:
@@ -195,8 +228,7 @@ def _newton(
     left = right = size[rows] / 2
     to_left = to_right = np.zeros(rows.size)
     part = np.ones(rows.size)
-    narrow, wide = np.zeros(rows.size), np.full(rows.size, np.inf)
-    gap = np.full(rows.size, np.inf)
+    widths = _Widths.unknown(rows.size)
     best = last = np.full(rows.size, np.inf)
     for _ in range(STEPS):
         if not rows.size:
@@ -216,16 +248,11 @@ def _newton(
 
         touches = np.isfinite(length) & np.isfinite(miss)
         scaling = (best == np.inf) & ~(touches & (np.abs(need) < NEAR))
-        more = np.isnan(need) | (need > 0)
-        narrow = np.where(scaling & more, np.maximum(narrow, h), narrow)
-        wide = np.where(scaling & ~more, np.minimum(wide, h), wide)
-        pull = now.left * tried_left + now.right * tried_right
-        next_h = h * np.exp(np.clip(need * force / pull, -40, 40))
-        between = np.where(wide < np.inf, np.sqrt(np.maximum(narrow, h / 64) * wide), 8 * h)
-        closer = np.log(wide / narrow)
-        inside = (next_h > narrow) & (next_h < wide) & ~(closer > gap / 2)
-        next_h, gap = np.where(inside, next_h, between), closer
-        scale = np.log(next_h / h)
+        scale = np.zeros(rows.size)
+        if np.any(scaling):
+            pull = now.left * tried_left + now.right * tried_right
+            next_h, widths = widths.beside(h, need, scaling).next(h, need * force / pull)
+            scale = np.log(next_h / h)
 
         better = ~scaling & (miss < best)
         moved = scaling | better
@@ -239,15 +266,17 @@ def _newton(
         rounding = 2 * _EPS * (np.abs(wanted.place) + h) / np.minimum(tried_left, tried_right)
         met = better & (length < np.maximum(SMALLEST, rounding))
         done = met | (~moved & (last < SMALL))
+        last = np.where(better, length, last)
+        if not np.any(done):
+            continue
         ended, on = rows[done], ~done
         step_left, step_right = np.where(met, to_left, 0), np.where(met, to_right, 0)
         a[ended] = (left * np.exp(step_left) - wanted.place)[done]
         c[ended] = (right * np.exp(step_right) + wanted.place)[done]
-        last = np.where(better, length, last)
-        rows, left, right, to_left, to_right, part, narrow, wide, gap, best, last = (
-            v[on]
-            for v in (rows, left, right, to_left, to_right, part, narrow, wide, gap, best, last)
+        rows, left, right, to_left, to_right, part, best, last = (
+            v[on] for v in (rows, left, right, to_left, to_right, part, best, last)
         )
+        widths = _Widths(*(v[on] for v in widths))
     return a, c
 
 

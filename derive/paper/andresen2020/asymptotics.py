@@ -14,17 +14,21 @@ from derive.paper.andresen2020.symbols import (
     K_T,
     P_S,
     P_Z,
+    Q_1,
+    Q_2,
     Delta_a,
     Delta_K_T,
     Delta_Q,
     Delta_q,
     P,
     Q,
+    Q_i,
     a,
     a_1,
     a_2,
     d_1,
     d_2,
+    d_i,
     dp_dP,
     dP_dQ,
     m,
@@ -57,7 +61,7 @@ CONTRADICTED = (
 
 def claims() -> tuple[Claim, ...]:
     """Eqs. (10) to (20), and what the text says beside them."""
-    return (*_terms(), *_tangential(), *_tractions(), *_differences(), *_zones())
+    return (*_terms(), *_tangential(), *_tractions(), *_differences(), *_zones(), *_on_the_way())
 
 
 def _terms() -> tuple[Claim, ...]:
@@ -317,6 +321,8 @@ def _differences() -> tuple[Claim, ...]:
             meaning={Delta_q: full.subs(one), d_1: a_1 - m, d_2: a_2 - m},
             against="eq. (16) with K_N1 = K_N2, K_Q1 = K_Q2 and one permanent stick zone, "
             "a_1 - d_1 = a_2 - d_2 = m",
+            source="Delta_q = f*K_N*(sqrt(x + a_1) - 2*sqrt(x + a_1 - d_1) + sqrt(x + a_2 - d_2) "
+            "+ sqrt(x + a_2) - sqrt(x + a_2 - d_2))",
             ranges={m: Range(0.05, 0.3), x: Range(0.1, 2)},
             swaps=(a_1, a_2, d_1, d_2),
             expected=Verdict.HOLDS,
@@ -443,3 +449,79 @@ def _edge_that_draws_back() -> str:
         "varies, half the change is added where it must be taken off: the slip zone is too long "
         "there by |a_2 - a_1|"
     )
+
+
+# ------------------------------------------------------------------ on the way from end to end
+
+_smaller, _stick = Symbol("l", positive=True), Symbol("l_s", positive=True)
+_growth = Symbol("l_more", positive=True)
+_rest = Symbol("q_rest", positive=True)
+"""By how much Q grows from the instant i to the end 2."""
+
+
+def _on_the_way() -> tuple[Claim, ...]:
+    """The last paragraph of section 3.2: the slip zone at an instant i of the cycle.
+
+    An untilted wedge, P = E* phi a, on which edge terms are exact.  Since the last end of the cycle
+    slip is f (P_e + P_i) - 2 f P_s in all, P_s the load whose contact is the stick zone.
+    """
+
+    larger = _smaller + _growth
+    shear = f * (_carried(_smaller) + _carried(larger)) - 2 * f * _carried(_stick)
+
+    def stuck(half: Expr) -> Expr:
+        return wedge("K_T_left", half, S.One).subs({dQ: Delta_Q, dsigma: 0})
+
+    from_the_end = stuck(larger) / (f * wedge("K_N_left", larger, S.One)) + Delta_a / 2
+    falling = Claim(
+        label="section 3.2/instant/from 2 to 1",
+        place="section 3.2, last paragraph, while the loads fall from end 2",
+        says="the slip zone at any instant, by Delta Q = Q_2 - Q_i, K_N of that instant and "
+        "Delta a = |a_2 - a_i|",
+        left=d_i,
+        right=Delta_K_T / (f * K_N) - Delta_a / 2,
+        meaning={
+            d_i: _smaller - _stick,
+            Delta_K_T: stuck(_smaller).subs(Delta_Q, shear),
+            K_N: wedge("K_N_left", _smaller, S.One),
+            Delta_a: _growth,
+        },
+        against="an untilted wedge: the shear since end 2 is f (P_2 + P_i) - 2 f P_s, slip of one "
+        "sense over the whole way",
+        steps=(
+            "Eq. (20), first part, as corrected, with a_i and Q_i in the place of a_1 and Q_1.",
+        ),
+        expected=Verdict.HOLDS,
+    )
+    rising = Claim(
+        label="section 3.2/instant/from 1 to 2",
+        place="section 3.2, last paragraph, while the loads grow from end 1",
+        says="at every point of the cycle the shear that counts is Q_2 - Q_i",
+        left=Delta_Q,
+        right=Q_2 - Q_i,
+        through=(d_i, from_the_end),
+        meaning={
+            d_i: larger - _stick,
+            Q_1: _rate,
+            Q_i: _rate + shear,
+            Q_2: _rate + shear + _rest,
+            Delta_a: _growth,
+        },
+        against="an untilted wedge: the shear since end 1 is f (P_1 + P_i) - 2 f P_s, and "
+        "eq. (20), second part",
+        swaps=(Q_1, Q_2, Q_i),
+        steps=(
+            "Slip turns round at both ends of the cycle: loads count from the last one passed.",
+            "At end 2 itself Q_2 - Q_i is zero, where eq. (20) has its largest slip zone.",
+        ),
+        expected=Verdict.FAILS,
+        consequence=lambda: (
+            "read so, the slip zone shrinks while Q grows, down to Delta a/2 at end 2, where it is "
+            "largest; counted from the last end of the cycle it is right on both ways"
+        ),
+    )
+    return (falling, rising)
+
+
+def _carried(half: Expr) -> Expr:
+    return wedge("load", half, S.One)

@@ -6,6 +6,7 @@ from sympy import (
     Expr,
     Integral,
     Rational,
+    S,
     Symbol,
     elliptic_e,
     elliptic_k,
@@ -34,12 +35,14 @@ from derive.paper.andresen2020.symbols import (
     s,
 )
 from derive.paper.bodies import hertz
-from derive.paper.claim import FRACTION, Claim, Convention, Meaning, Range, Relation, Verdict
+from derive.paper.claim import FRACTION, Bound, Claim, Convention, Meaning, Range, Relation, Verdict
 from derive.symbols import E_star, f, x
 
 _size = Symbol("l", positive=True)
 _first, _second, _stick = (Symbol(k, positive=True) for k in ("l_1", "l_2", "l_s"))
 _part, _place = Symbol("rho", positive=True), Symbol("mu", real=True)
+_share = Symbol("share", positive=True)
+"""The part of the contact's right half that the stick zone reaches over."""
 _mu, _nu = Symbol("mu_m", positive=True), Symbol("mu_n", positive=True)
 
 chi, char_phi, char_omega = symbols("chi phi_c omega_c")
@@ -154,7 +157,6 @@ def _moderate() -> tuple[Claim, ...]:
     mean = (hertz("load", _first, _first) + hertz("load", _second, _second)) / 2
     ours = -4 * f * E_star * hertz("tilt", _mu, _nu)
     shift = (_nu - _mu) / 2
-    closing = 2 * _part * _size - _size
     opposite = Convention(
         "the tension with the opposite sign",
         {Delta_sigma: -ours},
@@ -215,20 +217,29 @@ def _moderate() -> tuple[Claim, ...]:
             says="the tension at which the slip zone of the right edge closes",
             left=Delta_sigma,
             relation=Relation.AT_MOST,
-            reached=True,
+            reached=Bound(
+                {Delta_sigma: _tension_at(_share)}, {Delta_sigma: _tension_at(1 / _share)}
+            ),
             right=4 * E_star * f / R * (a - sqrt(a**2 - 2 * R * Delta_Q / (pi * E_star * f))),
             meaning={
                 a: _size,
                 Delta_Q: 2
                 * f
                 * (hertz("load", _size, _size) - hertz("load", _part * _size, _part * _size)),
-                Delta_sigma: -4 * f * E_star * hertz("tilt", closing, _size),
+                Delta_sigma: _tension_at(S.One),
             },
-            against="eqs. (43) and (44), as corrected, at n = a, where the bound is reached",
-            ranges={_part: FRACTION},
+            against="eqs. (43) and (44), as corrected, at n = a, where the bound is reached, and "
+            "with n inside and outside the contact",
+            ranges={_part: FRACTION, _share: FRACTION},
             expected=Verdict.HOLDS,
         ),
     )
+
+
+def _tension_at(share: Expr) -> Expr:
+    """The tension that leaves a stick zone of half-width rho l with its right end at share l."""
+    right = share * _size
+    return -4 * f * E_star * hertz("tilt", 2 * _part * _size - right, right)
 
 
 def _large() -> tuple[Claim, ...]:

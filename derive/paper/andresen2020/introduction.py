@@ -7,7 +7,7 @@ from derive.paper import anybody
 from derive.paper.andresen2020.symbols import R, a, dM, dP, dQ, dsigma, xi
 from derive.paper.anybody import K_left, K_right, left, right
 from derive.paper.bodies import hertz
-from derive.paper.claim import SIGNED, Claim, Meaning, Range, Relation, Verdict
+from derive.paper.claim import FRACTION, SIGNED, Bound, Claim, Meaning, Range, Relation, Verdict
 from derive.symbols import E_star, f, x
 from derive.symbols import dQ as change_of_shear
 from derive.symbols import dsigma as change_of_tension
@@ -15,12 +15,15 @@ from derive.symbols import dsigma as change_of_tension
 _u, _v = Symbol("u", positive=True), Symbol("v", positive=True)
 """How far the left and the right edge move outward."""
 _sense = Symbol("sense", real=True)
+_share = Symbol("share", positive=True)
+"""The part of f K u/2 that K_T is where nothing slips yet."""
 
 _STEPS = (
     "A symmetric body, edges that move by u and v: dP = P_a u + P_c v, dM = M_a u + M_c v.",
     "An edge that moves by u adds K u/(2 sqrt(s)) to the pressure at the old edge.",
     "Full stick adds K_T/sqrt(s) to the shear there; it slips when K_T reaches f K u/2.",
-    "dQ is solved from that, and the printed quotient must then be f.",
+    "dQ is solved from that, and the printed quotient must then be f; for a part of that K_T it "
+    "must be less, for a multiple more.",
 )
 
 
@@ -39,11 +42,11 @@ def _in_the_sense_of_shear() -> tuple[Claim, ...]:
             says=f"no slip starts at the {side} edge of a symmetric contact",
             left=_quotient(sign),
             right=f,
-            relation=Relation.AT_MOST,
-            reached=True,
+            relation=Relation.BELOW,
+            reached=_bound(side),
             meaning=_meaning(side),
             against="the singular terms of full stick and of the growing pressure, for any body",
-            ranges={change_of_tension: SIGNED},
+            ranges={change_of_tension: SIGNED, _share: FRACTION},
             swaps=(dQ, dP, dM),
             steps=_STEPS,
             expected=Verdict.HOLDS,
@@ -61,11 +64,11 @@ def _in_either_sense() -> tuple[Claim, ...]:
             says=f"no slip of either sense starts at the {side} edge",
             left=_quotient(sign),
             right=f,
-            relation=Relation.AT_MOST,
-            reached=True,
+            relation=Relation.BELOW,
+            reached=_bound(side, sense=sgn(_sense)),
             meaning=_meaning(side, sense=sgn(_sense)),
             against="the singular terms as before, slip of either sense",
-            ranges={change_of_tension: SIGNED, _sense: SIGNED},
+            ranges={change_of_tension: SIGNED, _sense: SIGNED, _share: FRACTION},
             steps=(*_STEPS, "For slip of the other sense K_T is -f K u/2, and the quotient -f."),
             expected=Verdict.FAILS,
             consequence=lambda: (
@@ -80,6 +83,16 @@ def _in_either_sense() -> tuple[Claim, ...]:
 def _quotient(sign: int) -> Expr:
     """Eq. (1), left-hand side."""
     return (4 * a * dQ + sign * pi * a**2 * dsigma) / (4 * a * dP + sign * 8 * dM)
+
+
+def _bound(side: str, sense: Expr = S.One) -> Bound:
+    """A change of shear at which K_T is a part of f K u/2, and one at which it is more."""
+    moved = _u if side == "left" else _v
+    allowed, beyond = (
+        {dQ: _shear_at_slip(side, sense * f * K_left * moved / 2 * share)}
+        for share in (_share, 1 / _share)
+    )
+    return Bound(allowed, beyond)
 
 
 def _meaning(side: str, sense: Expr = S.One) -> Meaning:

@@ -67,12 +67,15 @@ def _consistency() -> Claim:
     )
 
 
-def _punches(place: Expr) -> dict[Symbol, Expr]:
-    """A wedge of fixed tilt: a(s) = s/t**2, F constant."""
+def _punches(place: Expr, first: Expr) -> dict[Symbol, Expr]:
+    """A wedge of fixed tilt: a(s) = s/t**2, F constant.
+
+    first: the s from which on a punch reaches as far as the place.
+    """
     root = sqrt((s / t**2 + place) * (s - place))
     return {
         F: wedge("punch"),
-        h: Piecewise((1 / root, s > place), (0, True)),
+        h: Piecewise((1 / root, s > first), (0, True)),
         p: wedge("pressure").subs(x, place),
         c: r * t,
         x: place,
@@ -80,37 +83,43 @@ def _punches(place: Expr) -> dict[Symbol, Expr]:
 
 
 def _superposition() -> tuple[Claim, ...]:
-    place = r * t * _mu
+    """Eqs. (3) and (4) on either side of the apex."""
     sides = (p, Integral(F * h, (s, 0, c)))
     against = "p(x) and F of a tilted wedge, proven on its sheet"
-    return (
-        Claim(
-            label="eqn:PressureSuperposition",
-            equation="(3)",
-            place="eq. (3), section 2",
-            says="the pressure is a superposition of flat punches",
-            left=sides[0],
-            right=sides[1],
-            meaning=_punches(place),
-            against=against,
-            ranges={_mu: FRACTION},
-            expected=Verdict.NUMERICAL,
-        ),
-        Claim(
-            label="eqn:FlatPunchCP",
-            equation="(4)",
-            place="eq. (4), section 2",
-            says="the pressure of one flat punch on [-a(s), s]",
-            left=h,
-            right=_PUNCH,
-            through=sides,
-            meaning={k: v for k, v in _punches(place).items() if k != h} | {a: s / t**2},
-            against=f"eq. (3) with {against}",
-            ranges={_mu: FRACTION},
-            swaps=(a, s),
-            expected=Verdict.NUMERICAL,
-        ),
-    )
+    made = []
+    for half, place in (("right", r * t * _mu), ("left", -r / t * _mu)):
+        name, where = ("", "") if half == "right" else ("/left", ", x < 0")
+        meaning = _punches(place, r * t * _mu)
+        made += [
+            Claim(
+                label=f"eqn:PressureSuperposition{name}",
+                equation="(3)",
+                place=f"eq. (3), section 2{where}",
+                says=f"the pressure is a superposition of flat punches, {half} of the apex",
+                left=sides[0],
+                right=sides[1],
+                meaning=meaning,
+                against=against,
+                ranges={_mu: FRACTION},
+                expected=Verdict.NUMERICAL,
+            ),
+            Claim(
+                label=f"eqn:FlatPunchCP{name}",
+                equation="(4)",
+                place=f"eq. (4), section 2{where}",
+                says=f"the pressure of one flat punch on [-a(s), s], {half} of the apex",
+                left=h,
+                right=_PUNCH,
+                source="h(x, c) = 1/sqrt((a(c) + x)*(c - x)) for -a(c) < x < c, 0 otherwise",
+                through=sides,
+                meaning={k: v for k, v in meaning.items() if k != h} | {a: s / t**2},
+                against=f"eq. (3) with {against}",
+                ranges={_mu: FRACTION},
+                swaps=(a, s),
+                expected=Verdict.NUMERICAL,
+            ),
+        ]
+    return tuple(made)
 
 
 def _abel() -> tuple[Claim, ...]:

@@ -37,7 +37,17 @@ from derive.paper.andresen2020.symbols import (
     xi,
 )
 from derive.paper.bodies import between, formula, hertz, r, t, wedge
-from derive.paper.claim import FRACTION, SIGNED, Claim, Convention, Meaning, Range, Verdict
+from derive.paper.claim import (
+    FRACTION,
+    SIGNED,
+    Bound,
+    Claim,
+    Convention,
+    Meaning,
+    Range,
+    Relation,
+    Verdict,
+)
 from derive.symbols import E_star, dQ, dsigma, f, x
 from derive.symbols import e as lever
 
@@ -47,6 +57,8 @@ _rs, _ts = Symbol("r_s", positive=True), Symbol("t_s", positive=True)
 _part = Symbol("rho", positive=True)
 """1 - Delta Q/(2 f P): the part of the load that the stick zone carries."""
 _size = Symbol("l", positive=True)
+_share = Symbol("share", positive=True)
+"""The part of the contact's right half that the stick zone reaches over."""
 
 WEDGE: Meaning = {
     a: r / t,
@@ -215,6 +227,22 @@ def _equilibrium() -> tuple[Claim, ...]:
             E_star * phi / 4 * sqrt(gamma) * (1 - gamma) * a**2,
             part="second part",
         ),
+        _on_the_wedge(
+            "section 4.1/M/sides",
+            "(27)",
+            "the integral of p x, whatever the moment is, in closed form",
+            Integral(p * s, (s, -a, c)),
+            E_star * phi / 4 * sqrt(gamma) * (1 - gamma) * a**2,
+            part="its two sides beside M",
+            meaning=pressed,
+            family=family,
+            swaps=(),
+            expected=Verdict.FAILS,
+            consequence=lambda: (
+                "no sense of M makes both equations of (27) true: the pressure of a contact with "
+                "a > c has its resultant left of the apex"
+            ),
+        ),
         *_limits(),
     )
 
@@ -370,6 +398,9 @@ def _conditions() -> tuple[Claim, ...]:
             Claim(
                 label=f"m and gamma_2/{name}",
                 place="eqs. (28) and (29), section 4.1, together",
+                source="m, n = (P_0 - Delta_Q/(2*f))*(sqrt(1/gamma_t), sqrt(gamma_t))/(E_star*phi) "
+                "with gamma_t = (1 - sin(beta))/(1 + sin(beta)), "
+                "beta = pi*(alpha_0 - Delta_sigma/(4*f*E_star))/(2*phi)",
                 says=f"the printed stick zone meets the condition of {name}",
                 left=left,
                 right=right,
@@ -503,6 +534,35 @@ def _normal_coefficients() -> tuple[Claim, ...]:
     )
 
 
+def direction_claim() -> Claim:
+    """Eq. (37), its sign: slip of one sign asks for a tension below the threshold, not above."""
+
+    def tension_at(share: Expr) -> Expr:
+        return 4 * f * E_star * (wedge("tilt") - wedge("tilt", r, share * t / _part))
+
+    return Claim(
+        label="inequalitywedge/direction",
+        equation="(37)",
+        place="eq. (37), section 5.3, first part",
+        says="slip has the same sign at both edges up to a tension, not from there on",
+        left=Delta_sigma,
+        relation=Relation.AT_MOST,
+        right=Delta_sigma_th,
+        reached=Bound(
+            {Delta_sigma: tension_at(_share)},
+            {Delta_sigma: tension_at(1 / _share)},
+        ),
+        meaning={Delta_sigma: tension_at(S.One), Delta_sigma_th: tension_at(S.One)},
+        against="eqs. (28) and (29) with n inside and outside the contact",
+        ranges={_part: FRACTION, _share: FRACTION},
+        steps=(
+            "The stick zone has size rho r, rho = 1 - Delta Q/(2 f P); n = share c.",
+            "A slip zone of the printed sign is there at the right edge if n < c.",
+        ),
+        expected=Verdict.HOLDS,
+    )
+
+
 def threshold_claim() -> Claim:
     """Eq. (37): the tension at which slip stops at the right edge."""
     inner = Delta_Q * gamma * (-4 * f * P + Delta_Q) + (1 + gamma) * 4 * f**2 * P**2
@@ -510,7 +570,7 @@ def threshold_claim() -> Claim:
     return Claim(
         label="inequalitywedge",
         equation="(37)",
-        place="eq. (37), section 5.3",
+        place="eq. (37), section 5.3, second part",
         says="the tension at which the slip zone of one edge closes",
         left=Delta_sigma_th,
         right=4 * E_star * f / pi * (pi * alpha_0 - 2 * phi * lean),

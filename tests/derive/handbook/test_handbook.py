@@ -123,6 +123,7 @@ def test_the_same_body_gives_the_same_bytes() -> None:
     assert page(*made("hertz")) == page(*made("hertz"))
 
 
+@pytest.mark.slow
 def test_words_of_a_user_are_escaped() -> None:
     R = parameter("R", 'radius <b>bold</b> & "quoted"', unit="m")
     sheet = derive_sheet(Geometry("nasty", g=Abs(x) * x**2 / R**2))

@@ -9,7 +9,7 @@ from derive import Geometry, x
 from derive.proof.quadrature import Contact
 from derive.proof.verdict import DIGITS, WORKING
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, IDS, VALUES, R, b, close, geometry
+from tests.derive.bodies import BODIES, CASES, VALUES, R, b, close, geometry
 
 
 def contact(name: str, left: float, right: float) -> Contact:
@@ -45,7 +45,7 @@ def test_a_wedge_by_hand(left: float, right: float) -> None:
     assert close(here.pressure(place), expected)
 
 
-@pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+@pytest.mark.parametrize(("name", "left", "right"), CASES)
 def test_it_takes_the_slope_from_g_as_it_was_written(name: str, left: float, right: float) -> None:
     here, body = contact(name, left, right), BODIES[name]
     for share in ("0.0625", "0.3125", "0.6875", "0.9375"):
@@ -54,7 +54,7 @@ def test_it_takes_the_slope_from_g_as_it_was_written(name: str, left: float, rig
     assert here.kinks == sorted(k for k in body.kinks if -left < k < right)
 
 
-@pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+@pytest.mark.parametrize(("name", "left", "right"), CASES)
 def test_it_agrees_with_another_quadrature(name: str, left: float, right: float) -> None:
     here, body = contact(name, left, right), BODIES[name]
     assert close(here.tilt, integrals.tilt(body.slope, left, right, body.kinks), scale=1)

@@ -68,6 +68,7 @@ _part = st.sampled_from([a, c, b, KINK.w, KINK.theta, h, a + b, c - b, a * KINK.
 _term = st.tuples(st.integers(-4, 4).filter(bool), _part, _part, st.sampled_from([1, a + c, h + 2]))
 
 
+@pytest.mark.slow
 @settings(max_examples=15)
 @given(st.lists(_term, min_size=1, max_size=3))
 def test_tidying_keeps_the_value(terms: list[tuple[int, Expr, Expr, Expr]]) -> None:
@@ -77,6 +78,7 @@ def test_tidying_keeps_the_value(terms: list[tuple[int, Expr, Expr, Expr]]) -> N
         assert is_zero(form - expr, CORNER)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(st.lists(_term, min_size=1, max_size=3), st.integers(1, 9))
 def test_a_difference_is_seen_however_it_is_dressed(

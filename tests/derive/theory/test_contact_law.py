@@ -10,10 +10,10 @@ from sympy import Symbol, atan2, pi, simplify, sqrt, tan
 from derive.symbols import E_star, P, alpha, e
 from derive.theory.contact_law import contact_from_moment, contact_from_tilt
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, IDS, VALUES, close, sheet, value
+from tests.derive.bodies import BODIES, CASES, VALUES, close, sheet, value
 from tests.derive.integrals import Function
 
-ALL = pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 CLOSED = ("hertz", "wedge", "unequal_wedge", "shifted_wedge", "wedge_on_the_left")
 OPEN = ("quartic", "two_radii", "flat_rounded", "wedge_on_parabola", "skew")
 

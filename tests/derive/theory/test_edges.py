@@ -7,9 +7,9 @@ from sympy import Expr, Rational, Symbol, expand, limit, simplify, sqrt
 
 from derive.symbols import E_star, a, c, h, s, x
 from derive.theory.edges import Edge, K_N_from_contact_law, pressure_series
-from tests.derive.bodies import CASES, IDS, close, number, sheet, value
+from tests.derive.bodies import CASES, close, number, sheet, value
 
-ALL = pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 A, C = Symbol("A", positive=True), Symbol("B", positive=True)
 CONTACTS = [{a: 2, c: 1}, {a: Rational(3, 4), c: 3}]
 

@@ -7,10 +7,10 @@ from sympy import simplify
 from derive.symbols import E_star, a, c
 from derive.theory.equilibrium import load, moment, tilt
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, IDS, VALUES, close, sheet, value
+from tests.derive.bodies import BODIES, CASES, VALUES, close, sheet, value
 from tests.derive.integrals import over_contact
 
-ALL = pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 
 
 @ALL

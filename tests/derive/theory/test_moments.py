@@ -9,7 +9,7 @@ from sympy import Expr, Integer, Symbol, expand, lambdify, pi
 
 from derive.symbols import h, mid, x
 from derive.theory.moments import full_moment, kink_moment, slope_moment, weighted
-from tests.derive.bodies import BODIES, CASES, IDS, VALUES, close, sheet
+from tests.derive.bodies import BODIES, CASES, VALUES, close, sheet
 from tests.derive.integrals import over_contact
 
 
@@ -65,7 +65,7 @@ def test_a_parameter_in_a_polynomial_is_a_constant() -> None:
     assert expand(weighted(t * x + t**2) - (t * full_moment(1) + t**2 * pi)) == 0
 
 
-@pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+@pytest.mark.parametrize(("name", "left", "right"), CASES)
 def test_the_slope_s_moments_are_its_integrals(name: str, left: float, right: float) -> None:
     body, frame = BODIES[name], sheet(name).frame
     for k in range(3):

@@ -8,9 +8,9 @@ from sympy import Rational, Symbol, factor, limit, oo, pi, simplify
 from derive.symbols import E_star, a, c, w, x
 from derive.theory.pressure import logarithmic_part, pressure, smooth_part
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, CORNERED, IDS, VALUES, close, sheet, value
+from tests.derive.bodies import BODIES, CASES, CORNERED, VALUES, close, sheet, value
 
-ALL = pytest.mark.parametrize(("name", "left", "right"), CASES, ids=IDS)
+ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 SHARES = ("0.03125", "0.28125", "0.53125", "0.84375")
 """Places across the contact, no kink of any body among them."""
 

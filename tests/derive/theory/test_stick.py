@@ -108,6 +108,7 @@ def test_the_edges_have_one_sign_while_the_tension_is_moderate(
         assert (product > 0) == (abs(tension) < limit_of)
 
 
+@pytest.mark.slow
 def test_it_does_not_hang_on_the_body() -> None:
     for name in BODIES:
         assert sheet(name)["full_stick_change"].expr == full_stick_change()

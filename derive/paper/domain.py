@@ -1,0 +1,52 @@
+"""Where an expression is continuous, shown by exact steps; what is not shown is not taken as so.
+
+Variables range over what a claim says of them: between two bounds, or over all positive numbers.
+"""
+
+from collections.abc import Mapping
+
+from sympy import Dummy, Expr, Poly, PolynomialError, Rational, Symbol, fraction, together
+
+from derive.paper.claim import SCALE, Range
+from derive.paper.kinks import switches
+
+_MOST_TERMS = 500
+"""Terms of a polynomial whose signs are looked at."""
+
+
+def is_continuous(expr: Expr, ranges: Mapping[Symbol, Range]) -> bool:
+    """Whether no modulus, root, logarithm, quotient, ... in it changes sign or branch."""
+    return all(_has_one_sign(switch.of, ranges) for switch in switches(expr))
+
+
+def _has_one_sign(expr: Expr, ranges: Mapping[Symbol, Range]) -> bool:
+    """Whether an expression is shown to be nowhere zero."""
+    if expr.is_positive or expr.is_negative:
+        return True
+    over_positive = expr.xreplace({s: _from_positive(s, ranges.get(s)) for s in expr.free_symbols})
+    return all(map(_of_one_sign, fraction(together(over_positive))))
+
+
+def _from_positive(symbol: Symbol, span: Range | None) -> Expr:
+    """The variable by another one that takes all positive numbers."""
+    free = Dummy(symbol.name, positive=True)
+    if span is None or span == SCALE or span.powers:
+        return free if symbol.is_positive else symbol
+    low, high = (Rational(str(end)) for end in (span.low, span.high))
+    return (low + high * free) / (1 + free)
+
+
+def _of_one_sign(expr: Expr) -> bool:
+    """Whether all coefficients of a polynomial in positive variables have one sign."""
+    if expr.is_positive or expr.is_negative:
+        return True
+    held = sorted(expr.free_symbols, key=str)
+    if not held or not all(symbol.is_positive for symbol in held):
+        return False
+    try:
+        coefficients = Poly(expr, *held).coeffs()
+    except PolynomialError:
+        return False
+    few = len(coefficients) <= _MOST_TERMS
+    signs = {c.is_positive for c in coefficients} | {not c.is_negative for c in coefficients}
+    return few and len(signs) == 1 and None not in signs

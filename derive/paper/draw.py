@@ -1,0 +1,341 @@
+"""Where a claim is looked at: random points of its assumptions, the same on every machine.
+
+points    of a moderate size, or spread evenly over a declared range
+further   over many decades, next to the ends of ranges, and on both sides of places where a
+          modulus, a logarithm, a root, ... inside the claim changes
+"""
+
+import hashlib
+import random
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
+
+import mpmath
+import numpy as np
+from mpmath import mpf
+from sympy import Expr, Integral, Symbol, lambdify
+from sympy.printing.codeprinter import PrintMethodNotImplementedError
+
+from derive.paper.claim import SCALE, Claim, Point, Range, Relation
+from derive.paper.kinks import Switch, peaked, switches
+
+POINTS = 24
+"""Points at which both sides are compared, before further ones."""
+LEAST = 20
+"""Points where an integral is in it; below that nothing is decided."""
+DECADES = 6
+"""A positive variable without a range is drawn from 10**-6 to 10**6 at further points."""
+_FEWER_DECADES = 2
+"""The same where an integral is in it."""
+_WIDE, _AT_ENDS, _CHANGES = 8, 6, 12
+_FEWER_WIDE, _FEWER_AT_ENDS, _FEWER_CHANGES = 3, 2, 4
+_CLOSEST = 6
+"""Decades by which a point may be closer to an end of a range than the range is long."""
+_TOUCHING = 1e-10
+"""The part of the gap of two sides nearby that is none in double precision."""
+_SWITCHES = 10
+"""Switches of a claim that are looked at."""
+_GRID = 96
+"""Places of a variable at which the sign of a switch is looked at; none is in the middle."""
+
+
+def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]:
+    """Points of a moderate size; those of the claim, if it has its own."""
+    if claim.cases:
+        yield from ({symbol: mpf(text) for symbol, text in case.items()} for case in claim.cases)
+        return
+    symbols, rng = variables(claim), _random(claim, seed)
+    if not symbols:
+        yield {}
+        return
+    for _ in range(count if count < POINTS or not has_integral(claim) else LEAST):
+        yield {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+
+
+def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
+    """Points where a claim that holds at moderate ones may not."""
+    symbols = variables(claim)
+    if claim.cases or claim.samples or not symbols:
+        return
+    few = has_integral(claim)
+    rng = _random(claim, "further")
+    yield from _wide(claim, symbols, rng, few)
+    yield from _at_ends(claim, symbols, rng, _FEWER_AT_ENDS if few else _AT_ENDS)
+    exprs = list(exprs)
+    if claim.is_inequality and not few:
+        found = _closest(claim, symbols, rng, exprs[0] - exprs[1])
+        yield from (point for point, _ in found)
+    if not (few and claim.family):
+        most = _FEWER_CHANGES if few else _CHANGES
+        yield from _changes(claim, symbols, rng, exprs, most)
+        yield from _peaks(claim, symbols, rng, exprs, most)
+
+
+def _random(claim: Claim, seed: str) -> random.Random:
+    digest = hashlib.sha256(f"{claim.family or claim.label}{seed}".encode()).digest()
+    return random.Random(int.from_bytes(digest[:8], "big"))
+
+
+def _range(claim: Claim, symbol: Symbol) -> Range:
+    return claim.ranges.get(symbol, SCALE)
+
+
+def _drawn(span: Range, rng: random.Random) -> mpf:
+    value = mpf(rng.uniform(span.low, span.high))
+    return mpf(2) ** value if span.powers else value
+
+
+def has_integral(claim: Claim) -> bool:
+    """Whether a side, or what a symbol of it means, is an integral."""
+    sides = claim.sides(claim.left, claim.right)
+    held = set().union(*(side.free_symbols for side in sides))
+    meant = [expr for symbol, expr in claim.meaning.items() if symbol in held]
+    return any(expr.has(Integral) for expr in (*sides, *meant))
+
+
+def _exprs(claim: Claim) -> list[Expr]:
+    return [*claim.sides(claim.left, claim.right), *claim.meaning.values()]
+
+
+def variables(claim: Claim) -> list[Symbol]:
+    """Our symbols that a point must give a number to."""
+    sides = claim.sides(claim.left, claim.right)
+    held = set().union(*(side.free_symbols for side in sides))
+    found: set[Symbol] = set(claim.ranges)
+    for symbol in held:
+        found |= claim.meaning.get(symbol, symbol).free_symbols
+    return sorted(found - set(claim.samples) - _bound(claim), key=in_order)
+
+
+def in_order(symbol: Symbol) -> tuple[str, str]:
+    """A key for symbols, of which two may have one name."""
+    return symbol.name, str(symbol.assumptions0)
+
+
+def _bound(claim: Claim) -> set[Symbol]:
+    """Variables of integration; a sheet's own place x is one only where it is integrated over."""
+    integrals = {over for expr in _exprs(claim) for over in expr.atoms(Integral)}
+    return {limit[0] for over in integrals for limit in over.limits} - set(claim.ranges)
+
+
+# ------------------------------------------------------------------ further points
+
+
+def _wide(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, few: bool
+) -> Iterator[Point]:
+    """Variables without a range over many decades."""
+    decades = _FEWER_DECADES if few else DECADES
+    free = [symbol for symbol in symbols if symbol not in claim.ranges]
+    for _ in range((_FEWER_WIDE if few else _WIDE) if free else 0):
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        yield point | {symbol: mpf(10) ** rng.uniform(-decades, decades) for symbol in free}
+
+
+def _at_ends(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, count: int
+) -> Iterator[Point]:
+    """Variables next to the ends of their ranges: all high, all low, then as it comes."""
+    limited = [symbol for symbol in symbols if symbol in claim.ranges]
+    for n in range(count if limited else 0):
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        for symbol in limited:
+            span = _range(claim, symbol)
+            share = 10 ** rng.uniform(-_CLOSEST, -1)
+            high = n == 0 or (n > 1 and rng.random() < 0.5)
+            place = mpf(1 - share if high else share)
+            value = span.low + place * (mpf(span.high) - span.low)
+            point[symbol] = mpf(2) ** value if span.powers else value
+        yield point
+
+
+def _changes(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr], most: int
+) -> Iterator[Point]:
+    """Pairs of points, with a zero of a switch between them."""
+    found = 0
+    for switch in _looked_at(exprs, symbols):
+        of, held = _for_arrays(switch.of)
+        for variable in held:
+            if of is None or found >= most:
+                break
+            point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+            grid = _grid(claim.ranges.get(variable))
+            between = _sign_change(of, held, variable, point, grid)
+            if between is not None:
+                found += 2
+                yield from _either_side(of, held, variable, point, between, rng)
+
+
+def _peaks(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr], most: int
+) -> Iterator[Point]:
+    """Points where an exponent or a divisor is stationary along a variable, as at a spike."""
+    known = set(symbols)
+    inside = {n for expr in exprs for n in peaked(expr) if n.free_symbols <= known}
+    found = 0
+    for inner in sorted(inside, key=lambda n: (len(str(n)), str(n)))[:_SWITCHES]:
+        for variable in sorted(inner.free_symbols, key=in_order):
+            of, held = _for_arrays(inner.diff(variable))
+            if of is None or variable not in held or found >= most:
+                continue
+            point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+            grid = _grid(claim.ranges.get(variable))
+            between = _sign_change(of, held, variable, point, grid)
+            if between is not None:
+                found += 1
+                low, high = _narrowed(of, held, variable, point, between)
+                yield point | {variable: mpf(float(low + high) / 2)}
+
+
+def _looked_at(exprs: Iterable[Expr], symbols: Sequence[Symbol]) -> list[Switch]:
+    """Switches that may change their sign, the shortest first."""
+    known = set(symbols)
+    found = {
+        switch
+        for expr in exprs
+        for switch in switches(expr)
+        if switch.of.free_symbols <= known and not switch.of.is_nonzero
+    }
+    return sorted(found, key=lambda s: (len(str(s.of)), str(s.of), s.kind))[:_SWITCHES]
+
+
+def _grid(span: Range | None) -> Any:
+    if span is None:
+        return np.logspace(-DECADES, DECADES, _GRID)
+    values = np.linspace(span.low, span.high, _GRID)
+    return 2.0**values if span.powers else values
+
+
+_OfArrays = Callable[..., Any]
+
+
+def _for_arrays(expr: Expr) -> tuple[_OfArrays | None, list[Symbol]]:
+    held = sorted(expr.free_symbols, key=in_order)
+    try:
+        return lambdify(held, expr, modules="numpy"), held
+    except PrintMethodNotImplementedError:
+        return None, held
+
+
+def _values(
+    of: _OfArrays, held: Sequence[Symbol], variable: Symbol, point: Point, along: Any
+) -> Any:
+    """A switch along one variable, in double precision; not a number where it is none."""
+    with np.errstate(all="ignore"):
+        try:
+            found = of(*(along if s == variable else float(point[s]) for s in held))
+        except (ArithmeticError, NameError, TypeError, ValueError):
+            return np.full(along.shape, np.nan)
+    return np.broadcast_to(np.asarray(found), along.shape)
+
+
+def _sign_change(
+    of: _OfArrays, held: Sequence[Symbol], variable: Symbol, point: Point, grid: Any
+) -> tuple[float, float] | None:
+    """Two places of a variable between which a switch changes its sign."""
+    values = _values(of, held, variable, point, grid)
+    if np.iscomplexobj(values):
+        return None
+    with np.errstate(all="ignore"):
+        changes = np.nonzero(values[:-1] * values[1:] < 0)[0]
+    if not len(changes):
+        return None
+    n = int(changes[len(changes) // 2])
+    return float(grid[n]), float(grid[n + 1])
+
+
+def _either_side(
+    of: _OfArrays,
+    held: Sequence[Symbol],
+    variable: Symbol,
+    point: Point,
+    between: tuple[float, float],
+    rng: random.Random,
+) -> Iterator[Point]:
+    """A point on each side of the zero, somewhere between it and the places given."""
+    low, _ = _narrowed(of, held, variable, point, between)
+    for end in between:
+        share = 10 ** rng.uniform(-4, 0)
+        yield point | {variable: mpf(low) + (mpf(end) - mpf(low)) * mpf(share)}
+
+
+def _narrowed(
+    of: _OfArrays,
+    held: Sequence[Symbol],
+    variable: Symbol,
+    point: Point,
+    between: tuple[float, float],
+) -> tuple[float, float]:
+    """Two places next to each other with a change of sign between them."""
+    low, high = between
+    for _ in range(60):
+        middle = (low + high) / 2
+        ends = _values(of, held, variable, point, np.array([low, middle]))
+        low, high = (low, middle) if ends[0] * ends[1] <= 0 else (middle, high)
+    return low, high
+
+
+def _closest(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, difference: Expr
+) -> Iterator[tuple[Point, tuple[Point, ...]]]:
+    """Where the sides of an inequality are next to each other along one variable, or cross.
+
+    If they touch there, inside the range, as far as double precision can tell: with a point on
+    either side, near it.
+    """
+    of, held = _for_arrays(difference)
+    if of is None or not set(held) <= set(symbols):
+        return
+    sense = 1 if claim.relation in (Relation.BELOW, Relation.AT_MOST) else -1
+    for variable in held[:_SWITCHES]:
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        grid = _grid(claim.ranges.get(variable))
+        heights = _values(of, held, variable, point, grid)
+        if np.iscomplexobj(heights) or not np.any(np.isfinite(heights)):
+            continue
+        heights = sense * np.where(np.isfinite(heights), heights, np.nan)
+        n = int(np.nanargmax(heights))
+        low, high = grid[max(n - 1, 0)], grid[min(n + 1, len(grid) - 1)]
+        best = float(heights[n])
+        for _ in range(30):
+            finer = np.linspace(low, high, 9)
+            found = _values(of, held, variable, point, finer) * sense
+            if not np.all(np.isfinite(found)):
+                break
+            m = int(np.argmax(found))
+            low, high, best = finer[max(m - 1, 0)], finer[min(m + 1, 8)], float(found[m])
+        inside = 0 < n < len(grid) - 1
+        around = np.abs(heights[n - 1 : n + 2]) if inside else np.zeros(1)
+        place = float(low + high) / 2
+        beside = tuple[Point, ...]()
+        if inside and abs(best) <= _TOUCHING * np.max(around):
+            steps = [(float(grid[other]) - place) / 1000 for other in (n - 1, n + 1)]
+            beside = tuple(point | {variable: mpf(place + step)} for step in steps)
+        yield point | {variable: mpf(place)}, beside
+
+
+def touching(claim: Claim, exprs: Sequence[Expr]) -> Iterator[tuple[Point, tuple[Point, ...]]]:
+    """Points where the sides of an inequality seem to touch, with those beside them."""
+    if claim.cases or claim.samples or has_integral(claim) or not variables(claim):
+        return
+    rng = _random(claim, "touching")
+    found = _closest(claim, variables(claim), rng, exprs[0] - exprs[1])
+    yield from ((point, beside) for point, beside in found if beside)
+
+
+# ------------------------------------------------------------------ in words
+
+
+def spread(found: Sequence[Point]) -> str:
+    """From where to where the variables of points reach, those alike told together."""
+    told: dict[str, list[str]] = {}
+    for symbol in sorted(set().union(*found) if found else set(), key=in_order):
+        values = [point[symbol] for point in found if symbol in point]
+        span = f"{_short(min(values))} to {_short(max(values))}"
+        told.setdefault(span, []).append(symbol.name)
+    return "; ".join(f"{', '.join(names)} from {span}" for span, names in told.items())
+
+
+def _short(value: mpf) -> str:
+    return str(mpmath.nstr(value, 2))

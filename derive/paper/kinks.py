@@ -1,0 +1,205 @@
+"""Where an expression may kink, jump, be infinite or change its branch.
+
+switches    of an expression: others at whose zeros that may happen
+Places      the zeros along one variable, as functions of all other symbols
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from itertools import combinations
+
+from sympy import (
+    Abs,
+    Expr,
+    Heaviside,
+    Integral,
+    Max,
+    Min,
+    Mul,
+    Poly,
+    Pow,
+    S,
+    Symbol,
+    acos,
+    acosh,
+    asin,
+    atan2,
+    atanh,
+    cos,
+    cosh,
+    elliptic_e,
+    elliptic_k,
+    elliptic_pi,
+    exp,
+    fraction,
+    log,
+    sign,
+    tan,
+    together,
+)
+from sympy.core.relational import Relational
+
+_HIGHEST = 8
+"""Degree of a polynomial whose roots are computed as such."""
+_ROOTS = 2
+"""Roots that are squared away, one after the other."""
+
+
+@dataclass(frozen=True)
+class Switch:
+    """An expression at whose zeros another one may not be smooth.
+
+    kind  root   a half-integer power: regular in the root of the distance
+          pole   a negative whole power
+          kink   a modulus, a sign, a condition: smooth on either side
+          log    anything else
+    """
+
+    of: Expr
+    kind: str
+
+
+def switches(expr: Expr) -> Iterator[Switch]:
+    """Every switch of an expression, outside the integrals in it."""
+    if isinstance(expr, Integral):
+        return
+    for kind, inner in _own(expr):
+        for factor in Mul.make_args(inner):
+            if factor.free_symbols:
+                base = factor.base if isinstance(factor, Pow) else factor
+                yield Switch(base, kind)
+    for arg in expr.args:
+        yield from switches(arg)
+
+
+def _own(expr: Expr) -> Iterator[tuple[str, Expr]]:
+    """Switches of the outermost step alone."""
+    if isinstance(expr, Pow):
+        yield from _of_power(expr)
+    elif isinstance(expr, Abs | sign | Heaviside):
+        yield "kink", expr.args[0]
+    elif isinstance(expr, log):
+        inner = expr.args[0]
+        yield "log", inner.args[0] if isinstance(inner, Abs) else inner
+    elif isinstance(expr, asin | acos | atanh):
+        yield from (
+            ("root" if expr.func != atanh else "log", 1 + s * expr.args[0]) for s in (1, -1)
+        )
+    elif isinstance(expr, acosh):
+        yield "root", expr.args[0] - 1
+    elif isinstance(expr, atan2):
+        yield "kink", expr.args[0]
+    elif isinstance(expr, tan):
+        yield "pole", cos(expr.args[0])
+    elif isinstance(expr, elliptic_k | elliptic_e | elliptic_pi):
+        yield from (("log", 1 - arg) for arg in expr.args)
+    elif isinstance(expr, Max | Min):
+        yield from (("kink", one - other) for one, other in combinations(expr.args, 2))
+    elif isinstance(expr, Relational):
+        yield "kink", expr.lhs - expr.rhs
+
+
+def _of_power(expr: Expr) -> Iterator[tuple[str, Expr]]:
+    if expr.exp.is_Integer:
+        if expr.exp < 0:
+            yield "pole", expr.base
+    elif expr.exp.is_Rational and expr.exp.q == 2:
+        yield "root", expr.base
+    elif expr.base.free_symbols:
+        yield "log", expr.base
+
+
+def is_unbounded(expr: Expr, variable: Symbol) -> bool:
+    """Whether a negative power or a tangent of the variable may make it infinite."""
+    return any(
+        (isinstance(n, Pow) and not n.exp.is_nonnegative) or isinstance(n, tan)
+        for n in expr.atoms(Pow, tan)
+        if n.has(variable)
+    )
+
+
+# ------------------------------------------------------------------ zeros along one variable
+
+
+@dataclass(frozen=True)
+class Place:
+    """Zeros of one switch along a variable.
+
+    of            the switch's expression
+    kind          of the switch, or peak: smooth, but a place where much may happen
+    coefficients  of polynomials that have all its zeros among theirs; empty if none is known
+    """
+
+    of: Expr
+    kind: str
+    coefficients: tuple[tuple[Expr, ...], ...]
+
+
+@cache
+def places(expr: Expr, variable: Symbol) -> tuple[Place, ...]:
+    """Where along a variable an integrand may not be smooth, or peaks."""
+    found: dict[tuple[Expr, str], Place] = {}
+    for switch in switches(expr):
+        if switch.of.has(variable):
+            polynomials = _polynomials(switch.of, variable, _ROOTS)
+            found[switch.of, switch.kind] = Place(switch.of, switch.kind, polynomials)
+    for inner in peaked(expr):
+        if inner.has(variable) and inner.is_polynomial(variable):
+            slope = inner.diff(variable)
+            if slope.has(variable):
+                found[inner, "peak"] = Place(slope, "peak", _polynomials(slope, variable, 0))
+    return tuple(found[key] for key in sorted(found, key=str))
+
+
+def peaked(expr: Expr) -> Iterator[Expr]:
+    """What stands in an exponent, or is divided by."""
+    for node in expr.atoms(Pow, exp, cosh):
+        if isinstance(node, Pow):
+            if not node.exp.is_nonnegative:
+                yield node.base
+            if node.exp.free_symbols:
+                yield node.exp
+        else:
+            yield node.args[0]
+
+
+def _polynomials(expr: Expr, variable: Symbol, roots: int) -> tuple[tuple[Expr, ...], ...]:
+    """Coefficients of polynomials among whose zeros are all of `expr`, roots squared away."""
+    numerator = fraction(together(expr))[0]
+    found = []
+    for factor in Mul.make_args(numerator):
+        base = factor.base if isinstance(factor, Pow) else factor
+        if not base.has(variable):
+            continue
+        if base.is_polynomial(variable):
+            coefficients = tuple(Poly(base, variable).all_coeffs())
+            if len(coefficients) > _HIGHEST + 1:
+                return ()
+            found.append(coefficients)
+            continue
+        inner = _squared(base, variable) if roots else None
+        more = _polynomials(inner, variable, roots - 1) if inner is not None else ()
+        if not more:
+            return ()
+        found += more
+    return tuple(found)
+
+
+def _squared(expr: Expr, variable: Symbol) -> Expr | None:
+    """p**2 - q**2 w for p + q sqrt(w), w the first of the radicands."""
+    held = [n for n in expr.atoms(Pow) if n.has(variable) and n.exp.is_Rational and n.exp.q == 2]
+    if not held:
+        return None
+    stand_in = Symbol("root")
+    base = min((n.base for n in held), key=str)
+    table = {n: stand_in ** (2 * n.exp) for n in held if n.base == base}
+    rest = fraction(together(expr.xreplace(table)))[0]
+    if not rest.is_polynomial(stand_in):
+        return None
+    poly = Poly(rest, stand_in)
+    even, odd = S.Zero, S.Zero
+    for (power,), coefficient in poly.terms():
+        term = coefficient * base ** (power // 2)
+        even, odd = (even, odd + term) if power % 2 else (even + term, odd)
+    return even**2 - odd**2 * base

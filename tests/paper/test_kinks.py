@@ -1,0 +1,300 @@
+"""True equations with kinks hold, false ones fail, and what takes too long ends.
+
+Integrals by hand, for |w| < 1:
+
+    int_-1^1 |s - w|        = ((1 + w)**2 + (1 - w)**2)/2 = 1 + w**2
+    int_-1^1 sign(s - w)    = (1 - w) - (1 + w) = -2 w
+    int_-1^1 log|s - w|     = (1 - w) log(1 - w) + (1 + w) log(1 + w) - 2
+    int_-1^1 sqrt|s - w|    = (2/3) ((1 - w)**(3/2) + (1 + w)**(3/2))
+    int_0^3 sign(sin 5 s)   = (pi - pi + pi - pi + (15 - 4 pi))/5 = 3 - 4 pi/5
+"""
+
+import json
+from pathlib import Path
+from time import monotonic
+
+import pytest
+
+from derive.errors import BadClaimsFile, BadFormula
+from derive.paper.claim import Verdict
+from derive.paper.report import evidence
+from derive.paper.userfile import read_claims
+from derive.paper.verdict import Finding, check
+
+HEAD = """
+[variables]
+a = "a length"
+b = "another"
+w = { low = -0.9, high = 0.9 }
+"""
+GOOD = {Verdict.HOLDS, Verdict.NUMERICAL}
+
+
+def judged(folder: Path, printed: str, head: str = HEAD) -> Finding:
+    path = folder / "claims.toml"
+    claim = f'[[claims]]\nlabel = "it"\nprinted = {json.dumps(printed)}\n'
+    path.write_text(head + claim, encoding="utf-8")
+    return check(read_claims(path).claims[0])
+
+
+# ------------------------------------------------------------------ kinks, jumps, poles
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "integral(abs(s), s, -1, 2) = 5/2",
+        "integral(abs(s - w), s, -1, 1) = 1 + w**2",
+        "integral(sign(s - w), s, -1, 1) = -2*w",
+        "integral(log(abs(s - w)), s, -1, 1) = (1 - w)*log(1 - w) + (1 + w)*log(1 + w) - 2",
+        "integral(sqrt(abs(s - w)), s, -1, 1) = 2*((1 - w)**(3/2) + (1 + w)**(3/2))/3",
+        "integral(sign(sin(5*s)), s, 0, 3) = 3 - 4*pi/5",
+        "integral(Heaviside(s - a), s, 0, 2*a) = a",
+        "integral(1/sqrt(abs(s)), s, -1, 4) = 6",
+        "integral(log(abs(w + 1.99)), s, 0, 1) = log(w + 1.99)",
+        "integral(1/sqrt((1 - s)*(1 + s)), s, -1, 1) = pi",
+        "pi = integral(2*sqrt(1 - s**2), s, -1, 1)",
+        "integral(elliptic_k(s), s, 0, 1) = 2",
+        "integral(elliptic_e(s), s, 0, 1) = 4/3",
+        "integral(abs(abs(s) - 1/2), s, -1, 1) = 1/2",
+        "integral(Heaviside(s - w)*s, s, -1, 1) = (1 - w**2)/2",
+    ],
+)
+def test_true_integrals_with_kinks_are_found_true(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed).verdict in GOOD
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "integral(log(abs(x + 1.99)), s, 0, 1) = log(x + 1.99)",
+        "log(abs(x + 1.99)) = log(x + 1.99)",
+        "abs(x - 1.999) = 1.999 - x",
+        "atan(x) + atan(1/x) = pi/2",
+        "integral(abs(s - w), s, -1, 1) = 1 + w**2 + 1/10**20",
+    ],
+)
+def test_false_equations_fail_at_their_kinks(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed).verdict == Verdict.FAILS
+
+
+@pytest.mark.parametrize("under", ["1/s", "1/s**2", "1/(s - 0.3)", "1/(s**2 - 0.25)"])
+def test_a_pole_inside_is_named_and_decides_nothing(tmp_path: Path, under: str) -> None:
+    finding = judged(tmp_path, f"integral({under}, s, -1, 1) = 0")
+    assert finding.verdict == Verdict.UNCHECKED
+    assert "pole at s = " in evidence(finding)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("right", ["l", "1.3*l"])
+def test_the_load_of_a_body_with_kinks_of_its_own(tmp_path: Path, right: str) -> None:
+    """flat_rounded: g'' jumps at both ends of the flat part."""
+    head = f"""
+    seconds = 300
+    body = "flat_rounded"
+    [variables]
+    l = "left half-width"
+    [symbols]
+    P = "load(l, {right})"
+    I = "integral(pressure(s, l, {right}), s, -l, {right})"
+    M = "moment(l, {right})"
+    J = "integral(s*pressure(s, l, {right}), s, -l, {right})"
+    """
+    assert judged(tmp_path, "I = P", head).verdict in GOOD
+    assert judged(tmp_path, "J = -M", head).verdict in GOOD
+    assert judged(tmp_path, "I = P + E_star*l/10**9", head).verdict == Verdict.FAILS
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("body", ["hertz", "wedge", "unequal_wedge"])
+def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, body: str) -> None:
+    head = f"""
+    body = "{body}"
+    [variables]
+    l = "left half-width"
+    r = "right half-width"
+    [symbols]
+    A = "contact_a(load(l, r), moment(l, r))"
+    C = "contact_c(load(l, r), moment(l, r))"
+    T = "contact_alpha(load(l, r), moment(l, r))"
+    alpha = "tilt(l, r)"
+    """
+    for true, false in (("A = l", "A = r"), ("C = r", "C = l"), ("T = alpha", "T = -alpha")):
+        assert judged(tmp_path, true, head).verdict in GOOD
+        assert judged(tmp_path, false, "seconds = 5\n" + head).verdict == Verdict.FAILS
+
+
+# ------------------------------------------------------------------ constants, decades, spikes
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "atan((1 + x)/(1 - x)) = atan(x) + pi/4",  # for x < 1 only, else less pi
+        "log(x**2) = 2*log(x)",
+        "sign(x) = 1",
+        "a = a + 1/10**31",
+        "a = a*(1 + 1/10**50)",
+        "tanh(40 + a) = 1",
+        "tanh(100 + a) = 1",
+    ],
+)
+def test_sides_of_one_derivative_may_differ(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed).verdict == Verdict.FAILS
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "abs(a - 1000) = 1000 - a",
+        "sqrt((a - 100)**2) = 100 - a",
+        "a < 100000",
+        "a > 0.0001",
+        "w < 0.8999",
+        "abs(a - b) < 100000",
+    ],
+)
+def test_what_is_true_of_moderate_sizes_alone_fails(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed).verdict == Verdict.FAILS
+
+
+def test_how_far_was_looked_is_told(tmp_path: Path) -> None:
+    told = evidence(judged(tmp_path, "a*b < a*b + a"))
+    assert "points (a from " in told
+    low, high = (float(n) for n in told.partition("a from ")[2].split(";")[0].split(" to "))
+    assert low < 1e-3
+    assert high > 1e2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "a = a + exp(-(10**6*(a - 1.7))**2)",
+        "a = a + exp(-(10**6*(a - b))**2)",
+        "a = a + 1/(1 + (10**20*(a - 17))**2)",
+        "integral(1 + exp(-(1000*(s - 0.3))**2), s, 0, 1) = 1",
+    ],
+)
+def test_spikes_between_the_points_are_found(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed, "seconds = 5\n" + HEAD).verdict == Verdict.FAILS
+
+
+def test_a_spike_that_a_quadrature_passes_by_decides_nothing(tmp_path: Path) -> None:
+    finding = judged(tmp_path, "integral(1 + exp(-(10**5*(s - 0.3777))**2), s, 0, 1) = 1")
+    assert finding.verdict in (Verdict.UNCHECKED, Verdict.FAILS)
+
+
+@pytest.mark.parametrize(
+    ("printed", "verdict"),
+    [
+        ("tanh(a) < 1", Verdict.NUMERICAL),  # nearer than any digits where a is large
+        ("exp(-a) > 0", Verdict.NUMERICAL),
+        ("abs(x) > x", Verdict.FAILS),
+        ("sqrt(a**2) > a", Verdict.FAILS),
+        ("sin(x) < 1", Verdict.UNCHECKED),  # equal at pi/2 alone
+        ("a/b + b/a > 2", Verdict.UNCHECKED),
+        ("a/b + b/a >= 2", Verdict.NUMERICAL),
+        ("a + 1/a > 2.000000001", Verdict.FAILS),
+    ],
+)
+def test_strict_inequalities_where_the_sides_touch(
+    tmp_path: Path, printed: str, verdict: Verdict
+) -> None:
+    assert judged(tmp_path, printed).verdict == verdict
+
+
+def test_branches_where_neither_side_is_real_do_not_count(tmp_path: Path) -> None:
+    """log of a negative quotient is +pi i or -pi i away; where it is real both sides agree."""
+    finding = judged(tmp_path, "log((1 - a)/(1 - b)) = log(1 - a) - log(1 - b)")
+    assert finding.verdict == Verdict.NUMERICAL
+    assert "neither side is real at " in evidence(finding)
+    assert len(finding.judged.pairs) >= 20
+    assert judged(tmp_path, "a*sqrt(1 - b) = 2*a*sqrt(1 - b)").verdict == Verdict.FAILS
+    assert judged(tmp_path, "a*sqrt(1 - b) = a*sqrt(1 - b)").verdict == Verdict.HOLDS
+    hidden = judged(tmp_path, "sqrt(w - 2) = 2*sqrt(w - 2)")
+    assert hidden.verdict == Verdict.UNCHECKED
+    assert "neither side is real" in evidence(hidden)
+
+
+def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
+    """sqrt(1 - k) is real for k < 1 alone, and drops out of A - B."""
+    head = """
+    [variables]
+    a = "a length"
+    k = { low = 0.1, high = 0.9 }
+    [symbols]
+    A = "a + sqrt(1 - k)"
+    B = "sqrt(1 - k) - a"
+    """
+    finding = judged(tmp_path, "A - B = 2*a", head)
+    assert finding.verdict == Verdict.HOLDS
+    (k,) = (s for s in finding.judged.pairs[0].point if s.name == "k")
+    assert all(0.1 <= pair.point[k] <= 0.9 for pair in finding.judged.pairs)
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "acos(cos(w)) = abs(w)",
+        "cosh(40*a)**2 - sinh(40*a)**2 = 1",
+        "atan(a) + atan(1/a) = pi/2",
+        "sqrt(w**2) = abs(w)",
+        "sign(a - b)*abs(a - b) = a - b",
+        "1/(a - b) + 1/(b - a) = 0",
+        "a**2 + b**2 >= 2*a*b",
+        "exp(a) > 1 + a",
+        "sqrt(2)*sqrt(3) = sqrt(6)",
+    ],
+)
+def test_true_equations_hold_at_those_points(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed).verdict in GOOD
+
+
+# ------------------------------------------------------------------ limits and errors
+
+
+def test_a_verdict_that_takes_too_long_is_none(tmp_path: Path) -> None:
+    slow = "integral(log(abs(sin(40*s) - w)), s, 0, a) = integral(log(abs(cos(40*s) - b)), s, 0, w)"
+    began = monotonic()
+    finding = judged(tmp_path, slow, "seconds = 0.05\n" + HEAD)
+    assert finding.verdict == Verdict.UNCHECKED
+    assert "not done within 0.05 s" in evidence(finding)
+    assert monotonic() - began < 5
+
+
+def test_a_search_that_takes_too_long_leaves_the_verdict(tmp_path: Path) -> None:
+    began = monotonic()
+    printed = "integral(sign(sin(5*s)), s, 0, 3) = 18*pi/5 - 3 - 12*pi/5 - pi"
+    finding = judged(tmp_path, printed, "seconds = 2\n" + HEAD)
+    assert finding.verdict == Verdict.FAILS
+    assert "the search for a correction: not done within 2 s" in evidence(finding)
+    assert monotonic() - began < 10
+
+
+@pytest.mark.parametrize("given", ["0", "-1", '"long"', "true", "1e9", "nan"])
+def test_what_is_no_limit_is_refused(tmp_path: Path, given: str) -> None:
+    with pytest.raises(BadClaimsFile, match="is no limit in time"):
+        judged(tmp_path, "a = a", f"seconds = {given}\n" + HEAD)
+
+
+@pytest.mark.parametrize(
+    "printed",
+    ["a = " + "(" * 300 + "a" + ")" * 300, "a = " + "sin(" * 300 + "a" + ")" * 300],
+)
+def test_what_is_nested_too_deep_is_one_error(tmp_path: Path, printed: str) -> None:
+    with pytest.raises(BadFormula, match="nested too deep"):
+        judged(tmp_path, printed)
+
+
+def test_what_is_nested_deep_is_judged(tmp_path: Path) -> None:
+    nested = "a = " + "sin(" * 39 + "a" + ")" * 39
+    assert judged(tmp_path, nested, "seconds = 5\n" + HEAD).verdict == Verdict.FAILS
+
+
+@pytest.mark.parametrize(
+    "printed", ["exp(exp(exp(exp(a*9)))) = 1", "a = integral(exp(exp(exp(s))), s, 0, 10)"]
+)
+def test_numbers_beyond_all_bounds_decide_nothing(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed).verdict == Verdict.UNCHECKED
