@@ -4,7 +4,8 @@
 # make quick  the tests that take no long
 # make bench  speed against lambdify, numexpr and numba in one run: docs/performance.md, some
 #             minutes; bench-inverse: of the way from loads to contacts of every body;
-#             bench-slip: of stick zones; bench-monte-carlo: time and memory of the Monte Carlo
+#             bench-slip: of stick zones; bench-mixed: of mixed ones, and how many are not
+#             solved; bench-monte-carlo: time and memory of the Monte Carlo
 #             of examples/, to 1e8 samples: notebooks/monte_carlo.md
 # make solver    what the independent solver finds: tests/reference/FINDINGS.md; a quarter of an hour
 # make comparison  that solver, exact conditions and series, cycle by cycle: notebooks/comparison.md
@@ -19,7 +20,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test quick bench bench-inverse bench-slip bench-monte-carlo series solver comparison accuracy notebooks \
+.PHONY: all test quick bench bench-inverse bench-slip bench-mixed bench-monte-carlo series solver comparison accuracy notebooks \
 	lab picture clean
 
 all: $(STAMP)
@@ -44,6 +45,9 @@ bench-inverse: $(STAMP)
 
 bench-slip: $(STAMP)
 	$(BIN)/python -m tests.benchmarks.slip
+
+bench-mixed: $(STAMP)
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.benchmarks.mixed
 
 bench-monte-carlo: $(STAMP)
 	OMP_NUM_THREADS=1 $(BIN)/python -m tests.benchmarks.monte_carlo

@@ -2,14 +2,15 @@
 
     python -m tests.benchmarks.mixed
 
-Normal loads are constant.  Contacts are drawn with a and c uniform in 0.75 to 2, the change of shear
-dQ uniform in SHEAR of 2 f P, from which on all slides, and the change of tension, of either sign, with
+Normal loads are constant.  Contacts are drawn with a and c uniform in EDGES, the change of shear dQ
+uniform in SHEAR of 2 f P, from which on all slides, and the change of tension, of either sign, with
 its logarithm uniform in TENSION of 8 dQ/(pi (a + c)), where moderate tension ends.  Of COUNT such
 cycles those of regime MIXED are solved.  What share is left unsolved depends on the sample: it is
 printed by parts of it, and for the whole.
 """
 
 import importlib
+from itertools import pairwise
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -67,7 +68,7 @@ def turning(name: str, count: int = COUNT) -> Turning:
 
 def pairs(borders: tuple[float, ...]) -> list[tuple[float, float]]:
     """From each border to the next."""
-    return list(zip(borders[:-1], borders[1:], strict=True))
+    return list(pairwise(borders))
 
 
 def share(unsolved: int, of: int) -> str:
