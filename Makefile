@@ -7,7 +7,8 @@
 #             bench-slip: of stick zones; bench-mixed: of mixed ones, and how many are not
 #             solved; bench-monte-carlo: time and memory of the Monte Carlo
 #             of examples/, to 1e8 samples: notebooks/monte_carlo.md
-# make solver    what the independent solver finds: tests/reference/FINDINGS.md; a quarter of an hour
+# make solver    what the independent solver finds: tests/reference/FINDINGS.md; ten minutes on
+#             two cores
 # make comparison  that solver, exact conditions and series, cycle by cycle: notebooks/comparison.md
 # make series    errors of the series of the slip zones, order by order: notebooks/series.md
 # make accuracy  worst error of every generated function, in units in the last place:

@@ -76,10 +76,13 @@ MAP_TEXT = """## Varying moment
 The same wedge; M goes from its mean less half its range to its mean plus half of it while Q and
 sigma rise.  The premise is asked of both half-cycles, from the loads alone: zones of partial
 half-cycles grow inside both contacts, and shear that has not slipped yet stays within friction.
-Where no zone inside both contacts meets the conditions, the kind tells where the solver's ends:
+It is sufficient, not necessary: some zones whose premise fails are within the estimate, too.  Where
+no zone inside both contacts meets the conditions, the kind tells where the solver's ends, within
+its estimate:
 
 * an edge runs ahead: at one edge it is all that touches always; slip does not follow the edge;
-* sticks: it is all that touches always; what slips is only what comes into contact and leaves it.
+* sticks: it is all that touches always; what slips, if anything, is only what comes into contact
+  and leaves it.
 
 "off" is how far a zone is from the solver's at its worse end: that of the conditions, that of the
 smallest ends over partial half-cycles there and back, and the exact one of loads P and M that stand

@@ -2,7 +2,7 @@
 
 Each mesh is graded to the edges of the contacts, to the body's kinks, and to the ends of the stick
 zone that the mesh before it found.  Several meshes of one fineness bring these places to rest, so
-that the error that is left falls with the square of the fineness.
+that the error that is left falls about with the square of the fineness.
 """
 
 from collections.abc import Iterator, Sequence
@@ -59,17 +59,20 @@ def reference(
     """Levels of so many elements between two breaks, and so many load steps a half-cycle."""
     found = list(levels(case, counts, steps))
     zones = [level.zone for level in found]
-    return Reference(zones[-1], estimate(zones), zones, found[-1])
+    return Reference(zones[-1], estimate(zones, counts), zones, found[-1])
 
 
-def estimate(zones: Sequence[Zone]) -> Zone:
-    """The last change, or what second order makes of the one before, whichever is larger.
+def estimate(zones: Sequence[Zone], counts: Sequence[int]) -> Zone:
+    """Three times what second order makes of the last two changes, of whichever it is more.
 
-    >>> estimate([Zone(1.0, 1.0), Zone(1.5, 1.25), Zone(1.5625, 1.5)])
+    Where the counts double that is the last change, or a quarter of the one before.
+
+    >>> estimate([Zone(1.0, 1.0), Zone(1.5, 1.25), Zone(1.5625, 1.5)], [8, 16, 32])
     Zone(m=0.125, n=0.25)
     """
-    *before, last = np.abs(np.diff(zones, axis=0))
-    return Zone(*map(float, np.maximum(last, before[-1] / 4)))
+    left = 1.0 / np.square(counts)
+    changes = np.abs(np.diff(zones, axis=0))[-2:] / -np.diff(left)[-2:, None]
+    return Zone(*map(float, 3 * left[-1] * changes.max(axis=0)))
 
 
 def levels(case: Case, counts: Sequence[int], steps: Sequence[int]) -> Iterator[Level]:
