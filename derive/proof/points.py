@@ -85,10 +85,13 @@ def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
 
 
 def _parameters(body: Geometry, rng: random.Random) -> Point:
-    """Parameters above what the body demands of them."""
+    """Parameters around those that meet what the body demands of them."""
     made = [E_star, *(q.symbol for q in body.parameters)]
-    least = body.slope.least
-    return {symbol: mpf(2) ** rng.uniform(-1.5, 1.5) + mpf(least.get(symbol, 0)) for symbol in made}
+    least, around = body.slope.least, {p: mpf(v.p) / v.q for p, v in body.slope.typical.items()}
+    return {
+        symbol: mpf(2) ** rng.uniform(-1.5, 1.5) * around.get(symbol, 1) + mpf(least.get(symbol, 0))
+        for symbol in made
+    }
 
 
 @cache
