@@ -25,6 +25,7 @@ from derive import Geometry, parameter, x
 from derive.codegen.function import example_of
 from derive.codegen.module import module_text
 from derive.codegen.publish import package_files, publish
+from derive.codegen.trial import demand_right
 from derive.derivation import derive_sheet
 from derive.errors import BadName, NotProven
 from derive.library import library, load_geometry
@@ -427,6 +428,13 @@ def test_an_example_is_found_wherever_the_kinks_are(places: tuple[Expr, ...]) ->
         mpf(place.p) / place.q * point[Symbol("b", positive=True)]
         for place in map(Rational, places)
     }
+
+
+def test_a_tilt_far_above_one_is_held_to_its_own_size() -> None:
+    """Of a body this steep float64 holds alpha, some 1e24, to 1e8."""
+    L = parameter("L", "a length", unit="m")
+    of = assumed(derive_sheet(Geometry("steep", g=10**24 * x**4 / L**3)))
+    demand_right(of, module_text(of, "steep.py"))
 
 
 @pytest.mark.slow
