@@ -37,6 +37,7 @@ from sympy import (
     diff,
     exp,
     expand,
+    factor,
     fraction,
     limit,
     log,
@@ -224,6 +225,10 @@ def _roots(name: str, poly: Poly) -> list[Expr]:
         raise BadProfile(name, f"branches where {poly.as_expr()} changes sign", remedy)
     for root in found:
         if root.is_real is None:
+            numerator, denominator = fraction(simplify(root))
+            if numerator.is_real and denominator.is_real:
+                why = f"branches at {simplify(root)}, where {denominator} may be zero"
+                raise BadProfile(name, f"{why}, or of either sign", _order(denominator))
             raise BadProfile(
                 name, f"branches at {simplify(root)}, which may be real or not", remedy
             )
@@ -250,11 +255,50 @@ def _is_positive(name: str, difference: Expr) -> bool:
         return True
     if difference.is_extended_nonpositive:
         return False
+    squares = _squares(difference)
+    if squares is not None and squares.is_extended_nonzero:
+        return bool(squares.is_extended_positive)
     raise BadProfile(
         name,
         f"has kinks whose order is open: the sign of {difference} depends on the parameters",
-        "write one place as the other plus a positive parameter, such as b2 = b1 + d",
+        _order(difference),
     )
+
+
+def _squares(difference: Expr) -> Expr | None:
+    """p^2 - q^2 r with the sign of p + q sqrt(r), where one of both terms is known to be negative.
+
+    None where there are more roots of sums, or signs that are open.
+    """
+    roots = [p for p in difference.atoms(Pow) if p.exp == S.Half and p.base.is_Add]
+    if len(roots) != 1:
+        return None
+    inner = Dummy("r", positive=True)
+    numerator, denominator = fraction(together(difference).xreplace({roots[0]: inner}))
+    if denominator.has(inner) or not numerator.is_polynomial(inner):
+        return None
+    poly = Poly(numerator, inner)
+    if poly.degree() != 1:
+        return None
+    outer, beside = poly.nth(1), poly.nth(0)
+    if not denominator.is_positive or not (outer * beside).is_negative:
+        return None
+    return factor((beside**2 - outer**2 * roots[0].base) * (1 if beside.is_positive else -1))
+
+
+def _order(difference: Expr) -> str:
+    """How a user can say which of two things is larger."""
+    held = {symbol.name for symbol in difference.free_symbols}
+    gap = next(word for word in ("gap", "excess", "further") if word not in held)
+    for symbol in sorted(difference.free_symbols, key=str, reverse=True):
+        rate = diff(difference, symbol)
+        if rate.is_number:
+            other = expand(symbol - difference / rate)
+            return (
+                f"say which is larger, by a positive parameter {gap} in place of one of them, such "
+                f"as {symbol} = {other} + {gap}"
+            )
+    return f"write one of them as the other plus a positive parameter {gap}"
 
 
 def _inside(lower: Expr, upper: Expr) -> Expr:
