@@ -261,9 +261,10 @@ def generate(
     directory DERIVE_CACHE or the user's cache; if DERIVE_CACHE is empty, nothing is kept.
     """
     from derive import view
+    from derive.codegen.publish import resolved
     from derive.pipeline import Order
 
-    order = Order(sources, out.resolve() if out else None)
+    order = Order(sources, resolved(out) if out else None)
     bodies = _built(order.names, jobs, fresh or check, limit)
     if check:
         _report_drift(order, bodies)

@@ -4,8 +4,13 @@ SymPy is imported when a file is loaded, not when it is found.
 """
 
 import importlib.util
+import signal
 import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING
 
 from derive.errors import BadGeometryFile, UnknownGeometry, UserError
@@ -63,11 +68,14 @@ def _execute(path: Path) -> "Geometry":
     module = importlib.util.module_from_spec(spec)
     keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
-        spec.loader.exec_module(module)
+        with _interrupts_told() as interrupted:
+            spec.loader.exec_module(module)
     except UserError:
         raise
-    except (Exception, SystemExit) as error:
-        why = f"{type(error).__name__}: {error}".splitlines()[0]
+    except BaseException as error:
+        if interrupted():
+            raise
+        why = f"{type(error).__name__}: {error}".splitlines()[0].removesuffix(": ")
         raise BadGeometryFile(str(path), why) from error
     finally:
         sys.dont_write_bytecode = keep
@@ -75,3 +83,23 @@ def _execute(path: Path) -> "Geometry":
     if not isinstance(geometry, Geometry):
         raise BadGeometryFile(str(path), "it defines no `geometry`")
     return geometry.described((module.__doc__ or "").strip())
+
+
+@contextmanager
+def _interrupts_told() -> Iterator[Callable[[], bool]]:
+    """Whether Ctrl-C was pressed in the block: a KeyboardInterrupt may be the file's own."""
+    pressed: list[int] = []
+    before = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(before):
+        yield lambda: False
+        return
+
+    def press(number: int, frame: FrameType | None) -> None:
+        pressed.append(number)
+        before(number, frame)
+
+    signal.signal(signal.SIGINT, press)
+    try:
+        yield lambda: bool(pressed)
+    finally:
+        signal.signal(signal.SIGINT, before)

@@ -67,7 +67,7 @@ def _processes(function: Callable[[Item, Report], Result], jobs: int) -> Iterato
     started: list[BaseProcess] = []
     lines: list[Connection] = []
     try:
-        with _interrupts_held_back():
+        with _interrupts_held_back(), _safe_path():
             for _ in range(jobs):
                 line, other_end = context.Pipe()
                 lines.append(line)
@@ -140,6 +140,24 @@ def _interrupts_held_back() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """A process started within it finds the standard library, whatever the directory holds.
+
+    Before it is told where to look, it would take a file threading.py of the user's for Python's.
+    """
+    name = "PYTHONSAFEPATH"
+    before = os.environ.get(name)
+    os.environ[name] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[name]
+        else:
+            os.environ[name] = before
 
 
 # ------------------------------------------------------------------ in a process of its own

@@ -6,14 +6,10 @@ Out: a `Slope`, g'(x) as that of one reference piece plus a jump at each kink; w
      which parameters make it convex.
 """
 
-import random
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import islice, pairwise
+from itertools import pairwise
 
-import mpmath
-from mpmath import mpf
 from sympy import (
     Abs,
     AccumBounds,
@@ -22,13 +18,11 @@ from sympy import (
     Expr,
     Float,
     Function,
-    Gt,
     Heaviside,
     Integer,
     Limit,
     Max,
     Min,
-    Mul,
     Not,
     Or,
     Piecewise,
@@ -39,17 +33,14 @@ from sympy import (
     Symbol,
     asinh,
     atan,
-    cancel,
     cosh,
     diff,
     exp,
     expand,
     factor,
     fraction,
-    lambdify,
     limit,
     log,
-    nan,
     oo,
     re,
     roots,
@@ -62,37 +53,13 @@ from sympy import (
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
 
+from derive.convexity import convex_where, typical
 from derive.errors import BadProfile
+from derive.piece import Piece, step, surpluses, with_surpluses
 from derive.symbols import a, c, x
 
 _BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
 _SMOOTH = (exp, log, sinh, cosh, tanh, asinh, atan)
-_SAMPLES = 8
-"""Sets of parameters for which a body is tested for convexity."""
-
-
-@dataclass(frozen=True)
-class Piece:
-    """g(x) = `profile` for `lower` < x < `upper`."""
-
-    lower: Expr
-    upper: Expr
-    profile: Expr
-
-    @property
-    def slope(self) -> Expr:
-        """g'(x) of this piece."""
-        return diff(self.profile, x)
-
-    @cached_property
-    def curvature(self) -> Expr:
-        """g''(x) of this piece."""
-        return diff(self.profile, x, 2)
-
-    @cached_property
-    def straight(self) -> bool:
-        """Whether the piece is a straight line, on which nothing presses by itself."""
-        return bool(simplify(self.curvature) == 0)
 
 
 @dataclass(frozen=True)
@@ -146,6 +113,11 @@ class Slope:
         """Numbers above which parameters must lie."""
         return {d.gts: d.lts for d in self.demands if d.lts.is_number}
 
+    @cached_property
+    def typical(self) -> dict[Symbol, Rational]:
+        """Values of parameters that meet the demands, where ones would not; above the least."""
+        return typical(self.demands)
+
     @property
     def straight_pieces(self) -> tuple[Piece, ...]:
         """Pieces in which a contact would carry no load."""
@@ -164,7 +136,7 @@ class Slope:
     def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
         """Limit of g' at an end; `otherwise`, which bounds nothing, where SymPy finds none."""
         try:
-            slope = simplify(_with_surpluses(piece.slope, _surpluses(self.demands)))
+            slope = simplify(with_surpluses(piece.slope, surpluses(self.demands)))
             found = limit(slope, x, end, side)
         except (NotImplementedError, ValueError, TypeError, RecursionError, AttributeError):
             return otherwise
@@ -180,9 +152,8 @@ def read_slope(name: str, g: Expr) -> Slope:
     pieces = _merged(_resolved(name, g, -oo, oo))
     _demand_known_functions(name, pieces)
     _demand_continuous(name, pieces)
-    demands = _demands(name, pieces)
     domain = _domain(name, pieces)
-    _demand_convex(name, pieces, domain, demands)
+    demands = convex_where(name, pieces, domain)
     reference = next(
         i for i, piece in enumerate(pieces) if piece.upper == 0 or _is_positive(name, piece.upper)
     )
@@ -192,7 +163,7 @@ def read_slope(name: str, g: Expr) -> Slope:
             position=right.lower,
             side=1 if i > reference else -1,
             jump=expand((right.slope - left.slope) * (1 if i > reference else -1)),
-            step=_step(left, right, demands),
+            step=step(left, right, demands),
         )
         for i, (left, right) in enumerate(pairwise(pieces), start=1)
     ]
@@ -254,6 +225,10 @@ def _roots(name: str, poly: Poly) -> list[Expr]:
         raise BadProfile(name, f"branches where {poly.as_expr()} changes sign", remedy)
     for root in found:
         if root.is_real is None:
+            numerator, denominator = fraction(simplify(root))
+            if numerator.is_real and denominator.is_real:
+                why = f"branches at {simplify(root)}, where {denominator} may be zero"
+                raise BadProfile(name, f"{why}, or of either sign", _order(denominator))
             raise BadProfile(
                 name, f"branches at {simplify(root)}, which may be real or not", remedy
             )
@@ -280,11 +255,50 @@ def _is_positive(name: str, difference: Expr) -> bool:
         return True
     if difference.is_extended_nonpositive:
         return False
+    squares = _squares(difference)
+    if squares is not None and squares.is_extended_nonzero:
+        return bool(squares.is_extended_positive)
     raise BadProfile(
         name,
         f"has kinks whose order is open: the sign of {difference} depends on the parameters",
-        "write one place as the other plus a positive parameter, such as b2 = b1 + d",
+        _order(difference),
     )
+
+
+def _squares(difference: Expr) -> Expr | None:
+    """p^2 - q^2 r with the sign of p + q sqrt(r), where one of both terms is known to be negative.
+
+    None where there are more roots of sums, or signs that are open.
+    """
+    roots = [p for p in difference.atoms(Pow) if p.exp == S.Half and p.base.is_Add]
+    if len(roots) != 1:
+        return None
+    inner = Dummy("r", positive=True)
+    numerator, denominator = fraction(together(difference).xreplace({roots[0]: inner}))
+    if denominator.has(inner) or not numerator.is_polynomial(inner):
+        return None
+    poly = Poly(numerator, inner)
+    if poly.degree() != 1:
+        return None
+    outer, beside = poly.nth(1), poly.nth(0)
+    if not denominator.is_positive or not (outer * beside).is_negative:
+        return None
+    return factor((beside**2 - outer**2 * roots[0].base) * (1 if beside.is_positive else -1))
+
+
+def _order(difference: Expr) -> str:
+    """How a user can say which of two things is larger."""
+    held = {symbol.name for symbol in difference.free_symbols}
+    gap = next(word for word in ("gap", "excess", "further") if word not in held)
+    for symbol in sorted(difference.free_symbols, key=str, reverse=True):
+        rate = diff(difference, symbol)
+        if rate.is_number:
+            other = expand(symbol - difference / rate)
+            return (
+                f"say which is larger, by a positive parameter {gap} in place of one of them, such "
+                f"as {symbol} = {other} + {gap}"
+            )
+    return f"write one of them as the other plus a positive parameter {gap}"
 
 
 def _inside(lower: Expr, upper: Expr) -> Expr:
@@ -372,77 +386,6 @@ def _demand_continuous(name: str, pieces: list[Piece]) -> None:
             )
 
 
-def _surpluses(demands: tuple[Boolean, ...]) -> dict[Symbol, tuple[Expr, Symbol]]:
-    """Parameters that must lie above a number: that number, and a positive symbol for the rest."""
-    return {d.gts: (d.lts, Dummy("above", positive=True)) for d in demands if d.gts.is_Symbol}
-
-
-def _with_surpluses(expr: Expr, surpluses: dict[Symbol, tuple[Expr, Symbol]]) -> Expr:
-    return expr.subs({p: least + above for p, (least, above) in surpluses.items()})
-
-
-def _step(left: Piece, right: Piece, demands: tuple[Boolean, ...] = ()) -> Expr:
-    """By how much g' rises where two pieces meet."""
-    surpluses = _surpluses(demands)
-    before, beyond = (
-        _beside(
-            _with_surpluses(piece.slope, surpluses), _with_surpluses(right.lower, surpluses), sense
-        )
-        for piece, sense in ((left, -1), (right, 1))
-    )
-    return simplify((beyond - before).subs({up: p - least for p, (least, up) in surpluses.items()}))
-
-
-def _beside(expr: Expr, place: Expr, sense: int) -> Expr:
-    """The value of `expr` next to a place, on its right (+1) or left (-1)."""
-    distance = Dummy("t", positive=True)
-    near = simplify(expr.subs(x, place + sense * distance))
-    value = near.subs(distance, 0)
-    return value if value.is_finite is not False and value is not nan else limit(near, distance, 0)
-
-
-def _demands(name: str, pieces: list[Piece]) -> tuple[Boolean, ...]:
-    """What the parameters must meet, that the body be convex: factors whose sign is open.
-
-    A corner's jump and the factors of a curvature that do not hold x are positive, or the body is
-    convex for no or for some parameters only, such as k > 1 for Abs(x)**k.  Where such a power is
-    one term of several, or multiplied by a function, what stands before it at its root decides.
-    """
-    found: dict[Boolean, None] = {}
-
-    def demand(expr: Expr) -> None:
-        for part in Mul.make_args(factor(simplify(expr))):
-            if part.free_symbols and not part.has(x) and part.is_extended_nonnegative is None:
-                found[_above(part)] = None
-
-    for piece in pieces:
-        for part in (piece.curvature, *_leading(piece)):
-            demand(part)
-    for left, right in pairwise(pieces):
-        demand(_step(left, right, tuple(found)))
-    return tuple(found)
-
-
-def _leading(piece: Piece) -> Iterator[Expr]:
-    """What stands in g'' before (x - r)^(k - 2), k a parameter, at the root r."""
-    curvature = expand(piece.curvature)
-    for power in sorted(curvature.atoms(Pow), key=str):
-        if power.exp.free_symbols and power.base.has(x) and not diff(power.base, x).has(x):
-            root = x - power.base / diff(power.base, x)
-            before = simplify(curvature.coeff(power) * (x - root) ** 2).subs(x, root)
-            if before.is_finite and not before.has(nan):
-                yield before
-
-
-def _above(expr: Expr) -> Boolean:
-    """expr > 0, with a symbol alone on its side if it has one."""
-    for symbol in sorted(expr.free_symbols, key=str):
-        rate = diff(expr, symbol)
-        if rate.is_number and rate.is_positive:
-            return Gt(symbol, expand(symbol - expr / rate))
-    return Gt(expr, 0)
-
-
 def _domain(name: str, pieces: list[Piece]) -> tuple[Expr, Expr]:
     """Where the outermost pieces stay real: up to the nearest root under a fractional power."""
     low, high = -oo, oo
@@ -516,127 +459,3 @@ def _lies_in(point: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
     return all(
         end in (oo, -oo) or bool(simplify(sense * (point - end)).is_positive) for end, sense in ends
     )
-
-
-def _demand_convex(
-    name: str,
-    pieces: list[Piece],
-    domain: tuple[Expr, Expr],
-    demands: tuple[Boolean, ...],
-) -> None:
-    """Refuse a slope that falls anywhere.
-
-    Polynomials by their exact sign, other functions at many places, both at many sets of
-    parameters.
-    """
-    if all(piece.straight for piece in pieces) and len(pieces) == 1:
-        raise BadProfile(name, "is straight", "a body must be convex somewhere, or nothing presses")
-    symbols = sorted(set().union(*(p.profile.free_symbols for p in pieces)) - {x}, key=str)
-    polynomial = all(piece.slope.is_polynomial(x) for piece in pieces)
-    tested = 0
-    for values in islice(_samples(symbols), 40 * _SAMPLES):
-        if not all(bool(demand.subs(values)) for demand in demands):
-            continue
-        at = [_at(piece, values) for piece in pieces]
-        _demand_steps(name, at, values)
-        if polynomial:
-            _demand_rising(name, at, values)
-        else:
-            _demand_curved(name, at, [end.subs(values) for end in domain], values)
-        tested += 1
-        if tested == _SAMPLES:
-            return
-    needed = " and ".join(map(str, demands))
-    raise BadProfile(
-        name,
-        f"is convex only if {needed}, which no parameters were found to meet",
-        "make it convex for all parameters, or for all above a number",
-    )
-
-
-def _samples(symbols: list[Symbol]) -> Iterator[dict[Symbol, Rational]]:
-    rng = random.Random(1)
-    while True:
-        yield {p: Rational(rng.randint(10, 99), 10) ** rng.choice((1, -1)) for p in symbols}
-
-
-def _not_convex(name: str, how: str, values: dict[Symbol, Rational]) -> BadProfile:
-    given = ", ".join(f"{k} = {v}" for k, v in values.items())
-    remedy = f"the contact could break into several patches (seen with {given}); make it convex"
-    return BadProfile(name, f"is not convex: {how}", remedy)
-
-
-def _negative_at(place: Expr) -> str:
-    return f"its curvature is negative near x = {float(place):.3g}"
-
-
-def _demand_steps(name: str, pieces: list[Piece], values: dict[Symbol, Rational]) -> None:
-    for left, right in pairwise(pieces):
-        step = _step(left, right)
-        if not step.is_extended_real or step < 0:
-            raise _not_convex(name, f"its slope falls at x = {right.lower}", values)
-
-
-def _demand_curved(
-    name: str, pieces: list[Piece], domain: list[Expr], values: dict[Symbol, Rational]
-) -> None:
-    """Refuse a curvature that is negative or not real at any of many places."""
-    lower, upper = (mpf(end) if end.is_finite else end for end in domain)
-    for piece in pieces:
-        curvature = lambdify(x, piece.curvature, modules="mpmath")
-        for place in _places(piece):
-            if not lower < place < upper:
-                continue
-            try:
-                value = curvature(place)
-            except (ZeroDivisionError, OverflowError):
-                continue
-            if mpmath.im(value) != 0:
-                raise BadProfile(
-                    name,
-                    f"is not real near x = {float(place):.3g}",
-                    "write it so that it is real wherever the body can touch",
-                )
-            if mpmath.re(value) < 0:
-                raise _not_convex(name, _negative_at(place), values)
-
-
-def _places(piece: Piece) -> Iterator[mpf]:
-    """Places in a piece, near to its ends and far from them."""
-    distances = [mpf(10) ** (mpf(k) / 3) for k in range(-12, 7)]
-    lower = mpf(piece.lower) if piece.lower.is_finite else None
-    upper = mpf(piece.upper) if piece.upper.is_finite else None
-    for distance in distances:
-        if lower is None and upper is None:
-            yield from (-distance, distance)
-        if lower is not None and (upper is None or lower + distance < upper):
-            yield lower + distance
-        if upper is not None and (lower is None or upper - distance > lower):
-            yield upper - distance
-
-
-def _at(piece: Piece, values: dict[Symbol, Rational]) -> Piece:
-    return Piece(*(expr.subs(values) for expr in (piece.lower, piece.upper, piece.profile)))
-
-
-def _demand_rising(name: str, pieces: list[Piece], values: dict[Symbol, Rational]) -> None:
-    for piece in pieces:
-        curvature = Poly(piece.curvature, x)
-        lower = piece.lower if piece.lower != -oo else None
-        upper = piece.upper if piece.upper != oo else None
-        for at in _probes(curvature, lower, upper):
-            if curvature.eval(at) < 0:
-                raise _not_convex(name, _negative_at(at), values)
-
-
-def _probes(curvature: Poly, lower: Expr | None, upper: Expr | None) -> list[Rational]:
-    """One point between every two neighbouring roots of the curvature, which decide its sign."""
-    if curvature.is_ground:
-        return [Integer(0)]
-    marks = [end for interval, _ in curvature.intervals() for end in interval]
-    marks = [r for r in marks if (lower is None or r > lower) and (upper is None or r < upper)]
-    inner = [*([] if lower is None else [lower]), *marks, *([] if upper is None else [upper])]
-    inner = inner or [Integer(0)]
-    points = [inner[0] - 1, *inner] if lower is None else inner
-    points = [*points, inner[-1] + 1] if upper is None else points
-    return [cancel((p + q) / 2) for p, q in pairwise(points)]

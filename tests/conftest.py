@@ -1,6 +1,8 @@
 """Property tests draw the same examples on every machine; no test sees the user's own cache."""
 
+import os
 from itertools import count
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -9,6 +11,11 @@ from derive.cache import VARIABLE
 
 settings.register_profile("ci", derandomize=True, deadline=None)
 settings.load_profile("ci")
+
+if "PYTHONPATH" in os.environ:
+    # A relative one would lead processes to the directories of the tests that start them.
+    _FOLDERS = os.environ["PYTHONPATH"].split(os.pathsep)
+    os.environ["PYTHONPATH"] = os.pathsep.join(str(Path(folder).resolve()) for folder in _FOLDERS)
 
 _NUMBERS = count()
 

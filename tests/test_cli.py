@@ -62,6 +62,7 @@ FILES = {
     "imports.py": "import no_such_module_anywhere",
     "recursion.py": "def f(): f()\nf()",
     "quits.py": "import sys\nsys.exit(0)",
+    "interrupts.py": "raise KeyboardInterrupt",
     "without.py": '"""Nothing here."""\n',
     "number.py": "geometry = 3",
     "unit.py": HEAD + 'b = parameter("b", "width", unit="furlong")\n',
@@ -100,6 +101,8 @@ BAD = [
     (("show", "imports.py"), "no_such_module_anywhere"),
     (("show", "recursion.py"), "RecursionError"),
     (("show", "quits.py"), "quits.py"),
+    (("show", "interrupts.py"), "interrupts.py: KeyboardInterrupt;"),
+    (("generate", "interrupts.py", "--out", "new"), "interrupts.py: KeyboardInterrupt;"),
     (("show", "without.py"), "defines no `geometry`"),
     (("show", "number.py"), "defines no `geometry`"),
     (("show", "unit.py"), "furlong"),
@@ -503,6 +506,7 @@ def test_a_profile_that_cannot_be_printed_is_bad_input(here: Path, unproven: Non
         (("show", "sphere"), "sphere"),
         (("show", "syntax.py"), "SyntaxError"),
         (("show", "quits.py"), "quits.py"),
+        (("show", "interrupts.py"), "interrupts.py"),
         (("generate", "cylinder.py"), "--out"),
         (("show",), "NAME"),
     ],
@@ -658,6 +662,15 @@ class TestGenerate:
         done("generate", "hertz", "--out", "link")
         assert (here / "link").is_symlink()
         assert "hertz.py" in contents(here / "there")
+
+    @pytest.mark.parametrize("out", ["link", "link/deeper"])
+    def test_out_through_a_link_to_nothing_is_refused(self, here: Path, out: str) -> None:
+        (here / "link").symlink_to(here / "there")
+        result = run("generate", "hertz", "--out", out)
+        assert result.exit_code == 2
+        assert "'link', a link to nothing" in result.stderr
+        assert len(lines(result.stderr)) == 1
+        assert not (here / "there").exists()
 
     def test_the_library_is_not_needed_in_the_current_directory(self, here: Path) -> None:
         (here / "hertz").mkdir()

@@ -51,6 +51,17 @@ def test_reports_arrive_while_the_work_is_done() -> None:
     assert heard[-1] - heard[0] > 0.5
 
 
+def test_a_file_of_the_user_s_hides_no_module_of_python_s(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A geometry file may be called so; a process starts in the directory that holds it."""
+    for name in ("threading.py", "signal.py", "keyword.py"):
+        (tmp_path / name).write_text("raise RuntimeError('hidden')\n")
+    monkeypatch.chdir(tmp_path)
+    assert in_processes(late, [(1, 0.0), (2, 0.0)], silent, 2) == [1, 2]
+    assert "PYTHONSAFEPATH" not in os.environ
+
+
 # ------------------------------------------------------------------ failures
 
 

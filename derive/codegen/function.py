@@ -302,18 +302,19 @@ def _off_all_kinks(sheet: FormulaSheet, point: Point) -> bool:
     return not {*places} & {point[x], -point[a], point[c]}
 
 
+_SIZES = (1, 2, 4, 8, mpf("0.5"), mpf("0.25"), mpf("0.125"))
+_PLACES = tuple(map(mpf, ("0.5", "0.375", "-0.25", "0.75", "0.1875")))
+"""Sizes of the contact, and places in it, that an example may have."""
+
+
 def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
     """Plain numbers that meet the function's assumptions, for its docstring."""
-    least = sheet.geometry.slope.least
-    parameters = {
-        q.symbol: mpf(least.get(q.symbol, 0)) + (mpf("0.125") if q.unit == "rad" else mpf(1))
-        for q in sheet.geometry.parameters
-    }
-    for size, lean in product((1, 2, 4, 8, mpf("0.5"), mpf("0.25"), mpf("0.125")), (1, -1)):
+    needed = tuple(conditions)
+    for lengths, place, size, lean in product((1, 2), _PLACES, _SIZES, (1, -1)):
         point: Point = {
-            **parameters,
+            **_plain_parameters(sheet, lengths),
             E_star: mpf(1),
-            x: mpf("0.5"),
+            x: place,
             a: mpf("1.5") * size,
             c: mpf(1) * size,
             P: mpf(size),
@@ -325,6 +326,18 @@ def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
             dM: mpf("0.25"),
             f: mpf("0.5"),
         }
-        if holds(conditions, point) and _off_all_kinks(sheet, point):
+        if holds(needed, point) and _off_all_kinks(sheet, point):
             return point
     raise NotProven(f"no example found for {sheet.geometry.name!r}")
+
+
+def _plain_parameters(sheet: FormulaSheet, lengths: int) -> Point:
+    """Parameters above what is demanded of them: lengths one or more apart, slopes an eighth."""
+    slope, found = sheet.geometry.slope, {}
+    for number, q in enumerate(sheet.geometry.parameters):
+        plain = mpf("0.125") if q.unit == "rad" else mpf(lengths) ** number
+        value = slope.typical.get(q.symbol)
+        found[q.symbol] = (mpf(value.p) / value.q if value else plain) + mpf(
+            slope.least.get(q.symbol, 0)
+        )
+    return found

@@ -27,7 +27,8 @@ from sympy import (
 from derive.codegen.function import FunctionText, own_parameters
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
-from derive.profile import Piece, breaks_of, has_sharp_power
+from derive.piece import Piece
+from derive.profile import breaks_of, has_sharp_power
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, x
 

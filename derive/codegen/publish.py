@@ -127,6 +127,17 @@ def _put_back(old: Path, folder: Path) -> str:
     return ""
 
 
+def resolved(folder: Path) -> Path:
+    """The directory that a path leads to, through links to directories that are there.
+
+    Raises BadOutput for a link that leads nowhere: what it names would be made wherever that is.
+    """
+    for link in (folder, *folder.parents):
+        if link.is_symlink() and not link.exists():
+            raise BadOutput(str(folder), f"leads through {link.name!r}, a link to nothing")
+    return folder.resolve()
+
+
 def demand_replaceable(folder: Path) -> None:
     """Raise BadOutput unless `folder` is absent, empty, or a package made here."""
     if not folder.exists() and not folder.is_symlink():

@@ -76,7 +76,7 @@ def _demand_inverse(
     found = _called(module, function, sheet, given)
     for field, values in zip((a, c, alpha), found, strict=True):
         for point, value in zip(given, values, strict=True):
-            size = 100 * (point[a] + point[c]) if field != alpha else mpf(100)
+            size = 100 * (point[a] + point[c]) if field != alpha else 100 + abs(point[alpha])
             label = f"{function.name} {field}"
             _demand_close(sheet, label, value, point[field], size, point)
 

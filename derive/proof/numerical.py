@@ -12,7 +12,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Symbol
 
-from derive.proof.points import Point, contacts, loads, named, numeric
+from derive.proof.points import Point, contacts, loads, named, numeric, numeric_along
 from derive.proof.quadrature import Contact
 from derive.proof.rule import Function, remembered
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
@@ -127,8 +127,8 @@ class NumericalRoutes:
     def _p(self, point: Point) -> Callable[[mpf], mpf]:
         """p(x) at one contact; load and moment ask for it at the same places."""
         if named(point) not in self._pressures:
-            p = numeric(self.sheet.flat("pressure"))
-            self._pressures[named(point)] = remembered(lambda place: p({**point, x: place}))
+            p = numeric_along(self.sheet.flat("pressure"), x)(point)
+            self._pressures[named(point)] = remembered(p)
         return self._pressures[named(point)]
 
     @cached_property

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import mpmath
 from mpmath import mpf
-from sympy import Dummy, Expr, Integral, Piecewise, Pow, Symbol, count_ops, lambdify
+from sympy import Add, Dummy, Expr, Integral, Mul, Piecewise, Pow, Symbol, count_ops, lambdify
 from sympy.logic.boolalg import Boolean
 
 from derive.geometry import Geometry
@@ -85,10 +85,13 @@ def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
 
 
 def _parameters(body: Geometry, rng: random.Random) -> Point:
-    """Parameters above what the body demands of them."""
+    """Parameters around those that meet what the body demands of them."""
     made = [E_star, *(q.symbol for q in body.parameters)]
-    least = body.slope.least
-    return {symbol: mpf(2) ** rng.uniform(-1.5, 1.5) + mpf(least.get(symbol, 0)) for symbol in made}
+    least, around = body.slope.least, {p: mpf(v.p) / v.q for p, v in body.slope.typical.items()}
+    return {
+        symbol: mpf(2) ** rng.uniform(-1.5, 1.5) * around.get(symbol, 1) + mpf(least.get(symbol, 0))
+        for symbol in made
+    }
 
 
 @cache
@@ -106,6 +109,61 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
         return mpf(function(*given, *(value(point) for value in values)))
 
     return at
+
+
+@cache
+def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Callable[[mpf], mpf]]:
+    """`expr` at a point as a function of one variable, for quadrature.
+
+    What does not hold the variable is computed once a point, with digits to spare; the rest is
+    collected by what does.  Not for branches: one that is not taken may have no value.
+    """
+    fixed: dict[Expr, Symbol] = {}
+    moving = _collected(expr.subs(e, M / P), variable, fixed)
+    held = sorted(set().union(*(value.free_symbols for value in fixed)), key=str)
+    constants = lambdify(held, [*fixed], modules="mpmath", cse=True)
+    function = lambdify([variable, *fixed.values()], moving, modules="mpmath", cse=True)
+
+    def at(point: Point) -> Callable[[mpf], mpf]:
+        given = [point[symbol] for symbol in held]
+        known: dict[int, list[mpf]] = {}
+
+        def along(place: mpf) -> mpf:
+            digits = mpmath.mp.dps + _SPARE
+            with mpmath.workdps(digits):
+                if digits not in known:
+                    known[digits] = constants(*given)
+                value = function(place, *known[digits])
+            return +mpf(value)
+
+        return along
+
+    return at
+
+
+def _collected(expr: Expr, variable: Symbol, fixed: dict[Expr, Symbol]) -> Expr:
+    """`expr` with a symbol for everything that does not hold the variable, entered in `fixed`."""
+    if not expr.has(variable):
+        return expr if expr.is_Rational else fixed.setdefault(expr, Dummy("C"))
+    if expr == variable:
+        return expr
+    if expr.is_Mul:
+        apart, moving = expr.as_independent(variable, as_Add=False)
+        factors = [_collected(factor, variable, fixed) for factor in Mul.make_args(moving)]
+        return Mul(_collected(apart, variable, fixed), *factors)
+    if expr.is_Add:
+        terms: dict[Expr, list[Expr]] = {}
+        for term in expr.args:
+            apart, moving = term.as_independent(variable, as_Add=False)
+            terms.setdefault(moving, []).append(apart)
+        return Add(
+            *(
+                _collected(Add(*apart), variable, fixed)
+                * (_collected(moving, variable, fixed) if moving.has(variable) else moving)
+                for moving, apart in terms.items()
+            )
+        )
+    return expr.func(*(_collected(arg, variable, fixed) for arg in expr.args))
 
 
 def over_contact(over: Integral) -> Callable[[Point], mpf]:
@@ -191,6 +249,9 @@ def _nodes(
 
 _LONG = 200
 """Operations of a formula from which on it pays to look for what it repeats."""
+
+_SPARE = 20
+"""Digits more for what is collected: its coefficients may cancel."""
 
 _INSIDE, _OUTSIDE = 160, 40
 """Digits of an integrand, and of the integral."""

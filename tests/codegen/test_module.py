@@ -18,12 +18,14 @@ import numpy as np
 import pytest
 from mpmath import mpf
 from ruff import find_ruff_bin
-from sympy import Abs, Expr, Symbol
+from sympy import Abs, Expr, Rational, Symbol
 
 import derive.codegen.function
 from derive import Geometry, parameter, x
+from derive.codegen.function import example_of
 from derive.codegen.module import module_text
 from derive.codegen.publish import package_files, publish
+from derive.codegen.trial import demand_right
 from derive.derivation import derive_sheet
 from derive.errors import BadName, NotProven
 from derive.library import library, load_geometry
@@ -31,7 +33,7 @@ from derive.notation import text_of
 from derive.pipeline import GENERATED
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
-from derive.symbols import RESERVED
+from derive.symbols import RESERVED, a, c
 from tests.codegen.test_program import at_most
 from tests.derive import integrals
 from tests.derive.bodies import BODIES, VALUES, assumed, sheet
@@ -407,6 +409,49 @@ def test_a_constant_of_mathematics_is_a_number_in_the_module(imported: Callable)
         got = imported(text).load(2.0, 1.0, E_star=1.25, R=0.5)
         # P = pi E* h^2/(16 rho) with 1/(2 rho) = constant/R
         assert np.isclose(got, np.pi * 1.25 * 9 * 2 * float(constant) / (16 * 0.5), rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    "places",
+    [(Rational(1, 2),), (Rational(1, 2), Rational(3, 8)), (-Rational(3, 2), Rational(1, 2), 1)],
+    ids=str,
+)
+def test_an_example_is_found_wherever_the_kinks_are(places: tuple[Expr, ...]) -> None:
+    """At b = 1 some of them would lie at an example's x, or at an edge of its contact."""
+    R, b = parameter("R", "a radius", unit="m"), parameter("b", "a width", unit="m")
+    phi = parameter("phi", "a slope", unit="rad")
+    g = x**2 / R + sum(phi * Abs(x - place * b) for place in places)
+    of = assumed(derive_sheet(Geometry("body", g=g)))
+    point = example_of(of, of["pressure"].conditions)
+    assert -point[a] < point[x] < point[c]
+    assert not {point[x], -point[a], point[c]} & {
+        mpf(place.p) / place.q * point[Symbol("b", positive=True)]
+        for place in map(Rational, places)
+    }
+
+
+def test_a_tilt_far_above_one_is_held_to_its_own_size() -> None:
+    """Of a body this steep float64 holds alpha, some 1e24, to 1e8."""
+    L = parameter("L", "a length", unit="m")
+    of = assumed(derive_sheet(Geometry("steep", g=10**24 * x**4 / L**3)))
+    demand_right(of, module_text(of, "steep.py"))
+
+
+@pytest.mark.slow
+def test_a_body_convex_for_some_parameters_gives_nothing_for_the_others(imported: Callable) -> None:
+    """g'' = 12 x^2/L^3 - 6 x/(10 L^2) + 2/R is nowhere negative where 3 R <= 800 L."""
+    L, R = parameter("L", "a length", unit="m"), parameter("R", "a radius", unit="m")
+    module = imported(text_of_body(x**4 / L**3 - x**3 / (10 * L**2) + x**2 / R))
+    calls: dict[str, tuple[float, ...]] = {
+        **{"contact": (1.0, 0.0), "contact_at_tilt": (1.0, 0.0), "pressure": (0.1, 0.5, 0.5)},
+        **dict.fromkeys(("load", "moment", "K_N", "L_N"), (0.5, 0.5)),
+    }
+    for name, given in calls.items():
+        function = getattr(module, name)
+        assert "L >= 3*R/800" in words(function.__doc__)
+        for radius, exists in ((1.0, True), (266.0, True), (267.0, False), (1e5, False)):
+            result = np.array(function(*given, E_star=1.0, L=1.0, R=radius))
+            assert np.all(np.isnan(result) != exists)
 
 
 def test_an_inverse_without_a_closed_formula_is_solved_for() -> None:

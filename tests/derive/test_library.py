@@ -1,5 +1,7 @@
 """Geometry files: found, executed once, leaving nothing behind; what is wrong with a bad one."""
 
+import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -181,3 +183,24 @@ def test_the_bytecode_switch_is_restored_after_a_failure(tmp_path: Path) -> None
     with pytest.raises(BadGeometryFile):
         load_geometry(written(tmp_path / "bad.py", "geometry = ("))
     assert sys.dont_write_bytecode == writes
+
+
+PRESSES = """import os, signal
+os.kill(os.getpid(), signal.SIGINT)
+while True:
+    pass
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no signal can be sent to a process of one's own")
+def test_ctrl_c_while_a_file_is_loaded_is_no_mistake_in_the_file(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "presses.py").write_text(PRESSES)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            load_geometry(tmp_path / "presses.py")
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, before)

@@ -406,19 +406,39 @@ def test_a_gap_in_a_piecewise_is_refused(g: Expr) -> None:
 
 
 @pytest.mark.parametrize(
-    "g",
+    ("g", "larger"),
     [
-        (Max(0, x - b) ** 2 + Max(0, x - b2) ** 2) / R,
-        phi * (Abs(x - b) + Abs(x - b2)),
-        Max(0, phi * x, psi * x) + x**2 / R,
+        ((Max(0, x - b) ** 2 + Max(0, x - b2) ** 2) / R, "b2 = b + gap"),
+        (phi * (Abs(x - b) + Abs(x - b2)), "b2 = b + gap"),
+        (Max(0, phi * x, psi * x) + x**2 / R, "psi = phi + gap"),
     ],
     ids=str,
 )
-def test_kinks_of_open_order_are_refused(g: Expr) -> None:
+def test_kinks_of_open_order_are_refused(g: Expr, larger: str) -> None:
     with pytest.raises(BadProfile) as caught:
         slope(g)
     assert "order is open" in caught.value.why
-    assert "b2 = b1 + d" in caught.value.remedy
+    assert larger in caught.value.remedy
+
+
+def test_what_the_refusal_of_an_open_order_proposes_is_accepted() -> None:
+    gap = parameter("gap", "by how much further", unit="m")
+    kinks = slope(phi * Abs(x - b) + psi * Abs(x - b - gap)).kinks
+    assert [str(kink.position) for kink in kinks] == ["b", "b + gap"]
+
+
+def test_two_parabolas_need_to_be_told_which_is_wider() -> None:
+    """(x/(x - b))^2 = R1/R has two real roots unless R1 = R; x/(x - b) = sqrt(R1/R) > 0 lies beyond
+    b where R1 > R, on the other side of the origin where R1 < R."""
+    with pytest.raises(BadProfile) as caught:
+        slope(Max(x**2 / R1, (x - b) ** 2 / R))
+    assert "R - R1 may be zero" in caught.value.why
+    assert "R1 = R + gap" in caught.value.remedy
+    gap = parameter("gap", "by how much wider", unit="m")
+    found = slope(Max(x**2 / R1, (x - b) ** 2 / (R1 + gap))).kinks
+    values = {"R1": 1.0, "gap": 3.0, "b": 1.0}  # x = (1 - x)/2 or x = (x - 1)/2: -1 and 1/3
+    places = [k.position.subs({s: values[str(s)] for s in k.position.free_symbols}) for k in found]
+    assert [float(place) for place in places] == pytest.approx([-1, 1 / 3], rel=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,16 @@ import pytest
 from mpmath import mpf
 from sympy import Integral, Rational, Symbol, sqrt, symbols
 
-from derive.proof.points import Point, contacts, draws, holds, loads, named, numeric
+from derive.proof.points import (
+    Point,
+    contacts,
+    draws,
+    holds,
+    loads,
+    named,
+    numeric,
+    numeric_along,
+)
 from derive.proof.verdict import POINTS
 from derive.symbols import E_star, M, P, a, alpha, c, dQ, dsigma, e, x
 from tests.derive.bodies import EACH, sheet
@@ -194,3 +203,19 @@ def test_formulas_and_points_are_the_same_whatever_the_hash_seed() -> None:
     ]
     assert printed[0] == printed[1]
     assert printed[0].count("E_star = ") >= 4 * POINTS
+
+
+@pytest.mark.parametrize("name", ["wedge", "three_corners", "spline", "skew"])
+def test_a_formula_along_x_is_what_it_is_at_every_point(name: str) -> None:
+    """At two precisions in turn: what is computed once is so once a precision."""
+    of = sheet(name)
+    pressure = of.flat("pressure")
+    whole, along = numeric(pressure), numeric_along(pressure, x)
+    for point in contacts(of)[:6]:
+        at = along(point)
+        for digits in (30, 60, 30):
+            with mpmath.workdps(digits):
+                for place in (point[x], (point[c] - point[a]) / 2):
+                    wanted = whole({**point, x: place})
+                    size = max(abs(wanted), abs(whole(point)))
+                    assert abs(at(place) - wanted) <= size * mpf(10) ** (8 - digits)

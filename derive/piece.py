@@ -1,0 +1,65 @@
+"""One piece of a profile, and what g' does where two of them meet.
+
+In:  g(x) between two kinks.
+Out: its slope and curvature; by how much the slope rises at a kink.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from sympy import Dummy, Expr, Symbol, diff, limit, nan, simplify
+from sympy.logic.boolalg import Boolean
+
+from derive.symbols import x
+
+
+@dataclass(frozen=True)
+class Piece:
+    """g(x) = `profile` for `lower` < x < `upper`."""
+
+    lower: Expr
+    upper: Expr
+    profile: Expr
+
+    @property
+    def slope(self) -> Expr:
+        """g'(x) of this piece."""
+        return diff(self.profile, x)
+
+    @cached_property
+    def curvature(self) -> Expr:
+        """g''(x) of this piece."""
+        return diff(self.profile, x, 2)
+
+    @cached_property
+    def straight(self) -> bool:
+        """Whether the piece is a straight line, on which nothing presses by itself."""
+        return bool(simplify(self.curvature) == 0)
+
+
+def surpluses(demands: tuple[Boolean, ...]) -> dict[Symbol, tuple[Expr, Symbol]]:
+    """Parameters that must lie above a number: that number, and a positive symbol for the rest."""
+    return {d.gts: (d.lts, Dummy("above", positive=True)) for d in demands if d.gts.is_Symbol}
+
+
+def with_surpluses(expr: Expr, found: dict[Symbol, tuple[Expr, Symbol]]) -> Expr:
+    """`expr` with each of those parameters as what it must exceed, and the rest."""
+    return expr.subs({p: least + above for p, (least, above) in found.items()})
+
+
+def step(left: Piece, right: Piece, demands: tuple[Boolean, ...] = ()) -> Expr:
+    """By how much g' rises where two pieces meet."""
+    found = surpluses(demands)
+    before, beyond = (
+        beside(with_surpluses(piece.slope, found), with_surpluses(right.lower, found), sense)
+        for piece, sense in ((left, -1), (right, 1))
+    )
+    return simplify((beyond - before).subs({up: p - least for p, (least, up) in found.items()}))
+
+
+def beside(expr: Expr, place: Expr, sense: int) -> Expr:
+    """The value of `expr` next to a place, on its right (+1) or left (-1)."""
+    distance = Dummy("t", positive=True)
+    near = simplify(expr.subs(x, place + sense * distance))
+    value = near.subs(distance, 0)
+    return value if value.is_finite is not False and value is not nan else limit(near, distance, 0)

@@ -1,0 +1,192 @@
+"""For which parameters a body is convex: conditions by hand, and against the least curvature."""
+
+import random
+
+import pytest
+from mpmath import mpf
+from sympy import (
+    Abs,
+    Expr,
+    Heaviside,
+    Integer,
+    Max,
+    Piecewise,
+    Poly,
+    Rational,
+    Symbol,
+    cosh,
+    log,
+    sqrt,
+)
+
+from derive import Geometry, parameter, x
+from derive.derivation import derive_sheet
+from derive.errors import BadProfile
+from derive.proof.points import contacts, holds
+from derive.sheet import load_conditions, tilt_conditions
+
+R = parameter("R", "radius", unit="m")
+R1 = parameter("R1", "another radius", unit="m")
+L = parameter("L", "length", unit="m")
+B = parameter("B", "another length", unit="m")
+b = parameter("b", "half-width", unit="m")
+phi = parameter("phi", "slope", unit="rad")
+psi = parameter("psi", "another slope", unit="rad")
+
+
+def demands(g: Expr) -> list[str]:
+    return [str(demand) for demand in Geometry("body", g=g).slope.demands]
+
+
+@pytest.mark.parametrize(
+    ("g", "wanted"),
+    [
+        # g'' = 12 x^2/L^3 - 6 x/(10 L^2) + 2/R; 0.36/L^4 <= 4 * 12 * 2/(L^3 R), R <= 96 L/0.36
+        (x**4 / L**3 - x**3 / (10 * L**2) + x**2 / R, ["L >= 3*R/800"]),
+        # g'' = 30 x^4/L^5 - 12 x^2/B^3 + 2/R; 144/B^6 <= 4 * 30 * 2/(L^5 R)
+        (x**6 / L**5 - x**4 / B**3 + x**2 / R, ["5*B**6 - 3*L**5*R >= 0"]),
+        # g'' = 20 x^3/L^4 - 12 x^2/B^3 + 2/R on the right, least at x = 2 L^4/(5 B^3):
+        # (4/25)(20 * 2/5 - 12) L^8/B^9 + 2/R >= 0, so that 25 B^9 >= 8 L^8 R
+        (
+            Max(0, x) ** 5 / L**4 - Max(0, x) ** 4 / B**3 + x**2 / R,
+            ["25*B**9 - 8*L**8*R >= 0"],
+        ),
+        # g'' = 2/R - x^2/L^3 within b, least at b; the slope there rises by
+        # phi - 2 b/R + b^3/(3 L^3)
+        (
+            Piecewise(
+                (x**2 / R - x**4 / (12 * L**3), Abs(x) < b),
+                (b**2 / R - b**4 / (12 * L**3) + phi * (Abs(x) - b), True),
+            ),
+            ["2*L**3 - R*b**2 >= 0", "3*L**3*R*phi - 6*L**3*b + R*b**3 > 0"],
+        ),
+        # g'' = 2/R1 - 2/R everywhere
+        (x**2 / R1 - x**2 / R, ["R > R1"]),
+        # g'' = 2/R + 6 (1/L^2 - 1/B^2) x + 12 x^2/L^3 on the right: 6 (..) >= -2 sqrt(24/(L^3 R))
+        (
+            Max(0, x) ** 4 / L**3 + Max(0, x) ** 3 * (1 / L**2 - 1 / B**2) + x**2 / R,
+            ["4*sqrt(6)/(L**(3/2)*sqrt(R)) + 6*(B - L)*(B + L)/(B**2*L**2) >= 0"],
+        ),
+        # g'' = cosh(x/L)/L - 2/R, least at the origin
+        (L * cosh(x / L) - x**2 / R, ["R >= 2*L"]),
+        # g'' = 2/R - 1/(b cosh(x/b)^2), least at the origin
+        (x**2 / R - b * log(cosh(x / b)), ["b >= R/2"]),
+    ],
+    ids=str,
+)
+def test_what_the_least_curvature_demands(g: Expr, wanted: list[str]) -> None:
+    assert demands(g) == wanted
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        x**2 / R + x**3 / R**2 + x**4 / R**3,  # 36 <= 4 * 12 * 2
+        (x - b) ** 4 / R**3,
+        (x - b) ** 6 / R**5 + (x + B) ** 4 / L**3,
+        (x - b) ** 4 / R**3 + x**2 / L,
+        Max(0, x - b) ** 7 / L**6 + Max(0, -x - b - B) ** 5 / R**4 + phi * Abs(x - b / 2),
+        Max(0, x**2 - R * R1) ** 3 / R**5,
+        phi * b * log(cosh(x / b)),  # 1 - tanh^2 is rounded to less than zero far away
+        phi * sqrt((x - L) ** 2 + b**2),
+    ],
+    ids=str,
+)
+def test_a_body_that_is_always_convex_meets_no_demand(g: Expr) -> None:
+    assert demands(g) == []
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        x**8 / L**7 + x**4 / B**3 - x**3 / b**2 + x**2 / R,
+        phi * sqrt(x**2 + b**2) - psi * sqrt(x**2 + B**2),  # falls within or far away
+        x**6 / L**5 - x**5 / B**4 + x**4 / b**3 - x**3 / R**2 + x**2 / R1,
+    ],
+    ids=str,
+)
+def test_a_body_convex_for_some_parameters_under_no_condition_found_is_refused(g: Expr) -> None:
+    with pytest.raises(BadProfile) as caught:
+        Geometry("body", g=g)
+    assert "convex only for some values of its parameters" in caught.value.why
+    assert "numbers" in caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        x**2 / R - Abs(x) ** 3 / L**2,
+        x**5 / L**4 + x**2 / R,
+        x**8 / L**7 + x**4 / L**3 - 3 * x**3 / L**2 + x**2 / L,  # 56/64 + 3 - 9 + 2 at L/2
+    ],
+    ids=str,
+)
+def test_a_body_convex_for_no_parameters_is_refused_as_such(g: Expr) -> None:
+    with pytest.raises(BadProfile) as caught:
+        Geometry("body", g=g)
+    assert caught.value.why.startswith("is not convex")
+
+
+def _least(curvature: Expr, lower: Expr, upper: Expr) -> Expr:
+    """The least value of a polynomial at its stationary points and the ends, in numbers."""
+    poly = Poly(curvature, x)
+    places = [Rational(r) for r in poly.diff(x).nroots(n=40, maxsteps=500) if r.is_real]
+    places = [p for p in places if lower < p < upper]
+    places += [end for end in (lower, upper) if end.is_finite]
+    places += [p for p in (Integer(-(10**12)), Integer(10**12)) if lower < p < upper]
+    return min(poly.eval(place) for place in places)
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        x**4 / L**3 - x**3 / B**2 + x**2 / R,
+        x**6 / L**5 - x**4 / B**3 + x**2 / R,
+        Max(0, x) ** 7 / L**6 - Max(0, x) ** 4 / B**3 + x**2 / R,
+        Max(0, x) ** 5 / L**4 - Max(0, x) ** 4 / B**3 + Max(0, x) ** 3 / b**2 + x**2 / R,
+        Max(0, x) ** 4 / L**3 + Max(0, x) ** 3 * (1 / R**2 - 1 / B**2) + x**2 / R,
+        x**2 / R + Max(0, x) ** 3 / L**2 - Max(0, x - b) ** 3 / B**2,
+        x**2 / R - Heaviside(b - Abs(x)) * (b**2 - x**2) ** 2 * (b + x) / L**4,
+    ],
+    ids=str,
+)
+def test_demands_hold_exactly_where_the_curvature_is_nowhere_negative(g: Expr) -> None:
+    body = Geometry("body", g=g)
+    slope, symbols = body.slope, [q.symbol for q in body.parameters]
+    rng = random.Random(7)
+    seen = {True: 0, False: 0}
+    for _ in range(40):
+        values = {
+            p: Rational(2) ** rng.randint(-4, 4) * Rational(rng.randint(9, 15), 12) for p in symbols
+        }
+        pieces = [
+            [expr.subs(values) for expr in (piece.curvature, piece.lower, piece.upper)]
+            for piece in slope.pieces
+        ]
+        right = all(_least(*piece) >= 0 for piece in pieces)
+        assert all(bool(d.subs(values)) for d in slope.demands) == right, values
+        seen[right] += 1
+    assert min(seen.values()) >= 3
+
+
+def test_the_sheet_says_what_is_demanded_and_draws_contacts_that_meet_it() -> None:
+    """Here L >= 3750 R: 600^2 R <= 96 L."""
+    body = Geometry("steep", g=x**4 / L**3 - 100 * x**3 / L**2 + x**2 / R)
+    sheet = derive_sheet(body)
+    condition = Symbol("L", positive=True) >= 3750 * Symbol("R", positive=True)
+    assert condition in load_conditions(sheet.frame)
+    assert condition in tilt_conditions(sheet.frame)
+    assert "L >= 3750*R" in sheet["load"].assumptions
+    drawn = contacts(sheet)
+    assert len(drawn) == 24
+    assert all(holds([condition], point) for point in drawn)
+
+
+def test_parameters_of_the_library_are_drawn_around_one() -> None:
+    """What is drawn decides the bytes of the examples and proofs that are printed."""
+    body = Geometry("power_law", g=R * (Abs(x) / R) ** parameter("k", "exponent", unit="-"))
+    assert body.slope.typical == {}
+    assert all(
+        mpf(2) ** -2 < point[Symbol("R", positive=True)] < 4
+        for point in contacts(derive_sheet(body))
+    )
