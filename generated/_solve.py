@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._arrays import at_rows, flattened
+from ._arrays import LEAST, at_rows, flattened
 from ._nested import edges
 from ._roots import STEPS, Array, Rows, around, increasing_root
 from ._state import State
@@ -180,7 +180,7 @@ def _is_met(load: Array, goal: Any, a: Array, c: Array, now: State) -> Array:
     allowed = ACCEPTED + 16 * by_rounding / load
     rest = goal.off(now, h, mid, load)
     met = (np.abs(np.log(load / now.load)) < allowed) & (np.abs(rest) < 16 * allowed)
-    return met & (allowed < ROUGHEST)
+    return met & (by_rounding < ROUGHEST * load)
 
 
 class _Widths(NamedTuple):
@@ -306,6 +306,8 @@ def level(
         beyond, _ = excess(np.nextafter(x, np.inf), everywhere)
         found = np.where((before <= 0) & (beyond >= 0), x, found)
     side = np.where(excess(0 * size, everywhere)[0] < 0, 1.0, -1.0)
+    beside = excess(side * LEAST, everywhere)[0] * side
+    found = np.where(np.isnan(found) & (beside > 0), 0.0, found)  # closer than lengths can be
     open_ = np.flatnonzero(np.isnan(found))
 
     def excess_outward(r: Array, rows: Rows) -> tuple[Array, Array]:
