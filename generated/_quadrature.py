@@ -365,9 +365,22 @@ class _Part(NamedTuple):
 
     def at_high(self) -> Curve:
         """The curve at its right end."""
-        if self.piece.from_left is not None:
-            return self.piece.from_left(self.beyond_left + self.length, **self.constants)
-        return self.piece.from_right(self.beyond_right, **self.constants)  # type: ignore[misc]
+        return self._curve(self.beyond_left + self.length, self.beyond_right)
+
+    def _curve(self, from_left: Array, from_right: Array) -> Curve:
+        """The curve at distances from the piece's breaks, told by the nearer one of them."""
+        of_left, of_right, _ = self.piece
+        if of_left is None:
+            return of_right(from_right, **self.constants)  # type: ignore[misc]
+        if of_right is None:
+            return of_left(from_left, **self.constants)
+        near = from_left <= from_right
+        if np.all(near):
+            return of_left(from_left, **self.constants)
+        if not np.any(near):
+            return of_right(from_right, **self.constants)
+        both = of_left(from_left, **self.constants), of_right(from_right, **self.constants)
+        return Curve(*(np.where(near, *values) for values in zip(*both, strict=True)))
 
     def angle(self) -> Array:
         """int ds/w over it."""
@@ -377,15 +390,11 @@ class _Part(NamedTuple):
         sine = (start + before) * self.length / both
         return 2 * np.arctan2(sine, np.sqrt(before * end) + np.sqrt(beyond * start))
 
-    def at(self, near_left: bool, q: Array, rest: Array) -> _Nodes:
+    def at(self, q: Array, rest: Array) -> _Nodes:
         """Nodes at the fractions q from the left end, 1 - q = rest from the right."""
         along, back = self.length * q, self.length * rest
-        from_left, from_right, _ = self.piece
-        if from_left is not None and (near_left or from_right is None):
-            curve = from_left(np.maximum(self.beyond_left + along, _TINY), **self.constants)
-        else:
-            distance = np.maximum(self.beyond_right + back, _TINY)
-            curve = from_right(distance, **self.constants)  # type: ignore[misc]
+        distances = self.beyond_left + along, self.beyond_right + back
+        curve = self._curve(*(np.maximum(distance, _TINY) for distance in distances))
         low, high = self.start_low + along, self.end_high + back
         return _Nodes(curve, low, high, along, self.start_low, self.ends_high)
 
@@ -477,7 +486,7 @@ def _level_sums(
             mine = nodes[:, (nodes[0] < 0.5) == near_left, None]
             for start in range(0, mine.shape[1], many):
                 q, rest, weight = mine[:, start : start + many]
-                values = integrand(part.at(near_left, q, rest), of)
+                values = integrand(part.at(q, rest), of)
                 for i, value in enumerate(values):
                     share[i] += np.sum(weight * value, axis=0)
         total += np.where(part.length > 0, share * part.length, 0.0)

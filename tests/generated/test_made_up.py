@@ -103,11 +103,9 @@ PROFILES = {
         lambda v: [v["b"]],
     ),
     "blunt_on_both_sides": Profile(
-        "Max(0, x)**7/L**6 + Max(0, -x - b)**5/h_0**4",
+        "Max(0, x)**5/L**4 + Max(0, -x - b)**4/h_0**3",
         "L b h_0",
-        lambda v: (
-            lambda s: 7 * up(s) ** 6 / v["L"] ** 6 - 5 * up(-s - v["b"]) ** 4 / v["h_0"] ** 4
-        ),
+        lambda v: lambda s: 5 * up(s) ** 4 / v["L"] ** 4 - 4 * up(-s - v["b"]) ** 3 / v["h_0"] ** 3,
         lambda v: [-v["b"], mpf(0)],
     ),
     "steep_in_between": Profile(
