@@ -258,9 +258,9 @@ def is_delicate(body: Profile, a: Array, c: Array, /, **constants: Array) -> Arr
     rough = h < 0
     for place in places:
         near = np.minimum(a + place, c - place)
-        close = CLOSE * h
-        if np.any(place):
-            close = np.where(np.abs(place) > FAR * h, np.inf, close)
+        close, far = CLOSE * h, np.abs(place) > FAR * h
+        if np.any(far):
+            close = np.where(far, np.inf, close)
         rough = rough | ((near >= 0) & (near < close))
     for left, right in pairwise(places):
         rough = rough | ((right - left < CLOSE * h) & (left > -a) & (right < c))
@@ -365,22 +365,27 @@ class _Part(NamedTuple):
 
     def at_high(self) -> Curve:
         """The curve at its right end."""
-        return self._curve(self.beyond_left + self.length, self.beyond_right)
+        return self._curve(False, self.length, 0.0)
 
-    def _curve(self, from_left: Array, from_right: Array) -> Curve:
-        """The curve at distances from the piece's breaks, told by the nearer one of them."""
+    def _curve(self, near_left: bool, along: Array, back: Array) -> Curve:
+        """The curve at distances from its left and its right end, of its left or its right half.
+
+        Of two breaks the nearer one is asked, where one is farther off than three times the other.
+        """
         of_left, of_right, _ = self.piece
+        past, ahead, length = self.beyond_left, self.beyond_right, self.length
         if of_left is None:
-            return of_right(from_right, **self.constants)  # type: ignore[misc]
+            return of_right(np.maximum(ahead + back, _TINY), **self.constants)  # type: ignore[misc]
         if of_right is None:
-            return of_left(from_left, **self.constants)
-        near = from_left <= from_right
-        if np.all(near):
-            return of_left(from_left, **self.constants)
-        if not np.any(near):
-            return of_right(from_right, **self.constants)
-        both = of_left(from_left, **self.constants), of_right(from_right, **self.constants)
-        return Curve(*(np.where(near, *values) for values in zip(*both, strict=True)))
+            return of_left(np.maximum(past + along, _TINY), **self.constants)
+        ours = past <= ahead + length if near_left else past + length < ahead
+        if np.all(ours):
+            return of_left(np.maximum(past + along, _TINY), **self.constants)
+        right = of_right(np.maximum(ahead + back, _TINY), **self.constants)
+        if not np.any(ours):
+            return right
+        left = of_left(np.maximum(past + along, _TINY), **self.constants)
+        return Curve(*(np.where(ours, *values) for values in zip(left, right, strict=True)))
 
     def angle(self) -> Array:
         """int ds/w over it."""
@@ -390,11 +395,10 @@ class _Part(NamedTuple):
         sine = (start + before) * self.length / both
         return 2 * np.arctan2(sine, np.sqrt(before * end) + np.sqrt(beyond * start))
 
-    def at(self, q: Array, rest: Array) -> _Nodes:
+    def at(self, near_left: bool, q: Array, rest: Array) -> _Nodes:
         """Nodes at the fractions q from the left end, 1 - q = rest from the right."""
         along, back = self.length * q, self.length * rest
-        distances = self.beyond_left + along, self.beyond_right + back
-        curve = self._curve(*(np.maximum(distance, _TINY) for distance in distances))
+        curve = self._curve(near_left, along, back)
         low, high = self.start_low + along, self.end_high + back
         return _Nodes(curve, low, high, along, self.start_low, self.ends_high)
 
@@ -486,7 +490,7 @@ def _level_sums(
             mine = nodes[:, (nodes[0] < 0.5) == near_left, None]
             for start in range(0, mine.shape[1], many):
                 q, rest, weight = mine[:, start : start + many]
-                values = integrand(part.at(q, rest), of)
+                values = integrand(part.at(near_left, q, rest), of)
                 for i, value in enumerate(values):
                     share[i] += np.sum(weight * value, axis=0)
         total += np.where(part.length > 0, share * part.length, 0.0)
