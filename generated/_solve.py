@@ -17,12 +17,13 @@ Elements that have converged take no part in the next step: a hard one costs its
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._arrays import at_rows, flattened
-from ._nested import edges
+from ._arrays import LEAST, MOST, at_rows, flattened
+from ._nested import SMALL, SMALLEST, beside, edges
 from ._roots import STEPS, Array, Rows, around, increasing_root
 from ._state import State
 
@@ -32,15 +33,20 @@ NEAR = 1.0
 LONGEST = 2.0
 """Longest of Newton's steps in the logarithm of a distance to an edge."""
 
-SMALL, SMALLEST = 1e-6, 1e-9
-"""After a step below SMALLEST the next one, its square, is below rounding; one below SMALL that
-does not get smaller shows rounding itself."""
-
 ACCEPTED = 1e-9
 """A contact whose load is off by more, and not for the rounding of its edges, is none."""
 
 ROUGHEST = 1e-4
 """Where the rounding of the edges moves the load by more, no contact is given."""
+
+FINEST = 2.0**-20
+"""Where a smaller part of a step leads no nearer, Newton's method has lost its way;"""
+
+NARROWED = 0.1
+"""so has scaling, between widths whose logarithms differ by less: a kink lies between them."""
+
+_DOUBTFUL = 70.0
+"""A load or a place farther from the body's size than this, a logarithm, may be out of reach."""
 
 _EPS = 2.0**-52
 
@@ -88,11 +94,36 @@ def contact_at(
     return _solved(load, place, size, state, breaks, constants, _ByTilt, (tilt,))
 
 
+def _linear(goal: Any, now: State, h: Array, mid: Array, need: Array) -> tuple[Array, Array]:
+    """K_left da and K_right dc of the step that meets the second condition, and the load."""
+    even, odd = 4 * now.load / (np.pi * np.sqrt(h)) * need, goal.odd(now, h, mid, need)
+    return (even - odd) / 2, (even + odd) / 2
+
+
+def _by_shares(goal: Any, now: State, h: Array, mid: Array, need: Array) -> tuple[Array, Array]:
+    """The same by logarithms, for a moment.
+
+    What an edge's step adds to the load has its centre at mid - h/4 or mid + h/4.  Between these
+    two the load is shared, and it is the logarithms of both shares that are met.
+    """
+    centre, asked = (4 * (v - mid) / h for v in (-now.moment / now.load, goal.place))
+    force = 2 * now.load / (np.pi * np.sqrt(h))
+    left, right = (
+        force * (1 + side * centre) * (need + np.log((1 + side * asked) / (1 + side * centre)))
+        for side in (-1, 1)
+    )
+    return left, right
+
+
 @dataclass(frozen=True)
 class _ByMoment:
-    """The second condition: the load has its centre at `place`."""
+    """The second condition: the load has its centre at `place`.
+
+    steps: ways to it from close by, one after the other.
+    """
 
     place: Array
+    steps = (_linear, _by_shares)
 
     def on(self, rows: Any) -> "_ByMoment":
         """The same for some elements."""
@@ -101,6 +132,10 @@ class _ByMoment:
     def off(self, now: State, h: Array, mid: Array, load: Array) -> Array:
         """How far the state is from it, comparable with a change of the load's logarithm."""
         return 4 * (-now.moment / now.load - self.place) / h
+
+    def rounding(self, h: Array, load: Array) -> Array:
+        """By how much rounding of what is asked alone puts a state off."""
+        return _EPS * np.abs(self.place) / h
 
     def beyond(self, now: State, h: Array, mid: Array) -> tuple[Array, Array, Array]:
         """What grows with c and falls with a, and is zero if met; its rates with a and with c."""
@@ -122,6 +157,7 @@ class _ByTilt:
 
     place: Array
     tilt: Array
+    steps = (_linear,)
 
     def on(self, rows: Any) -> "_ByTilt":
         """The same for some elements."""
@@ -130,6 +166,10 @@ class _ByTilt:
     def off(self, now: State, h: Array, mid: Array, load: Array) -> Array:
         """How far the state is from it, comparable with a change of the load's logarithm."""
         return (self.tilt - now.tilt) * h / load
+
+    def rounding(self, h: Array, load: Array) -> Array:
+        """By how much rounding of what is asked alone puts a state off."""
+        return _EPS * np.abs(self.tilt) * h / load
 
     def beyond(self, now: State, h: Array, mid: Array) -> tuple[Array, Array, Array]:
         """What grows with c and falls with a, and is zero if met; its rates with a and with c."""
@@ -158,29 +198,53 @@ def _solved(
     def of(a: Array, c: Array, rows: Any) -> State:
         return state(a, c, **at_rows(rows, constants))
 
-    a, c = _newton(load, goal, size, of)
+    given = (load > 0) & (load < np.inf) & _within_reach(load, goal.place, size, of)
+    a, c = _newton(load, goal, size, of, np.flatnonzero(given), NARROWED if cuts else 0.0)
     now = of(a, c, slice(None))
-    met = _is_met(load, goal, a, c, now)
-    lost = np.flatnonzero(~met & (load > 0) & (load < np.inf) & np.isfinite(goal.place))
-    if lost.size:
-        cuts = [v[lost] for v in cuts]
-        a[lost], c[lost] = edges(load[lost], goal.on(lost), size[lost], of, lost, cuts)
-        now = of(a, c, slice(None))
-        met = _is_met(load, goal, a, c, now)
-    return Solution(*(np.where(met, v, np.nan).reshape(shape)[()] for v in (a, c, now.tilt)))
+    tilt = now.tilt
+    met, told = _is_met(load, goal, a, c, now)
+    ways: list[Callable[..., tuple[Array, Array]]] = [
+        *(partial(beside, s) for s in goal.steps),
+        edges,
+    ]
+    for nearer in ways:
+        rows = np.flatnonzero(given & ~met & ~told)
+        if not rows.size:
+            break
+        lost = load[rows], goal.on(rows)
+        found = nearer(*lost, size[rows], of, rows, [v[rows] for v in cuts], a[rows], c[rows])
+        now = of(*found, rows)
+        met[rows], told[rows] = _is_met(*lost, *found, now)
+        for whole, value in zip((a, c, tilt), (*found, now.tilt), strict=True):
+            whole[rows] = np.where(now.load > 0, value, whole[rows])
+    return Solution(*(np.where(met, v, np.nan).reshape(shape)[()] for v in (a, c, tilt)))
 
 
-def _is_met(load: Array, goal: Any, a: Array, c: Array, now: State) -> Array:
+def _within_reach(load: Array, place: Array, size: Array, state: Callable[..., State]) -> Array:
+    """Whether a contact may carry the load within the lengths that count; asked where in doubt."""
+    within = np.abs(place) < MOST * ROUGHEST / _EPS
+    far = np.abs(np.log(load / size)) > _DOUBTFUL
+    rows = np.flatnonzero(within & (far | (np.abs(place) > size * np.exp(_DOUBTFUL))))
+    if rows.size:
+        at, asked = place[rows], load[rows]
+        narrowest, widest = (state(r - at, r + at, rows).load for r in (LEAST, 0.49 * MOST))
+        within[rows] = ~(narrowest > asked) & ~(widest < asked)
+    return within
+
+
+def _is_met(load: Array, goal: Any, a: Array, c: Array, now: State) -> tuple[Array, Array]:
     """Whether a contact carries what is asked, as exactly as its edges can be numbers at all.
 
-    Edges that lie so close to a kink that their rounding moves the load by ROUGHEST are refused.
+    And whether it is told by it that none does: where its edges lie so close to a kink that their
+    rounding moves the load by ROUGHEST.
     """
     h, mid = a + c, (c - a) / 2
-    by_rounding = (np.pi / 4) * np.sqrt(h) * (now.left * np.abs(a) + now.right * np.abs(c)) * _EPS
-    allowed = ACCEPTED + 16 * by_rounding / load
-    rest = goal.off(now, h, mid, load)
-    met = (np.abs(np.log(load / now.load)) < allowed) & (np.abs(rest) < 16 * allowed)
-    return met & (allowed < ROUGHEST)
+    rounding = np.pi / 4 * _EPS * np.sqrt(h) / now.load
+    rounding *= now.left * np.abs(a) + now.right * np.abs(c)
+    allowed = ACCEPTED + 16 * rounding
+    rest = np.abs(goal.off(now, h, mid, load)) - 16 * np.minimum(goal.rounding(h, load), ROUGHEST)
+    met = (np.abs(np.log(load / now.load)) < allowed) & (rest < 16 * allowed)
+    return met & (rounding < ROUGHEST), met & ~(rounding < ROUGHEST)
 
 
 class _Widths(NamedTuple):
@@ -217,15 +281,19 @@ class _Widths(NamedTuple):
 
 
 def _newton(
-    load: Array, goal: Any, size: Array, state: Callable[[Array, Array, Rows], State]
+    load: Array,
+    goal: Any,
+    size: Array,
+    state: Callable[[Array, Array, Rows], State],
+    rows: Rows,
+    narrowed: float,
 ) -> tuple[Array, Array]:
-    """a and c; NaN where no contact was found.
+    """a and c of some elements, NaN of others; as close as it came where no contact was found.
 
     A step is taken from `left` and `right` along `to_left` and `to_right`, logarithms.  If it leads
     away from the loads, a quarter of it is tried, and so on.
     """
     a, c = np.full(load.shape, np.nan), np.full(load.shape, np.nan)
-    rows = np.flatnonzero((load > 0) & (load < np.inf) & np.isfinite(goal.place))
     left = right = size[rows] / 2
     to_left = to_right = np.zeros(rows.size)
     part = np.ones(rows.size)
@@ -266,7 +334,9 @@ def _newton(
 
         rounding = 2 * _EPS * (np.abs(wanted.place) + h) / np.minimum(tried_left, tried_right)
         met = better & (length < np.maximum(SMALLEST, rounding))
-        done = met | (~moved & (last < SMALL))
+        stuck = scaling & (widths.gap < narrowed)
+        left, right = (np.where(stuck, widths.wide / 2, v) for v in (left, right))
+        done = met | (~moved & (last < SMALL)) | stuck | (part < FINEST)
         last = np.where(better, length, last)
         if not np.any(done):
             continue
@@ -278,6 +348,7 @@ def _newton(
             v[on] for v in (rows, left, right, to_left, to_right, part, best, last)
         )
         widths = _Widths(*(v[on] for v in widths))
+    a[rows], c[rows] = left - goal.place[rows], right + goal.place[rows]
     return a, c
 
 
@@ -306,6 +377,8 @@ def level(
         beyond, _ = excess(np.nextafter(x, np.inf), everywhere)
         found = np.where((before <= 0) & (beyond >= 0), x, found)
     side = np.where(excess(0 * size, everywhere)[0] < 0, 1.0, -1.0)
+    beside = excess(side * LEAST, everywhere)[0] * side
+    found = np.where(np.isnan(found) & (beside > 0), 0.0, found)  # closer than lengths can be
     open_ = np.flatnonzero(np.isnan(found))
 
     def excess_outward(r: Array, rows: Rows) -> tuple[Array, Array]:

@@ -5,6 +5,7 @@ rewrite   rules that keep digits in floating point; the result is compared with 
 printer   SymPy -> NumPy source
 contract  which functions a module has
 function  the text of one function
+cancel    where closed formulas lose digits to powers that cancel
 integrated  the text of functions that are integrated, everywhere or where kinks crowd
 solved    the text of the inverses that have no closed formula
 module    the one template of a generated module

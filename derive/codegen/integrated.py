@@ -24,13 +24,14 @@ from sympy import (
     sqrt,
 )
 
+from derive.codegen.cancel import cancels, cuts_of, size_of_terms
 from derive.codegen.function import FunctionText, own_parameters
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
 from derive.piece import Piece
-from derive.profile import breaks_of, has_sharp_power
+from derive.profile import has_sharp_power
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, x
+from derive.symbols import E_star, a, c, x
 
 Steps = list[tuple[Symbol, Expr]]
 
@@ -104,8 +105,12 @@ class MendedText(FunctionText):
 
     @property
     def _existence(self) -> str:
-        words = "where a kink lies close to an edge or to another kink, by quadrature of g''"
-        return f"{super()._existence}.  {words[0].upper()}{words[1:]}"
+        places = []
+        if self.sheet.frame.kinks:
+            places.append("a kink lies close to an edge or to another kink")
+        if cancels(self.sheet.geometry.slope):
+            places.append("powers of places would cancel")
+        return f"{super()._existence}.  Where {', or '.join(places)}, by quadrature of g''"
 
 
 def mended_lines(
@@ -125,14 +130,19 @@ def mended_lines(
 
 
 def is_mended(sheet: FormulaSheet) -> bool:
-    """Whether closed formulas lose digits somewhere: where a contact can leave a kink."""
-    return sheet.geometry.slope.is_polynomial and any(k.clipped for k in sheet.frame.kinks)
+    """Whether closed formulas lose digits somewhere.
+
+    Where a contact can leave a kink, and where powers of places cancel.
+    """
+    slope = sheet.geometry.slope
+    leaves = slope.is_polynomial and any(k.clipped for k in sheet.frame.kinks)
+    return leaves or cancels(slope)
 
 
 def curve_text(sheet: FormulaSheet) -> str:
     """The body's breaks, corners and pieces, and `_BODY` that holds them."""
     slope = sheet.geometry.slope
-    places, pieces = breaks_of(slope)
+    places, pieces = cuts_of(slope)
     own, _ = own_parameters(sheet)
     signature = f"({own.removeprefix(', ')})"
     printer = NumPyPrinter()
@@ -155,13 +165,29 @@ def curve_text(sheet: FormulaSheet) -> str:
         held.append(f"Piece({', '.join(names)}{', straight=True' * piece.straight})")
     sharp = any(has_sharp_power(piece.profile, x) for piece in slope.pieces)
     reach = _FAR if sharp else _NEAR
-    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach})")
+    terms = ""
+    if cancels(slope):
+        lines += _terms_text(sheet)
+        terms = ", _terms"
+    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach}{terms})")
     return "\n".join(lines)
+
+
+def _terms_text(sheet: FormulaSheet) -> Iterator[str]:
+    """`_terms` of one body."""
+    size, farthest = size_of_terms(sheet.geometry.slope)
+    own, _ = own_parameters(sheet)
+    printer = NumPyPrinter({a, c})
+    yield f"def _terms(a: Array, c: Array{own}) -> Array:"
+    yield '    """How large the terms of g\' are that the closed formulas add up."""'
+    yield f"    x = {printer.doprint(farthest)}  # how far the contact reaches from the origin [m]"
+    yield f"    return {printer.doprint(size)}"
+    yield ""
 
 
 def breaks_text(sheet: FormulaSheet) -> Iterator[str]:
     """`_breaks` of one body."""
-    places, _ = breaks_of(sheet.geometry.slope)
+    places, _ = cuts_of(sheet.geometry.slope)
     own, _ = own_parameters(sheet)
     signature = f"({own.removeprefix(', ')})"
     return _tuple_of("_breaks", "Where the curve is cut.", places, signature, NumPyPrinter())

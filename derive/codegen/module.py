@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from ruff import find_ruff_bin
 
+from derive.codegen.cancel import cancels
 from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.cycle import CYCLE, CycleText, law_text
 from derive.codegen.function import LINE, FunctionText, inside_quotes
@@ -81,13 +82,14 @@ __all__ = {names}
 def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
     """The text of every function; what has no closed formula is solved, or integrated."""
     solved = [f for f in CONTRACT if f.name in SOLVED and not f.available(sheet)]
-    closed, mended = sheet.geometry.slope.is_polynomial, is_mended(sheet)
+    slope = sheet.geometry.slope
+    closed, mended = slope.is_polynomial, is_mended(sheet)
     if mended or not closed:
         yield curve_text(sheet)
     if solved:
         yield StateText(sheet, source).text if closed else carried_text(sheet)
     if any(alpha in f.arguments for f in solved):
-        yield slope_text(sheet) if closed else level_text(sheet)
+        yield slope_text(sheet) if closed and not cancels(slope) else level_text(sheet)
     for function in CONTRACT:
         yield _made(sheet, function, function in solved, mended)(sheet, function, source).text
     yield law_text(sheet)

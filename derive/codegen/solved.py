@@ -120,7 +120,9 @@ class SolvedText(FunctionText):
 
     @property
     def _existence(self) -> str:
-        return f"{super()._existence}.  {self._why}"
+        rounded = ", nor where the rounding of its edges, beside a kink, moves the load by 1e-4"
+        kinked = bool(self.sheet.geometry.slope.kinks)
+        return f"{super()._existence}{rounded * kinked}.  {self._why}"
 
     @property
     def _why(self) -> str:
@@ -155,7 +157,8 @@ class SolvedText(FunctionText):
     def _code(self) -> Iterator[str]:
         _, constants = own_parameters(self.sheet)
         size = _length(self.sheet)
-        cut = not self.sheet.geometry.slope.is_polynomial or is_mended(self.sheet)
+        slope = self.sheet.geometry.slope
+        cut = not slope.is_polynomial or is_mended(self.sheet) or slope.kinks
         breaks = f"_breaks({constants.removeprefix(', ')})" if cut else "()"
         if M in self.function.arguments:
             yield (

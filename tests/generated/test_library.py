@@ -56,6 +56,102 @@ def test_contact_inverts_load_and_moment_over_24_decades(name: str) -> None:
     assert np.all(np.abs(off) / (load * h) < allowed)
 
 
+AROUND = {"flat_rounded": {"R": 0.05, "b": 1e-3}, "rounded_wedge": {"phi": 0.02, "b": 1e-3}}
+"""Bodies with kinks at -b and b."""
+
+
+def rounding(body: ModuleType, a: Any, c: Any, **given: float) -> Any:
+    """By how much the load moves, of itself, when both edges move by one unit in the last place."""
+    K = body.K_N(a, c, **given)
+    moved = np.pi / 4 * np.sqrt(a + c) * (K.left * np.abs(a) + K.right * np.abs(c)) * 2.0**-52
+    return moved / body.load(a, c, **given)
+
+
+@pytest.mark.parametrize("name", AROUND)
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_load_that_has_its_centre_at_a_kink(name: str, side: int) -> None:
+    """Down to widths of 1e-11 of the kink's distance from the origin."""
+    body, own = module(name), AROUND[name]
+    given = {"E_star": 115e9, **own}
+    load = 10.0 ** np.arange(-15.0, -2.0)
+    found = body.contact(load, side * load * own["b"], **given)
+    off = np.abs(body.load(found.a, found.c, **given) / load - 1)
+    assert np.all(off <= 1e-9 + 16 * rounding(body, found.a, found.c, **given))
+    centre = -body.moment(found.a, found.c, **given) / body.load(found.a, found.c, **given)
+    assert np.all(np.abs(centre + side * own["b"]) <= 1e-4 * (found.a + found.c))
+
+
+@pytest.mark.parametrize("name", AROUND)
+@pytest.mark.parametrize("side", [-1, 1])
+def test_contacts_around_a_kink_are_found_again(name: str, side: int) -> None:
+    """Each edge 1e-12 to 1e-3 m off the kink, one of them often far closer than the other."""
+    body, own, rng = module(name), AROUND[name], np.random.default_rng(3)
+    given = {"E_star": 115e9, **own}
+    before, beyond = np.append(10 ** rng.uniform(-12, -3, (2, 300)), [[1e-8], [2e-8]], axis=1)
+    a, c = before - side * own["b"], beyond + side * own["b"]
+    load = body.load(a, c, **given)
+    by_moment = body.contact(load, body.moment(a, c, **given), **given)
+    by_tilt = body.contact_at_tilt(load, body.tilt(a, c, **own), **given)
+    off = 1e-9 + 16 * rounding(body, a, c, **given)
+    for found in (by_moment, by_tilt):
+        assert np.all(np.abs(body.load(found.a, found.c, **given) / load - 1) <= off)
+    assert np.all(np.abs(by_moment.a - a) <= 100 * off * (a + c))
+
+
+@pytest.mark.parametrize(
+    ("k", "alpha"),
+    [(1.05, 1e-5), (1.05, 1e-8), (1.05, -1e-12), (1.1, 1e-12), (1.1, 1e-25), (1.3, -1e-40)],
+)
+def test_a_power_law_level_closer_to_its_apex_than_lengths_can_be(k: float, alpha: float) -> None:
+    """(|x|/L)**(k - 1) = alpha within 1e-100 m of it; the contact is micrometres wide all the same.
+
+    Its load and its tilt are asked back; a tilt this small does not change its width.
+    """
+    own, given = {"k": k, "L": 1e-2}, {"E_star": 115e9, "k": k, "L": 1e-2}
+    body = module("power")
+    found = body.contact_at_tilt(1e5, alpha, **given)
+    assert_allclose(body.load(found.a, found.c, **given), 1e5, rtol=1e-13)
+    assert_allclose(body.tilt(found.a, found.c, **own), alpha, atol=1e-15)
+    level = body.contact_at_tilt(1e5, 0.0, **given)
+    assert_allclose(found.a + found.c, level.a + level.c, rtol=1e-9)
+
+
+HARD = [
+    ("wedge_parabola", {"R": 0.05, "phi": 0.02}, 1.0, 1e-3),
+    ("flat_rounded", AROUND["flat_rounded"], 1e-11, 0.0),
+    ("flat_rounded", AROUND["flat_rounded"], 2.27e-9, -6.53e-13),
+    ("flat_rounded", AROUND["flat_rounded"], 1e300, 1.0),
+    ("flat_rounded", AROUND["flat_rounded"], 1e5, 1e300),
+]
+"""A centre of load on the straight flank; edges a femtometre beyond kinks; lengths past 1e75 m."""
+
+
+@pytest.mark.parametrize(("name", "own", "load", "moment"), HARD)
+def test_one_hard_load_asks_for_few_contacts(
+    name: str, own: dict[str, float], load: float, moment: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """So that it costs its neighbours milliseconds."""
+    body, asked = module(name), []
+
+    def counting(a: Any, c: Any, **given: Any) -> Any:
+        asked.append(np.size(a))
+        return state(a, c, **given)
+
+    state = body._state
+    monkeypatch.setattr(body, "_state", counting)
+    body.contact(load, moment, E_star=115e9, **own)
+    assert len(asked) <= 80
+
+
+def test_a_load_over_the_straight_flank_of_a_wedge() -> None:
+    """All of it pressed by the apex, where g' jumps by phi; c far below a, and the centre -a/4."""
+    own = {"R": 0.05, "phi": 0.02}
+    found = module("wedge_parabola").contact(1.0, 1e-3, E_star=115e9, **own)
+    assert_allclose(found.a, 4e-3, rtol=1e-6)
+    # P = (E*/2) int g'' w ds = (E*/2) phi sqrt(a c)
+    assert_allclose(found.c, (2 * 1.0 / (115e9 * own["phi"])) ** 2 / 4e-3, rtol=1e-6)
+
+
 @EVERY
 def test_contact_at_tilt_inverts_load_and_tilt(name: str) -> None:
     own, a, c = shrunk(name)

@@ -1,4 +1,4 @@
-"""Ten profiles that are in no library, from g(x) in a file to a module, without a line of help.
+"""A dozen profiles that are in no library, from g(x) in a file to a module, without a line of help.
 
 Each is built as a user would, by file name alone, and its functions are held against quadrature at
 30 digits of a slope that is typed here by hand, at contacts central and not, and at contacts that
@@ -9,6 +9,7 @@ import importlib
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import product
 from types import ModuleType
 
 import mpmath
@@ -95,6 +96,25 @@ PROFILES = {
         "R L phi",
         lambda v: lambda s: 6 * s**5 / v["L"] ** 5 + s / v["R"] + v["phi"],
     ),
+    "level_beside_the_origin": Profile(
+        "(x - b)**4/L**3",
+        "b L",
+        lambda v: lambda s: 4 * (s - v["b"]) ** 3 / v["L"] ** 3,
+        lambda v: [v["b"]],
+    ),
+    "blunt_on_both_sides": Profile(
+        "Max(0, x)**5/L**4 + Max(0, -x - b)**4/h_0**3",
+        "L b h_0",
+        lambda v: lambda s: 5 * up(s) ** 4 / v["L"] ** 4 - 4 * up(-s - v["b"]) ** 3 / v["h_0"] ** 3,
+        lambda v: [-v["b"], mpf(0)],
+    ),
+    "steep_in_between": Profile(
+        "x**2/(2*R) + Piecewise((0, x < 0), (x**4/L**3, x < b), "
+        "(b**4/L**3 + 4*b**3*(x - b)/L**3, True))",
+        "R L b",
+        lambda v: lambda s: s / v["R"] + 4 * min(up(s), v["b"]) ** 3 / v["L"] ** 3,
+        lambda v: [mpf(0), v["b"]],
+    ),
     "soft_wedge": Profile(
         "phi*b*log(cosh(x/b))",
         "phi b",
@@ -137,6 +157,9 @@ CONTACTS = [
     *((0.0009765625, 1.375), (1.5, 0.5009765625)),
 ]
 """Edges a and c: central, lopsided, wide, off the origin on either side, close to a kink."""
+
+HALVES, SHIFTS = (2.0**-4, 2.0**-9, 2.0**-15, 2.0**-21), (0.0, 0.375, 1.75)
+"""Half widths of contacts around a kink, and how far they lie off it, in half widths."""
 
 
 def text(name: str, profile: Profile) -> str:
@@ -213,6 +236,31 @@ def test_every_function_against_quadrature_of_the_slope(made: tuple[Profile, Mod
         assert close(found.a, a, a + c) and close(found.c, c, a + c)
         assert close(found.alpha, tilt, 4 * steepest)
     assert carried >= 6
+
+
+def test_narrow_contacts_around_a_kink_keep_their_digits(made: tuple[Profile, ModuleType]) -> None:
+    """Wherever the kink lies: nothing is lost to powers of its distance from the origin."""
+    profile, module = made
+    own = values(profile)
+    exact = {name: mpf(value) for name, value in own.items()}
+    slope, kinks = profile.slope(exact), profile.kinks(exact)
+    given = {"E_star": E_STAR, **own}
+    for kink, half, shift in product(kinks, HALVES, SHIFTS):
+        mid = float(kink) + shift * half
+        left, right = half - mid, half + mid
+        with mpmath.workdps(80):  # loads are differences of slopes
+            a, c, x = mpf(left), mpf(right), mpf(mid + half / 4)
+            load = integrals.load(slope, a, c, kinks, mpf(E_STAR), "tanh-sinh")
+            if load < 1e-60:
+                continue
+            moment = integrals.moment(slope, a, c, kinks, mpf(E_STAR), "tanh-sinh")
+            tilt = integrals.tilt(slope, a, c, kinks, "tanh-sinh")
+            pressure = integrals.pressure(slope, x, a, c, kinks, mpf(E_STAR), "tanh-sinh")
+            steepest = max(abs(slope(-a)), abs(slope(c)))
+        assert close(module.load(left, right, **given), load, load)
+        assert close(module.moment(left, right, **given), moment, load * (abs(mid) + half))
+        assert close(module.tilt(left, right, **own), tilt, steepest)
+        assert close(module.pressure(float(x), left, right, **given), pressure, pressure)
 
 
 def test_the_edge_coefficients_against_the_pressure_next_to_the_edges(

@@ -37,6 +37,12 @@ AGREED = 1e-10
 CLOSE = 0.1
 """Breaks closer than this, compared with the width, are left to quadrature."""
 
+FAR = 100.0
+"""So are breaks in the contact that lie so many widths from the origin,"""
+
+CANCELLED = 100.0
+"""and terms so many times larger than what the slope rises by in the contact."""
+
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
 
@@ -75,12 +81,15 @@ class Profile(NamedTuple):
     corners: jumps of g' at the breaks, from the parameters; zero where there is none.
     pieces: one more than breaks.
     reach: how far the rule goes; farther where g'' is infinite at a break.
+    terms: how large the terms of g' are that closed formulas add up in the contact [-a, c], from a,
+        c and the parameters; None where no powers cancel in them, or where there are none.
     """
 
     breaks: Callable[..., tuple[Array, ...]]
     corners: Callable[..., tuple[Array, ...]]
     pieces: tuple[Piece, ...]
     reach: int
+    terms: Callable[..., Array] | None = None
 
 
 def state_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> State:
@@ -239,17 +248,24 @@ def mended(
 
 
 def is_delicate(body: Profile, a: Array, c: Array, /, **constants: Array) -> Array:
-    """Whether a break lies close to an edge, or to the next one, compared with the width.
+    """Whether closed formulas lose digits, because what the pieces carry is a small difference.
 
-    What the pieces carry is a small difference there, in closed formulas.
+    A break lies close to an edge, or to the next one, compared with the width; or powers cancel, or
+    the moment about a break is small beside that about the origin.
     """
     h, places = a + c, body.breaks(**constants)
     rough = h < 0
     for place in places:
         near = np.minimum(a + place, c - place)
-        rough = rough | ((near >= 0) & (near < CLOSE * h))
+        close, far = CLOSE * h, np.abs(place) > FAR * h
+        if np.any(far):
+            close = np.where(far, np.inf, close)
+        rough = rough | ((near >= 0) & (near < close))
     for left, right in pairwise(places):
         rough = rough | ((right - left < CLOSE * h) & (left > -a) & (right < c))
+    if body.terms is not None:
+        rise = slope_of(body, c, **constants)[0] - slope_of(body, -a, **constants)[0]
+        rough = rough | ~(body.terms(a, c, **constants) < CANCELLED * rise)
     return rough
 
 
@@ -283,13 +299,15 @@ def slope_of(body: Profile, x: Array, /, **constants: Array) -> tuple[Array, Arr
     places = body.breaks(**constants)
     found: tuple[Array, Array] = (np.nan, np.nan)
     for i, piece in enumerate(body.pieces):
+        beyond = x >= places[i - 1] if i else True
         if piece.from_left is not None:
             curve = piece.from_left(np.maximum(x - places[i - 1], _TINY), **constants)
-            here = x >= places[i - 1]
-        else:
-            curve = piece.from_right(np.maximum(places[0] - x, _TINY), **constants)  # type: ignore[misc]
-            here = True
-        found = np.where(here, curve[0], found[0]), np.where(here, curve[1], found[1])
+            found = np.where(beyond, curve[0], found[0]), np.where(beyond, curve[1], found[1])
+        if piece.from_right is not None:
+            near = x - places[i - 1] >= places[i] - x if i else True
+            curve = piece.from_right(np.maximum(places[i] - x, _TINY), **constants)
+            here = beyond & near
+            found = np.where(here, curve[0], found[0]), np.where(here, curve[1], found[1])
     return found
 
 
@@ -346,9 +364,27 @@ class _Part(NamedTuple):
 
     def at_high(self) -> Curve:
         """The curve at its right end."""
-        if self.piece.from_left is not None:
-            return self.piece.from_left(self.beyond_left + self.length, **self.constants)
-        return self.piece.from_right(self.beyond_right, **self.constants)  # type: ignore[misc]
+        return self._curve(False, self.length, 0.0)
+
+    def _curve(self, near_left: bool, along: Array, back: Array) -> Curve:
+        """The curve at distances from its left and its right end, of its left or its right half.
+
+        Of two breaks the nearer one is asked, where one is farther off than three times the other.
+        """
+        of_left, of_right, _ = self.piece
+        past, ahead, length = self.beyond_left, self.beyond_right, self.length
+        if of_left is None:
+            return of_right(np.maximum(ahead + back, _TINY), **self.constants)  # type: ignore[misc]
+        if of_right is None:
+            return of_left(np.maximum(past + along, _TINY), **self.constants)
+        ours = past <= ahead + length if near_left else past + length < ahead
+        if np.all(ours):
+            return of_left(np.maximum(past + along, _TINY), **self.constants)
+        right = of_right(np.maximum(ahead + back, _TINY), **self.constants)
+        if not np.any(ours):
+            return right
+        left = of_left(np.maximum(past + along, _TINY), **self.constants)
+        return Curve(*(np.where(ours, *values) for values in zip(left, right, strict=True)))
 
     def angle(self) -> Array:
         """int ds/w over it."""
@@ -361,12 +397,7 @@ class _Part(NamedTuple):
     def at(self, near_left: bool, q: Array, rest: Array) -> _Nodes:
         """Nodes at the fractions q from the left end, 1 - q = rest from the right."""
         along, back = self.length * q, self.length * rest
-        from_left, from_right, _ = self.piece
-        if from_left is not None and (near_left or from_right is None):
-            curve = from_left(np.maximum(self.beyond_left + along, _TINY), **self.constants)
-        else:
-            distance = np.maximum(self.beyond_right + back, _TINY)
-            curve = from_right(distance, **self.constants)  # type: ignore[misc]
+        curve = self._curve(near_left, along, back)
         low, high = self.start_low + along, self.end_high + back
         return _Nodes(curve, low, high, along, self.start_low, self.ends_high)
 

@@ -33,8 +33,8 @@ def around(excess: Excess, start: Array) -> tuple[Array, Array]:
     return high / 8, high
 
 
-def increasing_root(excess: Excess, low: Array, high: Array) -> Array:
-    """The root of each row between low and high.
+def increasing_root(excess: Excess, low: Array, high: Array, first: Array | None = None) -> Array:
+    """The root of each row between low and high, sought from `first` where that lies between.
 
     Newton's step is taken where it stays between and at most halves the step before, else the
     middle.
@@ -43,6 +43,9 @@ def increasing_root(excess: Excess, low: Array, high: Array) -> Array:
     rows = np.flatnonzero(np.isfinite(low + high))
     low, high = low[rows], high[rows]
     x, before = (low + high) / 2, high - low
+    if first is not None:
+        first = first[rows]
+        x = np.where((first > low) & (first < high), first, x)
     for _ in range(STEPS):
         if not rows.size:
             break

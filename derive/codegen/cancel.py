@@ -1,0 +1,130 @@
+"""Closed formulas of a polynomial body that cancel: how large their terms are, and where g'' is 0.
+
+In:  a body's Slope.
+Out: whether its formulas hold powers that cancel; the size of the terms that they add up; the
+     places where such a body is cut, so that each of its pieces is written about its own root.
+
+The formulas are written about the origin.  Close to a root of g'' or to a kink that lies elsewhere,
+powers of its place cancel: in (x - b)**3, a contact of width h loses the factor (b/h)**3.
+"""
+
+from itertools import pairwise
+
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    Gt,
+    Max,
+    Piecewise,
+    Poly,
+    S,
+    Symbol,
+    expand,
+    oo,
+    re,
+    roots,
+    simplify,
+)
+
+from derive.profile import Piece, Slope, breaks_of
+from derive.symbols import a, c, x
+
+HARMLESS = 1
+"""A g' of this degree loses no more than the rounding of the edges does anyway."""
+
+_r = Symbol("x", positive=True)
+"""A distance from the origin."""
+
+
+def cancels(slope: Slope) -> bool:
+    """Whether powers may cancel somewhere in the closed formulas.
+
+    >>> from sympy import symbols
+    >>> from derive.profile import read_slope
+    >>> b = symbols("b", positive=True)
+    >>> [cancels(read_slope("", g)) for g in (x**4 / b**3, (x - b) ** 4 / b**3)]
+    [False, True]
+    """
+    if not slope.is_polynomial or all(_degree(part) <= HARMLESS for part in _parts(slope)):
+        return False
+    return bool(slope.kinks) or not all(map(_adds_up, slope.pieces))
+
+
+def _parts(slope: Slope) -> tuple[Expr, ...]:
+    """What the formulas are made of: one polynomial, and one more at each kink."""
+    return (slope.base, *(kink.jump for kink in slope.kinks))
+
+
+def _degree(polynomial: Expr) -> int:
+    return int(max(Poly(polynomial, x).degree(), 0))
+
+
+def _adds_up(piece: Piece) -> bool:
+    """Whether the terms of g'' have one sign, on either side of the origin that the piece has."""
+    sides = [sense for sense, end in ((1, piece.upper), (-1, piece.lower)) if end in (oo, -oo)]
+    terms = [expand(piece.curvature.subs(x, sense * _r)) for sense in sides]
+    return all(t.is_nonnegative for whole in terms for t in Add.make_args(whole))
+
+
+def size_of_terms(slope: Slope) -> tuple[Expr, Expr]:
+    """How large the terms of g' are in the contact [-a, c], and what its symbol x stands for."""
+    base, *jumps = map(_without_signs, _parts(slope))
+    total = base
+    for kink, size in zip(slope.kinks, jumps, strict=True):
+        acts = (
+            Gt(c, kink.position, evaluate=False)
+            if kink.side > 0
+            else Gt(a, -kink.position, evaluate=False)
+        )
+        total += Piecewise((size, acts), (S.Zero, True))
+    return total, Max(Abs(a), Abs(c))
+
+
+def _without_signs(polynomial: Expr) -> Expr:
+    """Its terms, all of them positive, at the distance r from the origin."""
+    return Add(*(Abs(term.subs(x, _r)) for term in Add.make_args(expand(polynomial))))
+
+
+def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
+    """Where quadrature cuts the body, and the pieces between.
+
+    >>> from sympy import symbols
+    >>> from derive.profile import read_slope
+    >>> b = symbols("b", positive=True)
+    >>> cuts_of(read_slope("", (x - b) ** 4 / b**3))[0]
+    (b,)
+    """
+    if not cancels(slope):
+        return breaks_of(slope)
+    pieces: list[Piece] = []
+    for piece in slope.pieces:
+        ends = [piece.lower, *_level_places(piece), piece.upper]
+        pieces += [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
+    if len(pieces) == 1:
+        return breaks_of(slope)
+    return tuple(piece.upper for piece in pieces[:-1]), tuple(pieces)
+
+
+def _level_places(piece: Piece) -> list[Expr]:
+    """Real parts of the roots of g'' inside a piece, as far as their order is known."""
+    found: list[Expr] = []
+    for root in roots(Poly(piece.curvature, x)):
+        place = simplify(re(root))
+        ends = [piece.lower, *found, piece.upper]
+        later = [_follows(end, place) for end in ends]
+        sooner = [_follows(place, end) for end in ends]
+        if all(up or down for up, down in zip(later, sooner, strict=True)) and later[0]:
+            at = sum(later) - 1
+            if sooner[-1]:
+                found.insert(at, place)
+    return found
+
+
+def _follows(first: Expr, second: Expr) -> bool:
+    """Whether the second place is known to lie beyond the first."""
+    if first == -oo or second == oo:
+        return True
+    if first == oo or second == -oo:
+        return False
+    return bool(simplify(second - first).is_positive)
