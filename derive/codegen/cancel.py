@@ -27,7 +27,8 @@ from sympy import (
     simplify,
 )
 
-from derive.profile import Piece, Slope, breaks_of
+from derive.piece import Piece
+from derive.profile import Slope, breaks_of
 from derive.symbols import a, c, x
 
 HARMLESS = 1
