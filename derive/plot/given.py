@@ -28,6 +28,23 @@ def demand_contact(name: str, state: Any) -> None:
         )
 
 
+def demand_contact_of(name: str, body: Any, state: Any, constants: dict[str, float]) -> None:
+    """A Contact of this body and these constants, as far as its pressure and its tilt tell."""
+    demand_contact(name, state)
+    own = {key: value for key, value in constants.items() if key != "E_star"}
+    tilt, told = float(body.tilt(state.a, state.c, **own)), float(state.alpha)
+    if np.isnan(tilt):
+        found = f"it cannot touch from {-state.a:g} to {state.c:g} m"
+    elif np.isfinite(told) and told and abs(tilt - told) > 1e-6 * max(abs(tilt), abs(told)):
+        found = f"over these edges it is tilted by {tilt:g}, and {name} by {told:g}"
+    else:
+        return
+    raise ValueError(
+        f"{name} is no contact of {body.__name__.rpartition('.')[2]} with these constants: "
+        f"{found}; give what its own `contact` returns for the same constants"
+    )
+
+
 def demand_contacts(states: Sequence[Any], labels: Sequence[str]) -> None:
     """At least one Contact, and a label for each or none."""
     if hasattr(states, "a"):  # a Contact is a tuple itself: a likely mistake
@@ -54,6 +71,17 @@ def demand_numbers(**given: Array) -> None:
                 f"{name} is {what}; one half-cycle is drawn at a time: give a number, and a map "
                 "over many by `sweep`"
             )
+
+
+def demand_signs(dQ: float, f: float) -> None:
+    """A half-cycle that raises the shear load, and friction."""
+    if dQ < 0:
+        raise ValueError(
+            f"dQ is {dQ:g}; a half-cycle that raises the shear load is drawn: exchange its ends, "
+            "and with them the sign of dsigma"
+        )
+    if f <= 0:
+        raise ValueError(f"f is {f:g}; give a coefficient of friction above 0")
 
 
 def demand_row(name: str, values: Array) -> None:

@@ -7,7 +7,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from derive.plot.given import demand_contact, demand_contacts, demand_numbers
+from derive.plot.given import (
+    demand_contact_of,
+    demand_contacts,
+    demand_numbers,
+    demand_signs,
+)
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, style, subplots
 from derive.plot.zones import AREAS, MIXED, senses
@@ -46,7 +51,8 @@ def pressures(
     """
     demand_contacts(states, labels)
     lines = []
-    for state in states:
+    for i, state in enumerate(states):
+        demand_contact_of(f"states[{i}]", body, state, constants)
         x = places(-float(state.a), float(state.c))
         lines.append((x, body.pressure(x, state.a, state.c, **constants)))
     length = length or unit(np.concatenate([x for x, _ in lines]), "m")
@@ -113,7 +119,7 @@ def tractions(
     stress         what pressure and shear are divided by
     constants      E_star and the body's own parameters
     """
-    _demand_half_cycle(first, second, dQ, dsigma, f)
+    _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
     law = {"f": f, **constants}
     x = places(-float(max(first.a, second.a)), float(max(first.c, second.c)))
     p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
@@ -150,10 +156,19 @@ def tractions(
     return axes
 
 
-def _demand_half_cycle(first: Any, second: Any, dQ: float, dsigma: float, f: float) -> None:
-    demand_contact("first", first)
-    demand_contact("second", second)
+def _demand_half_cycle(
+    body: ModuleType,
+    first: Any,
+    second: Any,
+    dQ: float,
+    dsigma: float,
+    f: float,
+    constants: dict[str, float],
+) -> None:
     demand_numbers(dQ=dQ, dsigma=dsigma, f=f)
+    demand_signs(dQ, f)
+    demand_contact_of("first", body, first, constants)
+    demand_contact_of("second", body, second, constants)
 
 
 def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Measure) -> None:
@@ -213,7 +228,7 @@ def slip(
 
     Arguments are those of `tractions`.
     """
-    _demand_half_cycle(first, second, dQ, dsigma, f)
+    _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
     law = {"f": f, **constants}
     zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
     left, right = -float(min(first.a, second.a)), float(min(first.c, second.c))

@@ -94,6 +94,10 @@ def sweep(
 def _demand_tension(zone: Any, dsigma: Array) -> None:
     """Without tension no edge slips against the other, and its sign decides which one does."""
     regime, none = np.asarray(zone.regime), np.asarray(dsigma) == 0
+    if np.any(np.isnan(dsigma) & np.isfinite(zone.m)):
+        raise ValueError(
+            "dsigma is NaN where a stick zone is known: give the dsigma that stick_zone was given"
+        )
     wrong = ((regime == LARGE) | ((regime == MIXED) & np.isfinite(zone.m))) & none
     if np.any(wrong):
         name = "large" if np.any(wrong & (regime == LARGE)) else "mixed"
