@@ -176,6 +176,13 @@ def _show_pages(name: str | None, out: Path | None, limit: float) -> None:
     )
 
 
+_SENSES = (
+    "kappa_left, kappa_right: senses of slip in the half-cycle that raises the shear load: 1 and 1 "
+    "under moderate tension, 1 and -1 under large tension that rises, -1 and 1 under large tension "
+    "that falls"
+)
+
+
 def _show_slip(name: str, order: int) -> None:
     """The terms of both slip zones, one under the other."""
     from derive import derive_sheet, load_geometry
@@ -194,6 +201,7 @@ def _show_slip(name: str, order: int) -> None:
             raise click.BadParameter(str(error), param_hint="--slip") from None
         for number, term in enumerate(terms, 1):
             click.echo(f"d_{side}, order {number}: {text_of(term)}")
+    click.echo(_SENSES)
 
 
 @main.command(cls=_WithFormula)

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from derive.body import Body, by_form
@@ -27,7 +27,8 @@ def listing(sheets: "Iterable[FormulaSheet]") -> Table:
     """Every geometry, its g(x), what is closed form and what is numerical."""
     from derive.notation import text_of
 
-    table = Table("geometry", "g(x)", "closed form", "numerical", "body")
+    names = Column("geometry", no_wrap=True)
+    table = Table(names, Column("g(x)", overflow="fold"), "closed form", "numerical", "body")
     for sheet in sheets:
         closed, numerical = by_form(sheet.is_closed)
         table.add_row(
@@ -43,7 +44,8 @@ def listing(sheets: "Iterable[FormulaSheet]") -> Table:
 def summary(bodies: Iterable[Body]) -> Table:
     """What was built: closed form or numerical, how each formula was proven, time."""
     table = Table(
-        "geometry", "closed form", "numerical", "proved", "agrees to 30 digits or more", "time"
+        Column("geometry", no_wrap=True),
+        *("closed form", "numerical", "proved", "agrees to 30 digits or more", "time"),
     )
     for body in bodies:
         table.add_row(

@@ -9,10 +9,12 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from io import StringIO
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from rich.console import Console
 
 import derive.cache
 import derive.cli
@@ -255,6 +257,19 @@ def lines(text: str) -> list[str]:
 # ------------------------------------------------------------------ list, show, help
 
 
+@pytest.mark.parametrize("names", [("parabola_quartic", "wedge_parabola")], ids=len)
+def test_a_narrow_list_cuts_no_name(
+    names: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from derive import load_geometry, view
+    from derive.derivation import derive_law
+
+    console = Console(width=70, record=True, file=StringIO())
+    console.print(view.listing(derive_law(load_geometry(name)) for name in names))
+    shown = console.export_text()
+    assert all(f" {name} " in shown for name in names)
+
+
 @pytest.mark.parametrize(
     "names", [("hertz", "power", "wedge"), pytest.param(library(), marks=pytest.mark.slow)], ids=len
 )
@@ -271,9 +286,9 @@ def test_list_names_every_geometry_and_its_profile(
     assert "numerical" in printed
     rows = {row.split()[1]: row for row in printed.splitlines() if len(row.split()) > 1}
     assert "│ forward by special functions │ forward in code, from (P, M)" in " ".join(
-        rows["hyperbola"].split()
+        rows["power"].split()
     )
-    assert "special" not in rows["quartic"]
+    assert "special" not in rows["hertz"]
 
 
 @pytest.mark.parametrize("module", ["derive", "derive.cli"])
@@ -1057,7 +1072,8 @@ class TestSlip:
         lines = done.output.splitlines()
         assert done.exit_code == 0
         assert [line.split(":")[0] for line in lines] == [
-            f"d_{side}, order {order}" for side in ("left", "right") for order in (1, 2)
+            *(f"d_{side}, order {order}" for side in ("left", "right") for order in (1, 2)),
+            "kappa_left, kappa_right",
         ]
         assert "kappa_left" in lines[0]
 
