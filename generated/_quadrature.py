@@ -32,7 +32,7 @@ from ._state import State
 COARSEST, FINEST = 1, 9
 """Steps of the rule are 2**-COARSEST at first and 2**-FINEST at last."""
 
-AGREED = 1e-10
+AGREED = 1e-12
 """Two sums that agree to this are followed by one that is exact to rounding."""
 
 CLOSE = 0.1
@@ -157,7 +157,7 @@ def pressure_at(body: Profile, x: Array, a: Array, c: Array, /, **constants: Arr
 
 def _asinh_root(over: Array, under: Array) -> Array:
     """asinh sqrt(over/under), finite even where `under` has underflown."""
-    return np.arcsinh(np.sqrt(over / np.maximum(under, 1 / _HUGE)))
+    return np.arcsinh(np.sqrt(over / np.maximum(under, over / _HUGE + _TINY)))
 
 
 def second_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> tuple[Array, Array]:

@@ -4,12 +4,15 @@ import importlib
 from types import ModuleType
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
+from mpmath import mpf
 from numpy.testing import assert_allclose
 
 from derive.library import library, load_geometry
 from derive.units import parse_unit
+from generated import two_radii
 from tests.benchmarks.inverse import PARAMETERS, SYMMETRIC, states
 
 OWN: dict[str, dict[str, float]] = PARAMETERS | {
@@ -228,3 +231,26 @@ def test_the_pressure_carries_the_load(name: str) -> None:
         p = body.pressure(mid + h / 2 * np.cos(t), left, right, **given)
         found = np.sum(p * np.sin(t)) * h / 2 * np.pi / 4000
         assert_allclose(found, body.load(left, right, **given), rtol=1e-3)
+
+
+@pytest.mark.parametrize("a", [1.5e-15, 1.1e-13, 1e-8, 1e-3])
+def test_an_edge_beside_a_change_of_radius_keeps_its_digits(a: float) -> None:
+    """K_left = (1/(pi sqrt h)) int g'' sqrt((c - s)/(a + s)) ds, and with s + a = h sin(t)**2 each
+    piece of constant g'' gives g'' h (t + sin(2 t)/2): an angle T = asin sqrt(a/h) of 1/R_1, the
+    rest of 1/R_2."""
+    R_1, R_2, c = 1.0, 3.0, 1.25
+    with mpmath.workdps(40):
+        h = mpf(a) + c
+        T = mpmath.asin(mpmath.sqrt(a / h))
+        inner = T + mpmath.sin(2 * T) / 2
+        exact = mpmath.sqrt(h) / mpmath.pi * (inner / R_1 + (mpmath.pi / 2 - inner) / R_2)
+    found = two_radii.K_N(a, c, E_star=1.0, R_1=R_1, R_2=R_2)
+    assert abs(float(found.left) / float(exact) - 1) < 4e-15
+
+
+@pytest.mark.parametrize("x", [-6.7e-288, 1e-265, 5e-324])
+def test_the_pressure_next_to_a_smooth_kink_is_that_at_it(x: float) -> None:
+    """In a wide contact with the kink not far from an edge: quotients leave float64 there."""
+    law = {"E_star": 1.0, "R_1": 0.3, "R_2": 77.0}
+    edges = 1.7e7, 2.7e8
+    assert two_radii.pressure(x, *edges, **law) == two_radii.pressure(0.0, *edges, **law)
