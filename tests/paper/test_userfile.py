@@ -269,6 +269,65 @@ def test_an_integral_inside_another_is_refused(tmp_path: Path, printed: str) -> 
     assert (done.exit_code, "integral inside an integral" in done.stderr) == (2, True)
 
 
+@pytest.mark.parametrize(
+    "printed",
+    ["integral(s, a, 0, 1) = a", "B = integral(s, b, 0, 1)", "a = integral(s, B, 0, 1)"],
+)
+def test_a_variable_of_integration_is_not_used_outside(tmp_path: Path, printed: str) -> None:
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    done = run(written(tmp_path, TWO + claim))
+    assert (done.exit_code, "also used outside" in done.stderr) == (2, True)
+
+
+@pytest.mark.parametrize(
+    "printed", ["integral(a, a, 0, 1) = 1/2", "integral(s, s, 0, 1) = s/(2*s)"]
+)
+def test_a_variable_of_integration_may_be_declared(tmp_path: Path, printed: str) -> None:
+    assert verdict(tmp_path, printed)[0] in {"holds", "numerical"}
+
+
+WEDGE = """
+body = "wedge"
+seconds = 5
+[variables]
+a = "left edge"
+c = "right edge"
+[symbols]
+A = "a"
+"""
+
+
+@pytest.mark.parametrize(
+    ("printed", "expected"),
+    [
+        ("load(a, c) = E_star*phi*sqrt(a*c)", {"holds"}),
+        ("load(A, c) = E_star*phi*sqrt(a*c)", {"holds"}),
+        ("integral(pressure(s, A, c), s, -A, c) = load(a, c)", {"holds", "numerical"}),
+        ("load(a, c) = 2*E_star*phi*sqrt(a*c)", {"fails"}),
+    ],
+)
+def test_formulas_of_the_body_are_called_in_an_equation(
+    tmp_path: Path, printed: str, expected: set[str]
+) -> None:
+    """The wedge's load is E* phi sqrt(a c), eq. (25) of the paper."""
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    (told,) = json.loads(run(written(tmp_path, WEDGE + claim), "--format", "json").stdout)
+    assert told["verdict"] in expected
+    assert told["printed"] == printed
+    if expected == {"fails"}:
+        assert told["corrected"] == "load(a, c) = E_star*phi*sqrt(a*c)"
+
+
+def test_a_call_follows_a_convention(tmp_path: Path) -> None:
+    """A names the left edge; counted from the other side it is the right one."""
+    claim = (
+        "[[claims]]\nlabel = 'it'\nprinted = 'load(A, a) = E_star*phi*sqrt(a*c)'\n"
+        "conventions = [{ what = 'A at the right', symbols = { A = 'c' }, contradicts = 'p' }]\n"
+    )
+    (told,) = json.loads(run(written(tmp_path, WEDGE + claim), "--format", "json").stdout)
+    assert told["verdict"] == "convention"
+
+
 def test_a_place_may_have_a_range(tmp_path: Path) -> None:
     claim = "x = { low = 0, high = 1 }\n[[claims]]\nlabel = 'it'\nprinted = 'abs(x) = x'\n"
     assert run(written(tmp_path, "[variables]\n" + claim)).exit_code == 0
