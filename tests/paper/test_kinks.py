@@ -17,9 +17,9 @@ import pytest
 
 from derive.errors import BadClaimsFile, BadFormula
 from derive.paper.claim import Verdict
-from derive.paper.report import evidence
+from derive.paper.report import corrected, evidence
 from derive.paper.userfile import read_claims
-from derive.paper.verdict import Finding, check
+from derive.paper.verdict import Finding, check, is_carried
 
 HEAD = """
 [variables]
@@ -250,6 +250,38 @@ def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
 )
 def test_true_equations_hold_at_those_points(tmp_path: Path, printed: str) -> None:
     assert judged(tmp_path, printed).verdict in GOOD
+
+
+# ------------------------------------------------------------------ corrections
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "sign(a - 1/100000) = 1",  # 1 = 1
+        "abs(x) = x",
+        "sqrt(x**2) = x",
+        "sqrt(x) = sqrt(abs(x))",
+        "a > a",  # a = a
+    ],
+)
+def test_what_says_nothing_is_no_correction(tmp_path: Path, printed: str) -> None:
+    finding = judged(tmp_path, printed)
+    assert (finding.verdict, finding.repair) == (Verdict.FAILS, None)
+
+
+def test_what_is_true_to_working_digits_is_no_correction(tmp_path: Path) -> None:
+    """1 + tanh(10**6*(w - 1.6)) is below exp(-10**6) where w < 0.9, which is not zero."""
+    finding = judged(tmp_path, "w + (1 + tanh(10**6*(w - 1.6)))/2 = w")
+    assert finding.verdict == Verdict.NUMERICAL
+    assert not is_carried(finding.claim, finding.judged)
+
+
+def test_a_correction_that_is_proven_is_told(tmp_path: Path) -> None:
+    finding = judged(tmp_path, "sin(x)**2 - cos(x)**2 = 1")
+    assert finding.repair is not None
+    assert finding.repair.judged.verdict == Verdict.HOLDS
+    assert corrected(finding) == "sin(x)**2 + cos(x)**2 = 1"
 
 
 # ------------------------------------------------------------------ limits and errors
