@@ -252,6 +252,44 @@ def test_true_equations_hold_at_those_points(tmp_path: Path, printed: str) -> No
     assert judged(tmp_path, printed).verdict in GOOD
 
 
+SQUARE = """
+[variables]
+a = "a length"
+v = { low = -3, high = 3 }
+y = { low = -3, high = 3 }
+"""
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "abs(v - y - 5.9) = 5.9 - v + y",  # false for v - y > 5.9: one corner of four
+        "abs(v + y + 5.99) = v + y + 5.99",
+        "integral(abs(s - a), s, 0, 10) = 50 - 10*a + a**2",  # false for a > 10
+        "integral(abs(s - a), s, 0, 50) = 1250 - 50*a + a**2",
+        "integral(abs(s - v), s, -2.9, 2.9) = 8.41 + v**2",  # false for |v| > 2.9
+        "abs((v - 1)**2 - 0.00001) = (v - 1)**2 - 0.00001",  # false for |v - 1| < 0.0032
+        "abs(sin(v) - 0.99999) = 0.99999 - sin(v)",
+        "abs((v - 1)**2 + (y + 0.7)**2 - 0.00001) = (v - 1)**2 + (y + 0.7)**2 - 0.00001",
+    ],
+)
+def test_what_is_false_in_a_corner_alone_fails(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed, "seconds = 5\n" + SQUARE).verdict == Verdict.FAILS
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "abs(v - y - 6) = 6 - v + y",
+        "abs((v - 1)**2 + 0.00001) = (v - 1)**2 + 0.00001",
+        "integral(abs(s - v), s, -3, 3) = 9 + v**2",  # ((3 + v)**2 + (3 - v)**2)/2
+        "integral(abs(s + a), s, 0, 10) = 50 + 10*a",
+    ],
+)
+def test_what_is_true_in_the_corners_holds(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed, SQUARE).verdict in GOOD
+
+
 # ------------------------------------------------------------------ corrections
 
 
