@@ -16,7 +16,8 @@ from typing import TypeVar
 import mpmath
 from mpmath import mpf
 from mpmath.libmp import to_rational
-from sympy import Expr, Integral, Rational, Symbol, count_ops
+from sympy import Expr, Integral, Pow, Rational, Symbol, count_ops, exp, sign
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 
 from derive.limit import LimitReached, LookAtClock, within
 from derive.paper.claim import (
@@ -375,21 +376,36 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
         fitting.sort(key=_plainness)
         for left, right, edit in fitting:
             judged = judge(claim, left, right, claim.meaning, look)
-            if is_carried(claim, judged):
+            if is_carried(claim, left, right, judged):
                 also = tuple(f"{e.kind} {e.what}" for _, _, e in fitting if e != edit)
                 relation = claim.relation
                 return Repair(left, right, edit.kind, edit.what, judged, relation, also), tried
     return None, tried
 
 
-def is_carried(claim: Claim, judged: Judged) -> bool:
-    """Whether a corrected equation rests on a proof, or on integrals and samples that have none.
+def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
+    """Whether a corrected equation rests on more than digits which it may only seem to share.
 
-    Digits alone do not do: 1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4.
+    1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4: what fades like that must be proven,
+    and so must a sign, which is zero at a place that no point may meet.
     """
     if claim.relation.is_ordered or has_integral(claim) or claim.samples:
         return judged.good
-    return judged.verdict == Verdict.HOLDS
+    table = dict(claim.meaning)
+    sides = (side.xreplace(table) for side in claim.sides(left, right))
+    return judged.verdict == Verdict.HOLDS or (judged.good and not any(map(_may_fade, sides)))
+
+
+def _may_fade(expr: Expr) -> bool:
+    """Whether a part may be below all digits and yet not zero, or another one at one place."""
+    powers = (power.exp for power in expr.atoms(Pow))
+    return expr.has(exp, HyperbolicFunction, sign) or any(
+        not each.is_number or abs(each) > _STEEP for each in powers
+    )
+
+
+_STEEP = 16
+"""Exponents from which on a power may be too small to count."""
 
 
 def _other_relation(claim: Claim, look: LookAtClock) -> tuple[Repair | None, Counter[str]]:
@@ -400,7 +416,7 @@ def _other_relation(claim: Claim, look: LookAtClock) -> tuple[Repair | None, Cou
         tried["relation"] += 1
         other = replace(claim, relation=relation)
         judged = judge(other, claim.left, claim.right, claim.meaning, look)
-        if is_carried(other, judged):
+        if is_carried(other, claim.left, claim.right, judged):
             what = f"{relation} for {claim.relation}"
             return Repair(claim.left, claim.right, "relation", what, judged, relation), tried
     return None, tried
