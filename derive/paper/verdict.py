@@ -387,19 +387,21 @@ def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
     """Whether a corrected equation rests on more than digits which it may only seem to share.
 
     1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4: what fades like that must be proven,
-    and so must a sign, which is zero at a place that no point may meet.
+    and so must a printed sign, which is zero at a place that no point may meet.
     """
     if claim.relation.is_ordered or has_integral(claim) or claim.samples:
         return judged.good
     table = dict(claim.meaning)
-    sides = (side.xreplace(table) for side in claim.sides(left, right))
-    return judged.verdict == Verdict.HOLDS or (judged.good and not any(map(_may_fade, sides)))
+    sides = [side.xreplace(table) for side in claim.sides(left, right)]
+    if any(map(_may_fade, sides)) or left.has(sign) or right.has(sign):
+        return judged.verdict == Verdict.HOLDS
+    return judged.good
 
 
 def _may_fade(expr: Expr) -> bool:
-    """Whether a part may be below all digits and yet not zero, or another one at one place."""
+    """Whether a part may be below all digits and yet not zero."""
     powers = (power.exp for power in expr.atoms(Pow))
-    return expr.has(exp, HyperbolicFunction, sign) or any(
+    return expr.has(exp, HyperbolicFunction) or any(
         not each.is_number or abs(each) > _STEEP for each in powers
     )
 
