@@ -29,6 +29,13 @@ _FEWER_DECADES = 2
 """The same where an integral is in it."""
 _WIDE, _AT_ENDS, _CHANGES = 8, 6, 12
 _FEWER_WIDE, _FEWER_AT_ENDS, _FEWER_CHANGES = 3, 2, 4
+_CORNERS, _FEWER_CORNERS = 16, 2
+"""Corners of all ranges together that are looked at."""
+_PAST = (0.5, 0.9, 1.1, 2, 6)
+"""Parts of a limit of integration at which other variables are looked at."""
+_MOST_PAST = 15
+_WIDE_PAST = 6
+"""Points over all decades, too, where a limit is a number: the others are no mere scale then."""
 _CLOSEST = 6
 """Decades by which a point may be closer to an end of a range than the range is long."""
 _TOUCHING = 1e-10
@@ -61,7 +68,10 @@ def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     rng = _random(claim, "further")
     yield from _wide(claim, symbols, rng, few)
     yield from _at_ends(claim, symbols, rng, _FEWER_AT_ENDS if few else _AT_ENDS)
+    yield from _corners(claim, symbols, _random(claim, "corners"), few)
     exprs = list(exprs)
+    if few:
+        yield from _past_limits(claim, symbols, _random(claim, "limits"), exprs)
     if claim.is_inequality and not few:
         found = _closest(claim, symbols, rng, exprs[0] - exprs[1])
         yield from (point for point, _ in found)
@@ -69,6 +79,7 @@ def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
         most = _FEWER_CHANGES if few else _CHANGES
         yield from _changes(claim, symbols, rng, exprs, most)
         yield from _peaks(claim, symbols, rng, exprs, most)
+        yield from _bottoms(claim, symbols, _random(claim, "bottoms"), exprs, most)
 
 
 def _random(claim: Claim, seed: str) -> random.Random:
@@ -143,10 +154,73 @@ def _at_ends(
             span = _range(claim, symbol)
             share = 10 ** rng.uniform(-_CLOSEST, -1)
             high = n == 0 or (n > 1 and rng.random() < 0.5)
-            place = mpf(1 - share if high else share)
-            value = span.low + place * (mpf(span.high) - span.low)
-            point[symbol] = mpf(2) ** value if span.powers else value
+            point[symbol] = _inside(span, share, high)
         yield point
+
+
+def _corners(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, few: bool
+) -> Iterator[Point]:
+    """All ranges near an end at once; with an integral not those that `_at_ends` sees to."""
+    limited = [symbol for symbol in symbols if symbol in claim.ranges]
+    if not limited or (few and len(limited) < 2):
+        return
+    count, most = 2 ** min(len(limited), 16), _FEWER_CORNERS if few else _CORNERS
+    corners = range(1, count - 1) if few else range(count)
+    chosen = corners if len(corners) <= most else rng.sample(corners, most)
+    for corner in chosen:
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        for n, symbol in enumerate(limited):
+            share = 10 ** rng.uniform(-_CLOSEST, -4)
+            point[symbol] = _inside(_range(claim, symbol), share, bool(corner >> n & 1))
+        yield point
+
+
+def _inside(span: Range, share: float, high: bool) -> mpf:
+    """The place of a range that is a share of it away from one of its ends."""
+    place = mpf(1 - share if high else share)
+    value = span.low + place * (mpf(span.high) - span.low)
+    return mpf(2) ** value if span.powers else value
+
+
+def _past_limits(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr]
+) -> Iterator[Point]:
+    """Where a limit of integration is a number: variables under the integral around it."""
+    known = set(symbols)
+    wanted = set[tuple[float, Symbol]]()
+    for over in set().union(*(expr.atoms(Integral) for expr in exprs)):
+        numbers = [
+            limit
+            for limit in over.limits[0][1:]
+            if limit.is_real and limit.is_number and limit != 0
+        ]
+        held = (over.function.free_symbols - {over.limits[0][0]}) & known
+        wanted |= {(float(limit), symbol) for limit in numbers for symbol in held}
+    places = [
+        (symbol, part * limit)
+        for limit, symbol in sorted(wanted, key=lambda each: (each[0], in_order(each[1])))
+        for part in _PAST
+        if _may_be(claim, symbol, part * limit)
+    ]
+    for symbol, place in places[:_MOST_PAST]:
+        point = {each: _drawn(_range(claim, each), rng) for each in symbols}
+        yield point | {symbol: mpf(place)}
+    free = [symbol for symbol in symbols if symbol not in claim.ranges]
+    for _ in range(_WIDE_PAST if free and wanted else 0):
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        yield point | {
+            symbol: mpf(10) ** rng.uniform(-_FEWER_DECADES, _FEWER_DECADES) for symbol in free
+        }
+
+
+def _may_be(claim: Claim, symbol: Symbol, place: float) -> bool:
+    """Whether a variable takes a value."""
+    span = claim.ranges.get(symbol)
+    if span is None:
+        return place > 0
+    low, high = (2**span.low, 2**span.high) if span.powers else (span.low, span.high)
+    return low < place < high
 
 
 def _changes(
@@ -186,6 +260,32 @@ def _peaks(
                 found += 1
                 low, high = _narrowed(of, held, variable, point, between)
                 yield point | {variable: mpf(float(low + high) / 2)}
+
+
+def _bottoms(
+    claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr], most: int
+) -> Iterator[Point]:
+    """Points where the argument of a modulus or a sign is stationary.
+
+    It may change its sign between two neighbours of a grid and back.  Along one variable after the
+    other, each staying where it was found.
+    """
+    found = 0
+    for switch in _looked_at(exprs, symbols):
+        if switch.kind != "kink" or switch.of.has(Integral):
+            continue
+        point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        for variable in sorted(switch.of.free_symbols, key=in_order):
+            of, held = _for_arrays(switch.of.diff(variable))
+            if of is None or variable not in held or found >= most:
+                continue
+            grid = _grid(claim.ranges.get(variable))
+            between = _sign_change(of, held, variable, point, grid)
+            if between is not None:
+                found += 1
+                low, high = _narrowed(of, held, variable, point, between)
+                point = point | {variable: mpf(float(low + high) / 2)}
+                yield point
 
 
 def _looked_at(exprs: Iterable[Expr], symbols: Sequence[Symbol]) -> list[Switch]:

@@ -271,6 +271,9 @@ class Latex:
             if piece.is_number and after.is_number:
                 why = "two numbers stand side by side"
                 raise self._refusal(after.column, why, "put \\cdot between them")
+            if piece.is_number and _is_number_over_number(pieces[place + 1 :]):
+                why = "a number before a fraction of numbers may be a sum, as in 3 1/2"
+                raise self._refusal(after.column, why, "put \\cdot or + between them")
 
     def _demand_exponent(self, pieces: list[_Piece], place: int, after: _Piece) -> None:
         if after.text != "{" and not _is_one(after):
@@ -414,6 +417,16 @@ def _grouped(name: str) -> str:
 
 def _in_braces(piece: _Piece) -> list[_Piece]:
     return [_Piece("{", piece.column), piece, _Piece("}", piece.column)]
+
+
+def _is_number_over_number(pieces: list[_Piece]) -> bool:
+    """Whether a fraction stands first, of two plain numbers; its braces are written already."""
+    if not pieces or pieces[0].text not in _FRACTIONS or len(pieces) < 7:
+        return False
+    return all(
+        pieces[n].text == "{" and pieces[n + 1].is_number and pieces[n + 2].text == "}"
+        for n in (1, 4)
+    )
 
 
 def _starts_factor(piece: _Piece) -> bool:

@@ -38,7 +38,9 @@ def _of(expr: Expr) -> str:
 
 
 def _spelled(name: str) -> str:
-    """Braces keep SymPy from spelling a name its own way."""
+    """Braces keep SymPy from spelling a name its own way; a call of a formula stays one."""
+    if "(" in name:
+        return rf"\mathtt{{{_plain(name)}}}"
     stem, _, rest = name.partition("_")
     if stem == "Delta" and rest:
         inner, _, index = rest.partition("_")

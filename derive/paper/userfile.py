@@ -199,17 +199,23 @@ class _File:
             where, lambda: equation(self._printed(given, where, names), names)
         )
         meaning = self._meaning(where, symbols)
-        self._demand_single(where, left, right, meaning)
-        held = _variables(left, right, meaning)
+        named = {call: Symbol(str(call)) for call in _calls(left, right)}
+        spread_out = any(_calls_along(over) for over in _integrals(left, right))
+        left, right = (self._without_calls(side, named, meaning) for side in (left, right))
+        called = {**meaning, **self._called(named, meaning)}
+        self._demand_bound(where, left, right, called)
+        self._demand_single(where, left, right, called)
+        held = _variables(left, right, called)
         return Claim(
             left=left,
             right=right,
             relation=relation,
-            meaning=meaning,
+            meaning=called,
             against=f"the formulas of {self.name}"
             + (f" and the sheet of {self.sheet.geometry.name}" if self.sheet else ""),
             ranges=_places(held) | {s: r for s, r in self.ranges.items() if s in held},
-            conventions=self._conventions(given, where),
+            conventions=self._conventions(given, where, named, meaning),
+            source=self._text(given, "printed", where) if spread_out else "",
             seconds=self.seconds,
             swaps=tuple(Symbol(name) for name in symbols if _held(name, left, right)),
             **common,
@@ -219,7 +225,12 @@ class _File:
         """What a printed equation may hold: the source's symbols, and the variables."""
         for name in symbols:
             self._demand_name(name, ())
-        return Names(where, {**self.variables, **{name: Symbol(name) for name in symbols}}, {})
+        known = {**self.variables, **{name: Symbol(name) for name in symbols}}
+        return Names(where, known, self._arities())
+
+    def _arities(self) -> dict[str, int]:
+        """The body's formulas, with how many arguments each takes."""
+        return {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
 
     def _printed(self, given: Mapping[str, Any], where: str, names: Names) -> str:
         if ("printed" in given) == ("latex" in given):
@@ -242,14 +253,40 @@ class _File:
         return found
 
     def _meaning(self, where: str, symbols: Mapping[str, Any]) -> Meaning:
-        calls = {name: len(formula_.arguments) for name, formula_ in (self.sheet or {}).items()}
-        names = Names(where, self.variables, calls)
+        names = Names(where, self.variables, self._arities())
         return {
             Symbol(name): self._put_in(
                 self._in_time(f"{where}: {name}", partial(read_formula, str(text), names))
             )
             for name, text in symbols.items()
         }
+
+    def _called(self, named: Mapping[Expr, Symbol], meaning: Meaning) -> Meaning:
+        """What the calls of a printed equation stand for, which are symbols in it."""
+        return {
+            symbol: self._put_in(call.xreplace(dict(meaning))) for call, symbol in named.items()
+        }
+
+    def _without_calls(self, side: Expr, named: Mapping[Expr, Symbol], meaning: Meaning) -> Expr:
+        """A printed side with calls as symbols; put in where they change along an integral."""
+        for over in _integrals(side):
+            table = {
+                call: self._put_in(call.xreplace(dict(meaning))) for call in _calls_along(over)
+            }
+            inside = Integral(over.function.xreplace(table), *over.limits)
+            side = side.xreplace({over: inside})
+        return side.xreplace(dict(named))
+
+    def _demand_bound(self, where: str, left: Expr, right: Expr, meaning: Meaning) -> None:
+        """No variable of integration that means something outside its integral, places apart."""
+        held = _variables(left, right, meaning)
+        meant = (meaning[s] for s in left.free_symbols | right.free_symbols if s in meaning)
+        for over in _integrals(left, right, *meant):
+            along = over.limits[0][0]
+            if along in _PLACES.values() or along not in held | meaning.keys():
+                continue
+            why = f"{where}: {along} is a variable of integration and also used outside"
+            raise self._bad(why, "integrate along another letter, s or xi")
 
     def _demand_single(self, where: str, left: Expr, right: Expr, meaning: Meaning) -> None:
         """No integral inside another, once the symbols are put in."""
@@ -271,7 +308,13 @@ class _File:
             expr = expr.xreplace({call: at(body.subs(table, simultaneous=True), *_EDGES)})
         return expr
 
-    def _conventions(self, given: Mapping[str, Any], where: str) -> tuple[Convention, ...]:
+    def _conventions(
+        self,
+        given: Mapping[str, Any],
+        where: str,
+        named: Mapping[Expr, Symbol],
+        meaning: Meaning,
+    ) -> tuple[Convention, ...]:
         made = []
         listed = given.get("conventions", [])
         if not isinstance(listed, list):
@@ -283,7 +326,9 @@ class _File:
             what = self._text(each, "what", where)
             against = self._text(each, "contradicts", where)
             symbols = self._inner(each, "symbols", where)
-            made.append(Convention(what, self._meaning(where, symbols), against))
+            other = self._meaning(where, symbols)
+            other = {**other, **self._called(named, {**meaning, **other})}
+            made.append(Convention(what, other, against))
         return tuple(made)
 
     def _verdict(self, given: Mapping[str, Any], where: str) -> Verdict | None:
@@ -338,6 +383,20 @@ def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
     """What both sides, or what their symbols stand for, depend on; some may cancel in the end."""
     held = left.free_symbols | right.free_symbols
     return set().union(*(meaning.get(symbol, symbol).free_symbols for symbol in held))
+
+
+def _integrals(*exprs: Expr) -> list[Integral]:
+    return sorted({over for expr in exprs for over in expr.atoms(Integral)}, key=str)
+
+
+def _calls(*exprs: Expr) -> list[Expr]:
+    """Calls of the sheet's formulas."""
+    return sorted({call for expr in exprs for call in expr.atoms(AppliedUndef)}, key=str)
+
+
+def _calls_along(over: Integral) -> list[Expr]:
+    """Calls under an integral that change along it."""
+    return [call for call in _calls(over.function) if call.has(over.limits[0][0])]
 
 
 def _places(held: set[Symbol]) -> dict[Symbol, Range]:

@@ -16,7 +16,8 @@ from typing import TypeVar
 import mpmath
 from mpmath import mpf
 from mpmath.libmp import to_rational
-from sympy import Expr, Integral, Rational, Symbol, count_ops
+from sympy import Expr, Integral, Pow, Rational, Symbol, count_ops, exp, sign
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 
 from derive.limit import LimitReached, LookAtClock, within
 from derive.paper.claim import (
@@ -370,26 +371,54 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
         for left, right, edit in candidates:
             look()
             tried[edit.kind] += 1
-            if screened.fits(left, right):
+            if left != right and screened.fits(left, right):
                 fitting.append((left, right, edit))
         fitting.sort(key=_plainness)
         for left, right, edit in fitting:
             judged = judge(claim, left, right, claim.meaning, look)
-            if judged.good:
+            if is_carried(claim, left, right, judged):
                 also = tuple(f"{e.kind} {e.what}" for _, _, e in fitting if e != edit)
                 relation = claim.relation
                 return Repair(left, right, edit.kind, edit.what, judged, relation, also), tried
     return None, tried
 
 
+def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
+    """Whether a corrected equation rests on more than digits which it may only seem to share.
+
+    1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4: what fades like that must be proven,
+    and so must a printed sign, which is zero at a place that no point may meet.
+    """
+    if claim.relation.is_ordered or has_integral(claim) or claim.samples:
+        return judged.good
+    table = dict(claim.meaning)
+    sides = [side.xreplace(table) for side in claim.sides(left, right)]
+    if any(map(_may_fade, sides)) or left.has(sign) or right.has(sign):
+        return judged.verdict == Verdict.HOLDS
+    return judged.good
+
+
+def _may_fade(expr: Expr) -> bool:
+    """Whether a part may be below all digits and yet not zero."""
+    powers = (power.exp for power in expr.atoms(Pow))
+    return expr.has(exp, HyperbolicFunction) or any(
+        not each.is_number or abs(each) > _STEEP for each in powers
+    )
+
+
+_STEEP = 16
+"""Exponents from which on a power may be too small to count."""
+
+
 def _other_relation(claim: Claim, look: LookAtClock) -> tuple[Repair | None, Counter[str]]:
     """Whether the sides of an inequality are equal, or the other way round."""
     tried: Counter[str] = Counter()
-    for relation in (Relation.EQUAL, claim.relation.turned):
+    relations = (Relation.EQUAL, claim.relation.turned)
+    for relation in relations if claim.left != claim.right else ():
         tried["relation"] += 1
         other = replace(claim, relation=relation)
         judged = judge(other, claim.left, claim.right, claim.meaning, look)
-        if judged.good:
+        if is_carried(other, claim.left, claim.right, judged):
             what = f"{relation} for {claim.relation}"
             return Repair(claim.left, claim.right, "relation", what, judged, relation), tried
     return None, tried

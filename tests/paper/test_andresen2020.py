@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import mpmath
 import pytest
+from sympy import simplify
 
 from derive.paper import exact
 from derive.paper.andresen2020 import paper
 from derive.paper.claim import Verdict
 from derive.paper.draw import LEAST, variables
+from derive.paper.formula import Names, equation
 from derive.paper.numbers import DIGITS
 from derive.paper.report import (
     as_latex,
@@ -87,6 +89,38 @@ def test_labels_and_places_are_those_of_the_source() -> None:
             assert claim.label.startswith(label), claim.label
             assert number.strip("()") in claim.place or number == "(47a)"
             assert section in claim.place
+
+
+AS_PRINTED = {
+    "section 3/K_T/left": "K_T = Q/(pi*sqrt(2*a)) + (sigma/4)*sqrt(a/2)",
+    "section 3/K_T/right": "K_T = -Q/(pi*sqrt(2*a)) + (sigma/4)*sqrt(a/2)",
+    "K_T/left": "Delta_K_T = Delta_Q/(pi*sqrt(2*a)) + (Delta_sigma/4)*sqrt(a/2)",
+    "K_T/right": "Delta_K_T = Delta_Q/(pi*sqrt(2*a)) - (Delta_sigma/4)*sqrt(a/2)",
+    "appendix/K_N": "K_N = E_star/(2*R)*sqrt(2*a)",
+}
+
+
+def test_an_equation_is_printed_as_its_source_has_it() -> None:
+    """SymPy would gather roots and multiply brackets out."""
+    for label, text in AS_PRINTED.items():
+        assert printed(paper()[label]) == text
+    assert "- (K_Q2*sqrt(x + a_2 - d_2) - " in printed(paper()["section 3.2/difference"])
+    assert "2*(d_2/(2*sqrt(x + a_1)) + ...)" in printed(paper()["eq:DeltaQApprox"])
+    assert "(1 + gamma)*4*f**2*P**2" in printed(paper()["inequalitywedge"])
+
+
+def test_the_source_s_text_is_what_is_judged() -> None:
+    in_words = ("h(x, c)", "m, n", "Delta_q ~")
+    others = [
+        claim for claim in paper().claims if claim.source and not claim.source.startswith(in_words)
+    ]
+    assert len(others) >= 8
+    for claim in others:
+        held = claim.left.free_symbols | claim.right.free_symbols | set(claim.swaps)
+        known = {s.name: s for s in held}
+        left, _, right = equation(claim.source, Names(claim.label, known, {}))
+        assert simplify(left - claim.left) == 0, claim.label
+        assert simplify(right - claim.right) == 0, claim.label
 
 
 def test_every_verdict_is_the_expected_one_and_has_evidence(

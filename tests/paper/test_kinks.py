@@ -17,9 +17,9 @@ import pytest
 
 from derive.errors import BadClaimsFile, BadFormula
 from derive.paper.claim import Verdict
-from derive.paper.report import evidence
+from derive.paper.report import corrected, evidence
 from derive.paper.userfile import read_claims
-from derive.paper.verdict import Finding, check
+from derive.paper.verdict import Finding, check, is_carried
 
 HEAD = """
 [variables]
@@ -250,6 +250,81 @@ def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
 )
 def test_true_equations_hold_at_those_points(tmp_path: Path, printed: str) -> None:
     assert judged(tmp_path, printed).verdict in GOOD
+
+
+SQUARE = """
+[variables]
+a = "a length"
+v = { low = -3, high = 3 }
+y = { low = -3, high = 3 }
+"""
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "abs(v - y - 5.9) = 5.9 - v + y",  # false for v - y > 5.9: one corner of four
+        "abs(v + y + 5.99) = v + y + 5.99",
+        "integral(abs(s - a), s, 0, 10) = 50 - 10*a + a**2",  # false for a > 10
+        "integral(abs(s - a), s, 0, 50) = 1250 - 50*a + a**2",
+        "integral(abs(s - v), s, -2.9, 2.9) = 8.41 + v**2",  # false for |v| > 2.9
+        "abs((v - 1)**2 - 0.00001) = (v - 1)**2 - 0.00001",  # false for |v - 1| < 0.0032
+        "abs(sin(v) - 0.99999) = 0.99999 - sin(v)",
+        "abs((v - 1)**2 + (y + 0.7)**2 - 0.00001) = (v - 1)**2 + (y + 0.7)**2 - 0.00001",
+    ],
+)
+def test_what_is_false_in_a_corner_alone_fails(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed, "seconds = 5\n" + SQUARE).verdict == Verdict.FAILS
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "abs(v - y - 6) = 6 - v + y",
+        "abs((v - 1)**2 + 0.00001) = (v - 1)**2 + 0.00001",
+        "integral(abs(s - v), s, -3, 3) = 9 + v**2",  # ((3 + v)**2 + (3 - v)**2)/2
+        "integral(abs(s + a), s, 0, 10) = 50 + 10*a",
+    ],
+)
+def test_what_is_true_in_the_corners_holds(tmp_path: Path, printed: str) -> None:
+    assert judged(tmp_path, printed, SQUARE).verdict in GOOD
+
+
+# ------------------------------------------------------------------ corrections
+
+
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "sign(a - 1/100000) = 1",  # 1 = 1
+        "abs(x) = x",
+        "sqrt(x**2) = x",
+        "a > a",  # a = a
+    ],
+)
+def test_what_says_nothing_is_no_correction(tmp_path: Path, printed: str) -> None:
+    finding = judged(tmp_path, printed)
+    assert (finding.verdict, finding.repair) == (Verdict.FAILS, None)
+
+
+def test_a_correction_has_two_sides(tmp_path: Path) -> None:
+    """Without the modulus both sides would be sqrt(x); with another it says something."""
+    assert corrected(judged(tmp_path, "sqrt(x) = sqrt(abs(x))")) == "Abs(sqrt(x)) = sqrt(Abs(x))"
+
+
+def test_what_is_true_to_working_digits_is_no_correction(tmp_path: Path) -> None:
+    """1 + tanh(10**6*(w - 1.6)) is below exp(-10**6) where w < 0.9, which is not zero."""
+    finding = judged(tmp_path, "w + (1 + tanh(10**6*(w - 1.6)))/2 = w", "seconds = 2\n" + HEAD)
+    assert finding.verdict == Verdict.NUMERICAL
+    claim = finding.claim
+    assert not is_carried(claim, claim.left, claim.right, finding.judged)
+
+
+def test_a_correction_that_is_proven_is_told(tmp_path: Path) -> None:
+    finding = judged(tmp_path, "sin(x)**2 - cos(x)**2 = 1")
+    assert finding.repair is not None
+    assert finding.repair.judged.verdict == Verdict.HOLDS
+    assert corrected(finding) == "sin(x)**2 + cos(x)**2 = 1"
 
 
 # ------------------------------------------------------------------ limits and errors

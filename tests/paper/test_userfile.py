@@ -269,6 +269,65 @@ def test_an_integral_inside_another_is_refused(tmp_path: Path, printed: str) -> 
     assert (done.exit_code, "integral inside an integral" in done.stderr) == (2, True)
 
 
+@pytest.mark.parametrize(
+    "printed",
+    ["integral(s, a, 0, 1) = a", "B = integral(s, b, 0, 1)", "a = integral(s, B, 0, 1)"],
+)
+def test_a_variable_of_integration_is_not_used_outside(tmp_path: Path, printed: str) -> None:
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    done = run(written(tmp_path, TWO + claim))
+    assert (done.exit_code, "also used outside" in done.stderr) == (2, True)
+
+
+@pytest.mark.parametrize(
+    "printed", ["integral(a, a, 0, 1) = 1/2", "integral(s, s, 0, 1) = s/(2*s)"]
+)
+def test_a_variable_of_integration_may_be_declared(tmp_path: Path, printed: str) -> None:
+    assert verdict(tmp_path, printed)[0] in {"holds", "numerical"}
+
+
+WEDGE = """
+body = "wedge"
+seconds = 5
+[variables]
+a = "left edge"
+c = "right edge"
+[symbols]
+A = "a"
+"""
+
+
+@pytest.mark.parametrize(
+    ("printed", "expected"),
+    [
+        ("load(a, c) = E_star*phi*sqrt(a*c)", {"holds"}),
+        ("load(A, c) = E_star*phi*sqrt(a*c)", {"holds"}),
+        ("integral(pressure(s, A, c), s, -A, c) = load(a, c)", {"holds", "numerical"}),
+        ("load(a, c) = 2*E_star*phi*sqrt(a*c)", {"fails"}),
+    ],
+)
+def test_formulas_of_the_body_are_called_in_an_equation(
+    tmp_path: Path, printed: str, expected: set[str]
+) -> None:
+    """The wedge's load is E* phi sqrt(a c), eq. (25) of the paper."""
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    (told,) = json.loads(run(written(tmp_path, WEDGE + claim), "--format", "json").stdout)
+    assert told["verdict"] in expected
+    assert told["printed"] == printed
+    if expected == {"fails"}:
+        assert told["corrected"] == "load(a, c) = E_star*phi*sqrt(a*c)"
+
+
+def test_a_call_follows_a_convention(tmp_path: Path) -> None:
+    """A names the left edge; counted from the other side it is the right one."""
+    claim = (
+        "[[claims]]\nlabel = 'it'\nprinted = 'load(A, a) = E_star*phi*sqrt(a*c)'\n"
+        "conventions = [{ what = 'A at the right', symbols = { A = 'c' }, contradicts = 'p' }]\n"
+    )
+    (told,) = json.loads(run(written(tmp_path, WEDGE + claim), "--format", "json").stdout)
+    assert told["verdict"] == "convention"
+
+
 def test_a_place_may_have_a_range(tmp_path: Path) -> None:
     claim = "x = { low = 0, high = 1 }\n[[claims]]\nlabel = 'it'\nprinted = 'abs(x) = x'\n"
     assert run(written(tmp_path, "[variables]\n" + claim)).exit_code == 0
@@ -357,6 +416,7 @@ def latex(text: str) -> str:
         (r"c = a^{2}P", "c = a**2*P"),
         (r"c = a^2(P + f)Q", "c = a**2*(P + f)*Q"),
         (r"c = \frac12 a", "c = a/2"),
+        (r"c = 3\frac{a}{2} + 3\cdot\frac12", "c = 3*a/2 + 3/2"),
         (r"c = \frac1{2}\sqrt{a}P", "c = sqrt(a)*P/2"),
         (r"c = \sqrt aP", "c = sqrt(a)*P"),
         (r"c = 2a\left[P - \frac{Q}{2f}\right]^{2}", "c = 2*a*(P - Q/(2*f))**2"),
@@ -406,6 +466,9 @@ def test_what_can_be_read_in_one_way(text: str, understood: str) -> None:
         (r"c = a^Q^2", "a power of a power", 7),
         (r"c = a^{Q}^{2}", "a power of a power", 9),
         (r"c = 2 3 a", "two numbers", 6),
+        (r"c = 3\frac12", "a fraction of numbers", 5),
+        (r"c = a + 3\,\nicefrac{1}{2} a", "a fraction of numbers", 11),
+        (r"c = \sqrt{3\tfrac{1}{2}}", "a fraction of numbers", 11),
         (r"c = a^{Q", "not closed", 6),
         (r"c \sim a", r"\sim is no declared symbol", 2),
     ],

@@ -123,6 +123,7 @@ def _tangential() -> tuple[Claim, ...]:
                 says=f"the coefficient of the stuck shear at the {side} edge",
                 left=K_T,
                 right=sign * Q / (pi * sqrt(2 * a)) + sigma / 4 * sqrt(a / 2),
+                source=f"K_T = {'' if sign > 0 else '-'}Q/(pi*sqrt(2*a)) + (sigma/4)*sqrt(a/2)",
                 meaning={K_T: ours, Q: dQ, sigma: dsigma, a: _size},
                 against="the edge limit of full stick in a symmetric contact",
                 ranges={dsigma: SIGNED},
@@ -305,6 +306,9 @@ def _differences() -> tuple[Claim, ...]:
             says="the difference of the two tractions, written out",
             left=Delta_q,
             right=full,
+            source="Delta_q = K_Q1*sqrt(x + a_1 - d_1) + f*K_N1*sqrt(x + a_1) "
+            "- 2*f*K_N1*sqrt(x + a_1 - d_1) + f*K_N1*sqrt(x + a_2 - d_2) "
+            "- (K_Q2*sqrt(x + a_2 - d_2) - f*K_N2*sqrt(x + a_2) + f*K_N2*sqrt(x + a_2 - d_2))",
             meaning={Delta_q: terms[q_1] - terms[q_2]},
             against="eq. (13), as corrected, less eq. (15)",
             ranges={**_SLIP, x: Range(0.1, 2)},
@@ -363,6 +367,7 @@ def _zones() -> tuple[Claim, ...]:
             left=Delta_q,
             right=printed,
             relation=Relation.LIKE,
+            source="Delta_q ~ f*K_N*(2*(d_2/(2*sqrt(x + a_1)) + ...) + Delta_a/(2*sqrt(x + a_1)))",
             meaning=zones | {Delta_q: far / sqrt(x + a_1)},
             against="the limit of sqrt(x + a_1) times eq. (17)",
             ranges={**grows, x: Range(0.1, 2)},

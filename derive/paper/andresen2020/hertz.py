@@ -330,6 +330,7 @@ def _coefficient() -> Claim:
         says="the coefficient of the pressure at either edge of a cylinder",
         left=K_N,
         right=E_star / (2 * R) * sqrt(2 * a),
+        source="K_N = E_star/(2*R)*sqrt(2*a)",
         meaning={a: _size, K_N: hertz("K_N_left", _size, _size)},
         against="the cylinder's sheet, by the expansion of p(x)",
         expected=Verdict.HOLDS,

@@ -468,6 +468,13 @@ def stuck(half: Expr, sign: int) -> Expr:
     return Delta_Q / (pi * sqrt(2 * half)) + sign * Delta_sigma / 4 * sqrt(half / 2)
 
 
+def _stuck_as_printed(half: Expr, sign: int) -> str:
+    """Eq. (32) as text: SymPy gathers the roots."""
+    between = "+" if sign > 0 else "-"
+    first = f"Delta_Q/(pi*sqrt(2*{half}))"
+    return f"Delta_K_T = {first} {between} (Delta_sigma/4)*sqrt({half}/2)"
+
+
 def _coefficients() -> tuple[Claim, ...]:
     made = []
     for side, sign, own in (("left", 1, a), ("right", -1, c)):
@@ -481,6 +488,7 @@ def _coefficients() -> tuple[Claim, ...]:
                 says=f"the coefficient of the stuck shear at the {side} edge, half-width a",
                 left=Delta_K_T,
                 right=stuck(a, sign),
+                source=_stuck_as_printed(a, sign),
                 meaning={**load, Delta_K_T: hertz(f"K_T_{side}", _size, _size), a: _size},
                 against="the edge limit of full stick in a symmetric contact",
                 ranges={dsigma: SIGNED},
@@ -494,6 +502,7 @@ def _coefficients() -> tuple[Claim, ...]:
                 "width",
                 left=Delta_K_T,
                 right=stuck(own, sign),
+                source=_stuck_as_printed(own, sign),
                 meaning={**load, Delta_K_T: wedge(f"K_T_{side}"), a: r / t, c: r * t},
                 against="the edge limit of full stick in the contact [-a, c]",
                 ranges={dsigma: SIGNED, t: Range(0.4, 0.9)},
@@ -574,6 +583,8 @@ def threshold_claim() -> Claim:
         says="the tension at which the slip zone of one edge closes",
         left=Delta_sigma_th,
         right=4 * E_star * f / pi * (pi * alpha_0 - 2 * phi * lean),
+        source="Delta_sigma_th = 4*E_star*f/pi*(pi*alpha_0 - 2*phi*asin("
+        "8*f**2*P**2/(Delta_Q*gamma*(-4*f*P + Delta_Q) + (1 + gamma)*4*f**2*P**2) - 1))",
         meaning={
             P: wedge("load"),
             gamma: t**2,
