@@ -31,7 +31,7 @@ from ._state import State
 COARSEST, FINEST = 1, 9
 """Steps of the rule are 2**-COARSEST at first and 2**-FINEST at last."""
 
-AGREED = 1e-12
+AGREED = 1e-11
 """Two sums that agree to this are followed by one that is exact to rounding."""
 
 CLOSE = 0.1
