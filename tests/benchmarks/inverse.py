@@ -145,7 +145,7 @@ def table(found: list[Row]) -> Table:
 
 
 @click.command()
-@click.option("--count", default=20_000, help="States a body.")
+@click.option("--count", default=100_000, help="States a body.")
 @click.option("--loops", default=100, help="States of them for fsolve.")
 def main(count: int, loops: int) -> None:
     """Compare contact() with SciPy's solvers."""

@@ -126,18 +126,55 @@ def test_everything_broadcasts() -> None:
     assert_allclose(found.a[0, 0], np.sqrt(4 * radius / np.pi), rtol=1e-14)
 
 
+class Counted:
+    """A state, and for how many contacts it was asked."""
+
+    def __init__(self, state: StateOf) -> None:
+        self.state, self.asked = state, 0
+
+    def __call__(self, a: Any, c: Any, **constants: Any) -> State:
+        self.asked += np.size(a)
+        return self.state(a, c, **constants)
+
+
 def test_the_state_is_asked_for_few_contacts() -> None:
-    """Five to eight states an element, however far the loads are apart."""
-    asked = 0
+    """However far the loads are apart."""
+    counted = Counted(hertz_state)
+    rng = np.random.default_rng(4)
+    load = decades(rng, -12, 12)
+    contact_under(load, rng.uniform(-1, 1, COUNT) * load, 1.0, counted, R=R)
+    assert counted.asked <= 5 * COUNT
 
-    def counted(a: Any, c: Any, *, R: Any) -> State:
-        nonlocal asked
-        asked += a.size
-        return hertz_state(a, c, R=R)
 
-    load = decades(np.random.default_rng(4), -12, 12)
-    contact_under(load, 0.1 * load, 1.0, counted, R=R)
-    assert asked <= 8 * COUNT
+@pytest.mark.parametrize("arm", [0.0, 0.25, -2.0])
+def test_loads_that_differ_in_nothing_else_start_close_by(arm: float) -> None:
+    """One step from between the rungs of a ladder, and the state that shows it was enough."""
+    counted = Counted(wedge_state)
+    load = decades(np.random.default_rng(4), -6, 6)
+    load[::100] = np.where(np.arange(COUNT // 100) % 2, np.nan, -1.0)
+    found = contact_under(load, arm * load, 1.0, counted, phi=PHI)
+    wanted = wedge.contact(load, arm * load, E_star=1.0, phi=PHI)
+    assert_allclose(found.a, wanted.a, rtol=4e-13)
+    assert_allclose(found.c, wanted.c, rtol=4e-13)
+    assert_allclose(found.alpha, wanted.alpha, rtol=4e-13, atol=1e-16)
+    assert counted.asked <= 3 * COUNT
+
+
+@pytest.mark.parametrize("alpha", [0.0, 0.9 * PHI])
+def test_loads_at_one_tilt_start_close_by_too(alpha: float) -> None:
+    counted = Counted(wedge_state)
+    load = decades(np.random.default_rng(4), -6, 6)
+    found = contact_at(load, alpha, 0.0, 1.0, counted, phi=PHI)
+    wanted = wedge.contact_at_tilt(load, alpha, E_star=1.0, phi=PHI)
+    assert_allclose([found.a, found.c], [wanted.a, wanted.c], rtol=1e-12)
+    assert counted.asked <= 3 * COUNT
+
+
+def test_many_times_the_same_load() -> None:
+    found = contact_under(np.full(COUNT, 2.0), 0.5, 1.0, wedge_state, phi=PHI)
+    wanted = wedge.contact(2.0, 0.5, E_star=1.0, phi=PHI)
+    for field, value in zip(found, wanted, strict=True):
+        assert_allclose(field, value, rtol=1e-14)
 
 
 # ------------------------------------------------------------------ where the body is level

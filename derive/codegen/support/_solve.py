@@ -11,6 +11,9 @@ with the load; so their logarithms are the unknowns.  Every contact of every bod
 so that Newton's method needs no other derivative than the edge coefficients.  While the load is far
 off, both distances are scaled alike; the load grows with them, however large or small.
 
+The same laws put right what little is missing when the steps end, the tilt included: the state that
+shows it is not computed once more.
+
 Elements that have converged take no part in the next step: a hard one costs its neighbours nothing.
 """
 
@@ -22,7 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._arrays import LEAST, MOST, at_rows, flattened
-from ._nested import SMALL, SMALLEST, beside, edges
+from ._nested import SMALL, beside, edges
 from ._roots import STEPS, Array, Rows, around, increasing_root
 from ._state import State
 
@@ -31,6 +34,9 @@ NEAR = 1.0
 
 LONGEST = 2.0
 """Longest of Newton's steps in the logarithm of a distance to an edge."""
+
+CLOSE = 1e-5
+"""After a step below this the state shows the rest, whose square is below rounding."""
 
 ACCEPTED = 1e-9
 """A contact whose load is off by more, and not for the rounding of its edges, is none."""
@@ -43,6 +49,12 @@ FINEST = 2.0**-20
 
 NARROWED = 0.1
 """so has scaling, between widths whose logarithms differ by less: a kink lies between them."""
+
+MANY = 600
+"""So many elements that differ in the load alone are worth a ladder of loads,"""
+
+RUNGS = 32
+"""with one rung for so many of them."""
 
 _DOUBTFUL = 70.0
 """A load or a place farther from the body's size than this, a logarithm, may be out of reach."""
@@ -128,6 +140,10 @@ class _ByMoment:
         """The same for some elements."""
         return _ByMoment(self.place[rows])
 
+    def is_one(self) -> bool:
+        """Whether it is the same for all elements, but for rounding."""
+        return bool(np.ptp(self.place) <= 4 * _EPS * np.max(np.abs(self.place)))
+
     def off(self, now: State, h: Array, mid: Array, load: Array) -> Array:
         """How far the state is from it, comparable with a change of the load's logarithm."""
         return 4 * (-now.moment / now.load - self.place) / h
@@ -161,6 +177,10 @@ class _ByTilt:
     def on(self, rows: Any) -> "_ByTilt":
         """The same for some elements."""
         return _ByTilt(self.place[rows], self.tilt[rows])
+
+    def is_one(self) -> bool:
+        """Whether it is the same for all elements."""
+        return not np.ptp(self.place) and not np.ptp(self.tilt)
 
     def off(self, now: State, h: Array, mid: Array, load: Array) -> Array:
         """How far the state is from it, comparable with a change of the load's logarithm."""
@@ -198,10 +218,12 @@ def _solved(
         return state(a, c, **at_rows(rows, constants))
 
     given = (load > 0) & (load < np.inf) & _within_reach(load, goal.place, size, of)
-    a, c = _newton(load, goal, size, of, np.flatnonzero(given), NARROWED if cuts else 0.0)
-    now = of(a, c, slice(None))
-    tilt = now.tilt
-    met, told = _is_met(load, goal, a, c, now)
+    rows, narrowed = np.flatnonzero(given), NARROWED if cuts else 0.0
+    start = size[rows] / 2, size[rows] / 2
+    if rows.size > MANY and not any(map(np.ndim, constants.values())):
+        start = _from_rungs(load[rows], goal.on(rows), start, of, narrowed)
+    a, c = _newton(load, goal, start, of, rows, narrowed)
+    met, told, a, c, tilt = _judged(load, goal, a, c, of(a, c, slice(None)))
     ways: list[Callable[..., tuple[Array, Array]]] = [
         *(partial(beside, s) for s in goal.steps),
         edges,
@@ -213,10 +235,23 @@ def _solved(
         lost = load[rows], goal.on(rows)
         found = nearer(*lost, size[rows], of, rows, [v[rows] for v in cuts], a[rows], c[rows])
         now = of(*found, rows)
-        met[rows], told[rows] = _is_met(*lost, *found, now)
-        for whole, value in zip((a, c, tilt), (*found, now.tilt), strict=True):
+        met[rows], told[rows], *better = _judged(*lost, *found, now)
+        for whole, value in zip((a, c, tilt), better, strict=True):
             whole[rows] = np.where(now.load > 0, value, whole[rows])
     return Solution(*(np.where(met, v, np.nan).reshape(shape)[()] for v in (a, c, tilt)))
+
+
+def _judged(
+    load: Array, goal: Any, a: Array, c: Array, now: State
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Whether contacts are met and told, as by `_is_met`; edges and tilt, put right where met."""
+    met, told = _is_met(load, goal, a, c, now)
+    h = a + c
+    short = np.log(load / now.load)
+    left, right = (np.where(met, v, 0.0) for v in _linear(goal, now, h, (c - a) / 2, short))
+    by_left, by_right = (np.where(met, v, 1.0) for v in (now.left, now.right))
+    tilt = now.tilt + (left - right) / np.sqrt(h)
+    return met, told, a + left / by_left, c + right / by_right, tilt
 
 
 def _within_reach(load: Array, place: Array, size: Array, state: Callable[..., State]) -> Array:
@@ -279,21 +314,58 @@ class _Widths(NamedTuple):
         return np.where(inside, by_step, between), self._replace(gap=closer)
 
 
+def _from_rungs(
+    load: Array,
+    goal: Any,
+    start: tuple[Array, Array],
+    state: Callable[[Array, Array, Rows], State],
+    narrowed: float,
+) -> tuple[Array, Array]:
+    """Better distances to start from, where all elements differ in nothing but the load.
+
+    Between loads evenly spaced in their logarithm, whose contacts are found, the logarithms of both
+    distances are cubics with the rates that they have at these.
+    """
+    if np.ptp(start) or not goal.is_one():
+        return start
+    count = load.size // RUNGS
+    rungs = np.zeros(count, int)
+    goal, (left, right) = goal.on(rungs), (side[rungs] for side in start)
+    at, wanted = np.log(load), np.linspace(np.log(load.min()), np.log(load.max()), count)
+    a, c = _newton(np.exp(wanted), goal, (left, right), state, np.arange(count), narrowed)
+    now = state(a, c, rungs)
+    forces = _linear(goal, now, a + c, (c - a) / 2, np.ones(count))
+    gap = wanted[1] - wanted[0] or 1.0
+    below = np.clip(((at - wanted[0]) / gap).astype(int), 0, count - 2)
+    share = (at - wanted[below]) / gap
+    found = []
+    for plain, distance, force, by in zip(
+        start, (a + goal.place, c - goal.place), forces, (now.left, now.right), strict=True
+    ):
+        value, rate = np.log(distance), gap * force / (by * distance)
+        rise, first, last = np.diff(value)[below], rate[below], rate[below + 1]
+        bend = 3 * rise - 2 * first - last + share * (first + last - 2 * rise)
+        between = np.exp(value[below] + share * (first + share * bend))
+        found.append(np.where(np.isfinite(between) & (between > 0), between, plain))
+    return found[0], found[1]
+
+
 def _newton(
     load: Array,
     goal: Any,
-    size: Array,
+    start: tuple[Array, Array],
     state: Callable[[Array, Array, Rows], State],
     rows: Rows,
     narrowed: float,
 ) -> tuple[Array, Array]:
     """a and c of some elements, NaN of others; as close as it came where no contact was found.
 
+    start: their distances to the edges from which to start.
     A step is taken from `left` and `right` along `to_left` and `to_right`, logarithms.  If it leads
     away from the loads, a quarter of it is tried, and so on.
     """
     a, c = np.full(load.shape, np.nan), np.full(load.shape, np.nan)
-    left = right = size[rows] / 2
+    left, right = start
     to_left = to_right = np.zeros(rows.size)
     part = np.ones(rows.size)
     widths = _Widths.unknown(rows.size)
@@ -307,10 +379,11 @@ def _newton(
         h, mid = tried_left + tried_right, wanted.place + (tried_right - tried_left) / 2
 
         need = np.log(asked / now.load)
-        force = 4 * now.load / (np.pi * np.sqrt(h))
-        even, odd = force * need, wanted.odd(now, h, mid, need)
-        by_left = (even - odd) / (2 * now.left * tried_left)
-        by_right = (even + odd) / (2 * now.right * tried_right)
+        force_left, force_right = _linear(wanted, now, h, mid, need)
+        by_left, by_right = (
+            force_left / (now.left * tried_left),
+            force_right / (now.right * tried_right),
+        )
         length = np.maximum(np.abs(by_left), np.abs(by_right))
         miss = need**2 + wanted.off(now, h, mid, asked) ** 2
 
@@ -318,8 +391,8 @@ def _newton(
         scaling = (best == np.inf) & ~(touches & (np.abs(need) < NEAR))
         scale = np.zeros(rows.size)
         if np.any(scaling):
-            pull = now.left * tried_left + now.right * tried_right
-            next_h, widths = widths.beside(h, need, scaling).next(h, need * force / pull)
+            pull = np.pi * np.sqrt(h) / 4 * (now.left * tried_left + now.right * tried_right)
+            next_h, widths = widths.beside(h, need, scaling).next(h, need * now.load / pull)
             scale = np.log(next_h / h)
 
         better = ~scaling & (miss < best)
@@ -332,7 +405,7 @@ def _newton(
         best = np.where(better, miss, best)
 
         rounding = 2 * _EPS * (np.abs(wanted.place) + h) / np.minimum(tried_left, tried_right)
-        met = better & (length < np.maximum(SMALLEST, rounding))
+        met = better & (length < np.maximum(CLOSE, rounding))
         stuck = scaling & (widths.gap < narrowed)
         left, right = (np.where(stuck, widths.wide / 2, v) for v in (left, right))
         done = met | (~moved & (last < SMALL)) | stuck | (part < FINEST)
