@@ -106,8 +106,16 @@ _USED_BESIDES = (
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),
     *("Contact", "Edges", "StickZone", "Threshold", "Regime", "March", "Law"),
     *("stick_zone_of", "tension_threshold_of", "slip_zones_of", "slip_error_of", "march_of"),
-    *("shear_change_of", "slip_range_of", "closing_tension_of", "stick_margin", "slip_error"),
-    *("shear_change", "slip_range", "closing_tension", "march", "slip_terms"),
+    *("shear_change_of", "shear_of", "slip_range_of", "closing_tension_of", "stick_margin"),
+    *(
+        "shear",
+        "shear_change",
+        "slip_error",
+        "slip_range",
+        "closing_tension",
+        "march",
+        "slip_terms",
+    ),
 )
 
 RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_USED_BESIDES)

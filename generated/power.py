@@ -9,7 +9,7 @@ import numpy as np
 from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
 from ._quadrature import Curve, Piece, Profile, pressure_at, second_of, slope_of, state_of
-from ._shear import shear_change_of, slip_range_of
+from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
 from ._state import State
@@ -34,6 +34,7 @@ __all__ = [
     "march",
     "moment",
     "pressure",
+    "shear",
     "shear_change",
     "slip_error",
     "slip_range",
@@ -741,6 +742,57 @@ def shear_change(
     0.0
     """
     return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, L=L, k=k)
+
+
+@chunkwise
+def shear(
+    x: Array,
+    contact: Contact,
+    Q: Array,
+    sigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    L: Array,
+    k: Array,
+    dQ: Array = 0.0,
+    dsigma: Array = 0.0,
+) -> Array:
+    """Shear traction at x in a cycle at constant normal loads; zero outside the contact.
+
+        q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq as by shear_change
+        first the shear load rises from nothing to Q and the tension to sigma, in proportion;
+            since then they have fallen by dQ and dsigma, in proportion again: by nothing at the
+            upper end of a cycle, by all of the half-cycle's change at the lower end, from which
+            q rises by shear_change
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        x        position along the interface, right positive [m]
+        contact  Contact under normal loads that stay
+        Q        shear load that is reached first [N/m]
+        sigma    differential bulk tension that comes with it [Pa]
+        f        coefficient of friction [-]
+        E_star   composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
+        L        distance from the apex at which the flanks have slope one [m]
+        k        exponent, above one [-]
+        dQ       what the shear load has fallen by since then [N/m]
+        dsigma   what the tension has fallen by since then [Pa]
+
+    Returns q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
+    NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it
+    slips back only where it slipped, and dQ <= 2 Q; so reverse all signs, those of q too, where the
+    lower end has the larger shear load; nor where Q < 0, dQ < 0, or Q >= f P, which is sliding.
+    Derived from derive/geometries/power.py.
+
+    >>> law = dict(E_star=1.0, L=1.0, k=2.0)
+    >>> here = Contact(1.5, 1.0, 0.0)
+    >>> law |= dict(f=0.5)
+    >>> upper, lower = (shear(0.1, here, 0.15, 0.0, dQ=fall, **law)
+    ...                 for fall in (0.0, 2 * 0.15))
+    >>> bool(upper == -lower)  # a cycle between Q and -Q
+    True
+    """
+    return shear_of(_LAW, x, contact, Q, sigma, f=f, E_star=E_star, L=L, k=k, dQ=dQ, dsigma=dsigma)
 
 
 @chunkwise

@@ -33,6 +33,8 @@ class CycleFunction:
     unless      when it is NaN, besides what holds for all
     kind        the named tuple that it returns, "" for a plain array
     optional    keyword-only arguments behind the body's own, with their defaults
+    meanings    of arguments that mean something else here than elsewhere
+    beyond      loads under which nothing is known
     """
 
     name: str
@@ -43,11 +45,14 @@ class CycleFunction:
     unless: str
     kind: str = ""
     optional: tuple[tuple[str, str], ...] = ()
+    meanings: tuple[tuple[str, str], ...] = ()
+    beyond: str = "dQ < 0 or dQ >= f (P1 + P2), which is sliding"
 
 
 _MEANINGS = {
     "first": "Contact at the start of the half-cycle that raises the shear load",
     "second": "Contact at its end; the same for constant normal loads",
+    "contact": "Contact under normal loads that stay",
     "Q": "shear load at every instant [N/m]",
     "sigma": "differential bulk tension at every instant [Pa]",
     "da": "how much further the left edge reaches than at the other end of the half-cycle [m]",
@@ -57,6 +62,9 @@ _MEANINGS = {
     "far longer",
 }
 """What is no symbol of the theory, in words."""
+
+_CONTACTS = ("first", "second", "contact")
+"""Arguments that are contacts."""
 
 _TYPES = {"order": "int", "mixed": "bool"}
 """Options that are no arrays."""
@@ -146,6 +154,30 @@ CYCLE: tuple[CycleFunction, ...] = (
         "the stick zone is known without `mixed`; nor in full stick between two contacts",
     ),
     CycleFunction(
+        "shear",
+        (x, "contact", "Q", "sigma"),
+        "Shear traction at x in a cycle at constant normal loads; zero outside the contact.",
+        (
+            "q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq as by shear_change",
+            "first the shear load rises from nothing to Q and the tension to sigma, in proportion; "
+            "since then they have fallen by dQ and dsigma, in proportion again: by nothing at the "
+            "upper end of a cycle, by all of the half-cycle's change at the lower end, from which "
+            "q rises by shear_change",
+        ),
+        "q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in",
+        "the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it "
+        "slips back only where it slipped, and dQ <= 2 Q; so reverse all signs, those of q too, "
+        "where the lower end has the larger shear load",
+        optional=(("dQ", "0.0"), ("dsigma", "0.0")),
+        meanings=(
+            ("Q", "shear load that is reached first [N/m]"),
+            ("sigma", "differential bulk tension that comes with it [Pa]"),
+            ("dQ", "what the shear load has fallen by since then [N/m]"),
+            ("dsigma", "what the tension has fallen by since then [Pa]"),
+        ),
+        beyond="Q < 0, dQ < 0, or Q >= f P, which is sliding",
+    ),
+    CycleFunction(
         "slip_range",
         (x, *_BETWEEN),
         "How far the surfaces slip at x over the half-cycle; zero where they stick.",
@@ -186,7 +218,7 @@ class CycleText:
         own, given = own_parameters(self.sheet)
         own = own.removeprefix(", *")
         names = [*map(str, self.function.arguments)]
-        kinds = ["Contact" if name in ("first", "second") else "Array" for name in names]
+        kinds = ["Contact" if name in _CONTACTS else "Array" for name in names]
         taken = ", ".join(f"{n}: {kind}" for n, kind in zip(names, kinds, strict=True))
         optional = "".join(
             f", {n}: {_TYPES.get(n, 'Array')} = {default}" for n, default in self.function.optional
@@ -218,8 +250,7 @@ class CycleText:
         lines += self._arguments
         lines += ["", *textwrap.wrap(f"Returns {self.function.returns}.", LINE - 4)]
         lines += textwrap.wrap(
-            f"NaN unless {self.function.unless}; nor where dQ < 0 or dQ >= f (P1 + P2), which is "
-            "sliding.",
+            f"NaN unless {self.function.unless}; nor where {self.function.beyond}.",
             LINE - 4,
         )
         lines += [f"Derived from {self.source}.", "", *self.example.of(self.function)]
@@ -232,9 +263,10 @@ class CycleText:
         names = [*self.function.arguments, f, E_star, *own]
         names += [name for name, _ in self.function.optional]
         width = max(len(str(name)) for name in names)
+        meanings = {**_MEANINGS, **dict(self.function.meanings)}
         for name in map(str, names):
-            if name in _MEANINGS:
-                words = _MEANINGS[name]
+            if name in meanings:
+                words = meanings[name]
             else:
                 words = inside_quotes(f"{quantities[name].meaning} [{quantities[name].unit}]")
             yield from textwrap.wrap(
@@ -264,7 +296,7 @@ class _Example:
         shear, name = repr(float(self.dQ)), function.name
         between = f"here, here, {shear}, 0.0, f=0.5, **law"
         yield f">>> law = dict({self.law})"
-        if "first" in function.arguments:
+        if {"first", "contact"} & set(function.arguments):
             yield f">>> here = Contact({self.edges}, 0.0)"
         match name:
             case "stick_zone":
@@ -289,6 +321,11 @@ class _Example:
                 yield from (">>> bool(error.left > 0)", "True")
             case "shear_change":
                 yield from (f">>> float(shear_change(here.c + 1.0, {between}))", "0.0")
+            case "shear":
+                yield ">>> law |= dict(f=0.5)"
+                yield f">>> upper, lower = (shear(0.1, here, {shear}, 0.0, dQ=fall, **law)"
+                yield f"...                 for fall in (0.0, 2 * {shear}))"
+                yield from (">>> bool(upper == -lower)  # a cycle between Q and -Q", "True")
             case "slip_range":
                 yield f">>> zone = stick_zone({between})"
                 yield from (f">>> float(slip_range(zone.n, {between}))", "0.0")

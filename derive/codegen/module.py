@@ -40,7 +40,7 @@ _HELPERS = {
         *("Curve", "Piece", "Profile"),
         *("mended", "pressure_at", "second_of", "slope_of", "state_of"),
     ),
-    "_shear": ("shear_change_of", "slip_range_of"),
+    "_shear": ("shear_change_of", "shear_of", "slip_range_of"),
     "_slip": ("slip_error_of", "slip_zones_of"),
     "_solve": ("contact_at", "contact_under", "level"),
     "_state": ("State",),

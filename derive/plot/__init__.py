@@ -5,7 +5,7 @@
     style       the look that all pictures share, applied in a context
     measure     what stands on an axis: a symbol and its unit, or a ratio
     given       what cannot be drawn, refused with one clear error
-    tractions   pressure; shear over a half-cycle; slip and the friction's work
+    tractions   pressure; shear, and its change over a half-cycle; slip and the friction's work
     zones       stick and slip over a cycle, or over a parameter
     live        the same under sliders, in a notebook
     series      how far the series of the slip zones are off, against their size
@@ -26,7 +26,7 @@ from derive.plot.live import Live, Loads, sliders
 from derive.plot.measure import Measure, over, unit
 from derive.plot.series import errors, relative_errors
 from derive.plot.style import COLOURS, LINES, save, style, subplots
-from derive.plot.tractions import pressures, slip, tractions
+from derive.plot.tractions import pressures, shear, slip, tractions
 from derive.plot.zones import boundaries, key, stick_slip, sweep
 
 __all__ = [
@@ -42,6 +42,7 @@ __all__ = [
     "pressures",
     "relative_errors",
     "save",
+    "shear",
     "sliders",
     "slip",
     "stick_slip",

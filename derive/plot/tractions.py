@@ -156,6 +156,91 @@ def tractions(
     return axes
 
 
+def shear(
+    body: ModuleType,
+    contact: Any,
+    Q: float,
+    sigma: float,
+    dQ: float,
+    dsigma: float,
+    *,
+    f: float,
+    between: int = 3,
+    axes: Axes | None = None,
+    length: Measure | None = None,
+    stress: Measure | None = None,
+    **constants: float,
+) -> Axes:
+    """Shear traction at both ends of a cycle at constant normal loads, and on the way down.
+
+    Where it touches the band, f p, the surfaces slip.
+
+    body        a generated module
+    contact     Contact under the normal loads, as `body.contact` returns it
+    Q, sigma    shear load and tension at the upper end, which are reached first, from nothing
+    dQ, dsigma  changes of both over the half-cycle
+    between     states that are drawn on the way from the upper to the lower end
+    axes        Axes, or None for new ones
+    length      what x is divided by; the unit that suits, unless it is given
+    stress      what the shear is divided by
+    constants   E_star and the body's own parameters
+    """
+    demand_numbers(Q=Q, sigma=sigma)
+    _demand_half_cycle(body, contact, contact, dQ, dsigma, f, constants)
+    law = {"f": f, **constants}
+    x = places(-float(contact.a), float(contact.c))
+    bound = f * body.pressure(x, contact.a, contact.c, **constants)
+    parts = np.linspace(0.0, 1.0, between + 2)
+    q = body.shear(
+        x, contact, Q, sigma, dQ=parts[:, None] * dQ, dsigma=parts[:, None] * dsigma, **law
+    )
+    if not np.all(np.any(np.isfinite(q[[0, -1]]), axis=1)):
+        fall = {"dQ": dQ, "dsigma": dsigma}
+        raise ValueError(
+            f"the shear is not known under Q = {Q:g}, sigma = {sigma:g}, dQ = {dQ:g}, dsigma = "
+            f"{dsigma:g}: {_why_unknown(body, contact, Q, sigma, fall, law)}"
+        )
+    length, stress = length or unit(x, "m"), stress or unit(_typical(bound), "Pa")
+    with style():
+        if axes is None:
+            _, axes = subplots()
+        for side, label in ((1, r"$\pm f\,p$"), (-1, None)):
+            axes.plot(length(x), side * stress(bound), color="#888888", linewidth=1, label=label)
+        for inner in q[1:-1]:
+            axes.plot(length(x), stress(inner), color=COLOURS["sky"], linewidth=0.8)
+        for end, colour, label in ((0, "vermilion", "upper end"), (-1, "blue", "lower end")):
+            axes.plot(length(x), stress(q[end]), color=COLOURS[colour], linewidth=2, label=label)
+        highest = 1.6 * np.nanmax(np.abs(stress(q)), initial=0.0) or np.max(_typical(bound))
+        axes.set_ylim(-highest, highest)
+        axes.set(xlabel=length.label("x"), ylabel=stress.label("q"))
+        _key(axes)
+    return axes
+
+
+def _why_unknown(
+    body: ModuleType,
+    contact: Any,
+    Q: float,
+    sigma: float,
+    fall: dict[str, float],
+    law: dict[str, float],
+) -> str:
+    """What keeps both ends of a cycle from being known."""
+    for what, dQ, dsigma in (
+        ("first rise", 2 * Q, 2 * sigma),
+        ("fall", fall["dQ"], fall["dsigma"]),
+    ):
+        zone = body.stick_zone(contact, contact, dQ, dsigma, **law)
+        regime = body.Regime(int(zone.regime)).name
+        if regime not in ("MODERATE", "LARGE", "FULL_STICK"):
+            told = regime.lower().replace("_", " ")
+            return f"the {what} is in the regime {told}; it must be moderate or large tension"
+    return (
+        "the fall slips where the first rise did not, or the other way; give the end of the "
+        "larger shear load as Q and sigma, so that dQ <= 2 Q"
+    )
+
+
 def _demand_half_cycle(
     body: ModuleType,
     first: Any,

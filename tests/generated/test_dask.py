@@ -51,7 +51,7 @@ def functions(body: str) -> list[str]:
 
 
 EVERY = [(body, name) for body in sorted(OWN) for name in functions(body)]
-LONG = ("closing_tension", "shear_change", "slip_range")
+LONG = ("closing_tension", "shear", "shear_change", "slip_range")
 EACH = [(body, name) for body, name in EVERY if body in SOME]
 
 
@@ -74,6 +74,7 @@ def states(body: str, length: int = LENGTH) -> dict[str, Any]:
     return {
         **{"a": a, "c": c, "P": P, "M": M, "alpha": here.alpha, "x": 0.3 * (c - a) + 0.1 * a},
         **{"first": here, "second": here, "dQ": dQ, "dsigma": 4 * dQ / (np.pi * (a + c))},
+        **{"contact": here, "Q": 0.75 * dQ, "sigma": 3 * dQ / (np.pi * (a + c))},
         **{"dP": 0.1 * P, "dM": 0.05 * M, "da": 0.0, "dc": 0.0},
         **{"f": np.full(length, F), "E_star": np.full(length, E_STAR)},
         **{name: np.full(length, value) for name, value in own.items()},

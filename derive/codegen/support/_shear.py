@@ -15,6 +15,11 @@ and Y the distances of x and xi from there, to the outside,
 
 and for Y < -h_s, the other slip zone, with |Y|, |Y + h_s| in r and s and the logarithm's sign
 changed.  Under moderate tension dq is f (p1 + p2 - 2 p_s), p_s the pressure of the patch [-m, n].
+
+The shear itself follows from its changes where the normal loads are constant.  From nothing, slip
+holds f p where a half-cycle changes by 2 f p, and both obey the same linear equations: what Q and
+sigma leave when they first rise is half the change under 2 Q and 2 sigma.  What they fall by after
+that changes it as any half-cycle does, as long as it slips back in no other place than it slipped.
 """
 
 from typing import Any
@@ -32,6 +37,9 @@ LEVEL = 5
 BESIDE = 1e-12
 """How far a place in the stick zone is kept from a kink, in parts of its width."""
 
+ROUNDED = 1e-9
+"""Ends of two stick zones that differ by less, in parts of the contact, may be the same."""
+
 TOGETHER = 500
 """Elements that are computed in one piece."""
 
@@ -48,6 +56,31 @@ def slip_range_of(law: Law, *args: Any, **given: Array) -> Array:
     """How far the surfaces slip at x over the half-cycle; zero where they stick."""
     cycle = _Known(law, *args, **given)
     return cycle.given.shaped(cycle.in_pieces(_Known.slip))
+
+
+@np.errstate(all="ignore")
+def shear_of(
+    law: Law,
+    x: Array,
+    contact: Contact,
+    Q: Array,
+    sigma: Array,
+    *,
+    dQ: Array,
+    dsigma: Array,
+    **given: Array,
+) -> Array:
+    """q at x; zero outside the contact, NaN where a stick zone on the way is not known."""
+    edges = contact_edges(contact, "contact")
+    at = Flat({"x": x, **edges, "Q": Q, "sigma": sigma, "dQ": dQ, "dsigma": dsigma}, {}, {})
+    x, a, c, Q, sigma, dQ, dsigma = (at.shaped(value) for value in at.values)
+    here = Contact(a, c, np.nan)
+    rise = _Known(law, x, here, here, 2 * Q, 2 * sigma, **given)
+    fall = _Known(law, x, here, here, dQ, dsigma, **given)
+    q = rise.in_pieces(_Known.change) / 2 - fall.in_pieces(_Known.change)
+    known = rise.grows & fall.grows & fall.slips_within(rise)
+    q = rise.given.shaped(np.where(known, q, np.nan))
+    return np.where(dQ <= 2 * Q, q, np.nan)[()]
 
 
 class _Known:
@@ -80,6 +113,25 @@ class _Known:
         self.large = known & (self.regime == Regime.LARGE)
         self.forward = known & np.isin(self.regime, (Regime.MODERATE, Regime.MIXED))
 
+    @property
+    def grows(self) -> Array:
+        """Whether slip grows all the way; where it turns round, a cycle takes another way than a
+        first rise."""
+        return self.large | (self.regime == Regime.MODERATE) | self.still
+
+    @property
+    def still(self) -> Array:
+        """Whether there is no shear at all."""
+        return (self.regime == Regime.FULL_STICK) & self.task.alike
+
+    def slips_within(self, other: "_Known") -> Array:
+        """Whether it slips nowhere but where the other one does, and there in the other's sense."""
+        alike = (self.regime == other.regime) & self.forward
+        alike |= self.large & other.large & (self.task.sense == other.task.sense)
+        nearly = ROUNDED * self.task.width
+        within = (self.m > other.m - nearly) & (self.n > other.n - nearly)
+        return self.still | (alike & within)
+
     def in_pieces(self, of: Any) -> Array:
         """A result, so many elements at once."""
         found = np.full(self.x.shape, np.nan)
@@ -110,10 +162,9 @@ class _Known:
         some = np.flatnonzero(self.large[rows] & ~slips)
         if some.size:
             stuck[some] = bounded_change(task.on(some), m[some], n[some], self.x[rows][some], LEVEL)
-        still = (self.regime[rows] == Regime.FULL_STICK) & task.alike  # there is no shear at all
         known = self.large[rows] | self.forward[rows]
         found = np.where(known, np.where(slips, sliding, stuck), np.nan)
-        return np.where(still, 0.0, found)
+        return np.where(self.still[rows], 0.0, found)
 
     def _beside_kinks(self, rows: Array) -> Array:
         """x, moved off a corner in the stick zone: p is infinite there, dq is not."""

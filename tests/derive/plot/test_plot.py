@@ -276,6 +276,35 @@ def test_both_pressures_are_drawn_where_the_load_varies() -> None:
     assert line(above, "end, $p_2$").get_ydata().max() > p1.max()
 
 
+def test_the_shear_of_a_cycle_is_that_of_the_module_and_keeps_within_its_band() -> None:
+    Q, pull = 0.7 * DQ, 0.7 * MODERATE_PULL
+    axes = plot.shear(hertz, STATE, Q, pull, DQ, MODERATE_PULL, between=2, **FRICTION)
+    upper, lower = (line(axes, f"{end} end") for end in ("upper", "lower"))
+    x, band = upper.get_xdata(), line(axes, r"$\pm f\,p$").get_ydata()
+    for end, fallen in ((upper, 0.0), (lower, 1.0)):
+        down = {"dQ": fallen * DQ, "dsigma": fallen * MODERATE_PULL}
+        expected = hertz.shear(1e-3 * x, STATE, Q, pull, **FRICTION, **down)
+        assert_allclose(end.get_ydata(), 1e-6 * expected, rtol=1e-9, atol=1e-9)
+        assert np.all(np.abs(end.get_ydata()) <= band * (1 + 1e-9))
+    assert len(axes.get_lines()) == 2 + 2 + 2
+    low, high = axes.get_ylim()
+    assert low < np.min(lower.get_ydata()) and high > np.max(upper.get_ydata())
+
+
+@pytest.mark.parametrize(
+    ("loads", "told"),
+    [
+        ((0.4 * DQ, 0.0, DQ, 0.0), "give the end of the larger shear load as Q and sigma"),
+        ((1e6, 0.0, DQ, 0.0), "the first rise is in the regime sliding"),
+        ((DQ, 0.0, DQ, WINDOW), "the fall is in the regime mixed"),
+        ((DQ, np.nan, DQ, 0.0), "sigma is nan"),
+    ],
+)
+def test_a_shear_that_is_not_known_is_refused(loads: tuple[float, ...], told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        plot.shear(hertz, STATE, *loads, **FRICTION)
+
+
 def test_where_nothing_is_known_the_picture_says_so() -> None:
     assert hertz.stick_zone(STATE, STATE, DQ, WINDOW, **FRICTION).regime == Regime.MIXED
     _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
