@@ -48,9 +48,8 @@ MADE_UP = {
     "simple_pole": -L * log(1 - x / L),
     "double_pole": L**2 / (L - x),
     "powers_beyond_a_flat": L * (Max(0, Abs(x) - b) / L) ** k,
-    "all_of_them": x**2 / (2 * R)
+    "four_kinds": x**2 / (2 * R)
     + A * cosh(x / b)
-    + phi * sqrt(x**2 + b**2)
     + Abs(x) ** Rational(7, 3) / L ** Rational(4, 3)
     + phi * Abs(x),
 }
