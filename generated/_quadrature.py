@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._arrays import Array, at_rows, flattened
+from ._arrays import Array, at_rows, flattened, minimum, some
 from ._state import State
 
 COARSEST, FINEST = 1, 9
@@ -226,7 +226,7 @@ def mended(
     scale: what the quadrature is multiplied by.
     """
     rough = exists & is_delicate(body, a, c, **constants)
-    if not np.any(rough):
+    if not some(rough):
         return [*values]
     given = _Flat(a, c, constants, x, scale, rough, *values)
     x, scale, rough, *values = given.also
@@ -257,9 +257,9 @@ def is_delicate(body: Profile, a: Array, c: Array, /, **constants: Array) -> Arr
     h, places = a + c, body.breaks(**constants)
     rough = h < 0
     for place in places:
-        near = np.minimum(a + place, c - place)
-        close, far = CLOSE * h, np.abs(place) > FAR * h
-        if np.any(far):
+        near = minimum(a + place, c - place)
+        close, far = CLOSE * h, abs(place) > FAR * h
+        if some(far):
             close = np.where(far, np.inf, close)
         rough = rough | ((near >= 0) & (near < close))
     for left, right in pairwise(places):

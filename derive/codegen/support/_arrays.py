@@ -82,7 +82,13 @@ def elementwise(function: Function) -> Function:
         shape: Shape = ()
         alike, foreign, size = True, False, 1
         for name, value in given.items():
-            if type(value) is not np.ndarray or value.dtype is not _FLOAT64 or not value.ndim:
+            kind = type(value)
+            if kind is float or kind is np.float64:
+                given[name] = (
+                    _NAN if name in constants and not 0 < value < np.inf else np.float64(value)
+                )
+                continue
+            if kind is not np.ndarray or value.dtype is not _FLOAT64 or not value.ndim:
                 value = given[name] = _float64(value, name)
             if name in constants:
                 value = given[name] = _positive(value)
@@ -170,6 +176,11 @@ def only_where(exists: Any, *values: Any) -> Any:
     else:
         found = [np.where(exists, v, _NAN) for v in values]
     return found if len(found) > 1 else found[0]
+
+
+def some(flags: Any) -> Any:
+    """np.any, many times faster for one."""
+    return flags if type(flags) is np.bool_ else np.any(flags)
 
 
 def select(condition: Any, first: Any, second: Any) -> Any:
