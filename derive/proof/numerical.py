@@ -10,7 +10,7 @@ from functools import cached_property
 
 import mpmath
 from mpmath import mpf
-from sympy import Symbol
+from sympy import Expr, Symbol, cancel
 
 from derive.proof.points import Point, contacts, loads, named, numeric, numeric_along
 from derive.proof.quadrature import Contact
@@ -153,16 +153,18 @@ class NumericalRoutes:
         """int dq = dQ and (1/pi) PV int dq(s)/(x - s) ds = dsigma/4.
 
         PV int ds/(w(s) (x - s)) is zero inside the contact, so the value at x is taken off first.
+        What is left is divided by x - s as a polynomial: digits would be lost beside x.
         """
-        change = numeric(self.sheet["full_stick_change"].expr * w)
+        above = self.sheet["full_stick_change"].expr * w
+        other = Symbol("s")
+        slope = cancel((above.subs(x, other) - above) / (x - other))
 
-        def numerator(place: mpf) -> mpf:
-            return change({**point, x: place})
+        def over(expr: Expr) -> mpf:
+            value = numeric(expr)
+            return contact.integral(lambda s: value({**point, other: s}))
 
-        here, place = numerator(point[x]), point[x]
-        strain = contact.integral(lambda s: (numerator(s) - here) / (place - s), place)
-        yield contact.integral(numerator), point[dQ]
-        yield strain / mpmath.pi, point[dsigma] / 4
+        yield over(above.subs(x, other)), point[dQ]
+        yield over(slope) / mpmath.pi, point[dsigma] / 4
 
     def _stuck_between(self, name: str) -> Route:
         """int 2 f p sqrt(..) over both slip zones against what shear and tension ask for."""

@@ -19,6 +19,9 @@ from derive.geometry import Geometry
 from derive.proof.rule import Function, integral, remembered
 from derive.symbols import x
 
+_LOST = 20
+"""Digits that a difference over a distance may lose, and is computed to in excess."""
+
 
 @dataclass(frozen=True)
 class Contact:
@@ -104,10 +107,15 @@ class Contact:
 
     def pressure(self, place: mpf, at_edge: bool = False) -> mpf:
         """p(x) from its principal value, the singularity taken off; cut at x unless at an edge."""
-        here = self.slope(place)
         root = mpmath.sqrt((self.a + place) * (self.c - place))
         cuts = [] if at_edge else [place, *self._around(place)]
-        principal = self.integral(lambda s: (self.slope(s) - here) / (s - place), *cuts)
+        digits = mpmath.mp.dps + _LOST
+
+        def quotient(s: mpf) -> mpf:
+            with mpmath.workdps(digits):
+                return (self.slope(s) - self.slope(place)) / (s - place)
+
+        principal = self.integral(quotient, *cuts)
         return self.E_star / (2 * mpmath.pi) * root * principal
 
     def edge_series(self, side: str) -> tuple[mpf, mpf]:
