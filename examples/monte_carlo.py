@@ -156,8 +156,8 @@ def write(counts: Counts, path: Path) -> None:
 
 
 @contextmanager
-def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
-    """A cluster that is running, or processes of this machine."""
+def connected(scheduler: str | None, workers: int | None, wait: int) -> Iterator[Client]:
+    """A cluster that is running and answers in so many seconds, or processes of this machine."""
     if scheduler is None:
         local: dict[str, Any] = {"n_workers": workers, "threads_per_worker": 1}
         local["dashboard_address"] = "127.0.0.1:0"  # any free port: runs do not meet
@@ -166,7 +166,7 @@ def connected(scheduler: str | None, workers: int | None) -> Iterator[Client]:
             yield client
         return
     try:
-        client = Client(scheduler, timeout="10s")
+        client = Client(scheduler, timeout=wait)
     except (OSError, ValueError) as error:
         raise SystemExit(f"no cluster answers at {scheduler}: {error}") from None
     with client, tempfile.TemporaryDirectory() as folder:
@@ -202,6 +202,9 @@ def arguments() -> argparse.Namespace:
     said.add_argument(
         "--scheduler", metavar="ADDRESS", help="of a running cluster, tcp://host:8786"
     )
+    said.add_argument(
+        "--wait", type=number, default=10, help="seconds until it must answer; 10 unless given"
+    )
     said.add_argument("--out", type=Path, metavar="FILE", help="the histogram, as CSV")
     given = said.parse_args()
     if given.chunk % STREAM:
@@ -216,7 +219,7 @@ def arguments() -> argparse.Namespace:
 def main() -> None:
     """Draw, evaluate, count, report."""
     given = arguments()
-    with connected(given.scheduler, given.workers) as client:
+    with connected(given.scheduler, given.workers, given.wait) as client:
         counts = summed(client, given.samples, given.chunk, given.seed)
     print("\n".join(report(counts)))
     if given.out:

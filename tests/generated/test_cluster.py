@@ -240,7 +240,11 @@ def test_the_monte_carlo_runs_on_a_cluster_that_is_there(tmp_path: Path) -> None
         (["--chunk=7"], 2, "--chunk must be a multiple of 50000, got 7"),
         (["--seed=-1"], 2, "--seed must not be negative"),
         (["--out=nowhere/slip.csv"], 2, "there is no directory nowhere"),
-        (["--scheduler=tcp://127.0.0.1:1"], 1, "no cluster answers at tcp://127.0.0.1:1"),
+        (
+            ["--scheduler=tcp://127.0.0.1:1", "--wait=1"],
+            1,
+            "no cluster answers at tcp://127.0.0.1:1",
+        ),
         (["--scheduler=post://host"], 1, "no cluster answers at post://host"),
     ],
 )
