@@ -47,15 +47,16 @@ CANCELLED = 100.0
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
 
-_TINY, _HUGE = 5e-324, 1e300
+_SUM = "k,kn->n"
+_TINY, _HUGE, _NOTHING = 5e-324, 1e300, 1e-300
 
 
 class Curve(NamedTuple):
-    """g', g'' and g''' at one place."""
+    """g' and g'' at one place, and g''' for what asks for it."""
 
     slope: Array
     curvature: Array
-    change: Array
+    change: Callable[[], Array]
 
 
 Branch = Callable[..., Curve]
@@ -150,14 +151,24 @@ def pressure_at(body: Profile, x: Array, a: Array, c: Array, /, **constants: Arr
         (part,) = _integrals(shared, kernel, 1, positive=1)
         total = total + part
     for place, jump, A, B in _corners(body, a, c, constants):
-        ratio = np.minimum(B * left, A * right) / (h * np.abs(x - place))
-        total = total + np.where((A > 0) & (B > 0), jump * np.arcsinh(np.sqrt(ratio)), 0.0)
+        peak = _beside_corner(np.minimum(B * left, A * right), h, np.abs(x - place))
+        total = total + np.where((A > 0) & (B > 0), jump * peak, 0.0)
     return given.shaped(np.where(inside, total / np.pi, 0.0 * total))
 
 
 def _asinh_root(over: Array, under: Array) -> Array:
     """asinh sqrt(over/under), finite even where `under` has underflown."""
     return np.arcsinh(np.sqrt(over / np.maximum(under, over / _HUGE + _TINY)))
+
+
+def _beside_corner(over: Array, h: Array, distance: Array) -> Array:
+    """asinh sqrt(over/(h distance)), infinite at the corner alone."""
+    ratio = over / (h * distance)
+    found = np.arcsinh(np.sqrt(ratio))
+    beyond = (ratio == np.inf) & (distance > 0)
+    if np.any(beyond):
+        found = np.where(beyond, (np.log(4 * over) - np.log(h) - np.log(distance)) / 2, found)
+    return found
 
 
 def second_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> tuple[Array, Array]:
@@ -188,7 +199,7 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         step = width * near.from_start / (B * beyond) / (r + r_0)
         twist = (1 - r * r_0) / ((1 + r**2) * (1 + r_0**2))
         rise = 2 * step - 1.5 * np.arctan2(step, 1 + r * r_0) - step * twist / 2
-        change = np.clip(near.curve.change, -_HUGE, _HUGE)  # infinite beside some breaks
+        change = np.clip(near.curve.change(), -_HUGE, _HUGE)  # infinite beside some breaks
         by_parts = -change * rise * (2 * width)
         plain = near.curve.curvature * r * (3 + 2 * r**2)
         value = np.where(ends, by_parts, plain)
@@ -279,7 +290,7 @@ def mirrored(body: Profile) -> Profile:
 
         def of(t: Array, **constants: Array) -> Curve:
             slope, curvature, change = branch(t, **constants)
-            return Curve(-slope, curvature, -change)
+            return Curve(-slope, curvature, lambda: -change())
 
         return of
 
@@ -385,7 +396,11 @@ class _Part(NamedTuple):
         if not np.any(ours):
             return right
         left = of_left(np.maximum(past + along, _TINY), **self.constants)
-        return Curve(*(np.where(ours, *values) for values in zip(left, right, strict=True)))
+        return Curve(
+            np.where(ours, left.slope, right.slope),
+            np.where(ours, left.curvature, right.curvature),
+            lambda: np.where(ours, left.change(), right.change()),
+        )
 
     def angle(self) -> Array:
         """int ds/w over it."""
@@ -465,7 +480,8 @@ def _integrals(
         now = before + fresh if level == COARSEST else before / 2 + fresh
         judged, size = (slice(positive),) * 2 if positive else (slice(-1, None), slice(1))
         off = np.abs(now[judged] - before[judged]) - AGREED * np.abs(now[size])
-        agreed = (np.all(off <= 0, axis=0) & (level > COARSEST)) | np.any(np.isnan(off), axis=0)
+        near = np.all(off <= _NOTHING, axis=0)
+        agreed = (near & (level > COARSEST)) | np.any(np.isnan(off), axis=0)
         sums[:, rows[agreed]] = now[:, agreed]
         rows, before = rows[~agreed], now[:, ~agreed]
     return [*sums]
@@ -492,8 +508,11 @@ def _level_sums(
                 q, rest, weight = mine[:, start : start + many]
                 values = integrand(part.at(near_left, q, rest), of)
                 for i, value in enumerate(values):
-                    # one product of a matrix is faster than a product and a sum, but for one row
-                    share[i] += weight[:, 0] @ value if many > 1 else weight[0] * value[0]
+                    # every column to the same bits, wherever it stands; by `@` it is not
+                    one = many == 1
+                    share[i] += (
+                        weight[0] * value[0] if one else np.einsum(_SUM, weight[:, 0], value)
+                    )
         total += np.where(part.length > 0, share * part.length, 0.0)
     return total
 

@@ -62,7 +62,7 @@ def _piece_0_from_right(t: Array, *, R: Array, b: Array) -> Curve:
     s_1 = 1 / b
     s_2 = s_1 * t
     s_3 = s_0 * np.sinh(s_2)
-    return Curve(-(s_3 * b), s_0 * np.cosh(s_2), -(s_1 * s_3))
+    return Curve(-(s_3 * b), s_0 * np.cosh(s_2), lambda: -(s_1 * s_3))
 
 
 def _piece_1_from_left(t: Array, *, R: Array, b: Array) -> Curve:
@@ -71,7 +71,7 @@ def _piece_1_from_left(t: Array, *, R: Array, b: Array) -> Curve:
     s_1 = 1 / b
     s_2 = s_1 * t
     s_3 = s_0 * np.sinh(s_2)
-    return Curve(s_3 * b, s_0 * np.cosh(s_2), s_1 * s_3)
+    return Curve(s_3 * b, s_0 * np.cosh(s_2), lambda: s_1 * s_3)
 
 
 _BODY = Profile(

@@ -64,7 +64,7 @@ def _piece_0_from_right(t: Array, *, R: Array) -> Curve:
     return Curve(
         -(t / r_0),
         s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-        -(3 * s_0 * t / (r_0 * s_1**2)),
+        lambda: -(3 * s_0 * t / (r_0 * s_1**2)),
     )
 
 
@@ -76,7 +76,7 @@ def _piece_1_from_left(t: Array, *, R: Array) -> Curve:
     return Curve(
         t / r_0,
         s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-        3 * s_0 * t / (r_0 * s_1**2),
+        lambda: 3 * s_0 * t / (r_0 * s_1**2),
     )
 
 

@@ -76,23 +76,23 @@ def _corners(*, R: Array, b: Array) -> tuple[Array, ...]:
 def _piece_0_from_right(t: Array, *, R: Array, b: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
     s_0 = 1 / R
-    return Curve(-(s_0 * t), s_0, 0)
+    return Curve(-(s_0 * t), s_0, lambda: 0)
 
 
 def _piece_1_from_left(t: Array, *, R: Array, b: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
-    return Curve(0, 0, 0)
+    return Curve(0, 0, lambda: 0)
 
 
 def _piece_1_from_right(t: Array, *, R: Array, b: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
-    return Curve(0, 0, 0)
+    return Curve(0, 0, lambda: 0)
 
 
 def _piece_2_from_left(t: Array, *, R: Array, b: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
     s_0 = 1 / R
-    return Curve(s_0 * t, s_0, 0)
+    return Curve(s_0 * t, s_0, lambda: 0)
 
 
 _BODY = Profile(

@@ -76,22 +76,22 @@ def _corners(*, b: Array, phi: Array) -> tuple[Array, ...]:
 
 def _piece_0_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
-    return Curve(-phi, 0, 0)
+    return Curve(-phi, 0, lambda: 0)
 
 
 def _piece_1_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
-    return Curve(0, 0, 0)
+    return Curve(0, 0, lambda: 0)
 
 
 def _piece_1_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
-    return Curve(0, 0, 0)
+    return Curve(0, 0, lambda: 0)
 
 
 def _piece_2_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
-    return Curve(phi, 0, 0)
+    return Curve(phi, 0, lambda: 0)
 
 
 _BODY = Profile(

@@ -62,7 +62,7 @@ def _piece_0_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
     s_1 = s_0 + t**2
     r_0 = np.sqrt(s_1)
     s_2 = phi * t
-    return Curve(-(s_2 / r_0), s_0 * phi / (r_0 * s_1), 3 * s_0 * s_2 / (r_0 * s_1**2))
+    return Curve(-(s_2 / r_0), s_0 * phi / (r_0 * s_1), lambda: 3 * s_0 * s_2 / (r_0 * s_1**2))
 
 
 def _piece_1_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
@@ -71,7 +71,7 @@ def _piece_1_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
     s_1 = s_0 + t**2
     r_0 = np.sqrt(s_1)
     s_2 = phi * t
-    return Curve(s_2 / r_0, s_0 * phi / (r_0 * s_1), -(3 * s_0 * s_2 / (r_0 * s_1**2)))
+    return Curve(s_2 / r_0, s_0 * phi / (r_0 * s_1), lambda: -(3 * s_0 * s_2 / (r_0 * s_1**2)))
 
 
 _BODY = Profile(

@@ -62,7 +62,7 @@ def _piece_0_from_right(t: Array, *, L: Array, k: Array) -> Curve:
     s_1 = L ** (-s_0)
     s_2 = k - 2
     s_3 = s_0 * s_1
-    return Curve(-(s_1 * t**s_0), s_3 * t**s_2, -(s_2 * s_3 * t ** (k - 3)))
+    return Curve(-(s_1 * t**s_0), s_3 * t**s_2, lambda: -(s_2 * s_3 * t ** (k - 3)))
 
 
 def _piece_1_from_left(t: Array, *, L: Array, k: Array) -> Curve:
@@ -71,7 +71,7 @@ def _piece_1_from_left(t: Array, *, L: Array, k: Array) -> Curve:
     s_1 = L ** (-s_0)
     s_2 = k - 2
     s_3 = s_0 * s_1
-    return Curve(s_1 * t**s_0, s_3 * t**s_2, s_2 * s_3 * t ** (k - 3))
+    return Curve(s_1 * t**s_0, s_3 * t**s_2, lambda: s_2 * s_3 * t ** (k - 3))
 
 
 _BODY = Profile(

@@ -76,24 +76,24 @@ def _corners(*, b: Array, phi: Array) -> tuple[Array, ...]:
 
 def _piece_0_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
-    return Curve(-phi, 0, 0)
+    return Curve(-phi, 0, lambda: 0)
 
 
 def _piece_1_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
     s_0 = phi / b
-    return Curve(s_0 * (t - b), s_0, 0)
+    return Curve(s_0 * (t - b), s_0, lambda: 0)
 
 
 def _piece_1_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
     s_0 = phi / b
-    return Curve(s_0 * (b - t), s_0, 0)
+    return Curve(s_0 * (b - t), s_0, lambda: 0)
 
 
 def _piece_2_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
-    return Curve(phi, 0, 0)
+    return Curve(phi, 0, lambda: 0)
 
 
 _BODY = Profile(

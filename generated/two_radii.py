@@ -70,13 +70,13 @@ def _corners(*, R_1: Array, R_2: Array) -> tuple[Array, ...]:
 def _piece_0_from_right(t: Array, *, R_1: Array, R_2: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
     s_0 = 1 / R_1
-    return Curve(-(s_0 * t), s_0, 0)
+    return Curve(-(s_0 * t), s_0, lambda: 0)
 
 
 def _piece_1_from_left(t: Array, *, R_1: Array, R_2: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
     s_0 = 1 / R_2
-    return Curve(s_0 * t, s_0, 0)
+    return Curve(s_0 * t, s_0, lambda: 0)
 
 
 _BODY = Profile(

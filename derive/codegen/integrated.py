@@ -223,7 +223,8 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     yield f"    \"\"\"g', g'' and g''' at t on the {side} of a break.\"\"\""
     for symbol, value in steps:
         yield f"    {symbol} = {printer.doprint(value)}"
-    yield f"    return Curve({', '.join(printer.doprint(value) for value in values)})"
+    first, second, third = (printer.doprint(value) for value in values)
+    yield f"    return Curve({first}, {second}, lambda: {third})"
     yield ""
 
 

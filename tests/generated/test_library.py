@@ -254,3 +254,29 @@ def test_the_pressure_next_to_a_smooth_kink_is_that_at_it(x: float) -> None:
     law = {"E_star": 1.0, "R_1": 0.3, "R_2": 77.0}
     edges = 1.7e7, 2.7e8
     assert two_radii.pressure(x, *edges, **law) == two_radii.pressure(0.0, *edges, **law)
+
+
+@EVERY
+def test_a_contact_gives_the_same_bits_wherever_it_stands(name: str) -> None:
+    """Whether two contacts are the same decides how a cycle slips: rounding must not tell.
+
+    Many of their edges lie close to kinks, where formulas give way to quadrature.
+    """
+    body, own = module(name), OWN[name]
+    by = 0.25 if name == "circular_arc" else 1.0
+    a, c = by * np.random.default_rng(4).uniform([[1.001], [1.0]], [[1.5], [2.0]], (2, 317))
+    twice = np.stack([a, a]), np.stack([c, c])
+    K = body.K_N(*twice, E_star=E_STAR, **own)
+    load, moment = (of(*twice, E_star=E_STAR, **own) for of in (body.load, body.moment))
+    for value in (load, moment, body.tilt(*twice, **own), K.left, K.right):
+        assert np.array_equal(value[0], value[1], equal_nan=True)
+
+
+def test_the_pressure_beside_a_corner_grows_to_the_smallest_of_numbers() -> None:
+    """p = -(phi/pi) log x + what does not change; the corner just inside the left edge."""
+    own, E = {"phi": 0.0625, "R": 0.5}, 2.0
+    x = 10.0 ** np.arange(-320.0, -290.0)
+    p = module("wedge_parabola").pressure(x, 2e-12, 2e-5, E_star=E, **own)
+    steps = np.diff(p) / (E * own["phi"] / (2 * np.pi) * np.log(10))
+    assert_allclose(steps[10:], -1, rtol=1e-6)  # earlier ones are numbers of a few bits
+    assert np.all(steps < 0)
