@@ -20,7 +20,8 @@ changed.  Under moderate tension dq is f (p1 + p2 - 2 p_s), p_s the pressure of 
 The shear itself follows from its changes where the normal loads are constant.  From nothing, slip
 holds f p where a half-cycle changes by 2 f p, and both obey the same linear equations: what Q and
 sigma leave when they first rise is half the change under 2 Q and 2 sigma.  What they fall by after
-that changes it as any half-cycle does, as long as it slips back in no other place than it slipped.
+that changes it as any half-cycle does, as long as it slips back in no other place than it slipped,
+and drives none of these on.
 """
 
 from typing import Any
@@ -126,12 +127,20 @@ class _Known:
         return (self.regime == Regime.FULL_STICK) & self.task.alike
 
     def slips_within(self, other: "_Known") -> Array:
-        """Whether it slips nowhere but where the other one does, and there in the other's sense."""
-        alike = (self.regime == other.regime) & self.forward
-        alike |= self.large & other.large & (self.task.sense == other.task.sense)
-        nearly = ROUNDED * self.task.width
+        """Whether it slips nowhere but where the other one does, and there in the other's sense.
+
+        Nor does it drive any place on that slipped: see _stick.py for where the rate of shear
+        changes its sign.  Under moderate tension it has one sign all over.
+        """
+        task, nearly = self.task, ROUNDED * self.task.width
         within = (self.m > other.m - nearly) & (self.n > other.n - nearly)
-        return self.still | (alike & within)
+        alike = (self.regime == other.regime) & self.forward
+        apart = self.large & other.large & (task.sense == other.task.sense)
+        reach = 4 * task.dQ / (np.pi * task.dsigma)
+        for m, n in ((task.smaller_a, task.smaller_c), (self.m, self.n)):
+            turns = (n - m) / 2 + reach
+            apart = apart & (turns > -other.m - nearly) & (turns < other.n + nearly)
+        return self.still | ((alike | apart) & within)
 
     def in_pieces(self, of: Any) -> Array:
         """A result, so many elements at once."""

@@ -12,9 +12,6 @@ with the load; so their logarithms are the unknowns.  Every contact of every bod
 so that Newton's method needs no other derivative than the edge coefficients.  While the load is far
 off, both distances are scaled alike; the load grows with them, however large or small.
 
-The same laws put right what little is missing when the steps end, the tilt included: the state that
-shows it is not computed once more.
-
 Elements that have converged take no part in the next step: a hard one costs its neighbours nothing.
 """
 
@@ -26,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ._arrays import LEAST, MOST, at_rows, flattened
-from ._nested import SMALL, beside, edges
+from ._nested import SMALL, SMALLEST, beside, edges
 from ._roots import STEPS, Array, Rows, around, increasing_root
 from ._state import State
 
@@ -37,7 +34,14 @@ LONGEST = 2.0
 """Longest of Newton's steps in the logarithm of a distance to an edge."""
 
 CLOSE = 1e-5
-"""After a step below this the state shows the rest, whose square is below rounding."""
+"""From between rungs, after a step below this the state shows the rest, whose square is below
+rounding,"""
+
+QUICK = 6
+"""or after so many steps it is given up;"""
+
+CLEAR = 1e-3
+"""so it is where a kink lies closer to an edge, in parts of the width."""
 
 ACCEPTED = 1e-9
 """A contact whose load is off by more, and not for the rounding of its edges, is none."""
@@ -219,12 +223,22 @@ def _solved(
         return state(a, c, **at_rows(rows, constants))
 
     given = (load > 0) & (load < np.inf) & _within_reach(load, goal.place, size, of)
+    a, c, tilt = np.full((3, *load.shape), np.nan)
+    met, told = np.full((2, *load.shape), False)
     rows, narrowed = np.flatnonzero(given), NARROWED if cuts else 0.0
-    start = size[rows] / 2, size[rows] / 2
-    if rows.size > MANY and not any(map(np.ndim, constants.values())):
-        start = _from_rungs(load[rows], goal.on(rows), start, of, narrowed)
-    a, c = _newton(load, goal, start, of, rows, narrowed)
-    met, told, a, c, tilt = _judged(load, goal, a, c, of(a, c, slice(None)))
+    varies = any(map(np.ndim, constants.values()))
+    if rows.size > MANY and not varies and not np.ptp(size[rows]) and goal.on(rows).is_one():
+        there, values = _between_rungs(load, goal, size, of, rows, cuts, narrowed)
+        met[there] = True
+        a[there], c[there], tilt[there] = values
+        rows = np.flatnonzero(given & ~met)
+    if rows.size:
+        half = size[rows] / 2
+        left, right = _newton(load, goal, (half, half), of, rows, narrowed)
+        a[rows], c[rows] = left[rows], right[rows]
+        now = of(a[rows], c[rows], rows)
+        tilt[rows] = now.tilt
+        met[rows], told[rows] = _is_met(load[rows], goal.on(rows), a[rows], c[rows], now)
     ways: list[Callable[..., tuple[Array, Array]]] = [
         *(partial(beside, s) for s in goal.steps),
         edges,
@@ -236,23 +250,10 @@ def _solved(
         lost = load[rows], goal.on(rows)
         found = nearer(*lost, size[rows], of, rows, [v[rows] for v in cuts], a[rows], c[rows])
         now = of(*found, rows)
-        met[rows], told[rows], *better = _judged(*lost, *found, now)
-        for whole, value in zip((a, c, tilt), better, strict=True):
+        met[rows], told[rows] = _is_met(*lost, *found, now)
+        for whole, value in zip((a, c, tilt), (*found, now.tilt), strict=True):
             whole[rows] = np.where(now.load > 0, value, whole[rows])
     return Solution(*(np.where(met, v, np.nan).reshape(shape)[()] for v in (a, c, tilt)))
-
-
-def _judged(
-    load: Array, goal: Any, a: Array, c: Array, now: State
-) -> tuple[Array, Array, Array, Array, Array]:
-    """Whether contacts are met and told, as by `_is_met`; edges and tilt, put right where met."""
-    met, told = _is_met(load, goal, a, c, now)
-    h = a + c
-    short = np.log(load / now.load)
-    left, right = (np.where(met, v, 0.0) for v in _linear(goal, now, h, (c - a) / 2, short))
-    by_left, by_right = (np.where(met, v, 1.0) for v in (now.left, now.right))
-    tilt = now.tilt + (left - right) / np.sqrt(h)
-    return met, told, a + left / by_left, c + right / by_right, tilt
 
 
 def _within_reach(load: Array, place: Array, size: Array, state: Callable[..., State]) -> Array:
@@ -315,39 +316,65 @@ class _Widths(NamedTuple):
         return np.where(inside, by_step, between), self._replace(gap=closer)
 
 
+def _between_rungs(
+    load: Array,
+    goal: Any,
+    size: Array,
+    state: Callable[[Array, Array, Rows], State],
+    rows: Rows,
+    cuts: Sequence[Array],
+    narrowed: float,
+) -> tuple[Rows, Array]:
+    """Which of the elements `rows`, that differ in nothing but the load, have edges and a tilt.
+
+    And these, one row each.
+    """
+    start = _from_rungs(load[rows], goal.on(rows), size[rows] / 2, state, narrowed)
+    found = _newton(load, goal, start, state, rows, narrowed, CLOSE, QUICK)
+    a, c = (v[rows] for v in found)
+    now, wanted = state(a, c, rows), goal.on(rows)
+    h, mid = a + c, (c - a) / 2
+    short = np.log(load[rows] / now.load)
+    left, right = _linear(wanted, now, h, mid, short)
+    plain = (np.abs(short) < ACCEPTED) & (np.abs(wanted.off(now, h, mid, load[rows])) < ACCEPTED)
+    for cut in cuts:
+        clear = np.minimum(np.abs(a + cut[rows]), np.abs(c - cut[rows]))
+        plain &= clear > CLEAR * h
+    tilt = now.tilt + (left - right) / np.sqrt(h)
+    values = np.stack([a + left / now.left, c + right / now.right, tilt])
+    return rows[plain], values[:, plain]
+
+
 def _from_rungs(
     load: Array,
     goal: Any,
-    start: tuple[Array, Array],
+    half: Array,
     state: Callable[[Array, Array, Rows], State],
     narrowed: float,
 ) -> tuple[Array, Array]:
-    """Better distances to start from, where all elements differ in nothing but the load.
+    """Distances to the edges to start from, of elements that differ in nothing but the load.
 
     Between loads evenly spaced in their logarithm, whose contacts are found, the logarithms of both
     distances are cubics with the rates that they have at these.
     """
-    if np.ptp(start) or not goal.is_one():
-        return start
     count = load.size // RUNGS
     rungs = np.zeros(count, int)
-    goal, (left, right) = goal.on(rungs), (side[rungs] for side in start)
+    goal, start = goal.on(rungs), (half[rungs], half[rungs])
     at, wanted = np.log(load), np.linspace(np.log(load.min()), np.log(load.max()), count)
-    a, c = _newton(np.exp(wanted), goal, (left, right), state, np.arange(count), narrowed)
+    a, c = _newton(np.exp(wanted), goal, start, state, np.arange(count), narrowed)
     now = state(a, c, rungs)
     forces = _linear(goal, now, a + c, (c - a) / 2, np.ones(count))
     gap = wanted[1] - wanted[0] or 1.0
     below = np.clip(((at - wanted[0]) / gap).astype(int), 0, count - 2)
     share = (at - wanted[below]) / gap
     found = []
-    for plain, distance, force, by in zip(
-        start, (a + goal.place, c - goal.place), forces, (now.left, now.right), strict=True
+    for distance, force, by in zip(
+        (a + goal.place, c - goal.place), forces, (now.left, now.right), strict=True
     ):
         value, rate = np.log(distance), gap * force / (by * distance)
         rise, first, last = np.diff(value)[below], rate[below], rate[below + 1]
         bend = 3 * rise - 2 * first - last + share * (first + last - 2 * rise)
-        between = np.exp(value[below] + share * (first + share * bend))
-        found.append(np.where(np.isfinite(between) & (between > 0), between, plain))
+        found.append(np.exp(value[below] + share * (first + share * bend)))
     return found[0], found[1]
 
 
@@ -358,10 +385,13 @@ def _newton(
     state: Callable[[Array, Array, Rows], State],
     rows: Rows,
     narrowed: float,
+    smallest: float = SMALLEST,
+    steps: int = STEPS,
 ) -> tuple[Array, Array]:
     """a and c of some elements, NaN of others; as close as it came where no contact was found.
 
     start: their distances to the edges from which to start.
+    smallest: after a step below this it is done; after so many steps it is given up.
     A step is taken from `left` and `right` along `to_left` and `to_right`, logarithms.  If it leads
     away from the loads, a quarter of it is tried, and so on.
     """
@@ -371,7 +401,7 @@ def _newton(
     part = np.ones(rows.size)
     widths = _Widths.unknown(rows.size)
     best = last = np.full(rows.size, np.inf)
-    for _ in range(STEPS):
+    for _ in range(steps):
         if not rows.size:
             break
         asked, wanted = load[rows], goal.on(rows)
@@ -406,7 +436,7 @@ def _newton(
         best = np.where(better, miss, best)
 
         rounding = 2 * _EPS * (np.abs(wanted.place) + h) / np.minimum(tried_left, tried_right)
-        met = better & (length < np.maximum(CLOSE, rounding))
+        met = better & (length < np.maximum(smallest, rounding))
         stuck = scaling & (widths.gap < narrowed)
         left, right = (np.where(stuck, widths.wide / 2, v) for v in (left, right))
         done = met | (~moved & (last < SMALL)) | stuck | (part < FINEST)

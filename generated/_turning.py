@@ -23,6 +23,10 @@ Each half-cycle ends as the other one began, with the sign of shear turned.  So 
 the right in phase 1 is 2 f p less the gain, the shear won since it stuck again: 2 f p where phase 3
 brought it to friction.  The gain is found by iteration, in tables of more and more terms until m
 and n stay.
+
+Shear must not be driven on where it is at friction since the last half-cycle: on the left, and on
+the right where nothing was won.  In phase 1 its rate changes its sign at mid + H/2, mid the middle
+of what sticks so far, see _stick.py: at n when the phase ends, and nowhere there when it begins.
 """
 
 from collections.abc import Callable
@@ -459,6 +463,8 @@ class _Turning:
         sound &= (grown.part > 0) & (grown.part < 1)
         sound &= (-ended.m < self.middle) & (self.middle < grown.n)
         sound &= (ended.m <= receded.m) & (receded.m <= grown.m) & (grown.m <= self.a)
+        turns = (self.c - self.a) / 2 + self.width / 2
+        sound &= (-ended.m <= turns) & (turns <= np.where(gain.rubs, self.c, ended.n))
         return sound & (grown.n < ended.n) & (ended.n <= self.c)
 
 

@@ -723,8 +723,9 @@ def shear(
 
     Returns q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
     NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it
-    slips back only where it slipped, and dQ <= 2 Q; so reverse all signs, those of q too, where the
-    lower end has the larger shear load; nor where Q < 0, dQ < 0, or Q >= f P, which is sliding.
+    slips back only where it slipped and drives none of that on, and dQ <= 2 Q; so reverse all
+    signs, those of q too, where the lower end has the larger shear load; nor where Q < 0, dQ < 0,
+    or Q >= f P, which is sliding.
     Derived from derive/geometries/quartic.py.
 
     >>> law = dict(E_star=1.0, L=1.0)

@@ -166,8 +166,8 @@ CYCLE: tuple[CycleFunction, ...] = (
         ),
         "q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in",
         "the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it "
-        "slips back only where it slipped, and dQ <= 2 Q; so reverse all signs, those of q too, "
-        "where the lower end has the larger shear load",
+        "slips back only where it slipped and drives none of that on, and dQ <= 2 Q; so reverse "
+        "all signs, those of q too, where the lower end has the larger shear load",
         optional=(("dQ", "0.0"), ("dsigma", "0.0")),
         meanings=(
             ("Q", "shear load that is reached first [N/m]"),

@@ -186,6 +186,8 @@ def shear(
     constants   E_star and the body's own parameters
     """
     demand_numbers(Q=Q, sigma=sigma)
+    if not isinstance(between, int) or between < 0:
+        raise ValueError(f"between is {between!r}; give a whole number of states, 0 or more")
     _demand_half_cycle(body, contact, contact, dQ, dsigma, f, constants)
     law = {"f": f, **constants}
     x = places(-float(contact.a), float(contact.c))

@@ -146,18 +146,23 @@ def test_the_state_is_asked_for_few_contacts() -> None:
     assert counted.asked <= 5 * COUNT
 
 
-@pytest.mark.parametrize("arm", [0.0, 0.25, -2.0])
-def test_loads_that_differ_in_nothing_else_start_close_by(arm: float) -> None:
-    """One step from between the rungs of a ladder, and the state that shows it was enough."""
+@pytest.mark.parametrize(("arm", "most"), [(0.0, 3), (0.25, 12), (-2.0, 12)])
+def test_loads_that_differ_in_nothing_else_start_close_by(arm: float, most: int) -> None:
+    """One step from between the rungs of a ladder, and the state that shows it was enough.
+
+    With an arm, a contact under a small load is narrow and far off its apex; there all goes on as
+    without the ladder.
+    """
     counted = Counted(wedge_state)
     load = decades(np.random.default_rng(4), -6, 6)
     load[::100] = np.where(np.arange(COUNT // 100) % 2, np.nan, -1.0)
     found = contact_under(load, arm * load, 1.0, counted, phi=PHI)
     wanted = wedge.contact(load, arm * load, E_star=1.0, phi=PHI)
-    assert_allclose(found.a, wanted.a, rtol=4e-13)
-    assert_allclose(found.c, wanted.c, rtol=4e-13)
-    assert_allclose(found.alpha, wanted.alpha, rtol=4e-13, atol=1e-16)
-    assert counted.asked <= 3 * COUNT
+    reach = np.maximum(wanted.a, wanted.c)
+    assert_allclose(found.a / reach, wanted.a / reach, atol=1e-13)
+    assert_allclose(found.c / reach, wanted.c / reach, atol=1e-13)
+    assert_allclose(found.alpha, wanted.alpha, atol=1e-12 * PHI)
+    assert counted.asked <= most * COUNT
 
 
 @pytest.mark.parametrize("alpha", [0.0, 0.9 * PHI])

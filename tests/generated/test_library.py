@@ -280,3 +280,36 @@ def test_the_pressure_beside_a_corner_grows_to_the_smallest_of_numbers() -> None
     steps = np.diff(p) / (E * own["phi"] / (2 * np.pi) * np.log(10))
     assert_allclose(steps[10:], -1, rtol=1e-6)  # earlier ones are numbers of a few bits
     assert np.all(steps < 0)
+
+
+@pytest.mark.parametrize(
+    ("name", "arm", "factor"),
+    [
+        ("wedge_parabola", 0.3, 2),
+        ("flat_sloped", -10.0, 2),
+        ("rounded_wedge", -1e3, 2),
+        ("flat_rounded", 0.3, 2),
+        ("hyperbola", 0.3, 2),
+        ("two_radii", 0.3, 1),
+    ],
+)
+def test_many_loads_of_one_arm_are_solved_as_few_are(
+    name: str, arm: float, factor: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Edges cross kinks where the load grows: what starts between two rungs must not be lost there,
+    nor cost many times more."""
+    body, own = module(name), {"E_star": 1.0, **OWN[name]}
+    load, asked = np.geomspace(1e-8, 1e4, 700), [0]
+    state = body._state
+
+    def counting(a: Any, c: Any, **given: Any) -> Any:
+        asked[-1] += np.size(a)
+        return state(a, c, **given)
+
+    monkeypatch.setattr(body, "_state", counting)
+    together = body.contact(load, arm * load, **own)
+    asked.append(0)
+    apart = [body.contact(part, arm * part, **own) for part in np.split(load, 2)]
+    for field, *parts in zip(together, *apart, strict=True):
+        assert_allclose(field, np.concatenate(parts), rtol=1e-8, equal_nan=True)
+    assert asked[0] <= factor * asked[1] + 2000

@@ -314,6 +314,36 @@ def test_where_the_shear_is_not_known() -> None:
         wedge.shear(0.25, 1.5, Q, sigma, **law)
 
 
+@pytest.mark.parametrize("body", [hertz, wedge])
+def test_no_fall_leads_beyond_friction(body: Any) -> None:
+    """Any rise, and any fall after it: what would drive on a place that slipped is not known."""
+    rng = np.random.default_rng(12)
+    own = {"phi": 0.125} if body is wedge else {"R": 1.0}
+    a, c = 1.0, rng.uniform(0.3, 3.0, 400)
+    friction, here = F * body.load(a, c, E_star=1.0, **own), Contact(a, c, np.nan)
+    Q, sigma = rng.uniform(0, 0.99, 400) * friction, rng.uniform(-8, 8, 400) * friction / (a + c)
+    down = {"dQ": 2 * rng.uniform(size=400) * Q, "dsigma": 2 * rng.uniform(size=400) * sigma}
+    x = -a + np.linspace(0.01, 0.99, 41)[:, None] * (a + c)
+    q = body.shear(x, here, Q, sigma, f=F, E_star=1.0, **own, **down)
+    bound = F * body.pressure(x, a, c, E_star=1.0, **own)
+    known = np.isfinite(q)
+    assert np.count_nonzero(known.any(axis=0)) > 80
+    assert np.all(np.abs(q[known]) <= (1 + 1e-7) * bound[known])
+
+
+def test_a_fall_of_tension_alone_drives_on_what_slipped() -> None:
+    """A wedge under large tension: (2 Q, sigma) is large tension by itself, and slips nowhere else.
+
+    Its shear would reach 1.3 f p beside the left edge."""
+    here, own = Contact(1.0, 2.0, np.nan), {"E_star": 1.0, "phi": 0.125}
+    P = wedge.load(1.0, 2.0, **own)
+    Q, sigma = 0.15 * P, P / 3
+    x = np.linspace(-0.9, 1.9, 15)
+    fall = {"dQ": 2 * Q, "dsigma": sigma}
+    assert np.all(np.isfinite(wedge.shear(x, here, Q, sigma, f=0.5, **own)))
+    assert np.all(np.isnan(wedge.shear(x, here, Q, sigma, f=0.5, **own, **fall)))
+
+
 FIFTHS = [-1.02, -1, -0.9, -0.8, -0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6, 0.8, 0.9, 1, 1.02]
 
 

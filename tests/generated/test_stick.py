@@ -577,3 +577,54 @@ def test_one_edge_that_goes_out_and_one_that_comes_in_tell_nothing_of_what_is_be
     still = wedge.stick_zone(first, second, 0.0, 0.0, **law)
     assert still.regime == Regime.FULL_STICK
     assert_allclose((still.m, still.n), np.min([ends.a, ends.c]), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("a", "c", "shear", "pull", "steady"),
+    [
+        (1.0, 3.0, 0.0, 12.0, (-0.0156, 0.386)),
+        (1.0, 3.0, 0.0, 20.0, (-0.229, 0.257)),
+        (3.0, 1.0, 0.1, 10.0, (0.377, 0.041)),
+    ],
+)
+def test_large_tension_that_drives_on_what_has_slipped_is_not_large(
+    a: float, c: float, shear: float, pull: float, steady: tuple[float, float]
+) -> None:
+    """Shear comes in as dQ - pi dsigma (x - mid)/4 where all sticks, right after the turn.
+
+    Its zero, mid + 4 dQ/(pi dsigma), lies beyond the slip zones of opposite senses that the two
+    conditions give: a wedge, tilted to where its middle slips.  `steady` is the zone by boundary
+    elements that march, some 500 of them: narrower by 1 % of the contact than the conditions say.
+    """
+    here, own = Contact(a, c, np.nan), {"E_star": 1.0, "phi": 0.125}
+    friction = 0.5 * wedge.load(a, c, **own)
+    dQ, dsigma = 2 * shear * friction, 2 * pull * friction / (a + c)
+    law = {"f": 0.5, **own}
+    turns = (c - a) / 2 + 4 * dQ / (np.pi * dsigma)
+    assert not -steady[0] <= turns <= steady[1]
+    for mixed in (False, True):
+        zone = wedge.stick_zone(here, here, dQ, dsigma, mixed=mixed, **law)
+        assert np.isnan(zone.m) and np.isnan(zone.n)
+        assert zone.regime in (Regime.MIXED, Regime.UNSOLVED)
+    mirrored = Contact(c, a, np.nan)
+    assert np.isnan(wedge.stick_zone(mirrored, mirrored, dQ, -dsigma, **law).m)
+
+
+def test_large_tension_holds_at_every_part_of_the_way() -> None:
+    """kappa dq >= 0 where slip is still to come, at eight parts of the half-cycle: what is tested
+    at both of its ends alone holds in between."""
+    rng = np.random.default_rng(3)
+    a, c = rng.uniform(0.75, 2.5, (2, 400))
+    here, own = Contact(a, c, np.nan), {"E_star": 1.0, "phi": 0.125}
+    friction = 0.5 * wedge.load(a, c, **own)
+    dQ = 2 * rng.uniform(0, 0.9, 400) * friction
+    dsigma = 2 * rng.uniform(-10, 10, 400) * friction / (a + c)
+    law = {"f": 0.5, **own}
+    zone = wedge.stick_zone(here, here, dQ, dsigma, **law)
+    large = zone.regime == Regime.LARGE
+    assert np.count_nonzero(large) > 60
+    sense = np.sign(dsigma)
+    for part in np.arange(1, 9) / 8:
+        for place, kappa in ((-zone.m, sense), (zone.n, -sense)):
+            dq = wedge.shear_change(place, here, here, part * dQ, part * dsigma, **law)
+            assert np.all((kappa * dq)[large] >= -1e-9)

@@ -126,11 +126,11 @@ def test_it_scales_with_lengths_and_loads() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", OWN)
 def test_nearly_all_random_cycles_are_solved(name: str) -> None:
-    """Up to 0.6 of the shear that slides, and any tension to six times the threshold: what is left
-    is NaN, told as UNSOLVED."""
+    """Up to 0.6 of the shear that slides, and tension to twice the threshold: what is left is NaN,
+    told as UNSOLVED."""
     rng = np.random.default_rng(7)
     a, c = rng.uniform(0.75, 2.0, (2, 80))
-    tension = np.exp(rng.uniform(np.log(0.95), np.log(6), 80)) * rng.choice([-1, 1], 80)
+    tension = np.exp(rng.uniform(np.log(0.95), np.log(2), 80)) * rng.choice([-1, 1], 80)
     zone = zone_of(name, a, c, rng.uniform(0.02, 0.6, 80), tension)
     solved, lost = zone.regime == Regime.MIXED, zone.regime == Regime.UNSOLVED
     assert np.all(np.isfinite(zone.m) == ~lost)

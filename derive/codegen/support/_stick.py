@@ -15,9 +15,14 @@ Shear that has not slipped yet, at friction since the last half-cycle, must stay
 pressure falls: kappa dq > f (p1 - p).  Under moderate tension it does, since p exceeds the pressure
 of a contact inside its own; under large tension it is asked.
 
-This is tested at PARTS parts of the way, from both ends, lead included at the start; with constant
-loads it can fail first where slip begins (moderate tension) or ends (large tension), and only there
-it is tested.
+This is tested at PARTS parts of the way, from both ends, lead included at the start.  With constant
+loads it is tested where slip begins and where it ends.  On the way shear comes in at a rate of
+
+    (dQ - pi dsigma (x - mid)/4)/(pi sqrt((x + m)(n - x))),    mid the middle of what sticks so far,
+
+which changes its sign at x = mid + 4 dQ/(pi dsigma).  Under large tension that place must lie
+between the slip zones to come, which are at friction since the last half-cycle: it does so all the
+way if it does at both ends of it.
 """
 
 from collections.abc import Callable
@@ -402,7 +407,7 @@ def _large(cycle: _Cycle) -> Found:
         m[rows], n[rows] = _solved(there, there.task)
         stuck = m + n
         slips &= ~(np.pi * stuck * np.abs(cycle.dsigma) / 8 < cycle.dQ)
-        slips &= ~np.isfinite(m) | cycle.holds_at_the_start(sense, -sense, m, n) | cycle.steady
+        slips &= ~np.isfinite(m) | cycle.holds_at_the_start(sense, -sense, m, n)
     rows = np.flatnonzero(slips & ~cycle.steady & np.isfinite(m))
     if rows.size:
         slips[rows] = _grows_apart(cycle.on(rows), m[rows], n[rows])

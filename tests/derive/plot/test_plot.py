@@ -305,6 +305,12 @@ def test_a_shear_that_is_not_known_is_refused(loads: tuple[float, ...], told: st
         plot.shear(hertz, STATE, *loads, **FRICTION)
 
 
+@pytest.mark.parametrize("between", [-1, 1.5])
+def test_states_between_are_counted(between: Any) -> None:
+    with pytest.raises(ValueError, match="give a whole number of states, 0 or more"):
+        plot.shear(hertz, STATE, DQ, 0.0, DQ, 0.0, between=between, **FRICTION)
+
+
 def test_where_nothing_is_known_the_picture_says_so() -> None:
     assert hertz.stick_zone(STATE, STATE, DQ, WINDOW, **FRICTION).regime == Regime.MIXED
     _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
