@@ -99,7 +99,7 @@ def test_the_study_takes_other_loads(study: Any, rows: tuple[str, ...], f: float
 def whole_contact(names: dict[str, Any]) -> None:
     """The greatest slip and work are those of the whole contact, in places that stay in contact."""
     ends, body, s = names["ends"], names["body"], names["s"]
-    x = np.linspace(-max(e.a.max() for e in ends), max(e.c.max() for e in ends), 241)[:, None]
+    x = np.linspace(-max(e.a.max() for e in ends), max(e.c.max() for e in ends), 121)[:, None]
     everywhere = body.slip_range(x, *ends, names["dQ"], names["dsigma"], **names["friction"])
     for i in names["known"]:
         most = np.nanmax(everywhere[:, i])
