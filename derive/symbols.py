@@ -107,15 +107,8 @@ _USED_BESIDES = (
     *("Contact", "Edges", "StickZone", "Threshold", "Regime", "March", "Law"),
     *("stick_zone_of", "tension_threshold_of", "slip_zones_of", "slip_error_of", "march_of"),
     *("shear_change_of", "shear_of", "slip_range_of", "closing_tension_of", "stick_margin"),
-    *(
-        "shear",
-        "shear_change",
-        "slip_error",
-        "slip_range",
-        "closing_tension",
-        "march",
-        "slip_terms",
-    ),
+    *("shear", "shear_change", "slip_error", "slip_range", "slip_terms"),
+    *("closing_tension", "march"),
 )
 
 RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_USED_BESIDES)

@@ -47,7 +47,6 @@ CANCELLED = 100.0
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
 
-_SUM = "k,kn->n"
 _TINY, _HUGE, _NOTHING = 5e-324, 1e300, 1e-300
 
 
@@ -508,13 +507,14 @@ def _level_sums(
                 q, rest, weight = mine[:, start : start + many]
                 values = integrand(part.at(near_left, q, rest), of)
                 for i, value in enumerate(values):
-                    # every column to the same bits, wherever it stands; by `@` it is not
-                    one = many == 1
-                    share[i] += (
-                        weight[0] * value[0] if one else np.einsum(_SUM, weight[:, 0], value)
-                    )
+                    share[i] += _weighted(weight[:, 0], value)
         total += np.where(part.length > 0, share * part.length, 0.0)
     return total
+
+
+def _weighted(weight: Array, value: Array) -> Array:
+    """Sums down the columns, each to the same bits wherever it stands, as by `@` they are not."""
+    return weight[0] * value[0] if weight.size == 1 else np.einsum("k,kn->n", weight, value)
 
 
 @cache

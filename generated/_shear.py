@@ -31,7 +31,7 @@ import numpy as np
 from ._arrays import Array, Flat, at_rows, contact_edges
 from ._stick import Law, stick_zone_of, task_between
 from ._types import Contact, Regime
-from ._zones import Task, bounded_change, parts_of
+from ._zones import Task, bounded_change, parts_of, turning_place
 
 LEVEL = 5
 """Steps of the quadrature are 2**-LEVEL: enough however close a place is to the stick zone."""
@@ -136,9 +136,8 @@ class _Known:
         within = (self.m > other.m - nearly) & (self.n > other.n - nearly)
         alike = (self.regime == other.regime) & self.forward
         apart = self.large & other.large & (task.sense == other.task.sense)
-        reach = 4 * task.dQ / (np.pi * task.dsigma)
         for m, n in ((task.smaller_a, task.smaller_c), (self.m, self.n)):
-            turns = (n - m) / 2 + reach
+            turns = turning_place(task.dQ, task.dsigma, m, n)
             apart = apart & (turns > -other.m - nearly) & (turns < other.n + nearly)
         return self.still | ((alike | apart) & within)
 

@@ -39,7 +39,16 @@ from numpy.polynomial import chebyshev
 
 from ._arrays import Array
 from ._roots import increasing_root
-from ._zones import Pair, Task, bounded_change, by_newton, drawn_in, integrals, rule
+from ._zones import (
+    Pair,
+    Task,
+    bounded_change,
+    by_newton,
+    drawn_in,
+    integrals,
+    rule,
+    turning_place,
+)
 
 TERMS = (16, 24, 36, 54)
 """Terms of the tables."""
@@ -463,7 +472,7 @@ class _Turning:
         sound &= (grown.part > 0) & (grown.part < 1)
         sound &= (-ended.m < self.middle) & (self.middle < grown.n)
         sound &= (ended.m <= receded.m) & (receded.m <= grown.m) & (grown.m <= self.a)
-        turns = (self.c - self.a) / 2 + self.width / 2
+        turns = turning_place(self.task.dQ, self.task.dsigma, self.a, self.c)
         sound &= (-ended.m <= turns) & (turns <= np.where(gain.rubs, self.c, ended.n))
         return sound & (grown.n < ended.n) & (ended.n <= self.c)
 

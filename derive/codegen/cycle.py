@@ -296,7 +296,7 @@ class _Example:
         shear, name = repr(float(self.dQ)), function.name
         between = f"here, here, {shear}, 0.0, f=0.5, **law"
         yield f">>> law = dict({self.law})"
-        if {"first", "contact"} & set(function.arguments):
+        if set(_CONTACTS) & set(function.arguments):
             yield f">>> here = Contact({self.edges}, 0.0)"
         match name:
             case "stick_zone":

@@ -261,18 +261,18 @@ class _File:
             for name, text in symbols.items()
         }
 
+    def _stands_for(self, call: Expr, meaning: Meaning) -> Expr:
+        """A call of a formula, what its arguments mean put in, written out."""
+        return self._put_in(call.xreplace(dict(meaning)))
+
     def _called(self, named: Mapping[Expr, Symbol], meaning: Meaning) -> Meaning:
         """What the calls of a printed equation stand for, which are symbols in it."""
-        return {
-            symbol: self._put_in(call.xreplace(dict(meaning))) for call, symbol in named.items()
-        }
+        return {symbol: self._stands_for(call, meaning) for call, symbol in named.items()}
 
     def _without_calls(self, side: Expr, named: Mapping[Expr, Symbol], meaning: Meaning) -> Expr:
         """A printed side with calls as symbols; put in where they change along an integral."""
         for over in _integrals(side):
-            table = {
-                call: self._put_in(call.xreplace(dict(meaning))) for call in _calls_along(over)
-            }
+            table = {call: self._stands_for(call, meaning) for call in _calls_along(over)}
             inside = Integral(over.function.xreplace(table), *over.limits)
             side = side.xreplace({over: inside})
         return side.xreplace(dict(named))

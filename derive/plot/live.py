@@ -16,7 +16,7 @@ from derive.errors import MissingLibrary
 from derive.plot.measure import Array, unit
 from derive.plot.style import COLOURS, FORWARD, REVERSE, style
 from derive.plot.tractions import peak
-from derive.plot.zones import senses
+from derive.plot.zones import regime_in_words, senses
 
 PLACES = 241
 """Places along the contact; few enough for a picture in a moment."""
@@ -139,7 +139,7 @@ class Live:
 
         if not np.isfinite(state.a):
             return "no contact: the body cannot take these loads"
-        regime = self.body.Regime(int(zone.regime)).name.lower().replace("_", " ")
+        regime = regime_in_words(self.body, zone)
         name = self.length.name
         parts = [f"{regime}: contact [{lengths(-state.a, state.c)}] {name}"]
         parts.append(f"tilt {1e3 * float(state.alpha):.3f} mrad")

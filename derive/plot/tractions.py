@@ -15,7 +15,7 @@ from derive.plot.given import (
 )
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, style, subplots
-from derive.plot.zones import AREAS, MIXED, senses
+from derive.plot.zones import AREAS, MIXED, regime_in_words, senses
 
 SAMPLES = 401
 """Places along a contact; closer together towards its edges."""
@@ -137,8 +137,7 @@ def tractions(
             length(x), stress(p2), color=COLOURS["blue"], label="$p$" if same else "end, $p_2$"
         )
         limit = stress(f * (p1 + p2))
-        below.plot(length(x), limit, color="#888888", linewidth=1, label=r"$\pm f\,(p_1 + p_2)$")
-        below.plot(length(x), -limit, color="#888888", linewidth=1)
+        _band(below, length(x), limit, r"$\pm f\,(p_1 + p_2)$")
         below.plot(
             length(x), stress(shear), color=COLOURS["vermilion"], linewidth=2, label=r"$\Delta q$"
         )
@@ -197,17 +196,16 @@ def shear(
         x, contact, Q, sigma, dQ=parts[:, None] * dQ, dsigma=parts[:, None] * dsigma, **law
     )
     if not np.all(np.any(np.isfinite(q[[0, -1]]), axis=1)):
-        fall = {"dQ": dQ, "dsigma": dsigma}
+        changes = {"first rise": (2 * Q, 2 * sigma), "fall": (dQ, dsigma)}
         raise ValueError(
             f"the shear is not known under Q = {Q:g}, sigma = {sigma:g}, dQ = {dQ:g}, dsigma = "
-            f"{dsigma:g}: {_why_unknown(body, contact, Q, sigma, fall, law)}"
+            f"{dsigma:g}: {_why_unknown(body, contact, changes, law)}"
         )
     length, stress = length or unit(x, "m"), stress or unit(_typical(bound), "Pa")
     with style():
         if axes is None:
             _, axes = subplots()
-        for side, label in ((1, r"$\pm f\,p$"), (-1, None)):
-            axes.plot(length(x), side * stress(bound), color="#888888", linewidth=1, label=label)
+        _band(axes, length(x), stress(bound), r"$\pm f\,p$")
         for inner in q[1:-1]:
             axes.plot(length(x), stress(inner), color=COLOURS["sky"], linewidth=0.8)
         for end, colour, label in ((0, "vermilion", "upper end"), (-1, "blue", "lower end")):
@@ -222,24 +220,17 @@ def shear(
 def _why_unknown(
     body: ModuleType,
     contact: Any,
-    Q: float,
-    sigma: float,
-    fall: dict[str, float],
+    changes: dict[str, tuple[float, float]],
     law: dict[str, float],
 ) -> str:
-    """What keeps both ends of a cycle from being known."""
-    for what, dQ, dsigma in (
-        ("first rise", 2 * Q, 2 * sigma),
-        ("fall", fall["dQ"], fall["dsigma"]),
-    ):
-        zone = body.stick_zone(contact, contact, dQ, dsigma, **law)
-        regime = body.Regime(int(zone.regime)).name
-        if regime not in ("MODERATE", "LARGE", "FULL_STICK"):
-            told = regime.lower().replace("_", " ")
-            return f"the {what} is in the regime {told}; it must be moderate or large tension"
+    """What keeps both ends of a cycle from being known; changes: dQ and dsigma by their names."""
+    for what, change in changes.items():
+        regime = regime_in_words(body, body.stick_zone(contact, contact, *change, **law))
+        if regime not in ("moderate", "large", "full stick"):
+            return f"the {what} is in the regime {regime}; it must be moderate or large tension"
     return (
-        "the fall slips where the first rise did not, or the other way; give the end of the "
-        "larger shear load as Q and sigma, so that dQ <= 2 Q"
+        "the fall slips where the first rise did not, or the other way, or drives on what slipped; "
+        "give the end of the larger shear load as Q and sigma, so that dQ <= 2 Q"
     )
 
 
@@ -277,6 +268,12 @@ def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Meas
         told.add(name)
 
 
+def _band(axes: Axes, x: Array, limit: Array, label: str) -> None:
+    """What friction holds, both ways."""
+    for side, told in ((1, label), (-1, None)):
+        axes.plot(x, side * limit, color="#888888", linewidth=1, label=told)
+
+
 def _key(axes: Axes) -> None:
     """A legend in one row above."""
     axes.legend(
@@ -291,7 +288,7 @@ def _key(axes: Axes) -> None:
 
 def _say_why(axes: Axes, body: ModuleType, zone: Any, what: str) -> None:
     """A word in place of a curve that is not known."""
-    regime = body.Regime(int(zone.regime)).name.lower().replace("_", " ")
+    regime = regime_in_words(body, zone)
     axes.text(0.02, 0.06, f"{regime}: the {what} is not known", transform=axes.transAxes)
 
 

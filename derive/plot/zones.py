@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from math import ceil
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -56,6 +57,11 @@ def stick_slip(
     axes = _map(at, _Zones(*(np.asarray(v) for v in cycle)), axes, length, legend)
     axes.set_xlabel("$t$  [cycles]" if time is None else "$t$")
     return axes
+
+
+def regime_in_words(body: ModuleType, zone: Any) -> str:
+    """How a cycle slips."""
+    return str(body.Regime(int(zone.regime)).name.lower().replace("_", " "))
 
 
 def sweep(

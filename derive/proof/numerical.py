@@ -24,6 +24,9 @@ _BOUNDED = "dq bounded at the ends of the stick zone, by quadrature of p"
 _STICK = ("stick_m", "stick_n")
 _FORWARD = {P: "load", M: "moment", alpha: "tilt"}
 
+_s = Symbol("s")
+"""A place in the contact besides x."""
+
 Pairs = Iterator[tuple[mpf, mpf]]
 Route = Callable[[Point, Contact], Pairs]
 """At one contact: pairs of numbers that must agree."""
@@ -149,22 +152,23 @@ class NumericalRoutes:
             first = self._at(f"K_N_{side}", point)
             return (self._p(point)(place) / mpmath.sqrt(s) - first) / s
 
+    @cached_property
+    def _stuck(self) -> tuple[Expr, Expr]:
+        """dq w at s; and its difference between s and x over x - s, a polynomial."""
+        above = self.sheet["full_stick_change"].expr * w
+        at_s = above.subs(x, _s)
+        return at_s, cancel((at_s - above) / (x - _s))
+
     def _full_stick(self, point: Point, contact: Contact) -> Pairs:
         """int dq = dQ and (1/pi) PV int dq(s)/(x - s) ds = dsigma/4.
 
         PV int ds/(w(s) (x - s)) is zero inside the contact, so the value at x is taken off first.
         What is left is divided by x - s as a polynomial: digits would be lost beside x.
         """
-        above = self.sheet["full_stick_change"].expr * w
-        other = Symbol("s")
-        slope = cancel((above.subs(x, other) - above) / (x - other))
-
-        def over(expr: Expr) -> mpf:
-            value = numeric(expr)
-            return contact.integral(lambda s: value({**point, other: s}))
-
-        yield over(above.subs(x, other)), point[dQ]
-        yield over(slope) / mpmath.pi, point[dsigma] / 4
+        force, strain = map(numeric, self._stuck)
+        yield contact.integral(lambda s: force({**point, _s: s})), point[dQ]
+        strained = contact.integral(lambda s: strain({**point, _s: s}))
+        yield strained / mpmath.pi, point[dsigma] / 4
 
     def _stuck_between(self, name: str) -> Route:
         """int 2 f p sqrt(..) over both slip zones against what shear and tension ask for."""

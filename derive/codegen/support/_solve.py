@@ -233,8 +233,8 @@ def _solved(
         rows = np.flatnonzero(given & ~met)
     if rows.size:
         half = size[rows] / 2
-        left, right = _newton(load, goal, (half, half), of, rows, narrowed)
-        a[rows], c[rows] = left[rows], right[rows]
+        found_a, found_c = _newton(load, goal, (half, half), of, rows, narrowed)
+        a[rows], c[rows] = found_a[rows], found_c[rows]
         now = of(a[rows], c[rows], rows)
         tilt[rows] = now.tilt
         met[rows], told[rows] = _is_met(load[rows], goal.on(rows), a[rows], c[rows], now)
@@ -328,14 +328,13 @@ def _between_rungs(
 
     And these, one row each.
     """
-    start = _from_rungs(load[rows], goal.on(rows), size[rows] / 2, state, narrowed)
-    found = _newton(load, goal, start, state, rows, narrowed, CLOSE, QUICK)
-    a, c = (v[rows] for v in found)
-    now, wanted = state(a, c, rows), goal.on(rows)
-    h, mid = a + c, (c - a) / 2
-    short = np.log(load[rows] / now.load)
+    asked, wanted = load[rows], goal.on(rows)
+    start = _from_rungs(asked, wanted, size[rows] / 2, state, narrowed)
+    a, c = (v[rows] for v in _newton(load, goal, start, state, rows, narrowed, CLOSE, QUICK))
+    now, h, mid = state(a, c, rows), a + c, (c - a) / 2
+    short = np.log(asked / now.load)
     left, right = _linear(wanted, now, h, mid, short)
-    plain = (np.abs(short) < ACCEPTED) & (np.abs(wanted.off(now, h, mid, load[rows])) < ACCEPTED)
+    plain = (np.abs(short) < ACCEPTED) & (np.abs(wanted.off(now, h, mid, asked)) < ACCEPTED)
     for cut in cuts:
         clear = np.minimum(np.abs(a + cut[rows]), np.abs(c - cut[rows]))
         plain &= clear > CLEAR * h

@@ -151,6 +151,11 @@ class Task(NamedTuple):
         return np.where(total == np.inf, 0.0, total)
 
 
+def turning_place(dQ: Array, dsigma: Array, m: Array, n: Array) -> Array:
+    """Where the rate at which shear comes in changes its sign, while [-m, n] sticks."""
+    return (n - m) / 2 + 4 * dQ / (np.pi * dsigma)
+
+
 def pulls(dQ: Array, dsigma: Array, stuck: Array) -> Pair:
     """By how much shear and tension drive slip at both ends of what is stuck, its width given."""
     by_tension = np.pi * stuck * dsigma / 8
