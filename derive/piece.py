@@ -1,13 +1,26 @@
 """One piece of a profile, and what g' does where two of them meet.
 
 In:  g(x) between two kinks.
-Out: its slope and curvature; by how much the slope rises at a kink.
+Out: its slope and curvature; by how much the slope rises at a kink; whether it is straight.
 """
 
 from dataclasses import dataclass
 from functools import cached_property
 
-from sympy import Dummy, Expr, Symbol, diff, limit, nan, simplify
+from sympy import (
+    AccumBounds,
+    Dummy,
+    Expr,
+    Pow,
+    Rational,
+    Symbol,
+    diff,
+    limit,
+    nan,
+    oo,
+    simplify,
+    zoo,
+)
 from sympy.logic.boolalg import Boolean
 
 from derive.symbols import x
@@ -34,7 +47,7 @@ class Piece:
     @cached_property
     def straight(self) -> bool:
         """Whether the piece is a straight line, on which nothing presses by itself."""
-        return bool(simplify(self.curvature) == 0)
+        return vanishes(self.curvature)
 
 
 def surpluses(demands: tuple[Boolean, ...]) -> dict[Symbol, tuple[Expr, Symbol]]:
@@ -58,8 +71,21 @@ def step(left: Piece, right: Piece, demands: tuple[Boolean, ...] = ()) -> Expr:
 
 
 def beside(expr: Expr, place: Expr, sense: int) -> Expr:
-    """The value of `expr` next to a place, on its right (+1) or left (-1)."""
+    """The value of `expr` next to a place, on its right (+1) or left (-1).
+
+    That at the place itself where it has one; else of a simpler form, or its limit.
+    """
+    at_once = expr.subs(x, place)
+    if not (at_once.has(nan, zoo, oo, AccumBounds) or any(p.base == 0 for p in at_once.atoms(Pow))):
+        return at_once
     distance = Dummy("t", positive=True)
     near = simplify(expr.subs(x, place + sense * distance))
     value = near.subs(distance, 0)
     return value if value.is_finite is not False and value is not nan else limit(near, distance, 0)
+
+
+def vanishes(expr: Expr) -> bool:
+    """Whether an expression is zero everywhere; most are not, and one number tells."""
+    symbols = sorted(expr.free_symbols, key=str)
+    value = expr.xreplace({symbol: Rational(3 * i + 5, 7) for i, symbol in enumerate(symbols)})
+    return bool(abs(value.evalf(30, maxn=100)) < 1e-15 and simplify(expr) == 0)

@@ -7,7 +7,7 @@ Out: a `Slope`, g'(x) as that of one reference piece plus a jump at each kink; w
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 
 from sympy import (
@@ -144,6 +144,7 @@ class Slope:
         return found if known else otherwise
 
 
+@lru_cache(maxsize=64)
 def read_slope(name: str, g: Expr) -> Slope:
     """Read the profile of the body `name`.
 

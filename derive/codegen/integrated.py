@@ -28,6 +28,7 @@ from derive.codegen.cancel import cancels, cuts_of, size_of_terms
 from derive.codegen.function import FunctionText, own_parameters
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
+from derive.codegen.rise import from_zero
 from derive.piece import Piece
 from derive.profile import has_sharp_power
 from derive.sheet import FormulaSheet
@@ -215,7 +216,8 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     slope = _shortest(simplify, Add.make_args(piece.slope.subs(x, place + sense * _t)))
     curvature = _shortest(_positive_form, rates(slope), is_positive=True)
     change = _shortest(simplify, rates(curvature))
-    found = cse([slope, curvature, change], symbols=numbered_symbols("s_"))
+    curve = [from_zero(slope, _t), curvature, change]
+    found = cse(curve, symbols=numbered_symbols("s_"))
     steps, values = _roots_once(*found)
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     side = "right" if sense > 0 else "left"

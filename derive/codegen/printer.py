@@ -48,6 +48,7 @@ _FUNCTIONS = {
     "cos": "np.cos",
     "cosh": "np.cosh",
     "exp": "np.exp",
+    "expm1": "np.expm1",
     "log": "np.log",
     "log1p": "np.log1p",
     "log1p_quotient": "log1p_quotient",

@@ -32,6 +32,12 @@ class fmax(Function):
     """Its arguments and its value."""
 
 
+class expm1(Function):
+    """exp(z) - 1, which keeps the digits of a small z."""
+
+    nargs = 1
+
+
 class log1p(Function):
     """log(1 + z), which keeps the digits of a small z."""
 

@@ -20,7 +20,6 @@ from sympy import (
     Mul,
     Piecewise,
     Pow,
-    Rational,
     S,
     Symbol,
     atan,
@@ -40,6 +39,7 @@ from sympy import (
 )
 
 from derive.codegen.program import TINY, Kept, Program, Step, fmax, log1p, log1p_quotient
+from derive.piece import vanishes
 from derive.proof.points import Point, named, numeric
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet import FormulaSheet
@@ -134,9 +134,9 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
             times, rest = linear.diff(stand_in), linear.subs(stand_in, 0)
             if times == 0 or times.has(stand_in):
                 continue
-            if _vanishes(rest + times * pi / 2):
+            if vanishes(rest + times * pi / 2):
                 expr = simplify(-times) * _complement(angle, kinks)
-            elif angle in kinks and _vanishes(rest + times * pi):
+            elif angle in kinks and vanishes(rest + times * pi):
                 expr = simplify(-times) * _opposite(kinks[angle])
         return expr
 
@@ -169,13 +169,6 @@ def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
         return expr
 
     return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
-
-
-def _vanishes(expr: Expr) -> bool:
-    """Whether an expression is zero everywhere; most are not, and one number tells."""
-    symbols = sorted(expr.free_symbols, key=str)
-    value = expr.xreplace({symbol: Rational(3 * i + 5, 7) for i, symbol in enumerate(symbols)})
-    return abs(value.evalf(30, maxn=100)) < 1e-15 and bool(simplify(expr) == 0)
 
 
 def _complement(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:
