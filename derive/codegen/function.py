@@ -310,16 +310,17 @@ _PLACES = tuple(map(mpf, ("0.5", "0.375", "-0.25", "0.75", "0.1875")))
 def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
     """Plain numbers that meet the function's assumptions, for its docstring."""
     needed = tuple(conditions)
-    for lengths, place, size, lean in product((1, 2), _PLACES, _SIZES, (1, -1)):
+    for lengths, place, size, lean in product((1, 2), _PLACES, _SIZES, (1, -1, 0)):
+        plain = _plain_parameters(sheet, lengths)
         point: Point = {
-            **_plain_parameters(sheet, lengths),
+            **plain,
             E_star: mpf(1),
             x: place,
             a: mpf("1.5") * size,
             c: mpf(1) * size,
             P: mpf(size),
             M: mpf("0.25") * size * lean,
-            alpha: mpf("0.03125") * lean,
+            alpha: mpf("0.03125") * lean or _middle_tilt(sheet, plain),
             dQ: mpf("0.25"),
             dsigma: mpf("0.125"),
             dP: mpf("0.5"),
@@ -329,6 +330,12 @@ def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
         if holds(needed, point) and _off_all_kinks(sheet, point):
             return point
     raise NotProven(f"no example found for {sheet.geometry.name!r}")
+
+
+def _middle_tilt(sheet: FormulaSheet, plain: Point) -> mpf:
+    """The tilt in the middle of those at which a body closes; zero if they have no end."""
+    low, high = (numeric(limit)(plain) for limit in sheet.geometry.slope.limits)
+    return -(low + high) / 2 if mpmath.isfinite(high - low) else mpf(0)
 
 
 def _plain_parameters(sheet: FormulaSheet, lengths: int) -> Point:

@@ -15,6 +15,8 @@ import mpmath
 import numpy as np
 from mpmath import mpc, mpf
 
+from derive.proof.rule import gauss_legendre
+
 Value: TypeAlias = mpf | mpc
 Along: TypeAlias = Callable[[mpf], Value]
 
@@ -176,7 +178,7 @@ def _gauss(along: Along, start: mpf, end: mpf) -> tuple[Value, mpf]:
     found: tuple[Value, mpf] = mpmath.quad(
         _by_angle(along, start, end, mpmath.mp.dps + GUARD),
         [mpf(0), mpmath.pi / 2],
-        method="gauss-legendre",
+        method=gauss_legendre,
         error=True,
     )
     return found

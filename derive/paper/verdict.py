@@ -266,7 +266,7 @@ class _Judging:
         left, right = self._in_ours()
         if self.equal is None:
             self.equal = bool(vanishes(left - right, _ranges(self.claim)))
-        exact = {symbol: Rational(*to_rational(value._mpf_)) for symbol, value in point.items()}
+        exact = {symbol: _exactly(value) for symbol, value in point.items()}
         return self.equal or vanishes_at(left - right, exact)
 
     def _off_the_bound(self, bound: Bound) -> str:
@@ -493,3 +493,9 @@ class _Screen:
 def check_all(claims: tuple[Claim, ...]) -> list[Finding]:
     """The verdict of every claim, in their order."""
     return [check(claim) for claim in claims]
+
+
+def _exactly(value: mpf) -> Rational:
+    """A number as the fraction that it is in binary, in SymPy's own integers."""
+    above, below = to_rational(value._mpf_)
+    return Rational(int(above), int(below))

@@ -12,6 +12,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol, cancel
 
+from derive.proof.balls import Ball, ball, digits, number
 from derive.proof.points import Point, contacts, loads, named, numeric, numeric_along
 from derive.proof.quadrature import Contact
 from derive.proof.rule import Function, remembered
@@ -23,6 +24,11 @@ _QUADRATURE = "quadrature of the defining integral of g(x)"
 _BOUNDED = "dq bounded at the ends of the stick zone, by quadrature of p"
 _STICK = ("stick_m", "stick_n")
 _FORWARD = {P: "load", M: "moment", alpha: "tilt"}
+
+_SPARE = 20
+"""Digits more for a closed pressure: what it is made of may cancel."""
+
+_INSIDE = WORKING + _SPARE + 10
 
 _s = Symbol("s")
 """A place in the contact besides x."""
@@ -119,10 +125,10 @@ class NumericalRoutes:
         yield self._at("tilt", point), contact.tilt
 
     def _load(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("load", point), contact.resultant(self._p(point), lambda s: mpf(1))
+        yield self._at("load", point), contact.resultant(self._p(point), inside=_INSIDE)
 
     def _moment(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("moment", point), contact.resultant(self._p(point), lambda s: -s)
+        yield self._at("moment", point), contact.resultant(self._p(point), lambda s: -s, _INSIDE)
 
     def _pressure(self, point: Point, contact: Contact) -> Pairs:
         yield self._at("pressure", point), contact.pressure(point[x])
@@ -149,8 +155,10 @@ class NumericalRoutes:
         with mpmath.workdps(3 * WORKING):
             s = contact.h * mpf(10) ** (2 - WORKING)
             place = s - point[a] if side == "left" else point[c] - s
+            with digits(mpmath.mp.dps + _SPARE):
+                pressure = number(self._p(point)(ball(place)))
             first = self._at(f"K_N_{side}", point)
-            return (self._p(point)(place) / mpmath.sqrt(s) - first) / s
+            return (pressure / mpmath.sqrt(s) - first) / s
 
     @cached_property
     def _stuck(self) -> tuple[Expr, Expr]:
@@ -165,10 +173,11 @@ class NumericalRoutes:
         PV int ds/(w(s) (x - s)) is zero inside the contact, so the value at x is taken off first.
         What is left is divided by x - s as a polynomial: digits would be lost beside x.
         """
-        force, strain = map(numeric, self._stuck)
-        yield contact.integral(lambda s: force({**point, _s: s})), point[dQ]
-        strained = contact.integral(lambda s: strain({**point, _s: s}))
-        yield strained / mpmath.pi, point[dsigma] / 4
+        at_s, with_x = self._stuck
+        force = numeric_along(at_s, _s)(point)
+        strain = numeric_along(with_x, _s)(point)
+        yield contact.integral(force), point[dQ]
+        yield contact.integral(strain) / mpmath.pi, point[dsigma] / 4
 
     def _stuck_between(self, name: str) -> Route:
         """int 2 f p sqrt(..) over both slip zones against what shear and tension ask for."""
@@ -182,11 +191,13 @@ class NumericalRoutes:
             stuck, sense = left + right, -1 if name == _STICK[0] else 1
             by_tension = mpmath.pi * cycle[dsigma] * stuck / 8
 
-            def weight(place: mpf) -> mpf:
-                return ((place + left) / (place - right)) ** (mpf(sense) / 2)
+            p, low, high = self._p(point), ball(left), ball(right)
 
-            p = self._p(point)
-            pulled = 2 * cycle[f] * contact.outside(left, right, lambda s: p(s) * weight(s))
+            def weighted(place: Ball) -> Ball:
+                ratio = (place + low) / (place - high)
+                return p(place) * (ratio if sense > 0 else 1 / ratio).sqrt()
+
+            pulled = 2 * cycle[f] * contact.outside(left, right, weighted)
             yield pulled, cycle[dQ] - sense * by_tension
 
         return route

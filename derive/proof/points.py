@@ -1,23 +1,26 @@
 """Random states drawn from a formula's assumptions; the same on every machine.
 
 A point gives a number to each symbol.  Contacts are drawn with a > c and a < c in turn, loads with
-moments and tilts of both signs in turn; a point that breaks an assumption is drawn again.
+moments and tilts of both signs in turn where the body stands so; a point that breaks an assumption
+is drawn again.
 """
 
 import hashlib
 import random
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cache, lru_cache
 from typing import TypeVar
 
 import mpmath
+from flint import ctx
 from mpmath import mpf
 from sympy import Add, Dummy, Expr, Integral, Mul, Piecewise, Pow, Symbol, count_ops, lambdify
 from sympy.logic.boolalg import Boolean
 
 from derive.geometry import Geometry
 from derive.profile import has_sharp_power
-from derive.proof.rule import integral
+from derive.proof.balls import Ball, ball, digits, function_of, functions_of
+from derive.proof.rule import Function, integral, remembered
 from derive.proof.verdict import POINTS
 from derive.sheet import Formula, FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, e, f, x
@@ -73,15 +76,30 @@ def _contacts(body: Geometry, conditions: tuple[Boolean, ...]) -> list[Point]:
 def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
     """Loads, moments and tilts under which `formula` gives a contact."""
 
+    low, high = sheet.geometry.slope.limits
+    missed = 0
+
     def draw(rng: random.Random, found: int) -> Point | None:
+        nonlocal missed
         point = _parameters(sheet.geometry, rng)
         sign = 1 if found % 2 == 0 else -1
         point[P] = mpf(2) ** rng.uniform(-6, 6)
         point[M] = sign * point[P] * mpf(2) ** rng.uniform(-6, 3)
         point[alpha] = sign * mpf(2) ** rng.uniform(-6, 1)
-        return point if holds(formula.conditions, point) else None
+        if missed >= _LEANING:
+            point[alpha] = _tilt_between(numeric(low)(point), numeric(high)(point), rng)
+        missed = 0 if holds(formula.conditions, point) else missed + 1
+        return None if missed else point
 
     return draws(f"{sheet.geometry.name} {formula.name}", draw)
+
+
+def _tilt_between(low: mpf, high: mpf, rng: random.Random) -> mpf:
+    """A tilt at which a body closes whose slope g' goes from `low` to `high`."""
+    if mpmath.isinf(low) or mpmath.isinf(high):
+        beyond = mpf(2) ** rng.uniform(-6, 1)
+        return -low - beyond if mpmath.isinf(high) else beyond - high
+    return -low - (high - low) * mpf(rng.uniform(0.02, 0.98))
 
 
 def _parameters(body: Geometry, rng: random.Random) -> Point:
@@ -112,29 +130,26 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
 
 
 @cache
-def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Callable[[mpf], mpf]]:
-    """`expr` at a point as a function of one variable, for quadrature.
+def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Function]:
+    """`expr` at a point as a function of one variable, in balls for quadrature.
 
-    What does not hold the variable is computed once a point, with digits to spare; the rest is
-    collected by what does.  Not for branches: one that is not taken may have no value.
+    What does not hold the variable is computed once a point; the rest is collected by what does.
+    Not for branches: one that is not taken may have no value.
     """
     fixed: dict[Expr, Symbol] = {}
     moving = _collected(expr.subs(e, M / P), variable, fixed)
     held = sorted(set().union(*(value.free_symbols for value in fixed)), key=str)
-    constants = lambdify(held, [*fixed], modules="mpmath", cse=True)
-    function = lambdify([variable, *fixed.values()], moving, modules="mpmath", cse=True)
+    constants = functions_of(held, [*fixed])
+    function = function_of([variable, *fixed.values()], moving, shared=True)
 
-    def at(point: Point) -> Callable[[mpf], mpf]:
-        given = [point[symbol] for symbol in held]
-        known: dict[int, list[mpf]] = {}
+    def at(point: Point) -> Function:
+        given = [ball(point[symbol]) for symbol in held]
+        known: dict[int, Sequence[Ball]] = {}
 
-        def along(place: mpf) -> mpf:
-            digits = mpmath.mp.dps + _SPARE
-            with mpmath.workdps(digits):
-                if digits not in known:
-                    known[digits] = constants(*given)
-                value = function(place, *known[digits])
-            return +mpf(value)
+        def along(place: Ball) -> Ball:
+            if ctx.prec not in known:
+                known[ctx.prec] = constants(*given)
+            return function(place, *known[ctx.prec])
 
         return along
 
@@ -180,8 +195,11 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
     fixed = {
         p: Dummy("C") for p in sorted(over.function.atoms(Pow), key=str) if _is_fixed(p, variable)
     }
-    integrand = _compiled([variable, *held, *fixed.values()], over.function.xreplace(fixed), True)
-    constants = lambdify(held, [*fixed], modules="mpmath")
+    shared = not over.function.has(Piecewise)
+    integrand = function_of(
+        [variable, *held, *fixed.values()], over.function.xreplace(fixed), shared
+    )
+    constants = functions_of(held, [*fixed])
     power = 3 if has_sharp_power(over.function, variable) else 1
     ends = lambdify(held, [low, high], modules="mpmath")
     known: dict[tuple[mpf, ...], mpf] = {}
@@ -198,16 +216,16 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
         if end <= start:
             return mpf(0)
         width, node = _nodes(left, right, start, end, power)
-        with mpmath.workdps(_INSIDE):
-            numbers = (*given, *constants(*given))
+        balls = [ball(value) for value in given]
+        with digits(_INSIDE):
+            numbers = (*balls, *constants(*balls))
 
-        def along(t: mpf) -> mpf:
-            with mpmath.workdps(_INSIDE):
-                place, weight = node(t)
-                return integrand(place, *numbers) * weight
+        def along(t: Ball) -> Ball:
+            place, weight = node(t)
+            return integrand(place, *numbers) * weight
 
         with mpmath.workdps(_OUTSIDE):
-            return power * width * integral(along, [mpf(0), mpf(1)])
+            return power * width * integral(along, [mpf(0), mpf(1)], inside=_INSIDE)
 
     return at
 
@@ -228,30 +246,37 @@ def _is_fixed(power: Pow, variable: Symbol) -> bool:
 @lru_cache(maxsize=128)
 def _nodes(
     left: mpf, right: mpf, start: mpf, end: mpf, power: int
-) -> tuple[mpf, Callable[[mpf], tuple[mpf, mpf]]]:
+) -> tuple[mpf, Callable[[Ball], tuple[Ball, Ball]]]:
     """The part's width in theta; place and weight at every t from 0 to 1, which integrals share."""
     with mpmath.workdps(_INSIDE):
-        half, middle = (left + right) / 2, (right - left) / 2
-        low, high = (mpmath.acos(max(-1, min(1, (p - middle) / half))) for p in (end, start))
+        angles = [mpmath.acos(max(-1, min(1, _cosine(p, left, right)))) for p in (end, start)]
+    low, high, first, last = map(ball, (*angles, start, end))
+    with digits(_INSIDE):
+        half, middle = (ball(left) + ball(right)) / 2, (ball(right) - ball(left)) / 2
 
-    @cache
-    def node(t: mpf) -> tuple[mpf, mpf]:
-        with mpmath.workdps(_INSIDE):
-            near, far = t**power, (1 - t) ** power
-            theta = (low * far + high * near) / (near + far)
-            rate = (t * (1 - t)) ** (power - 1) / (near + far) ** 2
-            place = max(start, min(end, middle + half * mpmath.cos(theta)))
-            return place, half * mpmath.sin(theta) * rate
+    @remembered
+    def node(t: Ball) -> tuple[Ball, Ball]:
+        near, far = t**power, (1 - t) ** power
+        theta = (low * far + high * near) / (near + far)
+        rate = (t * (1 - t)) ** (power - 1) / (near + far) ** 2
+        sine, cosine = theta.sin_cos()
+        place = first.max(last.min(middle + half * cosine))
+        return place, half * sine * rate
 
     with mpmath.workdps(_OUTSIDE):
-        return high - low, node
+        return angles[1] - angles[0], node
+
+
+def _cosine(place: mpf, left: mpf, right: mpf) -> mpf:
+    """Of the angle of a place in the contact."""
+    return (2 * place + left - right) / (left + right)
 
 
 _LONG = 200
 """Operations of a formula from which on it pays to look for what it repeats."""
 
-_SPARE = 20
-"""Digits more for what is collected: its coefficients may cancel."""
+_LEANING = 40
+"""After so many tries in vain a tilt is drawn between its limits: some bodies stand so alone."""
 
 _INSIDE, _OUTSIDE = 160, 40
 """Digits of an integrand, and of the integral."""

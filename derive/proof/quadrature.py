@@ -16,6 +16,7 @@ from mpmath import mpf
 from sympy import Expr, Piecewise, Symbol, diff, lambdify, nan, piecewise_fold, zoo
 
 from derive.geometry import Geometry
+from derive.proof.balls import Ball, ball, digits, function_of
 from derive.proof.rule import Function, integral, remembered
 from derive.symbols import x
 
@@ -25,7 +26,7 @@ _LOST = 20
 
 @dataclass(frozen=True)
 class Contact:
-    """One contact [-a, c] of one body, in numbers."""
+    """One contact [-a, c] of one body, in numbers; what stands under an integral takes balls."""
 
     geometry: Geometry
     values: Mapping[Symbol, mpf]
@@ -36,7 +37,10 @@ class Contact:
     @cached_property
     def slope(self) -> Function:
         """g'(x) from g as it was given, not from the pieces that the derivation uses."""
-        return remembered(_numeric(_slope_as_given(self.geometry.g), self.values))
+        symbols = sorted(self.values, key=str)
+        function = _compiled(_slope_as_given(self.geometry.g), (x, *symbols))
+        numbers = [ball(self.values[symbol]) for symbol in symbols]
+        return remembered(lambda place: function(place, *numbers))
 
     @cached_property
     def kinks(self) -> list[mpf]:
@@ -55,38 +59,46 @@ class Contact:
         return (self.c - self.a) / 2
 
     @cached_property
+    def edges(self) -> tuple[Ball, Ball]:
+        """a and c as balls."""
+        return ball(self.a), ball(self.c)
+
+    @cached_property
     def at(self) -> Function:
         """The x at the angle theta."""
-        return remembered(lambda theta: self.mid + self.h / 2 * mpmath.cos(theta))
+        left, right = self.edges
+        return remembered(lambda theta: ((right - left) + (left + right) * theta.cos()) / 2)
 
     def angle(self, place: mpf) -> mpf:
         """The angle of a place in the contact."""
         return mpmath.acos((place - self.mid) / (self.h / 2))
 
-    def integral(self, integrand: Function, *also: mpf, singular: bool = False) -> mpf:
+    def integral(
+        self, integrand: Function, *also: mpf, singular: bool = False, inside: int = 0
+    ) -> mpf:
         """int_{-a}^{c} integrand(s)/w(s) ds, cut at the kinks and at the places named `also`."""
         cuts = sorted({mpf(0), mpmath.pi, *(self.angle(p) for p in (*self.kinks, *also))})
         gentle = self.geometry.slope.is_polynomial and not singular
         method = "gauss-legendre" if gentle else "tanh-sinh"
-        return integral(lambda theta: integrand(self.at(theta)), cuts, method)
+        return integral(lambda theta: integrand(self.at(theta)), cuts, method, inside)
 
     def outside(self, left: mpf, right: mpf, integrand: Function) -> mpf:
         """int integrand(s) ds over the contact less [-left, right]; roots at the ends do no harm.
 
         The integrand is evaluated to twice the digits: next to an end its distance keeps them.
         """
-        total, digits = mpf(0), 2 * mpmath.mp.dps
+        total, twice = mpf(0), 2 * mpmath.mp.dps
         for edge, end in ((-self.a, -left), (self.c, right)):
             low, high = min(edge, end), max(edge, end)
             for start, stop in pairwise([low, *(k for k in self.kinks if low < k < high), high]):
+                with mpmath.workdps(twice):
+                    half, middle = ball((stop - start) / 2), ball((start + stop) / 2)
 
-                def along(theta: mpf, start: mpf = start, stop: mpf = stop) -> mpf:
-                    with mpmath.workdps(digits):
-                        half = (stop - start) / 2
-                        place = (start + stop) / 2 + half * mpmath.cos(theta)
-                        return half * mpmath.sin(theta) * integrand(place)
+                def along(theta: Ball, half: Ball = half, middle: Ball = middle) -> Ball:
+                    sine, cosine = theta.sin_cos()
+                    return half * sine * integrand(middle + half * cosine)
 
-                total += integral(along, [mpf(0), mpmath.pi])
+                total += integral(along, [mpf(0), mpmath.pi], inside=twice)
         return total
 
     @cached_property
@@ -97,25 +109,29 @@ class Contact:
     @cached_property
     def load(self) -> mpf:
         """(E*/2) I_1."""
-        return self.E_star / 2 * self.integral(lambda s: s * (self.slope(s) + self.tilt))
+        tilt = ball(self.tilt)
+        return self.E_star / 2 * self.integral(lambda s: s * (self.slope(s) + tilt))
 
     @cached_property
     def moment(self) -> mpf:
         """-(E*/2) (I_2 - mid I_1)."""
-        arm = self.integral(lambda s: s * (s - self.mid) * (self.slope(s) + self.tilt))
+        tilt, mid = ball(self.tilt), ball(self.mid)
+        arm = self.integral(lambda s: s * (s - mid) * (self.slope(s) + tilt))
         return -self.E_star / 2 * arm
 
     def pressure(self, place: mpf, at_edge: bool = False) -> mpf:
         """p(x) from its principal value, the singularity taken off; cut at x unless at an edge."""
         root = mpmath.sqrt((self.a + place) * (self.c - place))
         cuts = [] if at_edge else [place, *self._around(place)]
-        digits = mpmath.mp.dps + _LOST
+        inside = mpmath.mp.dps + _LOST
+        with digits(inside):
+            here = ball(place)
+            level = self.slope(here)
 
-        def quotient(s: mpf) -> mpf:
-            with mpmath.workdps(digits):
-                return (self.slope(s) - self.slope(place)) / (s - place)
+        def quotient(s: Ball) -> Ball:
+            return (self.slope(s) - level) / (s - here)
 
-        principal = self.integral(quotient, *cuts)
+        principal = self.integral(quotient, *cuts, inside=inside)
         return self.E_star / (2 * mpmath.pi) * root * principal
 
     def edge_series(self, side: str) -> tuple[mpf, mpf]:
@@ -144,13 +160,15 @@ class Contact:
                 yield from (s for s in (kink - distance, kink + distance) if -self.a < s < self.c)
                 distance *= 8
 
-    def resultant(self, pressure: Function, weight: Function) -> mpf:
+    def resultant(self, pressure: Function, weight: Function | None = None, inside: int = 0) -> mpf:
         """int weight(s) p(s) ds of a given p; p may be infinite, as a logarithm, at a kink."""
+        left, right = self.edges
 
-        def integrand(s: mpf) -> mpf:
-            return weight(s) * pressure(s) * mpmath.sqrt((self.a + s) * (self.c - s))
+        def integrand(s: Ball) -> Ball:
+            force = pressure(s) * ((left + s) * (right - s)).sqrt()
+            return weight(s) * force if weight else force
 
-        return self.integral(integrand, singular=True)
+        return self.integral(integrand, singular=True, inside=inside)
 
 
 @cache
@@ -164,12 +182,11 @@ def _slope_as_given(g: Expr) -> Expr:
     return slope
 
 
-def _numeric(expr: Expr, values: Mapping[Symbol, mpf]) -> Function:
-    symbols = sorted(values, key=str)
-    function = lambdify([x, *symbols], expr, modules="mpmath")
-    numbers = [values[symbol] for symbol in symbols]
-    return lambda place: function(place, *numbers)
+@cache
+def _compiled(expr: Expr, symbols: tuple[Symbol, ...]) -> Function:
+    return function_of(symbols, expr)
 
 
 def _number(expr: Expr, values: Mapping[Symbol, mpf]) -> mpf:
-    return _numeric(expr, values)(mpf(0))
+    symbols = sorted(values, key=str)
+    return mpf(lambdify(symbols, expr, modules="mpmath")(*(values[symbol] for symbol in symbols)))

@@ -1,16 +1,27 @@
 """Quadrature that knows when it has not converged: cut finer until the estimate of error is small.
 
-In:  an integrand and where to cut.
-Out: its integral to nearly all working digits.
+In:  an integrand of balls, and where to cut.
+Out: its integral to nearly all working digits of mpmath.
+
+Levels, estimates and stopping are mpmath's; the sums are of balls, and so are the nodes.
 """
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from itertools import pairwise
+from typing import TypeVar
 
 import mpmath
+from flint import arb, ctx
 from mpmath import mpf
+from mpmath.calculus.quadrature import GaussLegendre, QuadratureRule
 
-Function = Callable[[mpf], mpf]
+from derive.proof.balls import Ball, ball, bits, digits, number
+
+Function = Callable[[Ball], Ball]
+Value = TypeVar("Value")
+Nodes = Sequence[tuple[Ball, Ball]]
+"""Places in (-1, 1), and their weights."""
 
 _SPARE = 8
 """Digits of the working precision that the integral may lack."""
@@ -18,34 +29,163 @@ _SPARE = 8
 _CUTS = 6
 """How often every part is halved at most."""
 
+_BESIDES = 12
+"""Digits of the integrand beyond the working precision; mpmath adds up with six more."""
 
-def remembered(function: Function) -> Function:
-    """`function`, computed once at every place and precision: integrals share their nodes."""
-    known: dict[tuple[mpf, int], mpf] = {}
 
-    def at(place: mpf) -> mpf:
-        asked = (place, mpmath.mp.prec)
+def remembered(function: Callable[[Ball], Value]) -> Callable[[Ball], Value]:
+    """`function`, computed once at every node and precision: integrals share their nodes."""
+    known: dict[tuple[int, int], tuple[Ball, Value]] = {}
+
+    def at(place: Ball) -> Value:
+        asked = (id(place), ctx.prec)
         if asked not in known:
-            known[asked] = function(place)
-        return known[asked]
+            known[asked] = place, function(place)  # held, so that its id is its own
+        return known[asked][1]
 
     return at
 
 
-def integral(integrand: Function, cuts: Sequence[mpf], method: str = "tanh-sinh") -> mpf:
-    """int integrand over [cuts[0], cuts[-1]]; a node where it divides by zero has no weight."""
+def integral(
+    integrand: Function, cuts: Sequence[mpf], method: str = "tanh-sinh", inside: int = 0
+) -> mpf:
+    """int integrand over [cuts[0], cuts[-1]]; a node where it divides by zero has no weight.
 
-    def guarded(place: mpf) -> mpf:
-        try:
-            return integrand(place)
-        except ZeroDivisionError:
-            return mpf(0)
-
+    inside: digits of the integrand to begin with; twice as many if its balls grow too wide.
+    """
     allowed = mpf(10) ** (_SPARE - mpmath.mp.dps)
+    count = max(inside, mpmath.mp.dps + _BESIDES)
+    for working in (count, 2 * count, 4 * count):
+        rule = _RULES[method](mpmath.mp)
+        with digits(working):
+            value, size = _converged(integrand, cuts, rule, allowed)
+        if rule.width <= allowed * max(abs(value), size):
+            break
+    return value
+
+
+def _converged(
+    integrand: Function, cuts: Sequence[mpf], rule: "_InBalls", allowed: mpf
+) -> tuple[mpf, mpf]:
+    """The integral, and about what one of its modulus would be."""
     for _ in range(_CUTS):
-        value, error = mpmath.quad(guarded, cuts, method=method, error=True)
-        size = max(abs(guarded((p + q) / 2) * (q - p)) for p, q in pairwise(cuts))
+        value, error = mpmath.quad(integrand, cuts, method=lambda _: rule, error=True)
+        size = max(_size(integrand, low, high) for low, high in pairwise(cuts))
         if error <= allowed * max(abs(value), size):
             break
         cuts = [*(end for p, q in pairwise(cuts) for end in (p, (p + q) / 2)), cuts[-1]]
-    return value
+    return value, size
+
+
+def _size(integrand: Function, low: mpf, high: mpf) -> mpf:
+    """What an integral between two places is like."""
+    middle = number(integrand((ball(low) + ball(high)) / 2))
+    return mpf(0) if mpmath.isnan(middle) else abs(middle * (high - low))
+
+
+class _InBalls(QuadratureRule):
+    """Gauss's rule, whose nodes and sums are balls; `width` is how wide a sum has grown."""
+
+    method = "gauss-legendre"
+
+    def __init__(self, numbers: object) -> None:
+        super().__init__(numbers)
+        self.width = mpf(0)
+
+    def get_nodes(
+        self, low: mpf, high: mpf, degree: int, prec: int, verbose: bool = False
+    ) -> Nodes:
+        """Those of this level between two places."""
+        return _between(self.method, low, high, degree, prec, ctx.prec)
+
+    def sum_next(
+        self,
+        integrand: Function,
+        nodes: Nodes,
+        degree: int,
+        prec: int,
+        previous: Sequence[mpf],
+        verbose: bool = False,
+    ) -> mpf:
+        """The sum of this level; `previous` are those of the levels before it."""
+        terms = (weight * integrand(place) for place, weight in nodes)
+        total = sum((term for term in terms if term.is_finite()), arb(0))
+        self.width = max(self.width, number(total.rad()))
+        return number(total)
+
+
+class _AddingInBalls(_InBalls):
+    """The doubly exponential rule: every level adds nodes between those of the one before."""
+
+    method = "tanh-sinh"
+
+    def sum_next(
+        self,
+        integrand: Function,
+        nodes: Nodes,
+        degree: int,
+        prec: int,
+        previous: Sequence[mpf],
+        verbose: bool = False,
+    ) -> mpf:
+        """The same, of which half is that of the level before."""
+        step = mpf(2) ** -degree
+        fresh = step * super().sum_next(integrand, nodes, degree, prec, previous)
+        return fresh + previous[-1] / 2 if previous else fresh
+
+
+_RULES = {rule.method: rule for rule in (_InBalls, _AddingInBalls)}
+
+
+@lru_cache(maxsize=256)
+def _between(method: str, low: mpf, high: mpf, degree: int, prec: int, bits: int) -> Nodes:
+    """The same balls each time: what is remembered at them is found again."""
+    half, middle = (ball(high) - ball(low)) / 2, (ball(low) + ball(high)) / 2
+    standard = _standard(method, degree, prec, bits)
+    return [(middle + half * place, half * weight) for place, weight in standard]
+
+
+@lru_cache(maxsize=256)
+def _standard(method: str, degree: int, prec: int, bits: int) -> Nodes:
+    """Nodes in (-1, 1), to so many bits."""
+    return _crowded(degree, prec) if method == "tanh-sinh" else _of_legendre(degree)
+
+
+def _of_legendre(degree: int) -> Nodes:
+    """Roots of Legendre's polynomial of degree 3 2**(degree - 1)."""
+    count = 3 * 2 ** (degree - 1)
+    return [arb.legendre_p_root(count, k, weight=True) for k in range(count)]
+
+
+def _crowded(degree: int, prec: int) -> Nodes:
+    """tanh((pi/2) sinh t) at those t that this level adds, as far as it differs from one."""
+    quarter = arb.pi() / 2
+    t, every = arb(2) ** -degree, arb(2) ** (-1 if degree == 1 else 1 - degree)
+    nodes = [(arb(0), quarter)] if degree == 1 else []
+    while True:
+        steep = quarter * t.sinh()
+        short = 2 / (1 + (2 * steep).exp())
+        if short < arb(2) ** (-prec - 10):
+            return nodes
+        weight = quarter * t.cosh() / steep.cosh() ** 2
+        nodes += [(1 - short, weight), (short - 1, weight)]
+        t = t + every
+
+
+class _QuickNodes(GaussLegendre):
+    """mpmath's own rule of Gauss, whose nodes are found in a hundredth of the time."""
+
+    def calc_nodes(self, degree: int, prec: int, verbose: bool = False) -> list[tuple[mpf, mpf]]:
+        """Nodes and weights, mpmath's numbers."""
+        with bits(prec + _GUARD_BITS):
+            return [(number(place), number(weight)) for place, weight in _of_legendre(degree)]
+
+
+_GUARD_BITS = 20
+
+_QUICK = _QuickNodes(mpmath.mp)
+
+
+def gauss_legendre(_: object) -> QuadratureRule:
+    """What mpmath.quad takes as its `method`."""
+    return _QUICK

@@ -1,0 +1,76 @@
+"""Ball arithmetic under integrals: exact ways in and out, and constants with all their digits."""
+
+import mpmath
+import pytest
+from mpmath import mpf
+from sympy import (
+    E,
+    Expr,
+    Float,
+    Piecewise,
+    Rational,
+    acosh,
+    asinh,
+    atan,
+    atan2,
+    cosh,
+    exp,
+    log,
+    pi,
+    sign,
+    sinh,
+    sqrt,
+    symbols,
+    tanh,
+)
+
+from derive.profile import exact
+from derive.proof.balls import ball, digits, function_of, functions_of, number
+
+y, n = symbols("y n", positive=True)
+AT = {y: Rational(3, 10), n: Rational(7, 5)}
+
+
+@pytest.mark.parametrize("text", ["0.1", "-3", "0", "1e-400", "1e300", "-7.25e-9"])
+def test_there_and_back_no_bit_is_lost(text: str) -> None:
+    with mpmath.workdps(60):
+        value = mpf(text)
+    assert number(ball(value)) == value
+
+
+def test_what_is_no_number_is_none() -> None:
+    assert mpmath.isnan(number(ball(mpf(1)) / 0))
+    assert mpmath.isnan(number(ball(mpf(-1)).sqrt()))
+    assert number(3) == 3
+
+
+@pytest.mark.parametrize(
+    "expr",
+    [
+        *(pi * y, E + y, Rational(1, 3) * y, sqrt(2) * y, Float("0.1") * y, log(2) + y),
+        *(y**n, y ** Rational(3, 2), y**-2, sqrt(y), exp(-y), log(y), abs(y - 1)),
+        *(sinh(y), cosh(y), tanh(y), asinh(y), acosh(y + 1), atan(y), atan2(y, -n)),
+        *(sign(y - n), Piecewise((y, y > 1), (y**2, True))),
+    ],
+)
+@pytest.mark.parametrize("count", [30, 90])
+def test_every_function_is_what_sympy_says(expr: Expr, count: int) -> None:
+    function = function_of([y, n], expr)
+    with mpmath.workdps(count), digits(count + 10):
+        values = (ball(mpf(v.p)) / v.q for v in AT.values())
+        wanted = exact(expr).subs(AT).evalf(count + 10)
+        assert abs(number(function(*values)) - mpf(wanted)) < mpf(10) ** (2 - count)
+
+
+def test_several_expressions_share_what_they_repeat() -> None:
+    function = functions_of([y], [sqrt(y + 1), 1 / sqrt(y + 1)])
+    with digits(30):
+        root, over = function(ball(mpf(3)))
+    assert (number(root), number(over)) == (2, mpf("0.5"))
+
+
+def test_a_ball_knows_what_rounding_left_of_it() -> None:
+    """(1 + 1e-20) - 1 at 15 digits: nothing is left, and the ball says so."""
+    with digits(15):
+        rest = (1 + ball(mpf(10) ** -20)) - 1
+    assert rest.rad() > abs(rest.mid())
