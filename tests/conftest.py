@@ -1,5 +1,6 @@
 """Property tests draw the same examples on every machine; no test sees the user's own cache."""
 
+import gc
 import os
 from itertools import count
 from pathlib import Path
@@ -17,20 +18,33 @@ if "PYTHONPATH" in os.environ:
     _FOLDERS = os.environ["PYTHONPATH"].split(os.pathsep)
     os.environ["PYTHONPATH"] = os.pathsep.join(str(Path(folder).resolve()) for folder in _FOLDERS)
 
+# SymPy makes millions of small objects that stay: the collector need not look at them so often.
+gc.set_threshold(100_000, 50, 50)
+
 _NUMBERS = count()
 
 LONGEST = "test_the_committed_package_is_as_generated"
+SHARED = "findings"
 
 SLOW_EXAMPLES = {"derive.proof.prove.prove_sheet"}
 """Examples in docstrings cannot be marked where they stand."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The longest test first, then the slow ones; short ones fill up both workers at the end."""
+    """The longest test first, then the slow ones; short ones fill up both workers at the end.
+
+    Behind the longest, and so by one worker, those that share what takes long to make.
+    """
     for item in items:
         if item.name in SLOW_EXAMPLES:
             item.add_marker("slow")
-    items.sort(key=lambda item: (item.name != LONGEST, item.get_closest_marker("slow") is None))
+    items.sort(
+        key=lambda item: (
+            item.name != LONGEST,
+            SHARED not in getattr(item, "fixturenames", ()),
+            item.get_closest_marker("slow") is None,
+        )
+    )
 
 
 @pytest.fixture(autouse=True)

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from mpmath import mpf
 from ruff import find_ruff_bin
-from sympy import Abs, Expr, Rational, Symbol
+from sympy import Abs, Expr, Max, Rational, Symbol
 
 import derive.codegen.function
 from derive import Geometry, parameter, x
@@ -31,7 +31,8 @@ from derive.errors import BadName, NotProven
 from derive.library import library, load_geometry
 from derive.notation import text_of
 from derive.pipeline import GENERATED
-from derive.proof.verdict import Proof, Verdict
+from derive.proof.points import loads
+from derive.proof.verdict import POINTS, Proof, Verdict
 from derive.sheet import FormulaSheet
 from derive.symbols import RESERVED, a, c
 from tests.codegen.test_program import at_most
@@ -374,6 +375,7 @@ def state(body: str, left: float, right: float) -> dict[str, float]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", OTHERS)
 def test_a_module_of_another_body_computes_what_quadrature_says(
     body: str, imported: Callable
@@ -471,3 +473,30 @@ def test_symbols_of_the_theory_stay_reserved() -> None:
     assert not any(map(may_be_a_parameter, ["E_star", "np", "exists", "contact", "h"]))
     assert all(map(may_be_a_parameter, ["R", "phi", "b", "radius", "width"]))
     assert Symbol("R") != parameter("R", "radius")
+
+
+# ------------------------------------------------------------------ bodies that stand only leaning
+
+
+@pytest.mark.slow
+def test_a_corner_both_of_whose_flanks_rise_to_one_side(imported: Callable) -> None:
+    """Flanks of slopes psi and psi + phi: it closes at tilts from -psi - phi to -psi alone.
+
+    A corner whose slope jumps by phi is half of a wedge: P = E* (phi/2) sqrt(a c).  At a = c half
+    of the angle lies on either side, so that alpha = -(psi + phi/2), and a = c = 2 P/(E* phi).
+    """
+    phi = parameter("phi", "rise of the slope at the corner", unit="rad")
+    psi = parameter("psi", "slope of the left flank", unit="rad")
+    of = derive_sheet(Geometry("leaning", g=psi * x + phi * Max(0, x)))
+    for formula in of.formulas.values():
+        if formula.name.startswith("contact"):
+            assert len(list(loads(of, formula))) == POINTS, formula.name
+    module = imported(module_text(assumed(of), "leaning.py"))
+    given = {"E_star": 2.0, "phi": 0.25, "psi": 0.5}
+    a, c, alpha = module.contact(3.0, 0.0, **given)
+    assert [a, c, alpha] == pytest.approx([12.0, 12.0, -0.625], rel=1e-14)
+    a, c, _ = module.contact_at_tilt(3.0, -0.625, **given)
+    assert [a, c] == pytest.approx([12.0, 12.0], rel=1e-14)
+    tilts = np.array([-0.76, -0.75, -0.5, -0.49, 0.0, 0.2])
+    assert np.isnan(module.contact_at_tilt(3.0, tilts, **given).a).all()
+    assert np.isfinite(module.contact_at_tilt(3.0, np.array([-0.749, -0.501]), **given).a).all()

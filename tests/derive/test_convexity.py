@@ -169,6 +169,7 @@ def test_demands_hold_exactly_where_the_curvature_is_nowhere_negative(g: Expr) -
     assert min(seen.values()) >= 3
 
 
+@pytest.mark.slow
 def test_the_sheet_says_what_is_demanded_and_draws_contacts_that_meet_it() -> None:
     """Here L >= 3750 R: 600^2 R <= 96 L."""
     body = Geometry("steep", g=x**4 / L**3 - 100 * x**3 / L**2 + x**2 / R)

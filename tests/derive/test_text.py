@@ -477,6 +477,7 @@ def read_or_skip(text: str) -> Expr:
         raise
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(formulas())
 def test_a_text_means_what_it_means_in_python(pair: Pair) -> None:

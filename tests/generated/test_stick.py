@@ -269,6 +269,7 @@ def one_cycle(
     return shear, pull * 8 * shear / (np.pi * (a + c))
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(a=size, c=size, share=part, pull=tension, da=nudge, dc=nudge)
 def test_the_mirror_swaps_the_edges(

@@ -27,6 +27,7 @@ LIGHT = "light,10,0.02,0.02,0,0,0,0.001,0,0"
 def study(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     """Runs its code with other rows and another friction: its names, what it says, its figures."""
     matplotlib.use("Agg")
+    pyplot.close("all")  # what another test left open is none of its figures
     monkeypatch.setitem(sys.modules, "common", common)
     (path,) = (path for path in running.notebooks() if path.name.startswith("09"))
     code = [cell.source for cell in running.read(path).cells if cell.cell_type == "code"]

@@ -312,6 +312,7 @@ def test_a_correction_has_two_sides(tmp_path: Path) -> None:
     assert corrected(judged(tmp_path, "sqrt(x) = sqrt(abs(x))")) == "Abs(sqrt(x)) = sqrt(Abs(x))"
 
 
+@pytest.mark.slow
 def test_what_is_true_to_working_digits_is_no_correction(tmp_path: Path) -> None:
     """1 + tanh(10**6*(w - 1.6)) is below exp(-10**6) where w < 0.9, which is not zero."""
     finding = judged(tmp_path, "w + (1 + tanh(10**6*(w - 1.6)))/2 = w", "seconds = 2\n" + HEAD)
@@ -339,6 +340,7 @@ def test_a_verdict_that_takes_too_long_is_none(tmp_path: Path) -> None:
     assert monotonic() - began < 5
 
 
+@pytest.mark.slow
 def test_a_search_that_takes_too_long_leaves_the_verdict(tmp_path: Path) -> None:
     began = monotonic()
     printed = "integral(sign(sin(5*s)), s, 0, 3) = 18*pi/5 - 3 - 12*pi/5 - pi"

@@ -69,6 +69,7 @@ def test_zones_that_grow_are_not_enough() -> None:
     assert zone.n - many.n > 2e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("part", "regime"),
     [slow(0.931, "moderate"), slow(0.94, "turns round"), (1.08, "turns round"), slow(1.1, "large")],
