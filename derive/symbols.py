@@ -88,7 +88,7 @@ _USED_BESIDES = (
     *("E", "I", "N", "O", "S", "oo", "nan", "inf"),
     # by the generated modules
     *("np", "scipy", "LEAST", "MOST", "TINY", "elementwise", "only_where", "select"),
-    *("maximum", "minimum", "fmax", "log1p_quotient"),
+    *("maximum", "minimum", "fmax", "kink_logarithm"),
     *("State", "level", "contact_under", "contact_at", "place"),
     *(
         "Curve",

@@ -13,6 +13,7 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    kink_logarithm,
     maximum,
     minimum,
     only_where,
@@ -431,15 +432,11 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     left_1 = (a + x) * (2 * maximum(b + c, 0.0) / h)  # vanishes at the left edge [m]
     right_1 = (c - x) * (2 * maximum(a - b, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = -b [-]
-    logarithm_1 = np.log1p(
-        (np.sqrt(left_1 * right_1) + minimum(left_1, right_1)) / maximum(np.abs(b + x), TINY)
-    )
+    logarithm_1 = kink_logarithm(left_1, right_1, b + x, TINY)
     left_2 = (a + x) * (2 * maximum(c - b, 0.0) / h)  # vanishes at the left edge [m]
     right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = b [-]
-    logarithm_2 = np.log1p(
-        (np.sqrt(left_2 * right_2) + minimum(left_2, right_2)) / maximum(np.abs(b - x), TINY)
-    )
+    logarithm_2 = kink_logarithm(left_2, right_2, x - b, TINY)
     # angle of the contact beyond the kink x = -b [-]
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     # angle of the contact beyond the kink x = b [-]

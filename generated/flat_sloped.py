@@ -13,9 +13,8 @@ from ._arrays import (
     chunkwise_in_time,
     elementwise,
     fmax,
-    log1p_quotient,
+    kink_logarithm,
     maximum,
-    minimum,
     only_where,
     select,
 )
@@ -393,15 +392,11 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     left_1 = (a + x) * (2 * maximum(b + c, 0.0) / h)  # vanishes at the left edge [m]
     right_1 = (c - x) * (2 * maximum(a - b, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = -b [-]
-    logarithm_1 = fmax(
-        log1p_quotient(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), np.abs(b + x)), 0.0
-    )
+    logarithm_1 = fmax(kink_logarithm(left_1, right_1, b + x), 0.0)
     left_2 = (a + x) * (2 * maximum(c - b, 0.0) / h)  # vanishes at the left edge [m]
     right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = b [-]
-    logarithm_2 = fmax(
-        log1p_quotient(np.sqrt(left_2 * right_2) + minimum(left_2, right_2), np.abs(b - x)), 0.0
-    )
+    logarithm_2 = fmax(kink_logarithm(left_2, right_2, x - b), 0.0)
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
     found = [
         only_where(exists, (E_star / np.pi) * ((phi / 2) * logarithm_1 + (phi / 2) * logarithm_2))

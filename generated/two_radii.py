@@ -13,6 +13,7 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    kink_logarithm,
     maximum,
     minimum,
     only_where,
@@ -415,9 +416,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     left_1 = (a + x) * (2 * maximum(c, 0.0) / h)  # vanishes at the left edge [m]
     right_1 = (c - x) * (2 * maximum(a, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = 0 [-]
-    logarithm_1 = np.log1p(
-        (np.sqrt(left_1 * right_1) + minimum(left_1, right_1)) / maximum(np.abs(x), TINY)
-    )
+    logarithm_1 = kink_logarithm(left_1, right_1, x, TINY)
     # angle of the contact beyond the kink x = 0 [-]
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]

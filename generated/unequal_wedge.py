@@ -12,8 +12,7 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
-    fmax,
-    log1p_quotient,
+    kink_logarithm,
     maximum,
     minimum,
     only_where,
@@ -269,10 +268,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     h = a + c  # contact width [m]
     left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
     right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
-    # twice the logarithm of the kink x = 0 [-]
-    logarithm_1 = log1p_quotient(
-        fmax(np.sqrt(left_1 * right_1) + minimum(left_1, right_1), 0.0), np.abs(x)
-    )
+    logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
     exists = (minimum(a, c) > LEAST) & (h < MOST)
     return only_where(exists, (E_star * (phi_1 + phi_2) / (2 * np.pi)) * logarithm_1)
 

@@ -32,7 +32,7 @@ from derive.symbols import alpha
 _HELPERS = {
     "_arrays": (
         *("LEAST", "MOST", "TINY"),
-        *("chunkwise", "chunkwise_in_time", "elementwise", "fmax", "log1p_quotient"),
+        *("chunkwise", "chunkwise_in_time", "elementwise", "fmax", "kink_logarithm"),
         *("maximum", "minimum", "only_where", "select"),
     ),
     "_march": ("march_of",),

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Abs, Expr, Function, Rational, Symbol, UnevaluatedExpr, log
+from sympy import Abs, Expr, Function, Min, Rational, Symbol, UnevaluatedExpr, log, sqrt
 
 
 class Kept(UnevaluatedExpr):
@@ -44,10 +44,13 @@ class log1p(Function):
     nargs = 1
 
 
-class log1p_quotient(Function):
-    """log(1 + p/q), though p/q may be beyond float64."""
+class kink_logarithm(Function):
+    """log(1 + (sqrt(u v) + min(u, v))/|d|) of u, v and d, though the quotient may leave float64.
 
-    nargs = 2
+    Zero where u or v is negative.  A fourth argument is what |d| is at least.
+    """
+
+    nargs = (3, 4)
     of_a_quotient = True
     """Of arguments of one dimension."""
 
@@ -128,7 +131,12 @@ class Program:
             while held := expr.free_symbols & table.keys():
                 expr = expr.xreplace({symbol: table[symbol] for symbol in held})
             expr = expr.replace(fmax, lambda p, q: (p + q + Abs(p - q)) / 2)
-            expr = expr.replace(log1p_quotient, lambda p, q: log(1 + p / q))
+            expr = expr.replace(kink_logarithm, _of_kink)
             return expr.replace(log1p, lambda z: log(1 + z))
 
         return {name: written_in(expr) for name, expr in self.outputs.items()}
+
+
+def _of_kink(left: Expr, right: Expr, offset: Expr, *_: Expr) -> Expr:
+    """What a kink_logarithm is inside the contact, and farther from the kink than at least."""
+    return log(1 + (sqrt(left * right) + Min(left, right)) / Abs(offset))

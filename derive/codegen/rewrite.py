@@ -38,7 +38,7 @@ from sympy import (
     together,
 )
 
-from derive.codegen.program import TINY, Kept, Program, Step, fmax, log1p, log1p_quotient
+from derive.codegen.program import TINY, Kept, Program, Step, fmax, kink_logarithm
 from derive.piece import vanishes
 from derive.proof.points import Point, named, numeric
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
@@ -289,14 +289,13 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
     z = 2 (min(u, v) + sqrt(u v))/|u - v|.
 
     u - v = h (x - x_j), a product of exact differences; u and v are divided by h.  At an edge z
-    vanishes instead of a logarithm of one; outside u v has no root, and fmax takes the zero.
+    vanishes instead of a logarithm of one; outside u v has no root, and z is taken as zero.
 
     At x = x_j the pressure of a corner is infinite, where the contact spans it, else zero: fmax
     takes the zero instead of 0/0.  Where the jump vanishes at the kink so does its product with
     L_j, if only L_j is finite: the distance is at least TINY.
     """
     symbols = {k.L: k for k in sheet.frame.kinks}
-    inside = is_drawn_in(sheet)
     steps: list[Step] = []
     halves: dict[Symbol, Expr] = {}
     for step in program.steps:
@@ -307,14 +306,10 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
         left, right = (Dummy(f"{side}_{number}", real=True) for side in ("left", "right"))
         at_left = Kept(2 * k.clip(k.right) / h) * (a + x)
         at_right = Kept(2 * k.clip(k.left) / h) * (c - x)
-        distance = Abs(x - k.kink.position)
-        both = Min(left, right) + Pow(left * right, S.Half, evaluate=False)
+        least = () if k.kink.is_corner else (TINY,)
+        logarithm = kink_logarithm(left, right, x - k.kink.position, *least)
         if k.kink.is_corner and k.clipped:
-            logarithm = fmax(log1p_quotient(both, distance), S.Zero)
-        elif k.kink.is_corner:
-            logarithm = log1p_quotient(both if inside else fmax(both, S.Zero), distance)
-        else:
-            logarithm = log1p((both if inside else fmax(both, S.Zero)) / Max(distance, TINY))
+            logarithm = fmax(logarithm, S.Zero)
         twice = Dummy(f"logarithm_{number}", nonnegative=True)
         steps += [
             Step(left, at_left, "vanishes at the left edge"),

@@ -111,15 +111,33 @@ def test_the_larger_and_the_smaller_are_those_of_numpy(function: str) -> None:
         assert_array_equal(ours(long[:6], v), its(long[:6], v))
 
 
-def test_a_logarithm_of_a_quotient_beyond_float64() -> None:
-    """log(1 + 1e300/1e-300) = 600 log 10."""
+@pytest.mark.parametrize("count", [1, 4, 5000])
+def test_a_logarithm_of_a_quotient_beyond_float64(count: int) -> None:
+    """u = v = w/2 give log(1 + w/d): log(1 + 1e75/1e-250) = 325 log 10, and so on."""
     with np.errstate(all="ignore"):
-        above, below = np.array([1e300, 1.0, 1.0, 0.0]), np.array([1e-300, 1.0, 0.0, 1.0])
-        found = _arrays.log1p_quotient(above, below)
-        alone = _arrays.log1p_quotient(np.float64(1e300), np.float64(1e-300))
-    assert_allclose(found, [600 * np.log(10), np.log(2), np.inf, 0], rtol=1e-15)
-    assert_allclose(alone, 600 * np.log(10), rtol=1e-15)
+        both, below = np.array([1e75, 1.0, 1.0, 0.0]), np.array([1e-250, 1.0, 0.0, 1.0])
+        half = np.resize(both / 2, count)
+        found = _arrays.kink_logarithm(half, half.copy(), np.resize(below, count))
+        alone = _arrays.kink_logarithm(*map(np.float64, (5e74, 5e74, 1e-250)))
+    wanted = [325 * np.log(10), np.log(2), np.inf, 0]
+    assert_allclose(found, np.resize(wanted, count), rtol=1e-15)
+    assert_allclose(alone, 325 * np.log(10), rtol=1e-15)
     assert type(alone) is np.float64
+
+
+def test_a_logarithm_of_a_kink_is_zero_outside_and_takes_what_broadcasts() -> None:
+    """sqrt(1 4) + min(1, 4) = 3: log(1 + 3/2); arguments stay as they are."""
+    left, right = np.array([1.0, -1.0, 0.0]), np.array([4.0, 4.0, 4.0])
+    kept = left.copy(), right.copy()
+    with np.errstate(all="ignore"):
+        for distance in (np.float64(2), np.full(3, 2.0)):
+            found = _arrays.kink_logarithm(left, right, distance)
+            assert_allclose(found, [np.log(2.5), 0, 0], rtol=1e-15)
+        grid = _arrays.kink_logarithm(left, right, np.array([[2.0], [3.0]]))
+        mixed = _arrays.kink_logarithm(left, np.float64(4), np.float64(2))
+    assert_allclose(grid, [[np.log(2.5), 0, 0], [np.log(2), 0, 0]], rtol=1e-15)
+    assert_allclose(mixed, [np.log(2.5), 0, 0], rtol=1e-15)
+    assert_array_equal(kept, (left, right))
 
 
 def test_hertz_needs_none_of_it() -> None:

@@ -20,12 +20,12 @@ Array = Any
 Function = TypeVar("Function", bound=Callable[..., Any])
 Shape = tuple[int, ...]
 
-BLOCK = 9_000
+BLOCK = 21_000
 """Elements evaluated at once at most: a few arrays of this length stay in a core's own cache, and
-ten of them are less than a tenth of a million elements.
+four of them are less than a tenth of a million elements.
 """
 
-WHOLE = 16_000
+WHOLE = 24_000
 """Arrays of up to this length are not cut: two calls would cost more than the cache saves."""
 
 TINY = 1e-150
@@ -43,10 +43,10 @@ _NUMBERS = (np.float64, float)
 _MANY = 3_000
 """Elements from where an array full of one number is made up for."""
 
-_ZEROS = np.zeros(BLOCK)
+_ZEROS = np.zeros(WHOLE)
 _ZEROS.flags.writeable = False
 
-_HEAP = 1 << 20
+_HEAP = 1 << 21
 """Bytes: about what a block's temporaries need."""
 
 # glibc gives free memory above 128 KiB back to the system, and asks for each page anew in the next
@@ -219,15 +219,34 @@ def fmax(first: Any, second: Any) -> Any:
     return np.fmax(*_alike(first, second))
 
 
-def log1p_quotient(above: Any, below: Any) -> Any:
-    """log(1 + above/below), also where the quotient leaves float64 and its logarithm does not."""
+def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> Any:
+    """log(1 + (sqrt(left right) + min(left, right))/d); zero where one of both is negative.
+
+    d is the distance |offset| from the kink, `least` at least.  Also where the quotient leaves
+    float64 and its logarithm does not.  One array holds it from the first product to the logarithm.
+    """
+    held = _between_edges(left, right)
+    distance = maximum(np.abs(offset), least) if least else np.abs(offset)
+    own = type(held) is np.ndarray and type(distance) in (np.ndarray, np.float64)
+    own = own and distance.shape in ((), held.shape)
     try:
         with np.errstate(over="raise"):
-            quotient = above / below
+            held = np.divide(held, distance, out=held) if own else held / distance
     except FloatingPointError:
-        found = np.log1p(above / below)
-        return np.where(np.isinf(found), np.log(above) - np.log(below), found)[()]
-    return np.log1p(quotient)
+        held = _between_edges(left, right)
+        found = np.log1p(held / distance)
+        return np.where(np.isinf(found), np.log(held) - np.log(distance), found)[()]
+    return np.log1p(held, out=held) if own else np.log1p(held)
+
+
+def _between_edges(left: Any, right: Any) -> Any:
+    """sqrt(left right) + min(left, right); zero where one of both is negative."""
+    if not (type(left) is type(right) is np.ndarray and left.shape == right.shape):
+        return fmax(np.sqrt(left * right) + minimum(left, right), 0.0)
+    held = left * right
+    np.sqrt(held, out=held)
+    held += np.minimum(left, right)
+    return np.fmax(*_alike(held, 0.0), out=held)
 
 
 def _alike(first: Any, second: Any) -> tuple[Any, Any]:
@@ -396,6 +415,7 @@ def _in_blocks(
             out = _made_for(found, shape)
         for whole, part in zip(out, found, strict=True):
             whole[index] = part
+        del result, found, part  # not to be held while the next are computed
     return kind(*out) if issubclass(kind, tuple) else out[0]
 
 
