@@ -47,8 +47,8 @@ _MANY = 3_000
 _ZEROS = np.zeros(WHOLE)
 _ZEROS.flags.writeable = False
 
-_HEAP = 1 << 21
-"""Bytes: about what a block's temporaries need."""
+_HEAP = 1 << 22
+"""Bytes: more than all temporaries of a block need, those of Newton's method included."""
 
 # glibc gives free memory above 128 KiB back to the system, and asks for each page anew in the next
 # call, which takes longer than the arithmetic: until the process has once let go of a larger piece,

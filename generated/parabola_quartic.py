@@ -104,9 +104,10 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, R: Array) -> C
         R       relative radius of curvature at the apex [m]
 
     Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
-    There is a contact for every load and moment: among those of one width, one has its load's
-    centre at -M/P, and the load grows with the width without limit.
+    NaN unless P > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m,
+    nor where the rounding of its edges moves the load by 1e-4, far from the origin.  There is a
+    contact for every load and moment: among those of one width, one has its load's centre at -M/P,
+    and the load grows with the width without limit.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/parabola_quartic.py.
@@ -137,8 +138,9 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, R:
         R       relative radius of curvature at the apex [m]
 
     Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
-    At every such tilt the load grows with the width, from nothing and without limit.
+    NaN unless P > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m,
+    nor where the rounding of its edges moves the load by 1e-4, far from the origin.  At every such
+    tilt the load grows with the width, from nothing and without limit.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/parabola_quartic.py.

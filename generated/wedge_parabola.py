@@ -157,9 +157,9 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, phi: Array) ->
 
     Returns Contact(a [m], c [m], alpha [rad]).
     NaN unless P > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m,
-    nor where the rounding of its edges, beside a kink, moves the load by 1e-4.  There is a contact
-    for every load and moment: among those of one width, one has its load's centre at -M/P, and the
-    load grows with the width without limit.
+    nor where the rounding of its edges moves the load by 1e-4, beside a kink or far from the
+    origin.  There is a contact for every load and moment: among those of one width, one has its
+    load's centre at -M/P, and the load grows with the width without limit.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/wedge_parabola.py.
@@ -195,8 +195,9 @@ def contact_at_tilt(
 
     Returns Contact(a [m], c [m], alpha as given).
     NaN unless P > 0 and alpha < phi and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m, nor where the rounding of its edges, beside a kink, moves the load by 1e-4.  At
-    every such tilt the load grows with the width, from nothing and without limit.
+    1e-75 to 1e75 m, nor where the rounding of its edges moves the load by 1e-4, beside a kink or
+    far from the origin.  At every such tilt the load grows with the width, from nothing and without
+    limit.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/wedge_parabola.py.

@@ -120,14 +120,17 @@ class SolvedText(FunctionText):
 
     @property
     def _existence(self) -> str:
-        rounded = ", nor where the rounding of its edges, beside a kink, moves the load by 1e-4"
-        kinked = bool(self.sheet.geometry.slope.kinks)
-        return f"{super()._existence}{rounded * kinked}.  {self._why}"
+        beside = "beside a kink or " * bool(self.sheet.geometry.slope.kinks)
+        rounded = f"the rounding of its edges moves the load by 1e-4, {beside}far from the origin"
+        return f"{super()._existence}, nor where {rounded}.  {self._why}"
 
     @property
     def _why(self) -> str:
         if any(end.is_finite for end in self.sheet.frame.slope.domain):
-            return "There is none where the body ends before it can carry such a load"
+            return (
+                "None is found with an edge closer to an end of the body than 1e-4 of its distance "
+                "from the origin"
+            )
         if M in self.function.arguments:
             return (
                 "There is a contact for every load and moment: among those of one width, one has "
