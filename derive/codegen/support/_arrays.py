@@ -225,18 +225,21 @@ def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> An
     d is the distance |offset| from the kink, `least` at least.  Also where the quotient leaves
     float64 and its logarithm does not.  One array holds it from the first product to the logarithm.
     """
+    if least:
+        offset = maximum(np.abs(offset), least)
     held = _between_edges(left, right)
-    distance = maximum(np.abs(offset), least) if least else np.abs(offset)
-    own = type(held) is np.ndarray and type(distance) in (np.ndarray, np.float64)
-    own = own and distance.shape in ((), held.shape)
+    own = type(held) is np.ndarray and type(offset) in (np.ndarray, np.float64)
+    out = held if own and offset.shape in ((), held.shape) else None
     try:
         with np.errstate(over="raise"):
-            held = np.divide(held, distance, out=held) if own else held / distance
+            held = held / offset if out is None else np.divide(held, offset, out=out)
     except FloatingPointError:
-        held = _between_edges(left, right)
-        found = np.log1p(held / distance)
-        return np.where(np.isinf(found), np.log(held) - np.log(distance), found)[()]
-    return np.log1p(held, out=held) if own else np.log1p(held)
+        held, offset = _between_edges(left, right), np.abs(offset)
+        found = np.log1p(held / offset)
+        return np.where(np.isinf(found), np.log(held) - np.log(offset), found)[()]
+    if out is None:
+        return np.log1p(np.abs(held))
+    return np.log1p(np.abs(held, out=out), out=out)
 
 
 def _between_edges(left: Any, right: Any) -> Any:
