@@ -378,8 +378,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
 
     Returns p [Pa].
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -397,12 +396,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = b [-]
     logarithm_2 = fmax(kink_logarithm(left_2, right_2, x - b), 0.0)
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
-    found = [
-        only_where(exists, (E_star / np.pi) * ((phi / 2) * logarithm_1 + (phi / 2) * logarithm_2))
-    ]
-    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
-    return found[0]
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
+    return only_where(
+        exists, (E_star / np.pi) * ((phi / 2) * logarithm_1 + (phi / 2) * logarithm_2)
+    )
 
 
 @elementwise

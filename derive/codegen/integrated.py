@@ -140,6 +140,14 @@ def is_mended(sheet: FormulaSheet) -> bool:
     return leaves or cancels(slope)
 
 
+def keeps_its_digits(sheet: FormulaSheet, name: str) -> bool:
+    """Whether a closed formula does so all the same: the pressure of corners alone.
+
+    p = (E*/pi) sum of jump_j L_j, and every jump of a convex body is positive: nothing cancels.
+    """
+    return name == "pressure" and all(piece.straight for piece in sheet.geometry.slope.pieces)
+
+
 def curve_text(sheet: FormulaSheet) -> str:
     """The body's breaks, corners and pieces, and `_BODY` that holds them."""
     slope = sheet.geometry.slope

@@ -21,6 +21,7 @@ from derive.codegen.integrated import (
     carried_text,
     curve_text,
     is_mended,
+    keeps_its_digits,
     level_text,
 )
 from derive.codegen.mark import MARK
@@ -105,7 +106,8 @@ def _made(
         return SolvedText
     if not all(sheet.is_closed(name) for name in function.formulas):
         return IntegratedText
-    return MendedText if mended and function.geometric else FunctionText
+    mended = mended and function.geometric and not keeps_its_digits(sheet, function.name)
+    return MendedText if mended else FunctionText
 
 
 def _imports(code: str) -> str:
