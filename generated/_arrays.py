@@ -26,7 +26,7 @@ BLOCK = 21_000
 four of them are less than a tenth of a million elements.
 """
 
-WHOLE = 24_000
+WHOLE = 40_000
 """Arrays of up to this length are not cut: two calls would cost more than the cache saves."""
 
 TINY = 1e-150
