@@ -396,7 +396,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = b [-]
     logarithm_2 = fmax(kink_logarithm(left_2, right_2, x - b), 0.0)
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
     return only_where(
         exists, (E_star / np.pi) * ((phi / 2) * logarithm_1 + (phi / 2) * logarithm_2)
     )

@@ -135,7 +135,10 @@ class FunctionText:
 
     @property
     def _further_checks(self) -> Iterator[str]:
-        yield from ()
+        """Where zero is taken for 0/0, as beside a corner at an edge, x itself must be a number."""
+        corners = (k for k in self.sheet.frame.kinks if k.clipped and k.kink.is_corner)
+        if self.function.name == "pressure" and any(corners):
+            yield "x == x"
 
     def _result(self, values: dict[str, str]) -> Iterator[str]:
         found = f"only_where(exists, {', '.join(values.values())})"

@@ -221,11 +221,13 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     def rates(expr: Expr) -> list[Expr]:
         return [sense * diff(term, _t) for term in Add.make_args(expr)]
 
-    slope = _shortest(simplify, Add.make_args(piece.slope.subs(x, place + sense * _t)))
+    given = piece.slope.subs(x, place + sense * _t)
+    slope = _shortest(simplify, Add.make_args(given))
     curvature = _shortest(_positive_form, rates(slope), is_positive=True)
     change = _shortest(simplify, rates(curvature))
-    curve = [from_zero(slope, _t), curvature, change]
-    found = cse(curve, symbols=numbered_symbols("s_"))
+    risen = from_zero(given, _t)
+    kept = from_zero(slope, _t) if risen == given else risen
+    found = cse([kept, curvature, change], symbols=numbered_symbols("s_"))
     steps, values = _roots_once(*found)
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     side = "right" if sense > 0 else "left"

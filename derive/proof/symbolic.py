@@ -230,13 +230,23 @@ def _by_rates(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
         rates = [f"{of}_by_{edge}" for of in ("load", "tilt") for edge in (a, c)]
         if not all(_ROUTES[rate](sheet, rate) for rate in rates):
             return None
+        if name.startswith("K_N"):
+            return words if _is_in_the_rates(sheet, name) else None
         ratio = sheet["K_N_right"].expr / sheet["K_N_left"].expr
         rate = pi / 2 * sqrt(h) * sheet["K_N_right"].expr
         follows = {"edge_ratio": ratio, "load_rate": rate, "punch": rate / pi}
-        wanted = follows.get(name, sheet[name].expr)
-        return words if simplify(sheet[name].expr / wanted) == 1 else None
+        return words if simplify(sheet[name].expr / follows[name]) == 1 else None
 
     return route
+
+
+def _is_in_the_rates(sheet: FormulaSheet, name: str) -> bool:
+    """Whether load and tilt grow with the edge as K_N there says."""
+    edge, sense = (a, 1) if name.endswith("left") else (c, -1)
+    K = sheet[name].expr
+    of_load = pi * sqrt(h) / 4 * K - sheet[f"load_by_{edge}"].expr
+    of_tilt = sense * K / (E_star * sqrt(h)) - sheet[f"tilt_by_{edge}"].expr
+    return is_zero(of_load, sheet.frame) and is_zero(of_tilt, sheet.frame)
 
 
 _ROUTES: dict[str, Route] = {

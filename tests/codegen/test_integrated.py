@@ -9,7 +9,8 @@ import mpmath
 import numpy as np
 import pytest
 from mpmath import mpf
-from sympy import Abs, Expr, Rational, cosh, sqrt
+from sympy import Abs, Expr, Rational, cosh, log, sqrt
+from sympy import exp as sympy_exp
 
 from derive import Geometry, parameter, x
 from derive.codegen.integrated import curve_text
@@ -100,3 +101,30 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(
             for sides, (total, size) in zip(pairs, totals, strict=True):
                 for value in sides:
                     assert abs(abs(mpf(float(value[i]))) - abs(total)) <= 1e-13 * size, t
+
+
+@pytest.mark.parametrize(
+    ("g", "rate"),
+    [
+        (phi * L * (sympy_exp(x / L) - x / L), 1.0),
+        (phi * L * (1 + x / L) ** Rational(3, 2) - Rational(3, 2) * phi * x, 0.75),
+        (phi * (L + x) * log(1 + x / L) - phi * x, 1.0),
+        (phi * L / (1 + x / L) ** 2 + 2 * phi * x, 6.0),
+    ],
+    ids=["exponential", "half power", "logarithm", "reciprocal"],
+)
+def test_a_slope_whose_terms_cancel_at_the_apex_keeps_its_digits(
+    g: Expr, rate: float, tmp_path: Path
+) -> None:
+    """g' = rate phi t/L up to (t/L)**2: exp(u) - 1, (3/2)(sqrt(1 + u) - 1), log(1 + u), ..."""
+    sheet = derive_sheet(Geometry("body", g=g))
+    (tmp_path / "curve.py").write_text(curve_text(sheet))
+    body = run_path(str(tmp_path / "curve.py"), NAMES)
+    pieces = body["_BODY"].pieces
+    apex = body["_breaks"](L=1.5, phi=0.125).index(0)
+    for t in (1e-200, 1e-30, 1e-16):
+        wanted = rate * 0.125 * t / 1.5
+        right = pieces[apex + 1].from_left(t, L=1.5, phi=0.125).slope
+        left = pieces[apex].from_right(t, L=1.5, phi=0.125).slope
+        assert right == pytest.approx(wanted, rel=1e-14)
+        assert left == pytest.approx(-wanted, rel=1e-14)
