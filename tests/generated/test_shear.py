@@ -314,6 +314,7 @@ def test_where_the_shear_is_not_known() -> None:
         wedge.shear(0.25, 1.5, Q, sigma, **law)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", [hertz, wedge])
 def test_no_fall_leads_beyond_friction(body: Any) -> None:
     """Any rise, and any fall after it: what would drive on a place that slipped is not known."""

@@ -217,7 +217,7 @@ def twice(name: str, folder: Path) -> list[str]:
     return texts
 
 
-@pytest.mark.parametrize("name", ["hertz", "hyperbola"])
+@pytest.mark.parametrize("name", ["hertz", pytest.param("hyperbola", marks=pytest.mark.slow)])
 def test_what_is_kept_gives_the_same_page(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:

@@ -106,6 +106,7 @@ def test_tension_occurs_with_both_signs(name: str) -> None:
     assert {mpmath.sign(point[dsigma]) for point in drawn(name)} == {-1, 1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["two_radii", "flat_rounded", "spline", "wedge_on_parabola"])
 def test_some_contacts_span_every_kink_and_some_have_left_one(name: str) -> None:
     """One formula serves both, so both are tried."""

@@ -18,7 +18,10 @@ FALSE = {
 FORMULAS = ("K_N_left", "K_N_right", "load_rate", "edge_ratio", "punch", "load_by_a", "tilt_by_c")
 
 
-@pytest.mark.parametrize("body", ["wedge", "two_radii", "flat_rounded", "flat_cornered"])
+LONG = [pytest.param(body, marks=pytest.mark.slow) for body in ("two_radii", "flat_rounded")]
+
+
+@pytest.mark.parametrize("body", ["wedge", "flat_cornered", *LONG])
 @pytest.mark.parametrize("name", FORMULAS)
 def test_a_rate_is_proved_and_what_is_not_it_is_not(body: str, name: str) -> None:
     true = sheet(body)

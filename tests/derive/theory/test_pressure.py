@@ -28,6 +28,7 @@ def test_the_pressure_is_the_principal_value(name: str, left: float, right: floa
         assert close(found, expected, digits=12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BODIES)
 def test_the_pressure_deforms_the_half_plane_to_the_body(name: str) -> None:
     """PV int p(s)/(x - s) ds = (pi E*/2)(g'(x) + alpha): what the pressure is there for."""
