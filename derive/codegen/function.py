@@ -10,18 +10,18 @@ from itertools import product
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Gt, Lt, Min, Symbol
+from sympy import Expr, Gt, Lt, Min, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import LEAST, MOST, TINY, Program
-from derive.codegen.rewrite import is_drawn_in, prove_equal, stable_program
+from derive.codegen.rewrite import prove_equal, stable_program
 from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, x
+from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
 from derive.units import Dimension, dimension_of, parse_unit
 
 LINE = 100
@@ -110,7 +110,7 @@ class FunctionText:
                 varying.add(step.symbol)
         printer = NumPyPrinter(varying)
         units = self._units()
-        if x in arguments and is_drawn_in(self.sheet):
+        if x in arguments and _is_drawn_in(self.sheet):
             yield "    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]"
         for step in self.program.steps:
             note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
@@ -261,6 +261,11 @@ class FunctionText:
         else:
             yield f'>>> f"{{{self.function.name}({call}):.6g}}"'
             yield repr(shown[0])
+
+
+def _is_drawn_in(sheet: FormulaSheet) -> bool:
+    """Whether x is drawn in to the nearest edge, as it stands outside roots and logarithms, too."""
+    return bool(sheet["pressure"].expr.xreplace({w: S.One}).has(x))
 
 
 def own_parameters(sheet: FormulaSheet) -> tuple[str, str]:

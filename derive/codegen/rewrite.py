@@ -321,11 +321,6 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
     return program.mapped(lambda expr: expr.xreplace(halves))
 
 
-def is_drawn_in(sheet: FormulaSheet) -> bool:
-    """Whether x is drawn in to the nearest edge, as it stands outside roots and logarithms, too."""
-    return bool(sheet["pressure"].expr.xreplace({w: S.One}).has(x))
-
-
 def conjugate_roots(program: Program) -> Program:
     """r + A and r - A of one root r = sqrt(A**2 + B**2), the smaller from their product B**2.
 

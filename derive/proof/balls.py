@@ -15,7 +15,7 @@ import mpmath
 from flint import arb, ctx
 from mpmath import mpf
 from mpmath.libmp import from_man_exp
-from sympy import Expr, Float, Rational, lambdify
+from sympy import Expr, Float, Piecewise, Rational, lambdify
 from sympy.printing.pycode import MpmathPrinter
 
 Ball = arb
@@ -51,10 +51,10 @@ def number(value: Ball | int) -> mpf:
 def function_of(symbols: Sequence[Expr], expr: Expr, shared: bool = False) -> Callable[..., Ball]:
     """An expression as a function of balls.
 
-    shared: compute once what it repeats; never of branches, as one that is not taken may have no
-    value.
+    shared: compute once what it repeats, if there are no branches: one that is not taken may have
+    no value.
     """
-    return _compiled(symbols, expr, shared)
+    return _compiled(symbols, expr, shared and not expr.has(Piecewise))
 
 
 def functions_of(symbols: Sequence[Expr], exprs: Sequence[Expr]) -> Callable[..., Sequence[Ball]]:

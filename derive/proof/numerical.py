@@ -28,8 +28,6 @@ _FORWARD = {P: "load", M: "moment", alpha: "tilt"}
 _SPARE = 20
 """Digits more for a closed pressure: what it is made of may cancel."""
 
-_INSIDE = WORKING + _SPARE + 10
-
 _s = Symbol("s")
 """A place in the contact besides x."""
 
@@ -125,10 +123,10 @@ class NumericalRoutes:
         yield self._at("tilt", point), contact.tilt
 
     def _load(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("load", point), contact.resultant(self._p(point), inside=_INSIDE)
+        yield self._at("load", point), contact.resultant(self._p(point))
 
     def _moment(self, point: Point, contact: Contact) -> Pairs:
-        yield self._at("moment", point), contact.resultant(self._p(point), lambda s: -s, _INSIDE)
+        yield self._at("moment", point), contact.resultant(self._p(point), lambda s: -s)
 
     def _pressure(self, point: Point, contact: Contact) -> Pairs:
         yield self._at("pressure", point), contact.pressure(point[x])

@@ -195,10 +195,8 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
     fixed = {
         p: Dummy("C") for p in sorted(over.function.atoms(Pow), key=str) if _is_fixed(p, variable)
     }
-    shared = not over.function.has(Piecewise)
-    integrand = function_of(
-        [variable, *held, *fixed.values()], over.function.xreplace(fixed), shared
-    )
+    taken = [variable, *held, *fixed.values()]
+    integrand = function_of(taken, over.function.xreplace(fixed), shared=True)
     constants = functions_of(held, [*fixed])
     power = 3 if has_sharp_power(over.function, variable) else 1
     ends = lambdify(held, [low, high], modules="mpmath")

@@ -17,7 +17,7 @@ from sympy import Expr, Piecewise, Symbol, diff, lambdify, nan, piecewise_fold, 
 
 from derive.geometry import Geometry
 from derive.proof.balls import Ball, ball, digits, function_of
-from derive.proof.rule import Function, integral, remembered
+from derive.proof.rule import CROWDED, SMOOTH, Function, integral, remembered
 from derive.symbols import x
 
 _LOST = 20
@@ -79,7 +79,7 @@ class Contact:
         """int_{-a}^{c} integrand(s)/w(s) ds, cut at the kinks and at the places named `also`."""
         cuts = sorted({mpf(0), mpmath.pi, *(self.angle(p) for p in (*self.kinks, *also))})
         gentle = self.geometry.slope.is_polynomial and not singular
-        method = "gauss-legendre" if gentle else "tanh-sinh"
+        method = SMOOTH if gentle else CROWDED
         return integral(lambda theta: integrand(self.at(theta)), cuts, method, inside)
 
     def outside(self, left: mpf, right: mpf, integrand: Function) -> mpf:
@@ -160,7 +160,7 @@ class Contact:
                 yield from (s for s in (kink - distance, kink + distance) if -self.a < s < self.c)
                 distance *= 8
 
-    def resultant(self, pressure: Function, weight: Function | None = None, inside: int = 0) -> mpf:
+    def resultant(self, pressure: Function, weight: Function | None = None) -> mpf:
         """int weight(s) p(s) ds of a given p; p may be infinite, as a logarithm, at a kink."""
         left, right = self.edges
 
@@ -168,7 +168,7 @@ class Contact:
             force = pressure(s) * ((left + s) * (right - s)).sqrt()
             return weight(s) * force if weight else force
 
-        return self.integral(integrand, singular=True, inside=inside)
+        return self.integral(integrand, singular=True)
 
 
 @cache

@@ -23,6 +23,9 @@ Value = TypeVar("Value")
 Nodes = Sequence[tuple[Ball, Ball]]
 """Places in (-1, 1), and their weights."""
 
+SMOOTH, CROWDED = "gauss-legendre", "tanh-sinh"
+"""Rules, by mpmath's names: for what is smooth up to both ends, and for what is not."""
+
 _SPARE = 8
 """Digits of the working precision that the integral may lack."""
 
@@ -47,7 +50,7 @@ def remembered(function: Callable[[Ball], Value]) -> Callable[[Ball], Value]:
 
 
 def integral(
-    integrand: Function, cuts: Sequence[mpf], method: str = "tanh-sinh", inside: int = 0
+    integrand: Function, cuts: Sequence[mpf], method: str = CROWDED, inside: int = 0
 ) -> mpf:
     """int integrand over [cuts[0], cuts[-1]]; a node where it divides by zero has no weight.
 
@@ -56,7 +59,7 @@ def integral(
     allowed = mpf(10) ** (_SPARE - mpmath.mp.dps)
     count = max(inside, mpmath.mp.dps + _BESIDES)
     for working in (count, 2 * count, 4 * count):
-        rule = _RULES[method](mpmath.mp)
+        rule = _InBalls(method)
         with digits(working):
             value, size = _converged(integrand, cuts, rule, allowed)
         if rule.width <= allowed * max(abs(value), size):
@@ -84,13 +87,14 @@ def _size(integrand: Function, low: mpf, high: mpf) -> mpf:
 
 
 class _InBalls(QuadratureRule):
-    """Gauss's rule, whose nodes and sums are balls; `width` is how wide a sum has grown."""
+    """Gauss's rule or the doubly exponential one, whose nodes and sums are balls.
 
-    method = "gauss-legendre"
+    width: how wide a sum has grown.
+    """
 
-    def __init__(self, numbers: object) -> None:
-        super().__init__(numbers)
-        self.width = mpf(0)
+    def __init__(self, method: str) -> None:
+        super().__init__(mpmath.mp)
+        self.method, self.width = method, mpf(0)
 
     def get_nodes(
         self, low: mpf, high: mpf, degree: int, prec: int, verbose: bool = False
@@ -107,34 +111,17 @@ class _InBalls(QuadratureRule):
         previous: Sequence[mpf],
         verbose: bool = False,
     ) -> mpf:
-        """The sum of this level; `previous` are those of the levels before it."""
+        """The sum of this level; `previous` are those of the levels before it.
+
+        Nodes of the doubly exponential rule lie between those before, whose sum is half of the new.
+        """
         terms = (weight * integrand(place) for place, weight in nodes)
         total = sum((term for term in terms if term.is_finite()), arb(0))
         self.width = max(self.width, number(total.rad()))
-        return number(total)
-
-
-class _AddingInBalls(_InBalls):
-    """The doubly exponential rule: every level adds nodes between those of the one before."""
-
-    method = "tanh-sinh"
-
-    def sum_next(
-        self,
-        integrand: Function,
-        nodes: Nodes,
-        degree: int,
-        prec: int,
-        previous: Sequence[mpf],
-        verbose: bool = False,
-    ) -> mpf:
-        """The same, of which half is that of the level before."""
-        step = mpf(2) ** -degree
-        fresh = step * super().sum_next(integrand, nodes, degree, prec, previous)
+        if self.method != CROWDED:
+            return number(total)
+        fresh = number(total) * mpf(2) ** -degree
         return fresh + previous[-1] / 2 if previous else fresh
-
-
-_RULES = {rule.method: rule for rule in (_InBalls, _AddingInBalls)}
 
 
 @lru_cache(maxsize=256)
@@ -148,7 +135,7 @@ def _between(method: str, low: mpf, high: mpf, degree: int, prec: int, bits: int
 @lru_cache(maxsize=256)
 def _standard(method: str, degree: int, prec: int, bits: int) -> Nodes:
     """Nodes in (-1, 1), to so many bits."""
-    return _crowded(degree, prec) if method == "tanh-sinh" else _of_legendre(degree)
+    return _crowded(degree, prec) if method == CROWDED else _of_legendre(degree)
 
 
 def _of_legendre(degree: int) -> Nodes:
