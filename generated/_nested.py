@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import MOST
+from ._arrays import LEAST, MOST
 from ._roots import Array, Excess, Rows, increasing_root
 from ._state import State
 
@@ -117,7 +117,8 @@ def edges(
         rate = force * (now.left - now.right * by_a / by_c) / now.load
         bare = ~(now.load > 0)
         value = np.where(bare, -1.0, np.log(now.load / load[picked]))
-        return value, np.where(bare, 0.0, rate)
+        too_far = np.isnan(c)  # as far to the left as this, no right edge meets the condition
+        return np.where(too_far, np.nan, value), np.where(bare, 0.0, rate)
 
     a = _edge(excess, -goal.place, size, to_left)
     return a, right_of(a, np.arange(load.size))
@@ -138,9 +139,11 @@ def _edge(
         ahead = np.maximum(guess - start, 0.0)
         far = np.where((end == np.inf) & (ahead > 0), 2 * ahead, far)
         first = np.log(ahead)
+    broken = np.full(far.shape, False)
     open_, factor = np.flatnonzero(end == np.inf), 8.0
     while open_.size and factor < np.inf:
         at, _ = excess(start[open_] + far[open_], open_)
+        broken[open_] = ~np.isfinite(at)
         open_ = open_[at < 0]
         far[open_] *= factor
         factor = factor**2 if factor < MOST else np.inf
@@ -151,9 +154,12 @@ def _edge(
         value, rate = excess(start[picked] + beyond, picked)
         return value, rate * beyond
 
-    low, high = np.log(np.maximum(_EPS * np.abs(start), far * 1e-40)), np.log(far)
-    beside = by_logarithm(low, np.arange(size.size))[0] >= 0
-    y = increasing_root(by_logarithm, low, np.where(beside, np.nan, high), first)
+    least = np.maximum(2 * LEAST, far * 1e-40)
+    low, high = np.log(np.maximum(_EPS * np.abs(start), least)), np.log(far)
+    nearest = by_logarithm(low, np.arange(size.size))[0]
+    beside = nearest >= 0
+    high = np.where(nearest < 0, high, np.nan)
+    y = increasing_root(by_logarithm, low, high, first, unit=1.0, broken=broken)
     return start + np.exp(np.where(beside, low, y))
 
 

@@ -117,7 +117,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     Returns Contact(a [m], c [m], alpha [rad]).
     NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m, nor where
     the rounding of its edges moves the load by 1e-4, far from the origin.  None is found with an
-    edge closer to an end of the body than 1e-4 of its distance from the origin.
+    edge closer to an end of the body than 1e-6 of its distance from the origin.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/circular_arc.py.
@@ -149,7 +149,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     Returns Contact(a [m], c [m], alpha as given).
     NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m, nor where
     the rounding of its edges moves the load by 1e-4, far from the origin.  None is found with an
-    edge closer to an end of the body than 1e-4 of its distance from the origin.
+    edge closer to an end of the body than 1e-6 of its distance from the origin.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/circular_arc.py.

@@ -128,7 +128,7 @@ class SolvedText(FunctionText):
     def _why(self) -> str:
         if any(end.is_finite for end in self.sheet.frame.slope.domain):
             return (
-                "None is found with an edge closer to an end of the body than 1e-4 of its distance "
+                "None is found with an edge closer to an end of the body than 1e-6 of its distance "
                 "from the origin"
             )
         if M in self.function.arguments:

@@ -152,6 +152,50 @@ def test_one_hard_load_asks_for_few_contacts(
     assert len(asked) <= 80
 
 
+HOPELESS = [
+    ("circular_arc", {"R": 0.1}, 1e12, 0.0),
+    ("circular_arc", {"R": 0.1}, 1e20, 5e18),
+    ("circular_arc", {"R": 0.1}, 1e4, 2e3),
+    ("wedge_parabola", {"R": 0.1, "phi": 0.1}, 1e-30, 5e-32),
+]
+"""More load than the arc carries closer than 1e-6 to its ends, a centre beyond them, a contact
+narrower than 1e-75 m."""
+
+
+@pytest.mark.parametrize(("name", "own", "load", "moment"), HOPELESS)
+def test_one_hopeless_load_is_given_up_early(
+    name: str, own: dict[str, float], load: float, moment: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    body = module(name)
+    asked = counted(body, monkeypatch)
+    assert np.isnan(body.contact(load, moment, E_star=1e11, **own).a)
+    assert len(asked) <= 400
+
+
+def test_an_arc_pressed_in_almost_to_its_ends() -> None:
+    """One edge or both 1e-1 to 1e-6 of the radius from an end; none lost, none slow."""
+    gap = 10.0 ** -np.linspace(1, 6, 41)
+    own, a = {"R": 0.1}, 0.1 * (1 - gap)
+    body, given = module("circular_arc"), {"E_star": 1e11, **own}
+    for c in (a, 0.1 * (1 - gap[::-1]), 0.05, -0.05):
+        load, moment = body.load(a, c, **given), body.moment(a, c, **given)
+        found = body.contact(load, moment, **given)
+        assert_allclose(found.a, a, rtol=1e-13)
+        assert_allclose(found.c, c + 0 * a, rtol=1e-13)
+        mirrored = body.contact(load, -moment, **given)
+        assert_allclose(mirrored.c, a, rtol=1e-13)
+
+
+def test_a_hyperbola_tilted_almost_as_far_as_its_flanks() -> None:
+    """phi (1 - 1e-3 to 1e-9) and loads over twelve decades, the load asked back."""
+    own = {"b": 0.01, "phi": 0.1}
+    body, given = module("hyperbola"), {"E_star": 1e11, **own}
+    load, gap = np.meshgrid(10.0 ** np.arange(0.0, 13.0, 2.0), 10.0 ** -np.arange(3.0, 9.0))
+    found = body.contact_at_tilt(load, 0.1 * (1 - gap), **given)
+    off = np.abs(body.load(found.a, found.c, **given) / load - 1)
+    assert np.all(off <= 1e-9 + 16 * rounding(body, found.a, found.c, **given))
+
+
 def test_a_load_over_the_straight_flank_of_a_wedge() -> None:
     """All of it pressed by the apex, where g' jumps by phi; c far below a, and the centre -a/4."""
     own = {"R": 0.05, "phi": 0.02}

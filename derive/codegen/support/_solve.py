@@ -23,7 +23,7 @@ import numpy as np
 
 from ._arrays import LEAST, MOST, at_rows, flattened
 from ._nested import SMALL, SMALLEST, beside, edges
-from ._roots import STEPS, Array, Rows, around, increasing_root
+from ._roots import CLOSEST, STEPS, Array, Rows, around, increasing_root
 from ._state import State
 
 NEAR = 1.0
@@ -241,6 +241,7 @@ def _solved(
     ways: list[Callable[..., tuple[Array, Array]]] = [
         *(partial(beside, s) for s in goal.steps),
         edges,
+        partial(beside, goal.steps[0]),
     ]
     for nearer in ways:
         rows = np.flatnonzero(given & ~met & ~told)
@@ -287,27 +288,31 @@ class _Widths(NamedTuple):
 
     narrow, wide: too narrow and too wide, as far as known.
     gap: how far apart they were when last looked at, a logarithm.
+    ends: whether no load belongs to the wide one, beyond the body's end.
     """
 
     narrow: Array
     wide: Array
     gap: Array
+    ends: Array
 
     @classmethod
     def unknown(cls, count: int) -> "_Widths":
         """Nothing is known of so many."""
-        return cls(np.zeros(count), np.full(count, np.inf), np.full(count, np.inf))
+        far = np.full(count, np.inf)
+        return cls(np.zeros(count), far, far, np.full(count, False))
 
     def beside(self, h: Array, need: Array, scaling: Array) -> "_Widths":
         """With what a width h tells whose load is off by the factor exp(need)."""
         more = np.isnan(need) | (need > 0)
         narrow = np.where(scaling & more, np.maximum(self.narrow, h), self.narrow)
         wide = np.where(scaling & ~more, np.minimum(self.wide, h), self.wide)
-        return self._replace(narrow=narrow, wide=wide)
+        ends = np.where(scaling & ~more, need == -np.inf, self.ends)
+        return self._replace(narrow=narrow, wide=wide, ends=ends)
 
     def next(self, h: Array, step: Array) -> tuple[Array, "_Widths"]:
         """The width to try: h exp(step), or one between where that leaves or hardly closes in."""
-        narrow, wide, gap = self
+        narrow, wide, gap, _ = self
         by_step = h * np.exp(np.clip(step, -40, 40))
         between = np.where(wide < np.inf, np.sqrt(np.maximum(narrow, h / 64) * wide), 8 * h)
         closer = np.log(wide / narrow)
@@ -435,7 +440,7 @@ def _newton(
 
         rounding = 2 * _EPS * (np.abs(wanted.place) + h) / np.minimum(tried_left, tried_right)
         met = better & (length < np.maximum(smallest, rounding))
-        stuck = scaling & (widths.gap < narrowed)
+        stuck = scaling & (widths.gap < np.where(widths.ends, CLOSEST, narrowed))
         left, right = (np.where(stuck, widths.wide / 2, v) for v in (left, right))
         done = met | (~moved & (last < SMALL)) | stuck | (part < FINEST)
         last = np.where(better, length, last)
