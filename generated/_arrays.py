@@ -220,37 +220,47 @@ def fmax(first: Any, second: Any) -> Any:
     return np.fmax(*_alike(first, second))
 
 
+def scaled(held: Any, factor: Any) -> Any:
+    """held times factor, in the memory of `held`, which is used up, where that can be."""
+    if type(held) is np.ndarray and type(factor) is np.float64:
+        return np.multiply(held, factor, out=held)
+    return held * factor
+
+
 def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> Any:
     """log(1 + (sqrt(left right) + min(left, right))/d); zero where one of both is negative.
 
     d is the distance |offset| from the kink, `least` at least.  Also where the quotient leaves
-    float64 and its logarithm does not.  One array holds it from the first product to the logarithm.
+    float64 and its logarithm does not.  The arrays `left` and `right` are used up.
     """
     if least:
         offset = maximum(np.abs(offset), least)
     held = _between_edges(left, right)
-    own = type(held) is np.ndarray and type(offset) in (np.ndarray, np.float64)
-    out = held if own and offset.shape in ((), held.shape) else None
+    own = type(held) is type(left) is np.ndarray and type(offset) in (np.ndarray, np.float64)
+    out = left if own and held.shape == left.shape and offset.shape in ((), held.shape) else None
     try:
         with np.errstate(over="raise"):
-            held = held / offset if out is None else np.divide(held, offset, out=out)
+            found = held / offset if out is None else np.divide(held, offset, out=out)
     except FloatingPointError:
-        held, offset = _between_edges(left, right), np.abs(offset)
+        offset = np.abs(offset)
         found = np.log1p(held / offset)
         return np.where(np.isinf(found), np.log(held) - np.log(offset), found)[()]
     if out is None:
-        return np.log1p(np.abs(held))
-    return np.log1p(np.abs(held, out=out), out=out)
+        return np.log1p(np.abs(found))
+    return np.log1p(np.abs(found, out=found), out=found)
 
 
 def _between_edges(left: Any, right: Any) -> Any:
-    """sqrt(left right) + min(left, right); zero where one of both is negative."""
+    """sqrt(left right) + min(left, right); zero where one of both is negative.
+
+    If they are arrays of one shape, the memory of `left` is free for other use afterwards.
+    """
     if not (type(left) is type(right) is np.ndarray and left.shape == right.shape):
         return fmax(np.sqrt(left * right) + minimum(left, right), 0.0)
     held = left * right
     np.sqrt(held, out=held)
-    held += np.minimum(left, right)
-    return np.fmax(*_alike(held, 0.0), out=held)
+    held += np.minimum(left, right, out=left)
+    return np.fmax(held, _zeros(held.shape), out=held)
 
 
 def _alike(first: Any, second: Any) -> tuple[Any, Any]:
@@ -262,9 +272,17 @@ def _alike(first: Any, second: Any) -> tuple[Any, Any]:
     return first, second
 
 
+def _zeros(shape: Shape) -> Any:
+    """Nothing but zeros, to be read; as many as a block holds need not be made."""
+    size = prod(shape)
+    if size > _ZEROS.size:
+        return np.zeros(shape)
+    return _ZEROS[:size] if len(shape) == 1 else _ZEROS[:size].reshape(shape)
+
+
 def _filled(shape: Shape, number: Any) -> Any:
-    if number == 0 and (size := prod(shape)) <= _ZEROS.size:
-        return _ZEROS[:size].reshape(shape)
+    if number == 0:
+        return _zeros(shape)
     filled = np.empty(shape)
     filled.fill(number)
     return filled

@@ -6,7 +6,16 @@ g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, maximum, only_where
+from ._arrays import (
+    LEAST,
+    MOST,
+    chunkwise,
+    chunkwise_in_time,
+    elementwise,
+    maximum,
+    only_where,
+    scaled,
+)
 from ._march import march_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -214,7 +223,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
-    return only_where(exists, (E_star / (2 * R)) * w)
+    return only_where(exists, scaled(w, E_star / (2 * R)))
 
 
 @elementwise

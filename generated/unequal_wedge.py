@@ -16,6 +16,7 @@ from ._arrays import (
     maximum,
     minimum,
     only_where,
+    scaled,
 )
 from ._march import march_of
 from ._shear import shear_change_of, shear_of, slip_range_of
@@ -270,7 +271,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
     logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
     exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (E_star * (phi_1 + phi_2) / (2 * np.pi)) * logarithm_1)
+    return only_where(exists, scaled(logarithm_1, E_star * (phi_1 + phi_2) / (2 * np.pi)))
 
 
 @elementwise

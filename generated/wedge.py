@@ -16,6 +16,7 @@ from ._arrays import (
     maximum,
     minimum,
     only_where,
+    scaled,
     select,
 )
 from ._march import march_of
@@ -249,7 +250,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
     logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
     exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (E_star * phi / np.pi) * logarithm_1)
+    return only_where(exists, scaled(logarithm_1, E_star * phi / np.pi))
 
 
 @elementwise

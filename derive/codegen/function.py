@@ -115,13 +115,26 @@ class FunctionText:
         for step in self.program.steps:
             note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
             yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
-        values = {name: printer.doprint(expr) for name, expr in self.program.outputs.items()}
+        values = {
+            name: self._in_place(expr, varying, printer) or printer.doprint(expr)
+            for name, expr in self.program.outputs.items()
+        }
         values = {name: v + ".copy()" * self._is_held(name) for name, v in values.items()}
         if self.function.kind == "Contact":
             yield f"    a = {values['a']}"
             yield f"    c = {values['c']}"
             values |= {"a": "a", "c": "c"}
         yield from self._ending(values)
+
+    def _in_place(self, expr: Expr, varying: set[Symbol], printer: NumPyPrinter) -> str | None:
+        """A number times what varies along x and is wanted no more, computed where that is kept."""
+        factor, kept = expr.as_independent(*varying, as_Add=False)
+        right = [*self.program.outputs.values(), *(step.expr for step in self.program.steps)]
+        uses = sum(kept in side.free_symbols for side in right)
+        own = any(step.symbol == kept and not step.expr.is_Symbol for step in self.program.steps)
+        if x not in self.function.arguments or factor == 1 or not own or uses > 1:
+            return None
+        return f"scaled({printer.doprint(kept)}, {printer.doprint(factor)})"
 
     def _ending(self, values: dict[str, str]) -> Iterator[str]:
         """Where the state exists, and the result that is NaN elsewhere."""

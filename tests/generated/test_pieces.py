@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import tracemalloc
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -126,18 +127,34 @@ def test_a_logarithm_of_a_quotient_beyond_float64(count: int) -> None:
 
 
 def test_a_logarithm_of_a_kink_is_zero_outside_and_takes_what_broadcasts() -> None:
-    """sqrt(1 4) + min(1, 4) = 3: log(1 + 3/2); arguments stay as they are."""
-    left, right = np.array([1.0, -1.0, 0.0]), np.array([4.0, 4.0, 4.0])
-    kept = left.copy(), right.copy()
-    with np.errstate(all="ignore"):
-        for distance in (np.float64(2), np.full(3, 2.0)):
-            found = _arrays.kink_logarithm(left, right, distance)
-            assert_allclose(found, [np.log(2.5), 0, 0], rtol=1e-15)
-        grid = _arrays.kink_logarithm(left, right, np.array([[2.0], [3.0]]))
-        mixed = _arrays.kink_logarithm(left, np.float64(4), np.float64(2))
-    assert_allclose(grid, [[np.log(2.5), 0, 0], [np.log(2), 0, 0]], rtol=1e-15)
-    assert_allclose(mixed, [np.log(2.5), 0, 0], rtol=1e-15)
-    assert_array_equal(kept, (left, right))
+    """sqrt(1 4) + min(1, 4) = 3: log(1 + 3/2); the distance stays as it is."""
+
+    def found(right: Any, distance: Any) -> Any:
+        left = np.array([1.0, -1.0, 0.0])  # used up
+        with np.errstate(all="ignore"):
+            return _arrays.kink_logarithm(left, right, distance)
+
+    row, column = np.full(3, 2.0), np.array([[2.0], [3.0]])
+    for right in (np.full(3, 4.0), np.float64(4)):
+        for distance in (np.float64(2), row):
+            assert_allclose(found(right, distance), [np.log(2.5), 0, 0], rtol=1e-15)
+        grid = [[np.log(2.5), 0, 0], [np.log(2), 0, 0]]
+        assert_allclose(found(right, column), grid, rtol=1e-15)
+    assert_array_equal(row, 2)
+    assert_array_equal(column, [[2], [3]])
+
+
+@pytest.mark.parametrize("body", [hertz, wedge])
+def test_no_argument_is_changed(body: ModuleType) -> None:
+    """Though a pressure is computed in the memory of what is wanted no more."""
+    own = {"R": np.full(50, 2.0)} if body is hertz else {"phi": np.full(50, 0.1)}
+    given = [np.linspace(-1, 1, 50), np.full(50, 1.5), np.full(50, 1.25)]
+    modulus = np.full(50, 3.0)
+    kept = [v.copy() for v in (*given, modulus, *own.values())]
+    body.pressure(*given, E_star=modulus, **own)
+    body.pressure(*given, E_star=3.0, **{name: v[0] for name, v in own.items()})
+    for value, before in zip((*given, modulus, *own.values()), kept, strict=True):
+        assert_array_equal(value, before)
 
 
 def test_hertz_needs_none_of_it() -> None:
