@@ -99,6 +99,7 @@ _USED_BESIDES = (
         "pressure_at",
         "second_of",
         "mended",
+        "as_integrand",
         "now",
     ),
     *("Array", "exists", "first", "second", "order", "mixed"),

@@ -20,7 +20,8 @@ until two sums agree; elements that agree take no part in the next halving.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from contextvars import ContextVar
+from functools import cache, wraps
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -38,6 +39,9 @@ AGREED = 1e-11
 CLOSE = 0.1
 """Breaks closer than this, compared with the width, are left to quadrature."""
 
+NEARER = 1e-2
+"""For integrands only those closer than this, and only where terms cancel."""
+
 FAR = 100.0
 """So are breaks in the contact that lie so many widths from the origin,"""
 
@@ -48,6 +52,9 @@ TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
 
 _TINY, _HUGE, _NOTHING = 5e-324, 1e300, 1e-300
+
+_integrated = ContextVar("integrated", default=False)
+"""Whether pressures are asked for as integrands."""
 
 
 class Curve(NamedTuple):
@@ -258,26 +265,66 @@ def mended(
     return mended_values
 
 
+def as_integrand(function: Callable[..., Array]) -> Callable[..., Array]:
+    """The same function, to be integrated: many times as fast, and exact to 14 digits of its mean.
+
+    Close to an edge, where digits are lost because a break is near, there is little to integrate.
+    """
+
+    @wraps(function)
+    def nearly(*args: Array, **constants: Array) -> Array:
+        before = _integrated.set(True)
+        try:
+            return function(*args, **constants)
+        finally:
+            _integrated.reset(before)
+
+    return nearly
+
+
 def is_delicate(body: Profile, a: Array, c: Array, /, **constants: Array) -> Array:
     """Whether closed formulas lose digits, because what the pieces carry is a small difference.
 
     A break lies close to an edge, or to the next one, compared with the width; or powers cancel, or
     the moment about a break is small beside that about the origin.
     """
-    h, places = a + c, body.breaks(**constants)
+    h, places, integrated = a + c, body.breaks(**constants), _integrated.get()
+    least = (NEARER if integrated else CLOSE) * h
     rough = h < 0
     for place in places:
         near = minimum(a + place, c - place)
-        close, far = CLOSE * h, abs(place) > FAR * h
+        close, far = least, abs(place) > FAR * h
         if some(far):
             close = np.where(far, np.inf, close)
         rough = rough | ((near >= 0) & (near < close))
     for left, right in pairwise(places):
-        rough = rough | ((right - left < CLOSE * h) & (left > -a) & (right < c))
+        rough = rough | ((right - left < least) & (left > -a) & (right < c))
+    if integrated and some(rough):
+        rough = _is_lost(body, rough, a, c, constants)
     if body.terms is not None:
         rise = slope_of(body, c, **constants)[0] - slope_of(body, -a, **constants)[0]
         rough = rough | ~(body.terms(a, c, **constants) < CANCELLED * rise)
     return rough
+
+
+def _is_lost(body: Profile, rough: Array, a: Array, c: Array, constants: dict[str, Array]) -> Array:
+    """Which of the `rough` elements lose too much for an integrand, too.
+
+    Terms are as large as the width times the largest curvature; they add up to no less than what
+    the slope rises by in the contact.
+    """
+    given = _Flat(a, c, constants, rough)
+    rows = np.flatnonzero(given.also[0])
+    a, c, held = given.a[rows], given.c[rows], at_rows(rows, given.constants)
+    left, right = (slope_of(body, x, **held) for x in (-a, c))
+    bend = np.maximum(left[1], right[1])
+    for place in body.breaks(**held):
+        for x in (np.nextafter(place, -np.inf), np.nextafter(place, np.inf)):
+            curvature = slope_of(body, x + 0 * a, **held)[1]
+            bend = np.where((x > -a) & (x < c), np.maximum(bend, curvature), bend)
+    lost = np.full(given.a.shape, False)
+    lost[rows] = ~((a + c) * bend < CANCELLED * (right[0] - left[0]))
+    return given.shaped(lost)
 
 
 def mirrored(body: Profile) -> Profile:

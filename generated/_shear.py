@@ -166,7 +166,7 @@ class _Known:
         x = self._beside_kinks(rows)
         side = np.where(x < (n - m) / 2, -1, 1)
         slips = (x >= n) | (x <= -m)
-        sliding = self.kappa(side, rows) * task.f * task.sum_of_pressures(x)
+        sliding = self.kappa(side, rows) * task.f * self._sum_of_pressures(x, rows)
         stuck = sliding - 2 * task.f * self.law.pressure(x, m, n, **held)
         some = np.flatnonzero(self.large[rows] & ~slips)
         if some.size:
@@ -174,6 +174,12 @@ class _Known:
         known = self.large[rows] | self.forward[rows]
         found = np.where(known, np.where(slips, sliding, stuck), np.nan)
         return np.where(self.still[rows], 0.0, found)
+
+    def _sum_of_pressures(self, x: Array, rows: Array) -> Array:
+        """p1 + p2 to the last digits, as it is told and not integrated; at a kink nothing."""
+        edges, held = (self.task.a, self.task.c), at_rows(rows, self.constants)
+        first, second = (self.law.pressure(x, *(e[i][rows] for e in edges), **held) for i in (0, 1))
+        return np.where(np.isinf(first + second), 0.0, first + second)
 
     def _beside_kinks(self, rows: Array) -> Array:
         """x, moved off a corner in the stick zone: p is infinite there, dq is not."""

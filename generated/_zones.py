@@ -141,6 +141,15 @@ class Task(NamedTuple):
         return [slip, *(side * place - start for place in self.kinks(self.rows))]
 
     @property
+    def by_kinks(self) -> Array:
+        """An order in which those whose kinks lie alike, and cost alike, are neighbours."""
+        nearest = np.full(self.dQ.shape, np.inf)
+        for place in self.kinks(self.rows):
+            inside = np.minimum(self.smaller_a + place, self.smaller_c - place)
+            nearest = np.where(inside > 0, np.minimum(nearest, inside / self.width), nearest)
+        return np.argsort(nearest, kind="stable")
+
+    @property
     def alike(self) -> Array:
         """Whether the contact is the same at both ends of the cycle."""
         return (self.a[0] == self.a[1]) & (self.c[0] == self.c[1])
@@ -205,9 +214,9 @@ def drawn_in(width: Array, left: Array, right: Array) -> Pair:
 
 def _by_onerule(task: Task, left: Array, right: Array, level: int) -> Pair:
     """The slip zones by one rule: by Newton's method, else in turns; NaN if by neither."""
-    left, right = left.copy(), right.copy()
+    left, right, order = left.copy(), right.copy(), task.by_kinks
     for start in range(0, left.size, TOGETHER):
-        rows = np.arange(start, min(start + TOGETHER, left.size))
+        rows = order[start : start + TOGETHER]
         left[rows], right[rows] = by_newton(task.on(rows), left[rows], right[rows], level)
     lost = np.flatnonzero(~np.isfinite(left))
     for start in range(0, lost.size, TOGETHER):
@@ -369,17 +378,21 @@ def integrals(task: Task, side: int, slip: Array, stuck: Array, level: int) -> Z
     """The integrals over the slip zone on the left (side -1) or on the right (+1)."""
     start, end = task.slip_zone(side, slip)
     at_start = task.sum_of_pressures(side * start) / np.sqrt(stuck)
-    near = far = across = 0.0
+    near, far, across = np.zeros((3, *stuck.shape))
     along = -2 * at_start / np.sqrt(end)
-    for y, weight in parts_of(end, task.cuts(side, slip), level):
-        part = weight * task.sum_of_pressures(side * (start + y))
-        beyond = stuck + y
-        near = near + np.sum(part * np.sqrt(beyond / y), axis=0)
-        far = far + np.sum(part * np.sqrt(y / beyond), axis=0)
-        across = across + np.sum(part / (beyond * np.sqrt(beyond * y)), axis=0)
-        change = part / np.sqrt(beyond) - weight * at_start
-        far_off = y > _NEAREST * end
-        along = along + np.sum(np.where(far_off, change / (y * np.sqrt(y)), 0.0), axis=0)
+    for low, high in _spans(end, task.cuts(side, slip)):
+        rows = np.flatnonzero(high > low)
+        if not rows.size:
+            continue
+        y, weight = _nodes(low[rows], high[rows], level)
+        part = weight * task.on(rows).sum_of_pressures(side * (start[rows] + y))
+        beyond = stuck[rows] + y
+        near[rows] += np.sum(part * np.sqrt(beyond / y), axis=0)
+        far[rows] += np.sum(part * np.sqrt(y / beyond), axis=0)
+        across[rows] += np.sum(part / (beyond * np.sqrt(beyond * y)), axis=0)
+        change = part / np.sqrt(beyond) - weight * at_start[rows]
+        far_off = y > _NEAREST * end[rows]
+        along[rows] += np.sum(np.where(far_off, change / (y * np.sqrt(y)), 0.0), axis=0)
     return Zone(near, far, along, across)
 
 
@@ -413,14 +426,26 @@ def force_rates(slip: Array, stuck: Array, h: Array, own: Array, other: Array) -
 
 
 def parts_of(end: Array, cuts: list[Array], level: int) -> Iterator[tuple[Array, Array]]:
-    """Nodes, as columns, and weights of the rule on (0, end), part by part between the cuts."""
+    """Nodes, as columns, and weights of the rule on (0, end), part by part between the cuts.
+
+    Where a part is empty, its nodes lie at the end and weigh nothing.
+    """
+    for low, high in _spans(end, cuts):
+        if np.any(high > low):
+            y, weight = _nodes(low, high, level)
+            yield np.where(high > low, y, end), weight
+
+
+def _spans(end: Array, cuts: list[Array]) -> Iterator[tuple[Array, Array]]:
+    """The parts of (0, end) between the cuts, one after the other; some may be empty."""
     inside = [np.clip(cut, 0, end) for cut in cuts]
-    ends = np.sort(np.stack([0 * end, *inside, end]), axis=0)
+    yield from pairwise(np.sort(np.stack([0 * end, *inside, end]), axis=0))
+
+
+def _nodes(low: Array, high: Array, level: int) -> tuple[Array, Array]:
+    """Nodes, as columns, and weights of the rule between two places."""
     q, weight = rule(level)
-    for low, high in pairwise(ends):
-        length = high - low
-        if np.any(length > 0):
-            yield np.where(length > 0, low + length * q, end), weight * length
+    return low + (high - low) * q, weight * (high - low)
 
 
 @cache

@@ -17,10 +17,9 @@ from ._arrays import (
     maximum,
     minimum,
     only_where,
-    select,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, mended
+from ._quadrature import Curve, Piece, Profile, as_integrand, mended, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -163,9 +162,7 @@ def _state(a: Array, c: Array, *, R: Array, b: Array) -> State:
 
 def _slope(x: Array, *, R: Array, b: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x)."""
-    slope = select(b < x, (x - b) / R, 0) + select(b < -x, (b + x) / R, 0)
-    curvature = select(b < -x, 1 / R, 0) + select(b < x, 1 / R, 0)
-    return slope, curvature
+    return slope_of(_BODY, x, R=R, b=b)
 
 
 @elementwise
@@ -701,7 +698,18 @@ def stick_margin(
     )
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+_LAW = Law(
+    contact,
+    contact_at_tilt,
+    tilt,
+    load,
+    moment,
+    pressure,
+    as_integrand(pressure),
+    K_N,
+    L_N,
+    _breaks,
+)
 
 
 @chunkwise

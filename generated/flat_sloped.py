@@ -16,10 +16,9 @@ from ._arrays import (
     kink_logarithm,
     maximum,
     only_where,
-    select,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, mended
+from ._quadrature import Curve, Piece, Profile, mended, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -145,9 +144,7 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
 
 def _slope(x: Array, *, b: Array, phi: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x)."""
-    slope = select(b < -x, -phi, 0) + select(b < x, phi, 0)
-    curvature = 0
-    return slope, curvature
+    return slope_of(_BODY, x, b=b, phi=phi)
 
 
 @elementwise
@@ -633,7 +630,7 @@ def stick_margin(
     )
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
 
 
 @chunkwise

@@ -471,7 +471,7 @@ def stick_margin(
     )
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
 
 
 @chunkwise

@@ -494,7 +494,7 @@ def _breaks(*, L: Array, R: Array) -> tuple[Array, ...]:
     return (0,)
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
 
 
 @chunkwise

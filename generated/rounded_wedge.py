@@ -18,10 +18,9 @@ from ._arrays import (
     maximum,
     minimum,
     only_where,
-    select,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, mended
+from ._quadrature import Curve, Piece, Profile, as_integrand, mended, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -180,13 +179,7 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
 
 def _slope(x: Array, *, b: Array, phi: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x)."""
-    slope = (
-        select(b < x, -((phi / b) * (x - b)), 0)
-        + select(b < -x, -((phi / b) * (b + x)), 0)
-        + (phi / b) * x
-    )
-    curvature = select(b < -x, -(phi / b), 0) + select(b < x, -(phi / b), 0) + phi / b
-    return slope, curvature
+    return slope_of(_BODY, x, b=b, phi=phi)
 
 
 @elementwise
@@ -751,7 +744,18 @@ def stick_margin(
     )
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+_LAW = Law(
+    contact,
+    contact_at_tilt,
+    tilt,
+    load,
+    moment,
+    pressure,
+    as_integrand(pressure),
+    K_N,
+    L_N,
+    _breaks,
+)
 
 
 @chunkwise

@@ -17,10 +17,9 @@ from ._arrays import (
     maximum,
     minimum,
     only_where,
-    select,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, mended
+from ._quadrature import Curve, Piece, Profile, as_integrand, mended, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -157,9 +156,7 @@ def _state(a: Array, c: Array, *, R_1: Array, R_2: Array) -> State:
 
 def _slope(x: Array, *, R_1: Array, R_2: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x)."""
-    slope = select(x > 0, ((R_1 - R_2) / (R_1 * R_2)) * x, 0) + x / R_1
-    curvature = select(x > 0, (R_1 - R_2) / (R_1 * R_2), 0) + 1 / R_1
-    return slope, curvature
+    return slope_of(_BODY, x, R_1=R_1, R_2=R_2)
 
 
 @elementwise
@@ -695,7 +692,18 @@ def stick_margin(
     )
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+_LAW = Law(
+    contact,
+    contact_at_tilt,
+    tilt,
+    load,
+    moment,
+    pressure,
+    as_integrand(pressure),
+    K_N,
+    L_N,
+    _breaks,
+)
 
 
 @chunkwise

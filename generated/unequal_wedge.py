@@ -450,7 +450,7 @@ def _breaks(*, phi_1: Array, phi_2: Array) -> tuple[Array, ...]:
     return (0,)
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
 
 
 @chunkwise

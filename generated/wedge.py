@@ -425,7 +425,7 @@ def _breaks(*, phi: Array) -> tuple[Array, ...]:
     return (0,)
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, K_N, L_N, _breaks)
+_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
 
 
 @chunkwise

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 
 from ruff import find_ruff_bin
 
-from derive.codegen.cancel import cancels
 from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.cycle import CYCLE, CycleText, law_text
 from derive.codegen.function import LINE, FunctionText, inside_quotes
@@ -39,7 +38,7 @@ _HELPERS = {
     "_march": ("march_of",),
     "_quadrature": (
         *("Curve", "Piece", "Profile"),
-        *("mended", "pressure_at", "second_of", "slope_of", "state_of"),
+        *("as_integrand", "mended", "pressure_at", "second_of", "slope_of", "state_of"),
     ),
     "_shear": ("shear_change_of", "shear_of", "slip_range_of"),
     "_slip": ("slip_error_of", "slip_zones_of"),
@@ -90,7 +89,7 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
     if solved:
         yield StateText(sheet, source).text if closed else carried_text(sheet)
     if any(alpha in f.arguments for f in solved):
-        yield slope_text(sheet) if closed and not cancels(slope) else level_text(sheet)
+        yield slope_text(sheet) if closed and not mended else level_text(sheet)
     for function in CONTRACT:
         yield _made(sheet, function, function in solved, mended)(sheet, function, source).text
     yield law_text(sheet)

@@ -17,7 +17,7 @@ from derive.derivation import derive_sheet
 from derive.library import load_geometry
 from derive.sheet import FormulaSheet
 from generated import hertz, unequal_wedge, wedge
-from generated._types import Contact, Regime
+from generated._types import Contact, Regime, StickZone
 from tests.derive.bodies import evaluated
 from tests.derive.partial_slip import Cycle
 
@@ -127,6 +127,8 @@ def test_moderate_tension_meets_both_conditions(name: str) -> None:
         ("unequal_wedge", (1.0, 1.5), (1.0, 1.5), 2.0),
         ("quartic", FIRST, SECOND, 2.0),
         ("wedge_parabola", (1.0, 1.25), (1.0, 1.25), 2.0),
+        ("flat_rounded", (0.505, 0.5075), (0.505, 0.5075), 2.0),
+        ("rounded_wedge", (0.50001, 1.25), (0.50001, 1.25), -1.75),
     ],
 )
 def test_large_tension_against_another_solution(
@@ -146,12 +148,46 @@ def test_large_tension_against_another_solution(
         assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=1e-12)
 
 
+BESIDE_KINKS: list[tuple[str, dict[str, float], Any]] = [
+    ("flat_rounded", {}, lambda e, one, other: (0.5 + e * one, 0.5 + e * other)),
+    ("flat_rounded", {}, lambda e, one, other: (0.5 + e * one, 0.5 + other)),
+    ("rounded_wedge", {}, lambda e, one, other: (e * one - 0.5, 0.5 + other)),
+    ("rounded_wedge", {"b": None}, lambda e, one, other: (one, other)),
+    ("two_radii", {"R_1": 1e3, "R_2": 2e-3}, lambda e, one, other: (e * one, other)),
+    ("wedge_parabola", {}, lambda e, one, other: (one, e * other)),
+]
+"""Bodies, other parameters (b as small as e where None), contacts by two lengths of order one."""
+
+
+@pytest.mark.parametrize(("name", "other", "edges"), BESIDE_KINKS)
+@pytest.mark.parametrize("near", [1e-2, 1e-3, 1e-5])
+def test_integrands_are_exact_enough_beside_kinks(
+    name: str, other: dict[str, float], edges: Any, near: float
+) -> None:
+    """Stick zones from integrands and from pressures to the last digits: both conditions are
+    integrals, so that digits lost where there is little to integrate do not count."""
+    body = module(name)
+    own = OWN[name] | {key: near if value is None else value for key, value in other.items()}
+    rng = np.random.default_rng(11)
+    a, c = edges(near, *rng.uniform(1, 3, (2, 20)))
+    shear = 2 * F * rng.uniform(0.01, 0.6, a.size) * body.load(a, c, E_star=E_STAR, **own)
+    over = np.exp(rng.uniform(0, 2, a.size)) * rng.choice([-1, 1], a.size)
+    tension = over * 8 * shear / (np.pi * (a + c))
+    found = steady(body, a, c, shear, tension, **own)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(body, "_LAW", body._LAW._replace(integrand=body.pressure))
+        exact = steady(body, a, c, shear, tension, **own)
+    assert np.count_nonzero(found.regime == Regime.LARGE) >= 5
+    assert np.array_equal(found.regime, exact.regime)
+    width = a + c
+    assert_allclose(found.m / width, exact.m / width, rtol=0, atol=1e-13)
+    assert_allclose(found.n / width, exact.n / width, rtol=0, atol=1e-13)
+
+
 # ---------------------------------------------------------------------- regimes
 
 
-def steady(
-    body: ModuleType, a: Any, c: Any, shear: Any, tension: Any, **own: float
-) -> tuple[Any, Any, Any]:
+def steady(body: ModuleType, a: Any, c: Any, shear: Any, tension: Any, **own: float) -> StickZone:
     here = Contact(a, c, 0.0)
     return body.stick_zone(here, here, shear, tension, f=F, E_star=E_STAR, **own)  # type: ignore[no-any-return]
 

@@ -57,7 +57,7 @@ HALVINGS = 52
 
 
 class Law(NamedTuple):
-    """The functions of one body that partial slip is made of."""
+    """The functions of one body that partial slip is made of; the integrand is the pressure."""
 
     contact: Callable[..., Contact]
     contact_at_tilt: Callable[..., Contact]
@@ -65,6 +65,7 @@ class Law(NamedTuple):
     load: Callable[..., Array]
     moment: Callable[..., Array]
     pressure: Callable[..., Array]
+    integrand: Callable[..., Array]
     K_N: Callable[..., Any]
     L_N: Callable[..., Any]
     kinks: Callable[..., tuple[Array, ...]]
@@ -499,7 +500,7 @@ def task_between(
     """Cycles between two contacts of a body, the rows of a and c."""
 
     def pressure(x: Array, of: int, rows: Array) -> Array:
-        return law.pressure(x, a[of][rows], c[of][rows], **at_rows(rows, constants))
+        return law.integrand(x, a[of][rows], c[of][rows], **at_rows(rows, constants))
 
     def kinks(rows: Array) -> tuple[Array, ...]:
         return law.places(at_rows(rows, constants))
