@@ -445,7 +445,7 @@ def breaks_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
     pieces: list[Piece] = []
     for piece in slope.pieces:
         beside = {simplify(re(point)) for point in _branch_points(piece.profile)}
-        inner = sorted((p for p in beside if _lies_in(p, piece, slope.domain)), key=str)
+        inner = sorted((p for p in beside if lies_in(p, piece, slope.domain)), key=str)
         ends = [piece.lower, *inner[:1], piece.upper]
         pieces += [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
     if len(pieces) == 1:
@@ -454,7 +454,7 @@ def breaks_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
     return tuple(piece.upper for piece in pieces[:-1]), tuple(pieces)
 
 
-def _lies_in(point: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
+def lies_in(point: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
     """Whether a place is known to lie inside a piece and inside the domain, not at an end."""
     ends = ((piece.lower, 1), (domain[0], 1), (piece.upper, -1), (domain[1], -1))
     return all(

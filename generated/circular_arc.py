@@ -98,7 +98,10 @@ def _state(a: Array, c: Array, *, R: Array) -> State:
 
 def _slope(x: Array, *, R: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x)."""
-    return slope_of(_BODY, x, R=R)
+    slope, curvature = slope_of(_BODY, x, R=R)
+    slope = np.where(x <= -R, -np.inf, slope)
+    slope = np.where(x >= R, np.inf, slope)
+    return slope, curvature
 
 
 @elementwise
@@ -148,8 +151,9 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
 
     Returns Contact(a [m], c [m], alpha as given).
     NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m, nor where
-    the rounding of its edges moves the load by 1e-4, far from the origin.  None is found with an
-    edge closer to an end of the body than 1e-6 of its distance from the origin.
+    the rounding of its edges moves the load by 1e-4, far from the origin, nor where that of alpha
+    moves an edge by a hundredth of the width.  None is found with an edge closer to an end of the
+    body than 1e-6 of its distance from the origin.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/circular_arc.py.

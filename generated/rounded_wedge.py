@@ -62,6 +62,7 @@ def _breaks(*, b: Array, phi: Array) -> tuple[Array, ...]:
     """Where the curve is cut."""
     return (
         -b,
+        0,
         b,
     )
 
@@ -69,6 +70,7 @@ def _breaks(*, b: Array, phi: Array) -> tuple[Array, ...]:
 def _corners(*, b: Array, phi: Array) -> tuple[Array, ...]:
     """By how much g' rises at the breaks."""
     return (
+        0,
         0,
         0,
     )
@@ -88,10 +90,22 @@ def _piece_1_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
 def _piece_1_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the left of a break."""
     s_0 = phi / b
-    return Curve(s_0 * (b - t), s_0, lambda: 0)
+    return Curve(-(s_0 * t), s_0, lambda: 0)
 
 
 def _piece_2_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
+    """g', g'' and g''' at t on the right of a break."""
+    s_0 = phi / b
+    return Curve(s_0 * t, s_0, lambda: 0)
+
+
+def _piece_2_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
+    """g', g'' and g''' at t on the left of a break."""
+    s_0 = phi / b
+    return Curve(s_0 * (b - t), s_0, lambda: 0)
+
+
+def _piece_3_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
     """g', g'' and g''' at t on the right of a break."""
     return Curve(phi, 0, lambda: 0)
 
@@ -102,9 +116,11 @@ _BODY = Profile(
     (
         Piece(None, _piece_0_from_right, straight=True),
         Piece(_piece_1_from_left, _piece_1_from_right),
-        Piece(_piece_2_from_left, None, straight=True),
+        Piece(_piece_2_from_left, _piece_2_from_right),
+        Piece(_piece_3_from_left, None, straight=True),
     ),
     4,
+    plain=(1,),
 )
 
 
@@ -237,8 +253,8 @@ def contact_at_tilt(
     Returns Contact(a [m], c [m], alpha as given).
     NaN unless P > 0 and alpha > -phi and alpha < phi and E_star > 0 and b > 0 and phi > 0; nor
     where lengths leave 1e-75 to 1e75 m, nor where the rounding of its edges moves the load by 1e-4,
-    beside a kink or far from the origin.  At every such tilt the load grows with the width, from
-    nothing and without limit.
+    beside a kink or far from the origin, nor where that of alpha moves an edge by a hundredth of
+    the width.  At every such tilt the load grows with the width, from nothing and without limit.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/rounded_wedge.py.

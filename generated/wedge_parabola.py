@@ -193,8 +193,8 @@ def contact_at_tilt(
     Returns Contact(a [m], c [m], alpha as given).
     NaN unless P > 0 and alpha < phi and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
     1e-75 to 1e75 m, nor where the rounding of its edges moves the load by 1e-4, beside a kink or
-    far from the origin.  At every such tilt the load grows with the width, from nothing and without
-    limit.
+    far from the origin, nor where that of alpha moves an edge by a hundredth of the width.  At
+    every such tilt the load grows with the width, from nothing and without limit.
 
     The derivatives follow from K_N: a contact grows by flat punches.
     Derived from derive/geometries/wedge_parabola.py.

@@ -15,6 +15,7 @@ from sympy import (
     Add,
     Expr,
     Gt,
+    Integer,
     Max,
     Piecewise,
     Poly,
@@ -28,7 +29,7 @@ from sympy import (
 )
 
 from derive.piece import Piece
-from derive.profile import Slope, breaks_of
+from derive.profile import Slope, breaks_of, lies_in
 from derive.symbols import a, c, x
 
 HARMLESS = 1
@@ -96,15 +97,36 @@ def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
     >>> cuts_of(read_slope("", (x - b) ** 4 / b**3))[0]
     (b,)
     """
-    if not cancels(slope):
-        return breaks_of(slope)
     pieces: list[Piece] = []
-    for piece in slope.pieces:
-        ends = [piece.lower, *_level_places(piece), piece.upper]
-        pieces += [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
-    if len(pieces) == 1:
-        return breaks_of(slope)
+    if cancels(slope):
+        for piece in slope.pieces:
+            ends = [piece.lower, *_level_places(piece), piece.upper]
+            pieces += [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
+    if len(pieces) <= 1:
+        pieces = [*breaks_of(slope)[1]]
+    pieces = [half for piece in pieces for half in _at_origin(piece, slope)]
     return tuple(piece.upper for piece in pieces[:-1]), tuple(pieces)
+
+
+def _at_origin(piece: Piece, slope: Slope) -> list[Piece]:
+    """Two pieces of one that is level, or not curved, at the origin inside it; else that piece.
+
+    Small contacts lie there, and at a distance from another place g' is a small difference.
+    """
+    origin = Integer(0)
+    if piece.straight or not lies_in(origin, piece, slope.domain):
+        return [piece]
+    if all(value.subs(x, origin) != 0 for value in (piece.slope, piece.curvature)):
+        return [piece]
+    ends = (piece.lower, origin, piece.upper)
+    return [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
+
+
+def plain_cuts(slope: Slope) -> tuple[int, ...]:
+    """Which of the cuts are there for quadrature alone: the origin, where no kink is."""
+    kinks = [kink.position for kink in slope.kinks]
+    places, _ = cuts_of(slope)
+    return tuple(i for i, place in enumerate(places) if place == 0 and place not in kinks)
 
 
 def _level_places(piece: Piece) -> list[Expr]:

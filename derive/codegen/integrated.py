@@ -10,10 +10,12 @@ from collections.abc import Callable, Iterator, Sequence
 from sympy import (
     Add,
     Expr,
+    Function,
     Pow,
     S,
     Symbol,
     Tuple,
+    cosh,
     cse,
     diff,
     expand,
@@ -22,9 +24,11 @@ from sympy import (
     powsimp,
     simplify,
     sqrt,
+    tanh,
 )
 
-from derive.codegen.cancel import cancels, cuts_of, size_of_terms
+from derive.codegen.cancel import cancels, cuts_of, plain_cuts, size_of_terms
+from derive.codegen.decay import decaying
 from derive.codegen.function import FunctionText, own_parameters
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
@@ -178,7 +182,8 @@ def curve_text(sheet: FormulaSheet) -> str:
     if cancels(slope):
         lines += _terms_text(sheet)
         terms = ", _terms"
-    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach}{terms})")
+    plain = f", plain={cuts}" if is_mended(sheet) and (cuts := plain_cuts(slope)) else ""
+    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach}{terms}{plain})")
     return "\n".join(lines)
 
 
@@ -219,7 +224,7 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     """g', g'' and g''' at t beside a break."""
 
     def rates(expr: Expr) -> list[Expr]:
-        return [sense * diff(term, _t) for term in Add.make_args(expr)]
+        return [sense * _rate(term) for term in Add.make_args(expr)]
 
     given = piece.slope.subs(x, place + sense * _t)
     slope = _shortest(simplify, Add.make_args(given))
@@ -227,7 +232,8 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     change = _shortest(simplify, rates(curvature))
     risen = from_zero(given, _t)
     kept = from_zero(slope, _t) if risen == given else risen
-    found = cse([kept, curvature, change], symbols=numbered_symbols("s_"))
+    curves = [kept, from_zero(curvature, _t), change]
+    found = cse([decaying(curve, _t) for curve in curves], symbols=numbered_symbols("s_"))
     steps, values = _roots_once(*found)
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     side = "right" if sense > 0 else "left"
@@ -238,6 +244,26 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     first, second, third = (printer.doprint(value) for value in values)
     yield f"    return Curve({first}, {second}, lambda: {third})"
     yield ""
+
+
+class _tanh(Function):
+    """A hyperbolic tangent whose rate is no difference."""
+
+    nargs = 1
+
+    def fdiff(self, _: int = 1) -> Expr:
+        """1/cosh(z)**2, not 1 - tanh(z)**2, whose digits are lost far from zero."""
+        return cosh(self.args[0]) ** -2
+
+
+def _rate(expr: Expr) -> Expr:
+    """The derivative.
+
+    >>> from sympy import tanh
+    >>> _rate(tanh(2 * _t))
+    2/cosh(2*t)**2
+    """
+    return diff(expr.replace(tanh, _tanh), _t).replace(_tanh, tanh)
 
 
 def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
@@ -317,12 +343,25 @@ def carried_text(sheet: FormulaSheet) -> str:
 
 
 def level_text(sheet: FormulaSheet) -> str:
-    """`_slope`: the body's slope and curvature at a place."""
+    """`_slope`: the body's slope and curvature at a place; infinite beyond the body's ends."""
     own, given = own_parameters(sheet)
+    printer = NumPyPrinter({x})
+    beyond = [
+        f"    slope = np.where(x {side} {printer.doprint(end)}, {infinite}, slope)"
+        for end, side, infinite in zip(
+            sheet.geometry.slope.domain, ("<=", ">="), ("-np.inf", "np.inf"), strict=True
+        )
+        if end.is_finite
+    ]
+    found = f"slope_of(_BODY, x{given})"
     return "\n".join(
         [
             f"def _slope(x: Array{own}) -> tuple[Array, Array]:",
             '    """g\'(x) and g\'\'(x)."""',
-            f"    return slope_of(_BODY, x{given})",
+            *(
+                [f"    slope, curvature = {found}", *beyond, "    return slope, curvature"]
+                if beyond
+                else [f"    return {found}"]
+            ),
         ]
     )

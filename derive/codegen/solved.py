@@ -122,6 +122,8 @@ class SolvedText(FunctionText):
     def _existence(self) -> str:
         beside = "beside a kink or " * bool(self.sheet.geometry.slope.kinks)
         rounded = f"the rounding of its edges moves the load by 1e-4, {beside}far from the origin"
+        if alpha in self.function.arguments:
+            rounded += ", nor where that of alpha moves an edge by a hundredth of the width"
         return f"{super()._existence}, nor where {rounded}.  {self._why}"
 
     @property

@@ -4,7 +4,7 @@ import pytest
 from sympy import Abs, Expr, Max, Rational
 
 from derive import Geometry, parameter, x
-from derive.codegen.cancel import cancels, cuts_of, size_of_terms
+from derive.codegen.cancel import cancels, cuts_of, plain_cuts, size_of_terms
 from derive.library import library, load_geometry
 from derive.profile import Slope
 from derive.symbols import a, c
@@ -40,12 +40,31 @@ def test_powers_about_another_place_than_the_origin_cancel(g: Expr, wanted: bool
 
 
 def test_a_body_is_cut_at_the_roots_of_its_curvature() -> None:
-    """g'' = (x - b)^2 (x - b - h_0)^2/L^5 is zero at b and at b + h_0."""
+    """g'' = (x - b)^2 (x - b - h_0)^2/L^5 is zero at b and at b + h_0, g' at the origin."""
     curvature = (x - b) ** 2 * (x - b - h_0) ** 2 / L**5
     g = curvature.expand().integrate(x).integrate(x)
     places, pieces = cuts_of(slope(g))
-    assert [str(place) for place in places] == ["b", "b + h_0"]
-    assert len(pieces) == 3
+    assert [str(place) for place in places] == ["0", "b", "b + h_0"]
+    assert len(pieces) == 4
+
+
+@pytest.mark.parametrize(
+    ("g", "wanted", "plain"),
+    [
+        (x**2 / (2 * R) + Max(0, x - b) ** 3 / L**2, ["0", "b"], (0,)),
+        (x**2 / (2 * R) + Max(0, -x - b) ** 3 / L**2, ["-b", "0"], (1,)),
+        (x**2 / (2 * R) + Max(0, x) ** 3 / L**2, ["0"], ()),
+        (Max(0, Abs(x) - b) ** 2 / (2 * R), ["-b", "b"], ()),
+    ],
+    ids=["before a kink", "beyond a kink", "a kink there", "a flat there"],
+)
+def test_a_body_that_is_level_at_the_origin_is_cut_there(
+    g: Expr, wanted: list[str], plain: tuple[int, ...]
+) -> None:
+    """g' = t/R is exact there; at a distance t from b it is (b - t)/R, a small difference."""
+    places, _ = cuts_of(slope(g))
+    assert [str(place) for place in places] == wanted
+    assert plain_cuts(slope(g)) == plain
 
 
 def test_the_size_of_the_terms_of_a_cube() -> None:

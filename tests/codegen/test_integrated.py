@@ -15,7 +15,8 @@ from sympy import exp as sympy_exp
 from derive import Geometry, parameter, x
 from derive.codegen.integrated import curve_text
 from derive.derivation import derive_sheet
-from generated._quadrature import Curve, Piece, Profile
+from generated._quadrature import Curve, Piece, Profile, state_of
+from generated._state import State
 
 b = parameter("b", "width", unit="m")
 k = parameter("k", "exponent", unit="-")
@@ -128,3 +129,95 @@ def test_a_slope_whose_terms_cancel_at_the_apex_keeps_its_digits(
         left = pieces[apex].from_right(t, L=1.5, phi=0.125).slope
         assert right == pytest.approx(wanted, rel=1e-14)
         assert left == pytest.approx(-wanted, rel=1e-14)
+
+
+def state(g: Expr, tmp_path: Path) -> Callable[..., State]:
+    """What a contact [-a, c] of a body carries, in the units of its parameters OWN."""
+    sheet = derive_sheet(Geometry("body", g=g))
+    (tmp_path / "curve.py").write_text(curve_text(sheet))
+    body = run_path(str(tmp_path / "curve.py"), NAMES)["_BODY"]
+    given = {p.name: OWN[p.name] for p in sheet.geometry.parameters}
+
+    @np.errstate(all="ignore")
+    def of(a: Any, c: Any) -> State:
+        return state_of(body, np.float64(a), np.float64(c), **given)
+
+    return of
+
+
+def exactly(integrand: Callable[[mpf], mpf], a: float, c: float) -> mpf:
+    """int f(s)/w ds over [-a, c] by s = (c - a)/2 + (h/2) sin u."""
+    half, mid = (mpf(a) + mpf(c)) / 2, (mpf(c) - mpf(a)) / 2
+    parts = mpmath.linspace(-mpmath.pi / 2, mpmath.pi / 2, 9)
+    return mpmath.quad(lambda u: integrand(mid + half * mpmath.sin(u)), parts)
+
+
+def load(curvature: Callable[[mpf], mpf], a: float, c: float) -> mpf:
+    """P = (E*/2) int g'' w ds."""
+    a, c = mpf(a), mpf(c)
+    return exactly(lambda s: curvature(s) * (a + s) * (c - s), a, c) / 2
+
+
+SMOOTH: dict[str, tuple[Expr, Callable[[mpf], mpf], list[tuple[float, float]]]] = {
+    "flanks that turn straight, with a corner": (
+        phi * b * log(cosh(x / b)) + phi * Abs(x - b / 4),
+        lambda s: mpf(OWN["phi"]) / OWN["b"] / mpmath.cosh(s / OWN["b"]) ** 2,
+        [(-3, 3.5), (-5, 5.5), (-10, 10.5), (-150, 151.0)],
+    ),
+    "a quartic apex under a root": (
+        phi * b * sqrt(1 + (x / b) ** 4),
+        lambda s: (
+            mpf(OWN["phi"]) * 2 * s**2 * (3 + (s / OWN["b"]) ** 4)
+            / OWN["b"] ** 3 / (1 + (s / OWN["b"]) ** 4) ** mpf(1.5)
+        ),
+        [(1, 1), (1e-3, -5e-4), (1e-6, 2e-6), (1e-10, 1e-10)],
+    ),
+    "a quartic apex as a difference": (
+        phi * b * (cosh(x / b) - x**2 / (2 * b**2)),
+        lambda s: mpf(OWN["phi"]) / OWN["b"] * 2 * mpmath.sinh(s / (2 * mpf(OWN["b"]))) ** 2,
+        [(0.5, 0.5), (1e-2, 2e-2), (1e-5, -5e-6), (1e-9, 1e-9)],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(
+    name: str, tmp_path: Path
+) -> None:
+    """Far out on flanks, and close to a place without curvature; the corner lies beside."""
+    g, curvature, contacts = SMOOTH[name]
+    of = state(g, tmp_path)
+    for a, c in contacts:
+        with mpmath.workdps(40):
+            wanted = load(curvature, a, c)
+            assert abs(mpf(float(of(a, c).load)) / wanted - 1) < 1e-13
+
+
+@pytest.mark.parametrize("beyond", [1e-16, 1e-12, 1e-9, 1e-7, 1e-4])
+def test_a_tilt_whose_left_edge_lies_just_beyond_a_smooth_kink(
+    beyond: float, tmp_path: Path
+) -> None:
+    """At -b g'' = 0 and g''' jumps; the quadrature is done when the tilt agrees, too.
+
+    -pi alpha = int g'/w ds, with s = (c - a)/2 + (h/2) sin u; phi x adds -phi.
+    """
+    g = b * (Abs(x + b) / b) ** Rational(11, 4) + phi * x
+    a, c = 0.5 + beyond, 0.25
+    found = float(state(g, tmp_path)(a, c).tilt)
+    with mpmath.workdps(40):
+        rise = lambda s: mpf(11) / 4 * mpmath.sign(s + 0.5) * (2 * abs(s + 0.5)) ** mpf(1.75)  # noqa: E731
+        half, mid = (mpf(a) + mpf(c)) / 2, (mpf(c) - mpf(a)) / 2
+        kink = mpmath.asin((-mpf(0.5) - mid) / half)
+        over = mpmath.quad(
+            lambda u: rise(mid + half * mpmath.sin(u)),
+            [-mpmath.pi / 2, kink, *mpmath.linspace(kink, mpmath.pi / 2, 9)[1:]],
+        )
+        wanted = -over / mpmath.pi - mpf(OWN["phi"])
+    assert abs(mpf(found) / wanted - 1) < 1e-13
+
+
+def test_exponentials_beyond_float64_have_a_slope_all_the_same(tmp_path: Path) -> None:
+    """g = phi b log(1 + exp(x/b)): P = (E*/2) int g'' w ds -> (E* phi/2) sqrt(a c) far out, where
+    g'' = (phi/b)/(4 cosh(x/2b)^2) is as narrow as a corner."""
+    found = state(phi * b * log(1 + sympy_exp(x / b)), tmp_path)(1e6, 4e6)
+    assert float(found.load) == pytest.approx(OWN["phi"] * 2e6 / 2, rel=1e-9)

@@ -186,6 +186,16 @@ def test_an_arc_pressed_in_almost_to_its_ends() -> None:
         assert_allclose(mirrored.c, a, rtol=1e-13)
 
 
+def test_a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> None:
+    """A flank of slope phi, tilted to within 2e-14 phi or 1e-12 phi of lying level: rounding,
+    2.2e-16 phi, is more than a hundredth of the one gap, and 2.2e-4 of the other."""
+    body, given = module("rounded_wedge"), {"E_star": 1.0, "phi": 0.02, "b": 1e-3}
+    found = body.contact_at_tilt([1e-21, 1e-18], [0.02 * (1 - 2e-14), 0.02 * (1 - 1e-12)], **given)
+    assert np.isnan(found.a[0])
+    off = body.load(found.a[1], found.c[1], **given) / 1e-18 - 1
+    assert abs(off) <= 1e-9 + 16 * rounding(body, found.a[1], found.c[1], **given)
+
+
 def test_a_hyperbola_tilted_almost_as_far_as_its_flanks() -> None:
     """phi (1 - 1e-3 to 1e-9) and loads over twelve decades, the load asked back."""
     own = {"b": 0.01, "phi": 0.1}

@@ -47,6 +47,9 @@ FAR = 100.0
 CANCELLED = 100.0
 """and terms so many times larger than what the slope rises by in the contact."""
 
+EXACT = 1e-13
+"""A tilt whose sums agree to this is exact to rounding; close to a kink sums get better slowly."""
+
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
 
@@ -90,6 +93,7 @@ class Profile(NamedTuple):
     reach: how far the rule goes; farther where g'' is infinite at a break.
     terms: how large the terms of g' are that closed formulas add up in the contact [-a, c], from a,
         c and the parameters; None where no powers cancel in them, or where there are none.
+    plain: numbers of the breaks that are there for quadrature alone: closed formulas have none.
     """
 
     breaks: Callable[..., tuple[Array, ...]]
@@ -97,6 +101,12 @@ class Profile(NamedTuple):
     pieces: tuple[Piece, ...]
     reach: int
     terms: Callable[..., Array] | None = None
+    plain: tuple[int, ...] = ()
+
+    def places(self, **constants: Array) -> list[Array]:
+        """The breaks that closed formulas have."""
+        found = enumerate(self.breaks(**constants))
+        return [place for i, place in found if i not in self.plain]
 
 
 def state_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> State:
@@ -115,7 +125,8 @@ def state_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> State:
         return force, force / A, force / B, near.curve.slope / root, force * (A - B)
 
     shared = _Contact(body, constants, -a, c, h, ())
-    force, left, right, lean, arm = _integrals(shared, integrand, 5, positive=3)
+    steepest = np.maximum(*(np.abs(slope_of(body, x, **constants)[0]) for x in (-a, c)))
+    force, left, right, lean, arm = _integrals(shared, integrand, 5, 3, np.pi * steepest)
     for part in shared.pieces():
         slope = part.at_high().slope if part.piece.straight else 0.0
         if np.any(slope):
@@ -153,7 +164,7 @@ def pressure_at(body: Profile, x: Array, a: Array, c: Array, /, **constants: Arr
     total = 0 * h
     for low, high, width, kernel in ((-a, x, left, on_the_left), (x, c, right, on_the_right)):
         shared = _Contact(body, constants, low, high, width, ())
-        (part,) = _integrals(shared, kernel, 1, positive=1)
+        (part,) = _integrals(shared, kernel, 1, 1)
         total = total + part
     for place, jump, A, B in _corners(body, a, c, constants):
         peak = _beside_corner(np.minimum(B * left, A * right), h, np.abs(x - place))
@@ -211,7 +222,7 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         return np.abs(value), value
 
     shared = _Contact(body, constants, -a, c, h, ())
-    _, total = _integrals(shared, integrand, 2, positive=0)
+    _, total = _integrals(shared, integrand, 2, 0)
     for piece in shared.pieces():
         r_0 = np.sqrt(piece.start_low / np.maximum(piece.length + piece.end_high, _TINY))
         psi = 2 * r_0 - 1.5 * np.arctan(r_0) - r_0 / (2 * (1 + r_0**2))
@@ -287,7 +298,7 @@ def is_delicate(body: Profile, a: Array, c: Array, /, **constants: Array) -> Arr
     A break lies close to an edge, or to the next one, compared with the width; or powers cancel, or
     the moment about a break is small beside that about the origin.
     """
-    h, places, integrated = a + c, body.breaks(**constants), _integrated.get()
+    h, places, integrated = a + c, body.places(**constants), _integrated.get()
     least = (NEARER if integrated else CLOSE) * h
     rough = h < 0
     for place in places:
@@ -504,10 +515,12 @@ def _integrals(
     integrand: Callable[..., tuple[Array, ...]],
     count: int,
     positive: int,
+    size: Array | None = None,
 ) -> list[Array]:
     """Integrals over the windows, NaN where the sums do not agree; straight pieces add nothing.
 
-    The first few are positive, and each of these has to agree for itself; where there is none, the
+    The first few are positive, and each of these has to agree for itself.  The next one, if its
+    `size` is given, has to agree against that, for its own sake alone.  Where none is positive, the
     last one has to, against the first one, which is its size and need not be smooth.
     """
     sums = np.full((count, contact.width.size), np.nan)
@@ -517,18 +530,23 @@ def _integrals(
         sums[:, rows] = 0.0
         return [*sums]
     before = np.zeros((count, rows.size))
+    judged, sizes = (slice(positive),) * 2 if positive else (slice(-1, None), slice(1))
     for level in range(COARSEST, FINEST + 1):
         if not rows.size:
             break
         here = contact.on(rows)
         fresh = _level_sums(here, integrand, count, level)
         now = before + fresh if level == COARSEST else before / 2 + fresh
-        judged, size = (slice(positive),) * 2 if positive else (slice(-1, None), slice(1))
-        off = np.abs(now[judged] - before[judged]) - AGREED * np.abs(now[size])
-        near = np.all(off <= _NOTHING, axis=0)
-        agreed = (near & (level > COARSEST)) | np.any(np.isnan(off), axis=0)
-        sums[:, rows[agreed]] = now[:, agreed]
-        rows, before = rows[~agreed], now[:, ~agreed]
+        off = np.abs(now[judged] - before[judged]) - AGREED * np.abs(now[sizes])
+        agreed = np.all(off <= _NOTHING, axis=0) & (level > COARSEST)
+        agreed |= np.any(np.isnan(off), axis=0)
+        told, ended = now.copy(), agreed
+        if size is not None:
+            rest = np.abs(now[positive] - before[positive])
+            ended = agreed & ~(rest > EXACT * size[rows])
+            told[positive] = np.where(ended, told[positive], np.nan)
+        sums[:, rows[agreed]] = told[:, agreed]
+        rows, before = rows[~ended], now[:, ~ended]
     return [*sums]
 
 

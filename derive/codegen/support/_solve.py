@@ -48,6 +48,9 @@ ACCEPTED = 1e-9
 ROUGHEST = 1e-4
 """Where the rounding of the edges moves the load by more, no contact is given."""
 
+UNSURE = 1e-2
+"""Nor is one where the rounding of a tilt moves an edge by more, in parts of the width."""
+
 FINEST = 2.0**-20
 """Where a smaller part of a step leads no nearer, Newton's method has lost its way;"""
 
@@ -272,15 +275,17 @@ def _is_met(load: Array, goal: Any, a: Array, c: Array, now: State) -> tuple[Arr
     """Whether a contact carries what is asked, as exactly as its edges can be numbers at all.
 
     And whether it is told by it that none does: where its edges lie so close to a kink that their
-    rounding moves the load by ROUGHEST.
+    rounding moves the load by ROUGHEST, or where that of what is asked moves them by UNSURE.
     """
     h, mid = a + c, (c - a) / 2
     rounding = np.pi / 4 * _EPS * np.sqrt(h) / now.load
     rounding *= now.left * np.abs(a) + now.right * np.abs(c)
     allowed = ACCEPTED + 16 * rounding
-    rest = np.abs(goal.off(now, h, mid, load)) - 16 * np.minimum(goal.rounding(h, load), ROUGHEST)
+    given = goal.rounding(h, load)
+    rest = np.abs(goal.off(now, h, mid, load)) - 16 * np.minimum(given, ROUGHEST)
     met = (np.abs(np.log(load / now.load)) < allowed) & (rest < 16 * allowed)
-    return met & (rounding < ROUGHEST), met & ~(rounding < ROUGHEST)
+    clear = (rounding < ROUGHEST) & (given < UNSURE)
+    return met & clear, met & ~clear
 
 
 class _Widths(NamedTuple):
