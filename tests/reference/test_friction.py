@@ -168,6 +168,7 @@ def test_the_zone_ends_with_what_touches_always_or_within_an_element() -> None:
     assert permanent(x, way, Zone(-0.33, 1.01)) == pytest.approx((-0.33, 0.61), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_an_edge_that_runs_ahead_of_slip_ends_the_zone() -> None:
     # contact [-a, c] with c - a = -4 M/P and a c = (P/(E* phi))^2: c = sqrt(1 + 0.1^2) - 0.1
     first, second = (State(1, s * 0.05, s * 0.06, s * 0.05) for s in (-1, 1))

@@ -60,8 +60,12 @@ def beside(
         moves = np.isfinite(by_left + by_right)
         a[on] += np.where(moves, left * np.expm1(by_left), 0.0)
         c[on] += np.where(moves, right * np.expm1(by_right), 0.0)
-        length = np.maximum(np.abs(by_left), np.abs(by_right))
-        rounding = 2 * _EPS * np.maximum(np.abs(edge[0]) / left, np.abs(edge[1]) / right)
+        near = [
+            _nearest(at, beyond, [kink[on] for kink in kinks])
+            for at, beyond, kinks in zip(edge, (left, right), (behind, breaks), strict=True)
+        ]
+        length = np.maximum(np.abs(by_left) * left / near[0], np.abs(by_right) * right / near[1])
+        rounding = 2 * _EPS * np.maximum(np.abs(edge[0]) / near[0], np.abs(edge[1]) / near[1])
         going = (length > SMALL) | ((length > SMALLEST) & (length < last[on] / 2))
         last[on] = length
         on = on[moves & going & (length > rounding)]
@@ -73,6 +77,14 @@ def _last(edge: Array, inner: Array, kinks: Sequence[Array]) -> Array:
     for kink in kinks:
         inner = np.where(kink < edge, np.maximum(inner, kink), inner)
     return inner
+
+
+def _nearest(edge: Array, distance: Array, kinks: Sequence[Array]) -> Array:
+    """How far an edge is from what is nearest: a kink on either side, or its `distance`."""
+    for kink in kinks:
+        away = np.abs(edge - kink)
+        distance = np.where(away > 0, np.minimum(distance, away), distance)
+    return distance
 
 
 def edges(
