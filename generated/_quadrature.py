@@ -190,10 +190,30 @@ def _beside_corner(over: Array, h: Array, distance: Array) -> Array:
 
 def second_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> tuple[Array, Array]:
     """The coefficients of s**(3/2) in the pressure at the left and the right edge for E* = 1."""
-    given = _Flat(a, c, constants)
+    given, body = _Flat(a, c, constants), _uncut(body)
     a, c, constants = given.a, given.c, given.constants
     left = _second_right(mirrored(body), c, a, constants)
     return given.shaped(left), given.shaped(_second_right(body, a, c, constants))
+
+
+def _uncut(body: Profile) -> Profile:
+    """The body without the cuts that are there for quadrature of g' alone."""
+    if not body.plain:
+        return body
+    kept: list[Piece] = []
+    for i, piece in enumerate(body.pieces):
+        if i - 1 in body.plain:
+            piece = Piece(kept.pop().from_left, piece.from_right)
+        kept.append(piece)
+
+    def corners(**constants: Array) -> tuple[Array, ...]:
+        found = enumerate(body.corners(**constants))
+        return tuple(jump for i, jump in found if i not in body.plain)
+
+    def breaks(**constants: Array) -> tuple[Array, ...]:
+        return tuple(body.places(**constants))
+
+    return body._replace(breaks=breaks, corners=corners, pieces=tuple(kept), plain=())
 
 
 def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]) -> Array:
