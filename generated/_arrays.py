@@ -239,8 +239,7 @@ def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> An
     own = type(held) is type(left) is np.ndarray and type(offset) in (np.ndarray, np.float64)
     out = left if own and held.shape == left.shape and offset.shape in ((), held.shape) else None
     try:
-        with np.errstate(over="raise"):
-            found = held / offset if out is None else np.divide(held, offset, out=out)
+        found = _finite_quotient(held, offset, out)
     except FloatingPointError:
         offset = np.abs(offset)
         found = np.log1p(held / offset)
@@ -248,6 +247,15 @@ def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> An
     if out is None:
         return np.log1p(np.abs(found))
     return np.log1p(np.abs(found, out=found), out=found)
+
+
+@np.errstate(over="raise")
+def _finite_quotient(over: Any, under: Any, out: Any) -> Any:
+    """The quotient, in the memory of `out` if that is given.
+
+    Raises FloatingPointError where it leaves float64.
+    """
+    return over / under if out is None else np.divide(over, under, out=out)
 
 
 def _between_edges(left: Any, right: Any) -> Any:
