@@ -45,6 +45,7 @@ from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet import FormulaSheet
 from derive.symbols import M, P, a, alpha, c, e, h, w, x
 from derive.theory.frame import KinkFrame
+from derive.theory.ring import factored
 
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
@@ -159,10 +160,12 @@ def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
                 times = total.coeff(angle)
                 rest = [term for term in total.args if not term.has(angle)]
                 free = Add(*(term for term in rest if not term.free_symbols & of_kinks))
-                share = factor(times + free / pi)
-                if free == 0 or times == 0 or count_ops(share) >= count_ops(factor(times)):
+                if free == 0 or times == 0:
                     continue
-                other = factor(free / pi) * _other_side(angle, kinks)
+                share = factored(times + free / pi)
+                if count_ops(share) >= count_ops(factored(times)):
+                    continue
+                other = factored(free / pi) * _other_side(angle, kinks)
                 left = Add(*(term for term in rest if term.free_symbols & of_kinks))
                 expr = expr.xreplace({total: other + share * angle + left})
                 break

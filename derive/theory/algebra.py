@@ -6,24 +6,24 @@ w_j = 0 then, so that only w_j**3 = (a + x_j)(c - x_j) w_j holds throughout.  In
 zero" has an exact answer.
 """
 
+from functools import lru_cache
+
 from sympy import (
     Add,
     Dummy,
     Expr,
     Poly,
     Pow,
-    Rational,
-    S,
     Symbol,
     cancel,
     count_ops,
-    expand,
     factor,
     fraction,
     together,
 )
 
 from derive.theory.frame import Frame, KinkFrame
+from derive.theory.ring import Ring, linear_parts
 
 
 def reduced(expr: Expr, frame: Frame) -> Expr:
@@ -43,58 +43,25 @@ def tidy(expr: Expr, frame: Frame) -> Expr:
     return min(forms, key=lambda form: (count_ops(form), str(form)))
 
 
+@lru_cache(maxsize=256)
 def is_zero(expr: Expr, frame: Frame) -> bool:
     """Whether `expr` vanishes identically in the ring; exact, never a guess.
 
-    Every root becomes a symbol whose square is known and every denominator is multiplied up, so
-    that a polynomial remains; it is expanded, even powers of roots are replaced, and it is zero or
-    not.  What is linear in the symbols of many kinks is zero if every coefficient is.
+    Every root is a generator whose square is known and every denominator is multiplied up, so that
+    polynomials remain: one for each product of the kinks' symbols and the roots, which are
+    independent.  Each is zero or not.
     """
-    parts = _coefficients(expr, [s for k in frame.kinks for s in (k.theta, k.w, k.L)])
-    if len(frame.kinks) > 1 and parts is not None:
-        return all(_is_zero_polynomial(part, frame) for part in parts)
-    return _is_zero_polynomial(expr, frame)
-
-
-def _is_zero_polynomial(expr: Expr, frame: Frame) -> bool:
-    expr, roots = _without_roots(expr)
-    polynomial = _low_power(_numerator(expr), frame)
-    return bool(_even_powers_replaced(expand(polynomial), roots) == 0)
-
-
-def _numerator(expr: Expr) -> Expr:
-    """`expr` times every denominator that it holds, to the highest power at which it occurs."""
-    inverses = {p for p in expr.atoms(Pow) if p.exp.is_Integer and p.exp < 0}
-    symbols = {base: Dummy("v") for base in sorted({p.base for p in inverses}, key=str)}
-    table = {p: symbols[p.base] ** -p.exp for p in inverses}
-    terms = Add.make_args(expand(expr.xreplace(table)))
-    powers = [term.as_powers_dict() for term in terms]
-    total = S.Zero
-    highest = {v: max(p.get(v, 0) for p in powers) for v in symbols.values()}
-    for term, held in zip(terms, powers, strict=True):
-        for base, v in symbols.items():
-            term *= base ** highest[v] * (v * base) ** -held.get(v, 0)
-        total += term
-    return total
-
-
-def _even_powers_replaced(expanded: Expr, squares: dict[Symbol, Expr]) -> Expr:
-    total = []
-    for term in Add.make_args(expanded):
-        powers = term.as_powers_dict()
-        for root, square in squares.items():
-            even = powers.get(root, 0) // 2
-            term *= (square / root**2) ** even
-        total.append(term)
-    return expand(Add(*total))
-
-
-def _without_roots(expr: Expr) -> tuple[Expr, dict[Symbol, Expr]]:
-    """Each sqrt(base) as a symbol r, an odd power base**(n/2) as r base**((n-1)/2)."""
-    halves = {p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2}
-    symbols = {base: Dummy("r") for base in sorted({p.base for p in halves}, key=str)}
-    table = {p: symbols[p.base] * p.base ** (p.exp - Rational(1, 2)) for p in halves}
-    return expr.xreplace(table), {symbol: base for base, symbol in symbols.items()}
+    squares = {k.w: k.left * k.right for k in frame.kinks}
+    ring = Ring([expr, *squares.values()])
+    symbols = [*(s for k in frame.kinks for s in (k.theta, k.w, k.L)), *ring.roots]
+    first = [base for base in ring.inverses if base.has(*symbols)] if symbols else []
+    polynomial, _ = ring.cleared(ring.polynomial(expr), first)
+    for root, (exponent, base) in ring.roots.items():
+        polynomial = ring.lowered(polynomial, root, exponent, base)
+    for k in frame.kinks:
+        polynomial = ring.lowered(polynomial, k.w, 2, squares[k.w], least=int(k.clipped))
+    parts = ring.apart(polynomial, symbols).values()
+    return all(ring.cleared(part, ring.inverses)[0].is_zero() for part in parts)
 
 
 def _symbols(frame: Frame) -> list[Symbol]:
@@ -122,18 +89,11 @@ def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
     """
     symbols = _symbols(frame)
     stand_ins = {root: Dummy("r", positive=True) for root in _roots_in(expr)}
-    parts = _coefficients(expr.xreplace(stand_ins), symbols)
+    parts = linear_parts(expr.xreplace(stand_ins), symbols)
     if parts is None:
         return None
     back = {stand_in: root for root, stand_in in stand_ins.items()}
-    terms = (factor(part) * s for part, s in zip(parts, [S.One, *symbols], strict=True))
-    return Add(*(term.xreplace(back) for term in terms))
-
-
-def _coefficients(expr: Expr, symbols: list[Symbol]) -> list[Expr] | None:
-    """What is free of the symbols, and the factor of each; None where they are not linear."""
-    parts = [expr.xreplace(dict.fromkeys(symbols, S.Zero)), *(expr.diff(s) for s in symbols)]
-    return None if any(part.has(*symbols) for part in parts if symbols) else parts
+    return Add(*(part.xreplace(back) * s for s, part in parts.items()))
 
 
 def _roots_in(expr: Expr) -> list[Expr]:

@@ -60,12 +60,12 @@ def contact_from_moment(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> I
 
 def contact_from_tilt(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> Inverse | None:
     """(P, alpha) -> (a, c, M)."""
+    if len(frame.kinks) > 1 or any(k.clipped for k in frame.kinks):
+        return None
     arm = reduced(moment / load, frame)
     if not frame.kinks:
         return _smooth_at_tilt(frame, tilt, load, arm)
-    if len(frame.kinks) == 1 and not frame.kinks[0].clipped:
-        return _corner_at_tilt(frame.kinks[0], tilt, load, arm)
-    return None
+    return _corner_at_tilt(frame.kinks[0], tilt, load, arm)
 
 
 def _smooth_at_tilt(frame: Frame, tilt: Expr, load: Expr, arm: Expr) -> Inverse | None:

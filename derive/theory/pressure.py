@@ -8,21 +8,25 @@ leaves moments, gathered in R(x), and one principal value a kink,
 so that p(x) = (E*/2) [ w(x) R(x) + (2/pi) sum_j side_j D_j(x) L_j(x) ].
 """
 
-from sympy import Expr, Poly, S, Symbol, cancel, expand, factor, pi
+from functools import lru_cache
+
+from sympy import Expr, Poly, S, Symbol, cancel, factor, pi
 
 from derive.symbols import E_star, w, x
 from derive.theory.frame import Frame
 from derive.theory.moments import weighted
+from derive.theory.ring import factored
 
 _at = Symbol("x_at", real=True)
 
 
+@lru_cache(maxsize=16)
 def smooth_part(frame: Frame) -> Expr:
     """R(x), a polynomial in x whose coefficients hold the kinks' angles and roots."""
     total = _divided(frame.slope.base, None)
     for kink in frame.kinks:
         total += _divided(kink.kink.jump, kink)
-    return factor(cancel(expand(total / pi)))
+    return factored(total / pi)
 
 
 def _divided(polynomial: Expr, kink: object) -> Expr:
