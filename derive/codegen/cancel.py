@@ -8,6 +8,7 @@ The formulas are written about the origin.  Close to a root of g'' or to a kink 
 powers of its place cancel: in (x - b)**3, a contact of width h loses the factor (b/h)**3.
 """
 
+from functools import lru_cache
 from itertools import pairwise
 
 from sympy import (
@@ -88,6 +89,7 @@ def _without_signs(polynomial: Expr) -> Expr:
     return Add(*(Abs(term.subs(x, _r)) for term in Add.make_args(expand(polynomial))))
 
 
+@lru_cache(maxsize=16)
 def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
     """Where quadrature cuts the body, and the pieces between.
 

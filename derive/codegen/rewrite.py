@@ -131,8 +131,8 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
         angles = sorted((expr.free_symbols & kinks.keys()) | expr.atoms(atan2), key=str)
         for angle in angles:
             stand_in = Symbol("angle_stand_in")
-            linear = expr.subs(angle, stand_in)
-            times, rest = linear.diff(stand_in), linear.subs(stand_in, 0)
+            linear = expr.xreplace({angle: stand_in})
+            times, rest = linear.diff(stand_in), linear.xreplace({stand_in: S.Zero})
             if times == 0 or times.has(stand_in):
                 continue
             if vanishes(rest + times * pi / 2):

@@ -9,6 +9,7 @@ punches; the contact law against the edge limit of p; the inverses by substituti
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 
 from sympy import (
     Abs,
@@ -33,7 +34,7 @@ from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, P, a, c, dM, dP, e, f, h, mid, s, w, x
 from derive.theory.algebra import is_zero
-from derive.theory.frame import KinkFrame
+from derive.theory.frame import Frame, KinkFrame
 from derive.theory.slip import pressure_next
 
 _LIMIT = "limit of p at the edges"
@@ -214,7 +215,19 @@ def _next(sheet: FormulaSheet, name: str) -> str | None:
 
 
 def _differentiated(of: str, edge: Symbol) -> Route:
-    return _equal_to(lambda sheet: sheet.frame.diff(sheet[of].expr, edge), f"{of} differentiated")
+    """The route that differentiates another formula; five more formulas ask for it."""
+
+    def route(sheet: FormulaSheet, name: str) -> str | None:
+        grows = _is_rate(sheet.frame, sheet[name].expr, sheet[of].expr, edge)
+        return f"{of} differentiated" if grows else None
+
+    return route
+
+
+@lru_cache(maxsize=16)
+def _is_rate(frame: Frame, rate: Expr, of: Expr, edge: Symbol) -> bool:
+    """Whether `rate` is the derivative along an edge."""
+    return is_zero(rate - frame.diff(of, edge), frame)
 
 
 def _by_rates(value: Callable[[FormulaSheet], Expr], words: str) -> Route:

@@ -6,8 +6,6 @@ w_j = 0 then, so that only w_j**3 = (a + x_j)(c - x_j) w_j holds throughout.  In
 zero" has an exact answer.
 """
 
-from functools import lru_cache
-
 from sympy import (
     Add,
     Dummy,
@@ -43,7 +41,6 @@ def tidy(expr: Expr, frame: Frame) -> Expr:
     return min(forms, key=lambda form: (count_ops(form), str(form)))
 
 
-@lru_cache(maxsize=256)
 def is_zero(expr: Expr, frame: Frame) -> bool:
     """Whether `expr` vanishes identically in the ring; exact, never a guess.
 

@@ -11,12 +11,13 @@ each logarithm is an integral of a binomial series; no limit is taken of anythin
 
 from enum import Enum
 
-from sympy import Expr, Integer, Poly, Rational, S, binomial, cancel, expand, pi, sqrt
+from sympy import Expr, Integer, Rational, S, binomial, cancel, pi, sqrt
 
 from derive.symbols import E_star, a, c, h, s, x
 from derive.theory.algebra import tidy
 from derive.theory.frame import Frame, KinkFrame
 from derive.theory.pressure import smooth_part
+from derive.theory.ring import powers_of
 
 
 class Edge(Enum):
@@ -53,14 +54,12 @@ def pressure_series(frame: Frame, edge: Edge, terms: int) -> list[Expr]:
 
 
 def _taylor(polynomial: Expr, terms: int) -> list[Expr]:
-    coefficients = Poly(polynomial, s).all_coeffs()[::-1]
-    return (coefficients + [S.Zero] * terms)[:terms]
+    found = powers_of(s, polynomial)
+    return [found.get(n, S.Zero) for n in range(terms)]
 
 
 def _product(first: list[Expr], second: list[Expr], terms: int) -> list[Expr]:
-    return [
-        expand(sum((first[i] * second[n - i] for i in range(n + 1)), S.Zero)) for n in range(terms)
-    ]
+    return [sum((first[i] * second[n - i] for i in range(n + 1)), S.Zero) for n in range(terms)]
 
 
 def _root_series(power: Expr, terms: int) -> list[Expr]:

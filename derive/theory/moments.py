@@ -9,6 +9,7 @@ and w vanishes at both edges, so that only a kink leaves a bracket.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 from sympy import Expr, Integer, Poly, S, expand, pi
 
@@ -26,14 +27,14 @@ def kink_moment(k: int, kink: KinkFrame) -> Expr:
     return _recursion(k, kink.theta, at=kink.kink.position, bracket=-kink.kink.side * kink.w)
 
 
+@lru_cache(maxsize=256)
 def _recursion(k: int, angle: Expr, at: Expr, bracket: Expr) -> Expr:
     """J_k of a part with [s^n w] = at**n * bracket."""
-    before, current = S.Zero, angle
-    for n in range(1, k + 1):
-        boundary = bracket * (Integer(1) if n == 1 else at ** (n - 1))
-        following = ((2 * n - 1) * mid * current + (n - 1) * a * c * before - boundary) / n
-        before, current = current, expand(following)
-    return current
+    if k < 1:
+        return angle if k == 0 else S.Zero
+    current, before = (_recursion(n, angle, at, bracket) for n in (k - 1, k - 2))
+    boundary = bracket * (Integer(1) if k == 1 else at ** (k - 1))
+    return expand(((2 * k - 1) * mid * current + (k - 1) * a * c * before - boundary) / k)
 
 
 def weighted(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
@@ -45,6 +46,7 @@ def weighted(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
     return expand(total)
 
 
+@lru_cache(maxsize=64)
 def slope_moment(k: int, frame: Frame) -> Expr:
     """I_k of g' alone, without the tilt."""
     return polynomial_moment(k, frame, frame.slope.base, [kink.kink.jump for kink in frame.kinks])

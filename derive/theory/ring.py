@@ -35,6 +35,7 @@ class Ring:
         seen: set[Expr] = set()
         for expr in exprs:
             self._gather(expr, seen)
+        self.generators = (*self._atoms, *(1 / base for base in self.inverses))
         names = [*self._atoms, *(("inverse", base) for base in self.inverses)]
         self._places = {name: i for i, name in enumerate(names)}
         self._ring = fmpq_mpoly_ctx.get(("x", len(names)), "lex")
@@ -143,20 +144,19 @@ class Ring:
             content, factors = whole.factor()
             number *= Rational(int(content.p), int(content.q)) ** sense
             for part, times in factors:
-                powers[self._written(part)] += sense * times
+                powers[self.written(part)] += sense * times
         product = Mul(*(part**power for part, power in powers.items()))
         if product.is_Add and abs(number) != 1:
             return Mul(number, product, evaluate=False)
         return number * product
 
-    def _written(self, polynomial: Polynomial) -> Expr:
-        """A polynomial without roots and inverses as an expression."""
-        atoms = self.atoms
+    def written(self, polynomial: Polynomial) -> Expr:
+        """As a sum of products."""
         return Add(
             *(
                 Mul(
                     Rational(int(coefficient.p), int(coefficient.q)),
-                    *(atoms[i] ** power for i, power in enumerate(monomial) if power),
+                    *(self.generators[i] ** power for i, power in enumerate(monomial) if power),
                 )
                 for monomial, coefficient in polynomial.to_dict().items()
             )
@@ -192,6 +192,13 @@ def linear_parts(expr: Expr, symbols: Sequence[Symbol]) -> dict[Expr, Expr] | No
         return None
     names = {powers: Mul(*(s**n for s, n in zip(held, powers, strict=True))) for powers in parts}
     return {names[powers]: ring.factored(part) for powers, part in parts.items()}
+
+
+def powers_of(symbol: Symbol, polynomial: Expr) -> dict[int, Expr]:
+    """What each power of a symbol is multiplied by, expanded."""
+    ring = Ring([polynomial], [symbol])
+    parts = ring.apart(ring.polynomial(polynomial), [symbol])
+    return {power: ring.written(part) for (power,), part in parts.items()}
 
 
 def _of_quotient(expr: Expr) -> Ring | None:
