@@ -131,14 +131,13 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
         angles = sorted((expr.free_symbols & kinks.keys()) | expr.atoms(atan2), key=str)
         for angle in angles:
             stand_in = Symbol("angle_stand_in")
-            linear = expr.xreplace({angle: stand_in})
-            times, rest = linear.diff(stand_in), linear.xreplace({stand_in: S.Zero})
-            if times == 0 or times.has(stand_in):
+            is_right = vanishes(expr.xreplace({angle: pi / 2}))
+            if not is_right and not (angle in kinks and vanishes(expr.xreplace({angle: pi}))):
                 continue
-            if vanishes(rest + times * pi / 2):
-                expr = simplify(-times) * _complement(angle, kinks)
-            elif angle in kinks and vanishes(rest + times * pi):
-                expr = simplify(-times) * _opposite(kinks[angle])
+            times = expr.xreplace({angle: stand_in}).diff(stand_in)
+            if times != 0 and not times.has(stand_in):
+                other = _complement(angle, kinks) if is_right else _opposite(kinks[angle])
+                expr = simplify(-times) * other
         return expr
 
     return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})

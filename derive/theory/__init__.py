@@ -1,6 +1,7 @@
 """The mechanics of one half-plane contact, stage by stage; each module imports only earlier ones.
 
 frame        what a kink brings: its angle, its root, its logarithm
+ring         expressions as polynomials over the rationals, in FLINT
 algebra      one form for each formula, and an exact answer to "is it zero"
 moments      I_k(a, c), the integrals that equilibrium is made of
 equilibrium  tilt from I_0 = 0, load and moment from I_1 and I_2

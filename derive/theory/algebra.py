@@ -8,20 +8,17 @@ zero" has an exact answer.
 
 from sympy import (
     Add,
-    Dummy,
     Expr,
     Poly,
-    Pow,
     Symbol,
     cancel,
     count_ops,
-    factor,
     fraction,
     together,
 )
 
 from derive.theory.frame import Frame, KinkFrame
-from derive.theory.ring import Ring, linear_parts
+from derive.theory.ring import Ring, factored, linear_parts, stand_ins_for_roots
 
 
 def reduced(expr: Expr, frame: Frame) -> Expr:
@@ -37,7 +34,7 @@ def tidy(expr: Expr, frame: Frame) -> Expr:
         if linear is not None:
             return linear
     quotient = reduced(expr, frame)
-    forms = [factor(quotient), _collected(quotient, frame)]
+    forms = [factored(quotient), _collected(quotient, frame)]
     return min(forms, key=lambda form: (count_ops(form), str(form)))
 
 
@@ -70,13 +67,13 @@ def _collected(quotient: Expr, frame: Frame) -> Expr:
     numerator, denominator = fraction(quotient)
     symbols = [s for s in _symbols(frame) if numerator.has(s)]
     if not symbols:
-        return factor(quotient)
+        return factored(quotient)
     content, primitive = Poly(numerator, *symbols).primitive()
     collected = sum(
-        factor(coefficient) * Poly({powers: 1}, *symbols).as_expr()
+        factored(coefficient) * Poly({powers: 1}, *symbols).as_expr()
         for powers, coefficient in primitive.terms()
     )
-    return factor(content / denominator) * collected
+    return factored(content / denominator) * collected
 
 
 def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
@@ -85,17 +82,12 @@ def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
     Without a common denominator of all: with many kinks that would be by far the longest way.
     """
     symbols = _symbols(frame)
-    stand_ins = {root: Dummy("r", positive=True) for root in _roots_in(expr)}
+    stand_ins = stand_ins_for_roots(expr)
     parts = linear_parts(expr.xreplace(stand_ins), symbols)
     if parts is None:
         return None
     back = {stand_in: root for root, stand_in in stand_ins.items()}
     return Add(*(part.xreplace(back) * s for s, part in parts.items()))
-
-
-def _roots_in(expr: Expr) -> list[Expr]:
-    """The roots and odd powers of roots that an expression holds."""
-    return sorted((p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2), key=str)
 
 
 def _low_power(expr: Expr, frame: Frame) -> Expr:

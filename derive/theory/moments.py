@@ -43,7 +43,7 @@ def weighted(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
     for (power,), coefficient in Poly(polynomial, x).terms():
         part = full_moment(power) if kink is None else kink_moment(power, kink)
         total += coefficient * part
-    return expand(total)
+    return total
 
 
 @lru_cache(maxsize=64)
@@ -57,4 +57,4 @@ def polynomial_moment(k: int, frame: Frame, base: Expr, jumps: Sequence[Expr]) -
     total = weighted(x**k * base)
     for kink, jump in zip(frame.kinks, jumps, strict=True):
         total += weighted(x**k * jump, kink)
-    return expand(total)
+    return total

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import prod
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
-from sympy import Add, Expr, Float, Mul, NumberSymbol, Poly, Rational, S, Symbol, factor
+from sympy import Add, Dummy, Expr, Float, Mul, NumberSymbol, Poly, Pow, Rational, S, Symbol, factor
 
 Polynomial = fmpq_mpoly
 
@@ -124,9 +124,9 @@ class Ring:
         """A polynomial times the lowest powers of `bases` that leave no inverse, and these."""
         powers = {}
         for base in sorted(bases, key=self.inverses.index, reverse=True):
-            parts = self.apart(polynomial, [("inverse", base)])
-            highest = max((power for (power,) in parts), default=0)
-            if highest:
+            highest = polynomial.degrees()[self._places["inverse", base]]
+            if highest > 0:
+                parts = self.apart(polynomial, [("inverse", base)])
                 powers[base], by = highest, self.polynomial(base)
                 lifted = (part * by ** (highest - power) for (power,), part in parts.items())
                 polynomial = sum(lifted, self._ring.constant(0))
@@ -176,9 +176,21 @@ def _factors(expr: Expr) -> Iterator[tuple[Expr, int]]:
 
 
 def factored(expr: Expr) -> Expr:
-    """The same as SymPy's factor(expr), sooner where it is a quotient of polynomials."""
-    ring = _of_quotient(expr)
-    return factor(expr) if ring is None else ring.factored(ring.polynomial(expr))
+    """The same as SymPy's factor(expr), sooner where it is a quotient of polynomials and roots."""
+    stand_ins = stand_ins_for_roots(expr)
+    ring = _of_quotient(expr.xreplace(stand_ins))
+    if ring is None:
+        return factor(expr)
+    found = ring.factored(ring.polynomial(expr.xreplace(stand_ins)))
+    if any(total.has(*stand_ins.values()) for total in found.atoms(Add) if stand_ins):
+        return factor(expr)  # whose roots may be powers of each other
+    return found.xreplace({stand_in: root for root, stand_in in stand_ins.items()})
+
+
+def stand_ins_for_roots(expr: Expr) -> dict[Expr, Symbol]:
+    """A symbol for each root, and each odd power of a root, that an expression holds."""
+    roots = (p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2)
+    return {root: Dummy("r", positive=True) for root in sorted(roots, key=str)}
 
 
 def linear_parts(expr: Expr, symbols: Sequence[Symbol]) -> dict[Expr, Expr] | None:

@@ -1,0 +1,88 @@
+"""Expressions as polynomials in FLINT, against SymPy's own algebra."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from sympy import Expr, Integer, Mul, Rational, Symbol, cos, expand, factor, pi, sqrt, srepr
+
+from derive.symbols import E_star, a, c, h, s, x
+from derive.theory.ring import Ring, factored, linear_parts, powers_of
+
+b, theta = Symbol("b", positive=True), Symbol("theta_1", nonnegative=True)
+
+
+@pytest.mark.parametrize(
+    "expr",
+    [
+        Integer(0),
+        Rational(-3, 7),
+        pi,
+        -a - c,
+        (a + c) / 2,
+        (x - a) * (a - c) / (2 * c + 4 * a) / 3,
+        (a**2 - c**2) / (a + c),
+        1 / (a - c) + 1 / (c - a),
+        E_star * (theta * (a + b) - pi * (c - b)) / (pi**2 * b**3),
+        2 * (a + c) ** 2 * (x - c) ** 3 / (3 * (a + c) ** 5),
+        (a / sqrt(h) + c / sqrt(h)) * theta,
+        h ** Rational(3, 2) + sqrt(h) * b,
+        (a * cos(x) + c * cos(x)) / b,
+        0.5 * a + 0.25 * c,
+        (a**2 + 2 * b**2) / (4 * a**2 - 9 * b**2) - 1,
+    ],
+    ids=str,
+)
+def test_factored_as_sympy_factors(expr: Expr) -> None:
+    assert srepr(factored(expr)) == srepr(factor(expr))
+
+
+_sum = st.lists(
+    st.tuples(st.integers(-3, 3), st.lists(st.sampled_from([a, b, c, theta, pi]), max_size=3)),
+    min_size=1,
+    max_size=4,
+).map(lambda terms: sum((n * Mul(*held) for n, held in terms), Integer(0)))
+
+
+@settings(max_examples=60, deadline=None)
+@given(_sum, _sum, _sum.filter(lambda total: expand(total) != 0), st.integers(1, 6))
+def test_random_quotients_are_factored_as_sympy_factors(
+    p: Expr, q: Expr, divisor: Expr, number: int
+) -> None:
+    expr = (p * q + p) / (number * divisor)
+    assert srepr(factored(expr)) == srepr(factor(expr))
+
+
+def test_linear_parts_are_what_stands_before_the_symbols() -> None:
+    parts = linear_parts((theta * (a**2 - c**2) + b) / (a + c), [theta])
+    assert parts == {theta: a - c, 1: b / (a + c)}
+
+
+@pytest.mark.parametrize("expr", [theta**2 + a, theta * b, 1 / (theta + a), cos(theta)], ids=str)
+def test_what_is_not_linear_has_no_linear_parts(expr: Expr) -> None:
+    assert linear_parts(expr, [theta, b]) is None
+
+
+def test_powers_of_a_symbol() -> None:
+    found = powers_of(s, (a - s) ** 2 / c + s * theta)
+    assert found == {0: a**2 / c, 1: theta - 2 * a / c, 2: 1 / c}
+
+
+def test_a_power_is_made_of_the_base_its_root_and_its_inverse() -> None:
+    """h**(-3/2) = h**-2 h**(1/2): a term with the inverse squared and the root once."""
+    power = h ** Rational(-3, 2)
+    ring = Ring([power])
+    assert ring.roots == {sqrt(h): (2, h)}
+    assert ring.inverses == [h]
+    assert ring.written(ring.polynomial(power)) == power
+    ((monomial, coefficient),) = ring.polynomial(power).to_dict().items()
+    assert sorted(monomial) == [0, 0, 1, 2]
+    assert coefficient == 1
+
+
+@pytest.mark.parametrize(("least", "left"), [(0, theta), (1, theta), (2, theta**3)])
+def test_powers_are_lowered_down_to_the_least_that_is_left(least: int, left: Expr) -> None:
+    """theta**5 with theta**2 = a + c: twice, or once where two powers of theta must stay."""
+    ring = Ring([theta**5, a + c])
+    low = ring.lowered(ring.polynomial(theta**5), theta, 2, a + c, least)
+    times = 2 if left == theta else 1
+    assert ring.written(low) == expand((a + c) ** times * left)
