@@ -20,6 +20,9 @@ _TITLE = '"""Contact laws as NumPy functions, one module a body; every formula i
 _ALWAYS = ("_arrays", "_types")
 """Modules of support/ that every package has; the others come with a module that imports them."""
 
+_COMPILED = "__pycache__"
+"""Where Python keeps the modules of a folder compiled; it makes them again if they are gone."""
+
 Files = Mapping[str, str]
 """Name of each file of a package, and its text."""
 
@@ -144,17 +147,31 @@ def demand_replaceable(folder: Path) -> None:
         return
     if folder.is_symlink() or not folder.is_dir():
         raise BadOutput(str(folder), "is no directory")
-    for path in _entries(folder):
-        if not _is_ours(path):
-            raise BadOutput(str(folder), f"holds {path.name!r}, which was not generated")
+    foreign = [path for path in _entries(folder) if not _is_ours(path)] + _uncompiled(folder)
+    for path in foreign:
+        name = str(path.relative_to(folder))
+        raise BadOutput(str(folder), f"holds {name!r}, which was not generated")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
         raise BadOutput(str(folder), "is where this command runs")
 
 
 def _entries(folder: Path) -> list[Path]:
+    """What a folder holds, but for the place where Python keeps what it compiled."""
     if not folder.is_dir():
         return []
-    return sorted(p for p in folder.iterdir() if p.name != "__pycache__")
+    return sorted(p for p in folder.iterdir() if p.name != _COMPILED)
+
+
+def _uncompiled(folder: Path) -> list[Path]:
+    """What stands in that place and was not compiled by Python: it would be lost with it."""
+    kept = folder / _COMPILED
+    if kept.is_symlink() or not kept.is_dir():
+        return [kept] if kept.is_symlink() or kept.exists() else []
+    return sorted(p for p in kept.iterdir() if p.is_symlink() or not _is_bytecode(p))
+
+
+def _is_bytecode(path: Path) -> bool:
+    return path.suffix == ".pyc" and path.is_file()
 
 
 def _is_ours(path: Path) -> bool:

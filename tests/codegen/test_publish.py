@@ -130,13 +130,35 @@ def add_package_inside(folder: Path) -> None:
     publish(OLD, folder / "inner.py")
 
 
+def add_to_what_is_compiled(folder: Path) -> None:
+    (folder / "__pycache__").mkdir()
+    (folder / "__pycache__" / "cylinder.cpython-311.pyc").write_bytes(b"old")
+    (folder / "__pycache__" / "keep.txt").write_text("mine")
+
+
+def add_a_folder_to_what_is_compiled(folder: Path) -> None:
+    (folder / "__pycache__" / "notes.pyc").mkdir(parents=True)
+
+
+def add_a_file_in_its_place(folder: Path) -> None:
+    (folder / "__pycache__").write_text("mine")
+
+
+def add_a_link_in_its_place(folder: Path) -> None:
+    (folder / "__pycache__").symlink_to(folder.parent)
+
+
 def take_the_mark_off(folder: Path) -> None:
     for path in folder.glob("*.py"):
         path.write_text("# mine now\n" + path.read_text())
     (folder / "cylinder.py").write_text("mine = 1\n")
 
 
-FOREIGN = (add_notes, add_module, add_folder, add_hidden, add_package_inside, take_the_mark_off)
+FOREIGN = (
+    *(add_notes, add_module, add_folder, add_hidden, add_package_inside, take_the_mark_off),
+    *(add_to_what_is_compiled, add_a_folder_to_what_is_compiled),
+    *(add_a_file_in_its_place, add_a_link_in_its_place),
+)
 
 
 @pytest.mark.parametrize("add", FOREIGN)
@@ -160,6 +182,12 @@ def test_a_directory_that_holds_anything_else_is_untouched(
 def test_the_foreign_thing_is_named(package: Path) -> None:
     add_notes(package)
     with pytest.raises(BadOutput, match=r"notes\.txt"):
+        demand_replaceable(package)
+
+
+def test_the_foreign_thing_is_named_with_its_folder(package: Path) -> None:
+    add_to_what_is_compiled(package)
+    with pytest.raises(BadOutput, match=r"__pycache__.keep\.txt"):
         demand_replaceable(package)
 
 
