@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 from shutil import which
 from typing import TYPE_CHECKING
@@ -17,7 +18,7 @@ import click
 from rich.console import Console, RenderableType
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from derive.errors import NotProven, UserError
+from derive.errors import BadLimit, NotProven, UserError
 from derive.limit import DEFAULT
 
 if TYPE_CHECKING:
@@ -30,9 +31,21 @@ _WIDE = 10_000
 
 FELL_SHORT, BAD_INPUT = 1, 2
 
+
+def _time(context: click.Context, option: click.Parameter, seconds: float) -> float:
+    """Seconds as they were given.
+
+    Raises BadLimit for what is no time that can pass.
+    """
+    if not 0 < seconds < inf:
+        raise BadLimit(f"{seconds:g}")
+    return seconds
+
+
 _limit = click.option(
     "--limit",
-    type=click.FloatRange(min=0),
+    type=float,
+    callback=_time,
     default=DEFAULT,
     show_default=True,
     metavar="SECONDS",

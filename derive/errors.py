@@ -295,6 +295,21 @@ class BadOption(UserError):
 
 
 @dataclass
+class BadLimit(UserError):
+    """A `--limit` that is no time which can pass."""
+
+    given: str
+
+    @property
+    def message(self) -> str:
+        """What may stand there."""
+        return (
+            f"--limit {self.given}: the search for closed forms takes a number of seconds above "
+            "zero, and not without end; write one, such as --limit 20"
+        )
+
+
+@dataclass
 class OpenUnits(UserError):
     """Units that g(x) being a length does not fix."""
 

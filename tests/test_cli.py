@@ -397,20 +397,23 @@ def test_show_prints_closed_forms_beside_the_integrals() -> None:
 
 @pytest.mark.usefixtures("shown_unproven")
 def test_a_limit_that_strikes_is_told() -> None:
-    result = run("show", "catenary", "--limit", "0")
-    told = "No closed form found within 0 s; its integrals stay."
+    result = run("show", "catenary", "--limit", "1e-9")
+    told = "No closed form found within 1e-09 s; its integrals stay."
     assert result.exit_code == 0
     assert result.stderr == f"catenary: {told}\n"
     assert told in result.stdout
     assert "load_closed" not in result.stdout
-    assert run("show", "wedge", "--limit", "0").stderr == ""
+    assert run("show", "wedge", "--limit", "1e-9").stderr == ""
 
 
-def test_a_limit_is_no_negative_number() -> None:
-    for command in ("show", "generate"):
-        result = run(command, "catenary", "--limit", "-1")
-        assert result.exit_code == 2
-        assert "--limit" in result.stderr
+@pytest.mark.parametrize("seconds", ["-1", "0", "-0.0", "nan", "inf", "-inf", "1e999"])
+@pytest.mark.parametrize("command", ["show", "generate"])
+def test_a_limit_is_a_time_that_can_pass(command: str, seconds: str) -> None:
+    result = run(command, "catenary", "--limit", seconds)
+    assert result.exit_code == 2
+    (message,) = lines(result.stderr)
+    assert message.startswith(f"Error: --limit {float(seconds):g}: ")
+    assert "such as --limit 20" in message
 
 
 @pytest.mark.slow
@@ -419,11 +422,11 @@ def test_generate_tells_of_a_limit_that_struck(
 ) -> None:
     """Also when the body is kept from an earlier run; another limit looks again."""
     monkeypatch.setattr(derive.parallel, "cores", lambda: 1)
-    told = "catenary: No closed form found within 0 s; its integrals stay.\n"
-    first = run("generate", "catenary", "--out", "made", "--limit", "0")
+    told = "catenary: No closed form found within 1e-09 s; its integrals stay.\n"
+    first = run("generate", "catenary", "--out", "made", "--limit", "1e-9")
     assert (first.exit_code, first.stderr) == (0, told)
     text = (here / "made" / "catenary.py").read_bytes()
-    again = run("generate", "catenary", "--out", "made", "--limit", "0")
+    again = run("generate", "catenary", "--out", "made", "--limit", "1e-9")
     assert "kept" in again.stdout
     assert again.stderr == told
     third = run("generate", "catenary", "--out", "made")
