@@ -110,13 +110,14 @@ class UnknownSymbol(UserError):
 
     geometry: str
     given: str
+    remedy: str
 
     @property
     def message(self) -> str:
-        """Which symbol is unknown."""
+        """Which symbol is unknown, and the line that is missing."""
         return (
-            f"g of {self.geometry!r} holds the symbol {self.given!r}; only x and parameters are "
-            f'allowed: write {self.given} = parameter("{self.given}", "its meaning", unit="m")'
+            f"g of {self.geometry!r} holds the symbol {self.given!r}; only derive's x and "
+            f"parameters are allowed: {self.remedy}"
         )
 
 

@@ -52,10 +52,19 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     """
     if not isinstance(name, str) or not _usable(name):
         raise BadName("parameter", str(name), "cannot be a name")
-    if name in RESERVED or re.fullmatch(r"(theta|w|L|u|v|m|n|q_left|q_right)_\d+", name):
-        raise BadName("parameter", name, "is taken by the theory")
+    if _is_taken(name):
+        raise BadName("parameter", name, f"is taken by the theory{_FOR_X * (name == x.name)}")
     parse_unit(unit)
     return Parameter(name, meaning, unit)
+
+
+_FOR_X = ", for the place along the contact: `from derive import x` has it"
+
+
+def _is_taken(name: str) -> bool:
+    """Whether a name is one of the theory's own."""
+    numbered = re.fullmatch(r"(theta|w|L|u|v|m|n|q_left|q_right)_\d+", name)
+    return name in RESERVED or numbered is not None
 
 
 def _usable(name: str) -> bool:
@@ -65,6 +74,27 @@ def _usable(name: str) -> bool:
         and not keyword.iskeyword(name)
         and not name.startswith("_")
     )
+
+
+def _stranger(body: str, given: str) -> UnknownSymbol:
+    """What is to be said of a symbol that is neither x nor a parameter: a line that is accepted."""
+    if given == x.name:
+        remedy = "this one is another of the same name: write `from derive import x`, and use that"
+        return UnknownSymbol(body, given, remedy)
+    if _usable(given) and not _is_taken(given):
+        return UnknownSymbol(body, given, f"write {_line(given)}")
+    candidates = (f"{given}0", f"my_{given}", "R0")
+    free = next(name for name in candidates if _usable(name) and not _is_taken(name))
+    why = "is no name for one"
+    if _is_taken(given):
+        meaning = QUANTITIES[given].meaning if given in QUANTITIES else ""
+        why = f"is taken by the theory{f', for the {meaning}' * bool(meaning)}"
+    return UnknownSymbol(body, given, f"{given} {why}; write one of your own, {_line(free)}")
+
+
+def _line(name: str) -> str:
+    """What makes a name a parameter."""
+    return f'{name} = parameter("{name}", "its meaning", unit="m")'
 
 
 def _expression(name: str, g: Any) -> Expr:
@@ -131,7 +161,7 @@ class Geometry:
                 quantity = Quantity(Symbol(symbol.name, positive=True), symbol.meaning, symbol.unit)
                 plain[symbol] = quantity
             elif symbol != x:
-                raise UnknownSymbol(self.name, str(symbol))
+                raise _stranger(self.name, str(symbol))
         object.__setattr__(self, "g", given.xreplace({p: q.symbol for p, q in plain.items()}))
         object.__setattr__(self, "parameters", tuple(plain.values()))
         self._demand_length()

@@ -52,6 +52,7 @@ FILES = [
     ("x**2", "has the dimension m**2 where m is needed"),
     ("R*Abs(x/R)**R", "the exponent of (Abs(x)/R)**R has the dimension m"),
     ("x**2/Symbol('r')", "holds the symbol 'r'"),
+    ("Symbol('x')**2/R", "write `from derive import x`"),
     ("I*x**2/R", "not real"),
     ("'x**2/R'", "no expression"),
     ("Abs(x)**oo/R", "not real and finite"),

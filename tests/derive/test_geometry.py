@@ -134,22 +134,48 @@ def test_two_parameters_of_one_name_in_one_body_are_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    "symbol",
+    ("symbol", "made"),
     [
-        Symbol("y"),
-        Symbol("R"),
-        Symbol("R", positive=True),
-        Symbol("x"),
-        QUANTITIES["alpha"].symbol,
-        QUANTITIES["E_star"].symbol,
+        (Symbol("y"), "y"),
+        (Symbol("R"), "R"),
+        (Symbol("R", positive=True), "R"),
+        (QUANTITIES["alpha"].symbol, "alpha0"),
+        (QUANTITIES["E_star"].symbol, "E_star0"),
+        (Symbol("a"), "a0"),
+        (Symbol("b1"), "b10"),
+        (Symbol("lambda"), "lambda0"),
+        (Symbol("w_1"), "my_w_1"),
+        (Symbol("_r"), "my__r"),
+        (Symbol("my radius"), "R0"),
+        (Symbol("2b"), "my_2b"),
     ],
-    ids=["y", "R not made by parameter", "positive R", "x not of derive", "alpha", "E_star"],
+    ids=str,
 )
-def test_an_unknown_symbol_is_refused_with_the_line_to_write(symbol: Symbol) -> None:
+def test_an_unknown_symbol_is_refused_with_a_line_that_is_accepted(
+    symbol: Symbol, made: str
+) -> None:
     with pytest.raises(UnknownSymbol) as caught:
-        Geometry("body", g=symbol * x**2)
-    assert caught.value == UnknownSymbol("body", str(symbol))
-    assert "parameter(" in caught.value.message
+        Geometry("body", g=x**2 / symbol)
+    assert caught.value.given == str(symbol)
+    assert f'{made} = parameter("{made}", "its meaning", unit="m")' in caught.value.message
+    Geometry("body", g=x**2 / parameter(made, "its meaning", unit="m"))
+
+
+def test_an_x_of_one_s_own_is_refused_with_where_to_get_it() -> None:
+    """A parameter named x, which is what other symbols become, would be refused in turn."""
+    with pytest.raises(UnknownSymbol) as caught:
+        Geometry("body", g=Symbol("x") ** 2 / R)
+    assert "`from derive import x`" in caught.value.message
+    assert "parameter(" not in caught.value.message
+    with pytest.raises(BadName) as refused:
+        parameter("x", "position")
+    assert "`from derive import x`" in refused.value.message
+
+
+def test_a_symbol_of_the_theory_is_refused_with_what_it_means() -> None:
+    with pytest.raises(UnknownSymbol) as caught:
+        Geometry("body", g=x**2 / QUANTITIES["a"].symbol)
+    assert "taken by the theory, for the left edge of the contact" in caught.value.message
 
 
 @pytest.mark.parametrize(
