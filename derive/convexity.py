@@ -489,8 +489,8 @@ def _demand_rising(piece: Piece, values: Values) -> None:
     """Refuse a polynomial that is negative anywhere in the piece."""
     curvature = Poly(piece.curvature.subs(values), x)
     lower, upper = _ends(piece, values)
-    odd = [base for base, power in curvature.sqf_list()[1] if power % 2]
-    changing = prod(odd, start=Poly(curvature.LC(), x))
+    odd = [_in_fractions(base) for base, power in curvature.sqf_list()[1] if power % 2]
+    changing = prod(odd, start=Poly(_fraction(curvature.LC()), x))
     place = _inside(lower, upper)
     if odd and _roots_between(changing, lower, upper):
         raise _Fault(_negative_at(_least_between(changing, lower, upper)), values)
@@ -501,13 +501,26 @@ def _demand_rising(piece: Piece, values: Values) -> None:
 def _ends(piece: Piece, values: Values) -> tuple[Expr, Expr]:
     """Both ends as fractions; one that is none is moved inward by less than could matter."""
 
-    def fraction(end: Expr, inward: int) -> Expr:
+    def moved(end: Expr, inward: int) -> Expr:
         end = end.subs(values)
         if end.is_infinite or end.is_Rational:
             return end
-        return Rational(str(end.evalf(60))) + inward * abs(Rational(str(end.evalf(5)))) / 10**40
+        return _fraction(end) + inward * abs(Rational(str(end.evalf(5)))) / 10**40
 
-    return fraction(piece.lower, 1), fraction(piece.upper, -1)
+    return moved(piece.lower, 1), moved(piece.upper, -1)
+
+
+def _in_fractions(poly: Poly) -> Poly:
+    """A polynomial with simple roots, and 1 before its highest power, to more digits than matter.
+
+    SymPy isolates roots between fractions alone, and not where sqrt(2) or pi and E are held.
+    """
+    return Poly([_fraction(value) for value in poly.monic().all_coeffs()], x)
+
+
+def _fraction(number: Expr) -> Rational:
+    """A number as it is, or 60 digits of one that is no quotient of whole numbers."""
+    return number if number.is_Rational else Rational(str(number.evalf(60)))
 
 
 def _inside(lower: Expr, upper: Expr) -> Rational:

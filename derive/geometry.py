@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, I, Symbol, SympifyError, nan, oo, sympify, zoo
+from sympy import Expr, I, S, Symbol, SympifyError, nan, oo, sympify, zoo
 
 from derive.errors import BadName, BadProfile, DimensionMismatch, UnknownSymbol
 from derive.profile import Slope, read_slope
@@ -97,6 +97,10 @@ def _line(name: str) -> str:
     return f'{name} = parameter("{name}", "its meaning", unit="m")'
 
 
+_BY_ROOTS = {number: number.expand(func=True) for number in (S.GoldenRatio, S.TribonacciConstant)}
+"""Numbers that SymPy names, by the roots that they are."""
+
+
 def _expression(name: str, g: Any) -> Expr:
     """g as a real SymPy expression."""
     remedy = "write a real SymPy expression of x and parameters, such as x**2/(2*R)"
@@ -108,7 +112,7 @@ def _expression(name: str, g: Any) -> Expr:
         raise BadProfile(name, f"is {given!s:.60}, which is no expression", remedy)
     if given.has(I, nan, oo, -oo, zoo) or given.is_real is False:
         raise BadProfile(name, f"is {given}, which is not real and finite", remedy)
-    return given
+    return given.xreplace(_BY_ROOTS)
 
 
 _NUMBERS = (

@@ -15,6 +15,7 @@ from sympy import (
     AccumBounds,
     And,
     Dummy,
+    E,
     Expr,
     Float,
     Function,
@@ -24,6 +25,7 @@ from sympy import (
     Max,
     Min,
     Not,
+    NumberSymbol,
     Or,
     Piecewise,
     Poly,
@@ -31,8 +33,14 @@ from sympy import (
     Rational,
     S,
     Symbol,
+    acos,
+    acosh,
+    asin,
     asinh,
     atan,
+    atan2,
+    atanh,
+    cos,
     cosh,
     diff,
     exp,
@@ -42,11 +50,14 @@ from sympy import (
     limit,
     log,
     oo,
+    pi,
     re,
     roots,
     sign,
     simplify,
+    sin,
     sinh,
+    tan,
     tanh,
     together,
 )
@@ -60,6 +71,8 @@ from derive.symbols import a, c, x
 
 _BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
 _SMOOTH = (exp, log, sinh, cosh, tanh, asinh, atan)
+_FIXED = (*_BRANCHING, *_SMOOTH, sin, cos, tan, asin, acos, acosh, atanh, atan2)
+"""Functions of parameters, and of numbers, that proofs can compute to any number of digits."""
 
 
 @dataclass(frozen=True)
@@ -365,15 +378,21 @@ def _merged(pieces: list[Piece]) -> list[Piece]:
 
 
 def _demand_known_functions(name: str, pieces: list[Piece]) -> None:
+    known = ", ".join(f.__name__ for f in (*_BRANCHING, *_SMOOTH))
     for piece in pieces:
-        for held in sorted(piece.profile.atoms(Function), key=str):
+        for held in sorted(piece.profile.atoms(Function, NumberSymbol), key=str):
             if held.has(x) and not isinstance(held, _SMOOTH):
-                known = ", ".join(f.__name__ for f in (*_BRANCHING, *_SMOOTH))
-                raise BadProfile(
-                    name,
-                    f"holds {held}, a function of x that cannot be derived with",
-                    f"write it with powers and {known}",
-                )
+                why = f"holds {held}, a function of x that cannot be derived with"
+                raise BadProfile(name, why, f"write it with powers and {known}")
+            if not held.has(x) and not (isinstance(held, _FIXED) or held in (pi, E)):
+                why = f"holds {held}, which the proofs cannot compute"
+                raise BadProfile(name, why, _PARAMETER_INSTEAD)
+
+
+_PARAMETER_INSTEAD = (
+    "write a parameter in its place and give its value in the call, or the number itself, such as "
+    "Rational('0.577')"
+)
 
 
 def _demand_continuous(name: str, pieces: list[Piece]) -> None:

@@ -69,6 +69,27 @@ def test_several_processes_build_what_one_builds() -> None:
     assert all(body.kept for body in again)
 
 
+OWN = {
+    "an exponential up to e": "b*phi*exp(x/b) + phi*Max(0, x - b)",
+    "numbers that SymPy keeps exact": "phi*b*exp((x/b - pi**Rational(1, 3))/sqrt(2)) + phi*Abs(x)",
+}
+"""Bodies that nobody here thought of, from a file of one's own to a proven module."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", OWN)
+def test_a_body_of_one_s_own_is_proven_and_tried(words: str, tmp_path: Path) -> None:
+    head = "from sympy import *\nfrom derive import Geometry, parameter, x\n"
+    made = [
+        'R, b, L = (parameter(name, "length", unit="m") for name in ("R", "b", "L"))',
+        'phi = parameter("phi", "slope", unit="rad")',
+        f'geometry = Geometry("own", g={OWN[words]})',
+    ]
+    (tmp_path / "own.py").write_text(head + "\n".join(made))
+    body = build(str(tmp_path / "own.py"))
+    assert {verdict for _, verdict in body.verdicts} <= {Verdict.PROVED, Verdict.NUMERICAL}
+
+
 def test_every_formula_comes_with_its_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     """The record of a body, without the seconds that its proofs take."""
     from tests.derive.bodies import assumed, sheet

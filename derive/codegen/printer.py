@@ -1,12 +1,14 @@
 """SymPy -> NumPy source.  What the printer does not know it refuses; it never guesses a name.
 
-Two things it does beyond spelling: half powers in a product are gathered under one root (those in
-an UnevaluatedExpr are kept apart); and factors that do not vary along the array are multiplied
-first, so that an array is passed over once.
+Three things it does beyond spelling: half powers in a product are gathered under one root (those
+in an UnevaluatedExpr are kept apart); factors that do not vary along the array are multiplied
+first, so that an array is passed over once; and a number that SymPy keeps exact is rounded once, as
+a whole.
 """
 
 import ast
 from collections.abc import Iterable
+from math import isfinite
 
 from sympy import (
     Add,
@@ -18,6 +20,7 @@ from sympy import (
     Max,
     Min,
     Mul,
+    NumberSymbol,
     Or,
     Piecewise,
     Pow,
@@ -26,7 +29,6 @@ from sympy import (
     Symbol,
     UnevaluatedExpr,
     oo,
-    pi,
 )
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFalse, BooleanTrue
@@ -42,9 +44,13 @@ class CannotPrint(Exception):
 
 _FUNCTIONS = {
     "Abs": "np.abs",
+    "acos": "np.arccos",
+    "acosh": "np.arccosh",
+    "asin": "np.arcsin",
     "asinh": "np.arcsinh",
     "atan": "np.arctan",
     "atan2": "np.arctan2",
+    "atanh": "np.arctanh",
     "cos": "np.cos",
     "cosh": "np.cosh",
     "exp": "np.exp",
@@ -59,10 +65,16 @@ _FUNCTIONS = {
     "tanh": "np.tanh",
 }
 _NAMED = ("Max", "Min", "Piecewise", "fmax")
+_CONSTANTS = {S.Pi: "np.pi", S.Exp1: "np.e", S.EulerGamma: "np.euler_gamma"}
+
+_NOT_EXACT = (Float, UnevaluatedExpr, S.ImaginaryUnit, S.NaN, oo, -oo, S.ComplexInfinity)
+
+_DIGITS = 40
+"""Of a number before it is rounded to float64."""
 
 
 _KNOWN = (
-    *(Add, Mul, Pow, Symbol, Rational, type(pi), type(oo), type(-oo), UnevaluatedExpr),
+    *(Add, Mul, Pow, Symbol, Rational, NumberSymbol, type(oo), type(-oo), UnevaluatedExpr),
     *(Function, Max, Min, Piecewise, Relational, And, Or, BooleanTrue, BooleanFalse),
 )
 
@@ -75,6 +87,8 @@ class NumPyPrinter(StrPrinter):
         self.varying = frozenset(varying)
 
     def _print(self, expr: Basic, **kwargs: object) -> str:
+        if _is_rounded(expr):
+            return _CONSTANTS.get(expr) or repr(_nearest(expr))
         name = type(expr).__name__
         unknown = isinstance(expr, Function) and name not in (*_FUNCTIONS, *_NAMED)
         if unknown or not isinstance(expr, _KNOWN) or isinstance(expr, Float):
@@ -87,6 +101,9 @@ class NumPyPrinter(StrPrinter):
             inner = self._print(item)
             bare = _is_call(inner) or precedence_traditional(item.args[0]) > level
             return inner if bare else f"({inner})"
+        if _is_rounded(item):
+            inner = self._print(item)
+            return inner if level <= PRECEDENCE["Add"] or inner[0] != "-" else f"({inner})"
         if item.is_Pow and item.exp == S.Half:
             return self._print(item)
         return super().parenthesize(item, level, strict)
@@ -107,9 +124,6 @@ class NumPyPrinter(StrPrinter):
         return str(expr.name)
 
     _print_Dummy = _print_Symbol
-
-    def _print_Pi(self, expr: Basic) -> str:
-        return "np.pi"
 
     def _print_Infinity(self, expr: Basic) -> str:
         return "np.inf"
@@ -200,6 +214,29 @@ class NumPyPrinter(StrPrinter):
         return " | ".join(f"({self._print(arg)})" for arg in _ordered(expr))
 
 
+def _is_rounded(expr: Basic) -> bool:
+    """Whether an expression is a number that is rounded as a whole: E, exp(-7/10), pi - 2.
+
+    A quotient of whole numbers, and the root of one, NumPy computes without an error of its own.
+    """
+    if not isinstance(expr, NumberSymbol | Add | Pow | Function) or not expr.is_number:
+        return False
+    if expr.is_rational or expr.has(*_NOT_EXACT):
+        return False
+    return not (expr.is_Pow and abs(expr.exp) == S.Half)
+
+
+def _nearest(number: Expr) -> float:
+    """The number of float64 that is nearest to an exact one.
+
+    Raises CannotPrint where float64 has none.
+    """
+    value = number.evalf(_DIGITS, maxn=10 * _DIGITS)
+    if not value.is_Float or not isfinite(float(value)) or float(value) == 0:
+        raise CannotPrint(f"float64 has no number near {number}")
+    return float(value)
+
+
 def _is_call(text: str) -> bool:
     """Whether the text is one call or name, so that it needs no parentheses."""
     try:
@@ -234,7 +271,7 @@ def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
             half, sense = (abs(f.exp) - S.Half), (0 if f.exp > 0 else 1)
             roots[sense].append(f.base)
             (top, bottom)[sense].extend([f.base**half] if half else [])
-        elif f.is_Pow and f.exp.could_extract_minus_sign():
+        elif f.is_Pow and _is_below(f.exp):
             bottom.append(f.base**-f.exp)
         else:
             top.append(f)
@@ -248,6 +285,16 @@ def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
 
 def _is_root(factor: Expr) -> bool:
     return bool(factor.is_Pow and _is_odd_half(factor.exp))
+
+
+def _is_below(exponent: Expr) -> bool:
+    """Whether a power stands under the line: by the sign of its exponent, or by how it is written.
+
+    1 - pi is negative, and is not written so.
+    """
+    if exponent.is_negative is None:
+        return bool(exponent.could_extract_minus_sign())
+    return bool(exponent.is_negative)
 
 
 def _is_odd_half(exponent: Expr) -> bool:

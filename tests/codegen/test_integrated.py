@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from mpmath import mpf
-from sympy import Abs, Expr, Rational, cosh, log, sqrt
+from sympy import Abs, Expr, Max, Rational, cosh, log, sqrt
 from sympy import exp as sympy_exp
 
 from derive import Geometry, parameter, x
@@ -24,6 +24,7 @@ L = parameter("L", "length", unit="m")
 phi = parameter("phi", "slope", unit="rad")
 
 OWN = {"b": 0.5, "L": 1.5, "phi": 0.125}
+BOTH = {"b": 0.5, "phi": 0.125}
 DISTANCES = np.concatenate([np.geomspace(1e-120, 1e-3, 25), np.linspace(0.01, 3, 10)])
 
 
@@ -102,6 +103,17 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(
             for sides, (total, size) in zip(pairs, totals, strict=True):
                 for value in sides:
                     assert abs(abs(mpf(float(value[i]))) - abs(total)) <= 1e-13 * size, t
+
+
+def test_a_corner_where_an_exponential_is_e_becomes_code(tmp_path: Path) -> None:
+    """g = phi (b exp(x/b) + Max(0, x - b)): at x = b g' is phi e and phi (e + 1), g'' phi e/b."""
+    sheet = derive_sheet(Geometry("body", g=b * phi * sympy_exp(x / b) + phi * Max(0, x - b)))
+    (tmp_path / "curve.py").write_text(curve_text(sheet))
+    body = run_path(str(tmp_path / "curve.py"), NAMES)["_BODY"]
+    beside = [body.pieces[0].from_right(0.0, **BOTH), body.pieces[1].from_left(0.0, **BOTH)]
+    for curve, slope in zip(beside, (np.e, np.e + 1), strict=True):
+        assert abs(curve.slope) == pytest.approx(0.125 * slope, rel=1e-15)
+        assert curve.curvature == pytest.approx(0.125 * np.e / 0.5, rel=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import pytest
 from mpmath import mpf
 from sympy import (
     Abs,
+    E,
     Expr,
     Heaviside,
     Integer,
@@ -16,6 +17,7 @@ from sympy import (
     Symbol,
     cosh,
     log,
+    pi,
     sqrt,
 )
 
@@ -89,6 +91,8 @@ def test_what_the_least_curvature_demands(g: Expr, wanted: list[str]) -> None:
         Max(0, x**2 - R * R1) ** 3 / R**5,
         phi * b * log(cosh(x / b)),  # 1 - tanh^2 is rounded to less than zero far away
         phi * sqrt((x - L) ** 2 + b**2),
+        pi * x**2 / R + E * Max(0, x - b) ** 3 / L**2,  # SymPy isolates no roots beside pi and E
+        sqrt(2) * (x - sqrt(3) * b) ** 4 / R**3 + log(2) * Max(0, x - sqrt(3) * b) ** 5 / b**4,
     ],
     ids=str,
 )
@@ -117,6 +121,7 @@ def test_a_body_convex_for_some_parameters_under_no_condition_found_is_refused(g
     [
         x**2 / R - Abs(x) ** 3 / L**2,
         x**5 / L**4 + x**2 / R,
+        E * x**2 / R - pi * Max(0, x - b) ** 3 / L**2,
         x**8 / L**7 + x**4 / L**3 - 3 * x**3 / L**2 + x**2 / L,  # 56/64 + 3 - 9 + 2 at L/2
     ],
     ids=str,

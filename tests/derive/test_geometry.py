@@ -4,7 +4,7 @@ import copy
 import pickle
 
 import pytest
-from sympy import Abs, I, Integral, Symbol, cosh, nan, oo
+from sympy import Abs, GoldenRatio, I, Integral, Symbol, cosh, nan, oo, sqrt
 
 from derive import Geometry, parameter, x
 from derive.errors import (
@@ -207,6 +207,12 @@ def test_what_is_no_expression_is_refused(g: object) -> None:
 def test_what_is_no_real_profile_is_refused(g: object) -> None:
     with pytest.raises(UserError):
         Geometry("body", g=g)
+
+
+def test_numbers_that_have_a_name_are_written_by_their_roots() -> None:
+    """Proofs compute sqrt(5) to any number of digits, and know no golden ratio."""
+    radius = Symbol("R", positive=True)
+    assert Geometry("body", g=GoldenRatio * x**2 / R).g == (1 + sqrt(5)) / 2 * x**2 / radius
 
 
 def test_a_refused_profile_names_the_body() -> None:
