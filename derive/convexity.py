@@ -10,7 +10,7 @@ it fails at any.
 """
 
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import islice, pairwise, product
 from math import gcd, prod
 
@@ -58,7 +58,13 @@ _DIGITS = 30
 _ENOUGH = 10
 """Of 40 sets around typical parameters, how many meet the demands."""
 _PATIENCE = 2.0
-"""Seconds for the limit of a curvature at infinity."""
+"""Seconds for the limit of a curvature at infinity, or of a profile beside a place."""
+
+REAL_AND_FINITE = (
+    "g(x) must be real and finite on both sides of x = 0, and wherever else it can touch: shift it "
+    "along x, as by x + b in the place of x, or write it with Abs(x)"
+)
+"""What is to be done where it is not."""
 
 Values = dict[Symbol, Rational]
 Terms = dict[int, Expr]
@@ -293,17 +299,17 @@ def _at_ends(pieces: list[Piece]) -> Iterator[Boolean]:
         if piece.lower.is_extended_negative and piece.upper.is_extended_positive:
             places.append((Integer(0), 1))
         for place, sense in places:
-            value = _limit(piece.curvature, place, sense)
+            value = value_beside(piece.curvature, place, sense)
             if value is not None and value.is_finite and value.free_symbols:
                 yield from _positive(value, Ge) or ()
 
 
-def _limit(curvature: Expr, place: Expr, sense: int) -> Expr | None:
-    """The curvature next to a place; None if it is not found in time."""
+def value_beside(expr: Expr, place: Expr, sense: int) -> Expr | None:
+    """An expression next to a place, on its right (+1) or left (-1); None if not found in time."""
     try:
         with within(_PATIENCE):
-            found = limit(curvature, x, place) if place in (oo, -oo) else None
-            return beside(curvature, place, sense) if found is None else found
+            found = limit(expr, x, place) if place in (oo, -oo) else None
+            return beside(expr, place, sense) if found is None else found
     except (LimitReached, NotImplementedError, ValueError, TypeError, AttributeError):
         return None
 
@@ -358,7 +364,7 @@ class _Fault(Exception):
     def always(self, name: str) -> BadProfile:
         """The refusal of a body that was found convex for no parameters."""
         if not self.real:
-            return BadProfile(name, self.how, "write it so that it is real wherever it can touch")
+            return BadProfile(name, self.how, REAL_AND_FINITE)
         remedy = f"the contact could break into several patches (seen with {self.given})"
         return BadProfile(name, f"is not convex: {self.how}", f"{remedy}; make it convex")
 
@@ -547,35 +553,41 @@ def _least_between(poly: Poly, lower: Expr, upper: Expr) -> Rational:
 
 
 class _Curvature:
-    """A curvature that is no polynomial, compiled once for all parameters."""
+    """A curvature that is no polynomial, and its profile, compiled once for all parameters."""
 
     def __init__(self, piece: Piece, domain: tuple[Expr, Expr], symbols: list[Symbol]) -> None:
-        self._at = lambdify([x, *symbols], piece.curvature, modules="mpmath")
+        self._at, self._profile = (
+            lambdify([x, *symbols], expr, modules="mpmath")
+            for expr in (piece.curvature, piece.profile)
+        )
         ends = [piece.lower, piece.upper, *domain]
         self._ends = lambdify(symbols, ends, modules="mpmath")
 
     def demand(self, values: Values) -> None:
-        """Refuse a curvature that is negative or not real at any of many places."""
+        """Refuse a curvature that is negative or not real at any of many places.
+
+        log(x) is not real for x < 0, though its curvature is.
+        """
         with mpmath.workdps(_DIGITS):
             for place in self._places(values):
-                value = self._value(place, values)
-                if mpmath.im(value) != 0:
+                value = self._value(self._at, place, values)
+                if any(map(mpmath.im, (value, self._value(self._profile, place, values)))):
                     raise _Fault(f"is not real near x = {float(place):.3g}", values, real=False)
                 if mpmath.re(value) < 0 and self._is_sure(place, value, values):
                     raise _Fault(_negative_at(place), values)
 
-    def _value(self, place: mpf, values: Values) -> mpf:
-        """The curvature; zero where it has no value."""
+    def _value(self, function: Callable[..., mpf], place: mpf, values: Values) -> mpf:
+        """The curvature or the profile; zero where it has no value."""
         given = [mpf(value.p) / value.q for value in values.values()]
         try:
-            return self._at(place, *given)
+            return function(place, *given)
         except (ZeroDivisionError, OverflowError):
             return mpf(0)
 
     def _is_sure(self, place: mpf, value: mpf, values: Values) -> bool:
         """Whether a value is more than what rounding leaves of differences."""
         with mpmath.workdps(3 * _DIGITS):
-            again = self._value(place, values)
+            again = self._value(self._at, place, values)
             return bool(abs(again - value) < abs(again) / 1000)
 
     def _places(self, values: Values) -> Iterator[mpf]:

@@ -49,6 +49,7 @@ from sympy import (
     fraction,
     limit,
     log,
+    nan,
     oo,
     pi,
     re,
@@ -64,7 +65,7 @@ from sympy import (
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
 
-from derive.convexity import convex_where, typical
+from derive.convexity import REAL_AND_FINITE, convex_where, typical, value_beside
 from derive.errors import BadProfile
 from derive.piece import Piece, step, surpluses, with_surpluses
 from derive.symbols import a, c, x
@@ -165,8 +166,9 @@ def read_slope(name: str, g: Expr) -> Slope:
     """
     pieces = _merged(_resolved(name, g, -oo, oo))
     _demand_known_functions(name, pieces)
-    _demand_continuous(name, pieces)
     domain = _domain(name, pieces)
+    _demand_finite(name, pieces, domain)
+    _demand_continuous(name, pieces)
     demands = convex_where(name, pieces, domain)
     reference = next(
         i for i, piece in enumerate(pieces) if piece.upper == 0 or _is_positive(name, piece.upper)
@@ -395,9 +397,38 @@ _PARAMETER_INSTEAD = (
 )
 
 
+def _demand_finite(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> None:
+    """Refuse a pole, or the place of a logarithm, anywhere but at the ends of the domain."""
+    for piece in pieces:
+        for place in _branch_points(piece.profile):
+            for sense, end in ((1, piece.upper), (-1, piece.lower)):
+                if place == end or not _is_held(place, piece, domain):
+                    continue
+                if _is_infinite(piece.profile, place, sense):
+                    raise BadProfile(name, f"is infinite at x = {place}", REAL_AND_FINITE)
+
+
+def _is_infinite(profile: Expr, place: Expr, sense: int) -> bool:
+    """Whether a profile is known to be infinite beside a place."""
+    value = profile.subs(x, place)
+    found = value_beside(profile, place, sense) if value is nan else value
+    return found is not None and found.is_finite is False
+
+
+def _is_held(place: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
+    """Whether a place is known to lie in a piece or at its ends, and inside the domain."""
+    (lower, upper), (low, high) = (piece.lower, piece.upper), domain
+    if not place.is_real or place in domain:
+        return False
+    inward = [place - end for end in (lower, low)] + [end - place for end in (upper, high)]
+    return all(distance == oo or bool(simplify(distance).is_nonnegative) for distance in inward)
+
+
 def _demand_continuous(name: str, pieces: list[Piece]) -> None:
     for left, right in pairwise(pieces):
         step = simplify((right.profile - left.profile).subs(x, right.lower))
+        if step is nan:
+            raise BadProfile(name, f"has no value at x = {right.lower}", REAL_AND_FINITE)
         if step != 0:
             raise BadProfile(
                 name,

@@ -51,6 +51,7 @@ FILES = [
     ("zeta(phi + 2)*x**2/R", "holds zeta(phi + 2), which the proofs cannot compute"),
     ("phi*Max(0, x - b) + phi*Max(0, x - d_0) + x**2/R", "kinks whose order is open"),
     ("sqrt(x - b)*sqrt(b)", "is not"),
+    ("-b*log(x/b)", "is infinite at x = 0: g(x) must be real and finite on both sides"),
     ("x**2", "has the dimension m**2 where m is needed"),
     ("R*Abs(x/R)**R", "the exponent of (Abs(x)/R)**R has the dimension m"),
     ("x**2/Symbol('r')", "holds the symbol 'r'"),

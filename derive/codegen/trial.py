@@ -32,6 +32,9 @@ TOLERANCE = 1e-10
 
 _DIGITS = 30
 
+_LARGEST = 1e150
+"""Of a load with which a module is tried."""
+
 _CYCLES = 6
 """Contacts at which a stick zone is tried."""
 
@@ -43,13 +46,29 @@ def demand_right(sheet: FormulaSheet, text: str) -> None:
     """
     name = sheet.geometry.name
     with imported(name, text) as module, mpmath.workdps(_DIGITS):
-        points = contacts(sheet)
+        points = _held(sheet, contacts(sheet))
         for function in CONTRACT:
             if P in function.arguments:
                 _demand_inverse(sheet, function, module, points)
             else:
                 _demand_forward(sheet, function, module, points)
         _demand_patch(sheet, module, points[:_CYCLES])
+
+
+def _held(sheet: FormulaSheet, points: list[Point]) -> list[Point]:
+    """Contacts whose tilt, load and moment float64 holds, and their squares, too.
+
+    Raises NotProven where these are fewer than half: exp(exp(x/b)) leaves it at x = 6.6 b.
+    """
+    carried = [numeric(sheet.flat(name)) for name in ("tilt", "load", "moment")]
+    found = [p for p in points if all(abs(value(p)) < _LARGEST for value in carried)]
+    if len(found) < len(points) / 2:
+        raise NotProven(
+            f"module of {sheet.geometry.name!r}: tilt, load and moment stay below {_LARGEST:g} at "
+            f"{len(found)} of {len(points)} contacts about as wide as its parameters are; float64 "
+            "cannot be tried with the others: write a g(x) that rises less steeply"
+        )
+    return found
 
 
 def _demand_forward(

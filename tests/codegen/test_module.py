@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from mpmath import mpf
 from ruff import find_ruff_bin
-from sympy import Abs, Expr, Max, Rational, Symbol
+from sympy import Abs, Expr, Max, Rational, Symbol, exp
 
 import derive.codegen.function
 from derive import Geometry, parameter, x
@@ -437,6 +437,24 @@ def test_a_tilt_far_above_one_is_held_to_its_own_size() -> None:
     L = parameter("L", "a length", unit="m")
     of = assumed(derive_sheet(Geometry("steep", g=10**24 * x**4 / L**3)))
     demand_right(of, module_text(of, "steep.py"))
+
+
+STEEP = "float64 cannot be tried with the others: write a g(x) that rises less steeply"
+
+
+def test_contacts_that_carry_more_than_float64_holds_are_no_trial() -> None:
+    """b exp(exp(x/b)) carries 1e572 N/m on a contact of some ten b; most are narrower."""
+    b = parameter("b", "a length", unit="m")
+    of = assumed(derive_sheet(Geometry("rocket", g=b * exp(exp(x / b)))))
+    demand_right(of, module_text(of, "rocket.py"))
+
+
+def test_a_body_that_float64_does_not_hold_is_told_so() -> None:
+    b = parameter("b", "a length", unit="m")
+    of = assumed(derive_sheet(Geometry("wall", g=10**200 * x**2 / b)))
+    with pytest.raises(NotProven, match="stay below 1e\\+150 at 0 of 24 contacts") as caught:
+        demand_right(of, module_text(of, "wall.py"))
+    assert str(caught.value).endswith(STEEP)
 
 
 @pytest.mark.slow

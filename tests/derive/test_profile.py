@@ -24,6 +24,7 @@ from sympy import (
     exp,
     expand,
     floor,
+    log,
     oo,
     sign,
     simplify,
@@ -338,9 +339,52 @@ def test_what_is_no_polynomial_on_its_pieces_is_read_all_the_same(
     assert found.demands == ()
 
 
+k = parameter("k", "exponent", unit="-")
+
+NOT_REAL = [
+    (-sqrt(b * x), "is not real near x = -0.001"),
+    (b * (x / b) ** Rational(4, 3), "is not real near x = -0.001"),
+    (x * log(x / b), "is not real near x = -0.001"),
+    (x**2 / R - b * log((x - b) / b), "is not real near x = -0.001"),
+    (-b * log(x / b), "is infinite at x = 0"),
+    (-b * log(x / b) + x**2 / (2 * R), "is infinite at x = 0"),
+    (-b * log(Abs(x) / b), "is infinite at x = 0"),
+    (-b * log(x**2 / b**2), "is infinite at x = 0"),
+    (b**2 / Abs(x), "is infinite at x = 0"),
+    (b**3 / x**2, "is infinite at x = 0"),
+    (b ** (k + 1) * Abs(x) ** -k, "is infinite at x = 0"),
+    (b * exp(b**2 / x**2), "is infinite at x = 0"),
+    (b**3 / (x - b) ** 2 + phi * Abs(x) + phi * Max(0, x - 2 * b), "is infinite at x = b"),
+    (b * (Abs(x) / b) ** k * log(Abs(x) / b) + x**2 / R, "has no value at x = 0"),
+]
+"""Each has a curvature that is real, and positive where it is, on both sides of the place."""
+
+
+@pytest.mark.parametrize(("g", "why"), NOT_REAL, ids=str)
+def test_a_body_that_is_not_real_and_finite_around_the_origin_is_refused(g: Expr, why: str) -> None:
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert caught.value.why == why
+    assert "real and finite on both sides of x = 0" in caught.value.remedy
+    assert "shift it along x" in caught.value.remedy
+
+
+@pytest.mark.parametrize(
+    ("g", "domain"),
+    [
+        (-b * log((x + b) / b), (-b, oo)),
+        (-b * log(1 - x**2 / b**2), (-b, b)),
+        (b**3 / (x - b) ** 2 + phi * Abs(x), (-oo, b)),
+        (b * (x**2 / b**2) ** Rational(3, 4), (-oo, oo)),
+    ],
+    ids=str,
+)
+def test_a_body_may_end_where_it_is_infinite(g: Expr, domain: tuple[Expr, Expr]) -> None:
+    assert str(slope(g).domain) == str(domain)
+
+
 def test_an_exponent_must_lie_above_one() -> None:
     """Abs(x)**k is convex for k > 1; its slope at the apex, 0**(k - 1), is then no corner."""
-    k = parameter("k", "exponent", unit="-")
     found = slope(R * (Abs(x) / R) ** k)
     assert [str(demand) for demand in found.demands] == ["k > 1"]
     assert found.kinks[0].step == 0
@@ -360,7 +404,6 @@ def test_an_exponent_must_lie_above_one() -> None:
 def test_an_exponent_beside_other_terms_must_lie_above_one(beside: Callable[[Expr], Expr]) -> None:
     """At the origin |x|^(k - 2) outgrows what stands beside it unless k >= 2; its factor in g'' is
     k (k - 1) b^(1 - k) times 1, the cosh's value there."""
-    k = parameter("k", "exponent", unit="-")
     found = slope(beside(b * (Abs(x) / b) ** k))
     assert [str(demand) for demand in found.demands] == ["k > 1"]
     assert found.kinks == () or found.kinks[0].step == 0
