@@ -194,7 +194,7 @@ def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
     points = [lower, *_between(name, _switching_points(name, inner), lower, upper), upper]
     pieces = []
     for left, right in pairwise(points):
-        value = _branch(name, inner, _inside(left, right))
+        value = _branch(name, inner, left, right)
         pieces += _resolved(name, g.xreplace({inner: value}), left, right)
     return pieces
 
@@ -242,7 +242,7 @@ def _roots(name: str, poly: Poly) -> list[Expr]:
     for root in found:
         if root.is_real is None:
             numerator, denominator = fraction(simplify(root))
-            if numerator.is_real and denominator.is_real:
+            if numerator.is_real and denominator.is_real and not denominator.is_nonzero:
                 why = f"branches at {simplify(root)}, where {denominator} may be zero"
                 raise BadProfile(name, f"{why}, or of either sign", _order(denominator))
             raise BadProfile(
@@ -323,11 +323,23 @@ def _inside(lower: Expr, upper: Expr) -> Expr:
     return lower + 1 if upper == oo else (lower + upper) / 2
 
 
-def _branch(name: str, node: Expr, at: Expr) -> Expr:
-    """What `node` is in the interval around `at`, as an expression without this branch."""
+def _in_between(expr: Expr, lower: Expr, upper: Expr) -> Expr:
+    """What has the sign of a polynomial between two places, where it has no root.
+
+    Its first coefficient far out, its value in the middle: no length is compared with one metre.
+    """
+    if not expr.has(x) or (lower == -oo and upper == oo):
+        return simplify(expr.subs(x, 0))
+    if lower.is_finite and upper.is_finite:
+        return simplify(expr.subs(x, (lower + upper) / 2))
+    return simplify(Poly(expr if upper == oo else expr.subs(x, -x), x).LC())
+
+
+def _branch(name: str, node: Expr, lower: Expr, upper: Expr) -> Expr:
+    """What `node` is between two places, as an expression without this branch."""
 
     def positive(expr: Expr) -> bool:
-        value = simplify(expr.subs(x, at))
+        value = _in_between(expr, lower, upper)
         return value != 0 and _is_positive(name, value)
 
     def holds(condition: Boolean) -> bool:
@@ -339,7 +351,7 @@ def _branch(name: str, node: Expr, at: Expr) -> Expr:
                 return not values[0]
             return all(values) if isinstance(condition, And) else any(values)
         if isinstance(condition, Relational):
-            value = simplify((condition.lhs - condition.rhs).subs(x, at))
+            value = _in_between(condition.lhs - condition.rhs, lower, upper)
             return (
                 bool(condition.func(value, 0))
                 if value == 0
@@ -363,8 +375,9 @@ def _branch(name: str, node: Expr, at: Expr) -> Expr:
     for value, condition in node.args:
         if holds(condition):
             return value
+    where = f"x = {_inside(lower, upper)}"
     raise BadProfile(
-        name, f"is not defined near x = {at}", "end the Piecewise with (expression, True)"
+        name, f"is not defined near {where}", "end the Piecewise with (expression, True)"
     )
 
 

@@ -163,6 +163,29 @@ def test_kinks_are_found_from_left_to_right(g: Expr, places: list[str], sides: l
     assert [k.number for k in kinks] == list(range(1, len(kinks) + 1))
 
 
+@pytest.mark.parametrize(
+    ("g", "places"),
+    [
+        (Max(0, x**3 - b**3) / b2**2, ["b"]),
+        (Max(0, -(x**3) - b**3) / b2**2, ["-b"]),
+        (Max(0, x**5 - b**5) / b2**4, ["b"]),
+        (Max(0, x**4 - b**4) / b2**3, ["-b", "b"]),
+        (Max(0, x**3 - b2 * b**2) / R**2, ["b**(2/3)*b2**(1/3)"]),
+        (Max(0, (x - b) * (x**2 + b2**2)) / b2**2, ["b"]),
+        (Max(0, x**3 - 8 * b**3) / R**2 + Max(0, -(x**3) - b**3) / b2**2, ["-b", "2*b"]),
+        (Max(0, x**3 - b**3, 2 * x**3 - 16 * b**3) / R**2, ["b", "15**(1/3)*b"]),
+        (Piecewise((0, x**3 < b**3), ((x**3 - b**3) / R**2, True)), ["b"]),
+        (Piecewise(((x**3 - b**3) / R**2, x**3 >= b**3), (0, True)), ["b"]),
+    ],
+    ids=str,
+)
+def test_the_sign_of_a_cubic_beyond_its_root_is_that_of_its_first_coefficient(
+    g: Expr, places: list[str]
+) -> None:
+    """x**3 > b**3 for x > b, whatever b is: b is not compared with one metre, as at x = b - 1."""
+    assert [str(kink.position) for kink in slope(g + x**2 / R).kinks] == places
+
+
 def test_places_in_order_through_a_sum_of_positive_parameters() -> None:
     g = (Max(0, x - b) ** 2 + Max(0, x - b - b2) ** 2 + x**2) / R
     assert [str(k.position) for k in slope(g).kinks] == ["b", "b + b2"]
