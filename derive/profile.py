@@ -166,6 +166,7 @@ def read_slope(name: str, g: Expr) -> Slope:
     """
     pieces = _merged(_resolved(name, g, -oo, oo))
     _demand_known_functions(name, pieces)
+    _demand_known_numbers(name, pieces)
     domain = _domain(name, pieces)
     _demand_finite(name, pieces, domain)
     _demand_continuous(name, pieces)
@@ -395,19 +396,30 @@ def _merged(pieces: list[Piece]) -> list[Piece]:
 def _demand_known_functions(name: str, pieces: list[Piece]) -> None:
     known = ", ".join(f.__name__ for f in (*_BRANCHING, *_SMOOTH))
     for piece in pieces:
-        for held in sorted(piece.profile.atoms(Function, NumberSymbol), key=str):
+        for held in sorted(piece.profile.atoms(Function), key=str):
             if held.has(x) and not isinstance(held, _SMOOTH):
                 why = f"holds {held}, a function of x that cannot be derived with"
                 raise BadProfile(name, why, f"write it with powers and {known}")
-            if not held.has(x) and not (isinstance(held, _FIXED) or held in (pi, E)):
-                why = f"holds {held}, which the proofs cannot compute"
-                raise BadProfile(name, why, _PARAMETER_INSTEAD)
+            if not held.has(x) and not isinstance(held, _FIXED):
+                raise _not_computed(name, held)
 
 
-_PARAMETER_INSTEAD = (
-    "write a parameter in its place and give its value in the call, or the number itself, such as "
-    "Rational('0.577')"
-)
+def _demand_known_numbers(name: str, pieces: list[Piece]) -> None:
+    """Refuse numbers such as EulerGamma where the proofs integrate what holds them."""
+    if all(piece.profile.is_polynomial(x) for piece in pieces):
+        return
+    held = set().union(*(piece.profile.atoms(NumberSymbol) for piece in pieces)) - {pi, E}
+    for number in sorted(held, key=str):
+        raise _not_computed(name, number)
+
+
+def _not_computed(name: str, held: Expr) -> BadProfile:
+    """What is to be said of what proofs cannot compute to any number of digits."""
+    remedy = (
+        "write a parameter in its place and give its value in the call, or the number itself, such "
+        "as Rational('0.577')"
+    )
+    return BadProfile(name, f"holds {held}, which the proofs cannot compute", remedy)
 
 
 def _demand_finite(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> None:

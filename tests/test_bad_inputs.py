@@ -47,7 +47,7 @@ FILES = [
     ("Piecewise((x**2/R, x < 0), (b + x**2/R, True))", "jumps by b at x = 0"),
     ("Piecewise((x**2/R, x < 0))", "is not defined near"),
     ("b*floor(x/b)", "holds floor(x/b)"),
-    ("EulerGamma*x**2/R", "holds EulerGamma, which the proofs cannot compute"),
+    ("EulerGamma*b*cosh(x/b)", "holds EulerGamma, which the proofs cannot compute"),
     ("zeta(phi + 2)*x**2/R", "holds zeta(phi + 2), which the proofs cannot compute"),
     ("phi*Max(0, x - b) + phi*Max(0, x - d_0) + x**2/R", "kinks whose order is open"),
     ("sqrt(x - b)*sqrt(b)", "is not"),
