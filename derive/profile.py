@@ -238,7 +238,9 @@ def _roots(name: str, poly: Poly) -> list[Expr]:
     """All real roots, every one of them known."""
     found = roots(poly)
     remedy = "write each branch by Abs(x - b), Max(0, x - b) or conditions such as x < b"
-    if sum(found.values()) < poly.degree():
+    at_origin = sum(times for root, times in found.items() if root == 0)
+    lowest = min(power for (power,), _ in poly.terms())
+    if sum(found.values()) < poly.degree() or at_origin != lowest:  # 1e-30 is not taken for zero
         raise BadProfile(name, f"branches where {poly.as_expr()} changes sign", remedy)
     for root in found:
         if root.is_real is None:

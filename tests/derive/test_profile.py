@@ -12,6 +12,7 @@ from sympy import (
     Eq,
     Expr,
     Heaviside,
+    Integer,
     Max,
     Min,
     Not,
@@ -534,6 +535,14 @@ def test_a_switch_that_no_root_is_known_of_is_not_overlooked(g: Expr) -> None:
     """x^5 - b^4 x - b^5 changes its sign near x = 1.17 b, and has no root in radicals."""
     with pytest.raises(BadProfile):
         slope(g)
+
+
+def test_a_switch_beside_another_is_not_taken_for_it() -> None:
+    """x**2/(2 R) < -1e-30 x between -2e-30 R and 0, where SymPy finds 0 alone, twice."""
+    with pytest.raises(BadProfile):
+        slope(Max(x**2 / (2 * R), -1e-30 * x))
+    found = slope(Max(x**2 / (2 * R), -x / Integer(10) ** 30)).kinks
+    assert len(found) == 2
 
 
 def test_an_unusual_condition_is_refused() -> None:
