@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from sympy import Expr, I, S, Symbol, SympifyError, nan, oo, sympify, zoo
+from sympy import Expr, Float, I, Rational, S, Symbol, SympifyError, nan, oo, sympify, zoo
 
 from derive.errors import BadName, BadProfile, DimensionMismatch, UnknownSymbol
 from derive.profile import Slope, read_slope
@@ -101,6 +101,16 @@ _BY_ROOTS = {number: number.expand(func=True) for number in (S.GoldenRatio, S.Tr
 """Numbers that SymPy names, by the roots that they are."""
 
 
+def as_written(number: Float) -> Rational:
+    """A decimal number as the fraction that was meant: 0.7 is 7/10 and no binary fraction.
+
+    >>> as_written(Float(0.7)), as_written(Float("0.12345678901234567890"))
+    (7/10, 1234567890123456789/10000000000000000000)
+    """
+    binary = float(number)
+    return Rational(repr(binary) if Rational(number) == Rational(binary) else str(number))
+
+
 def _expression(name: str, g: Any) -> Expr:
     """g as a real SymPy expression."""
     remedy = "write a real SymPy expression of x and parameters, such as x**2/(2*R)"
@@ -112,7 +122,7 @@ def _expression(name: str, g: Any) -> Expr:
         raise BadProfile(name, f"is {given!s:.60}, which is no expression", remedy)
     if given.has(I, nan, oo, -oo, zoo) or given.is_real is False:
         raise BadProfile(name, f"is {given}, which is not real and finite", remedy)
-    return given.xreplace(_BY_ROOTS)
+    return given.xreplace(_BY_ROOTS | {number: as_written(number) for number in given.atoms(Float)})
 
 
 _NUMBERS = (

@@ -72,6 +72,7 @@ def test_several_processes_build_what_one_builds() -> None:
 OWN = {
     "an exponential up to e": "b*phi*exp(x/b) + phi*Max(0, x - b)",
     "numbers that SymPy keeps exact": "phi*b*exp((x/b - pi**Rational(1, 3))/sqrt(2)) + phi*Abs(x)",
+    "an irrational power": "x**2/(2*R) + phi*x + b*(Abs(x)/b)**pi",
     "a cubic that is switched on": "Max(0, x**3 - b**3)/L**2 + x**2/(2*R)",
 }
 """Bodies that nobody here thought of, from a file of one's own to a proven module."""

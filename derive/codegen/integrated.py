@@ -313,7 +313,7 @@ def _shortest(
 
 
 def _joined(expr: Expr) -> Expr:
-    """t^k/t^2 as t^(k - 2), k a parameter: apart, both are 0 at a t that its power may well reach.
+    """t^k/t^2 as t^(k - 2), k a parameter or pi: apart, both are 0 at a t that its power may reach.
 
     >>> from sympy import cosh, Symbol
     >>> k = Symbol("k", positive=True)
@@ -321,13 +321,18 @@ def _joined(expr: Expr) -> Expr:
     k*t**(k - 2)*(k - 1)*cosh(t) + t**k
     """
     powers = [power.exp for power in expr.atoms(Pow) if power.base == _t]
-    if not (any(e.free_symbols for e in powers) and any(e.is_negative for e in powers)):
+    if not (any(map(_is_uneven, powers)) and any(e.is_negative for e in powers)):
         return expr
     terms: dict[Expr, Expr] = {}
     for term in Add.make_args(expand(expr)):
         apart, with_t = powsimp(term).as_independent(_t, as_Add=False)
         terms[with_t] = terms.get(with_t, S.Zero) + apart
     return Add(*(factor(apart) * with_t for with_t, apart in terms.items()))
+
+
+def _is_uneven(exponent: Expr) -> bool:
+    """Whether a power is no whole one and no half one, or may be none: k, pi, 7/3."""
+    return not (2 * exponent).is_integer
 
 
 def carried_text(sheet: FormulaSheet) -> str:

@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from mpmath import mpf
-from sympy import Abs, Expr, Max, Rational, cosh, log, sqrt
+from sympy import Abs, Expr, Max, Rational, cosh, log, pi, sqrt
 from sympy import exp as sympy_exp
 
 from derive import Geometry, parameter, x
@@ -103,6 +103,26 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(
             for sides, (total, size) in zip(pairs, totals, strict=True):
                 for value in sides:
                     assert abs(abs(mpf(float(value[i]))) - abs(total)) <= 1e-13 * size, t
+
+
+@pytest.mark.parametrize("exponent", [pi, sqrt(2), Rational(7, 3), Rational(9, 4)], ids=str)
+def test_a_power_that_is_no_whole_or_half_one_is_written_as_it_is(
+    exponent: Expr, tmp_path: Path
+) -> None:
+    """g = x**2/(2 L) + phi x + b u**q, u = |x|/b: g'' = 1/L + q (q - 1) u**(q - 2)/b, also where
+    t**2 is zero in float64."""
+    sheet = derive_sheet(
+        Geometry("body", g=x**2 / (2 * L) + phi * x + b * (Abs(x) / b) ** exponent)
+    )
+    (tmp_path / "curve.py").write_text(curve_text(sheet))
+    body = run_path(str(tmp_path / "curve.py"), NAMES)
+    q = float(exponent)
+    t = np.array([1e-200, 1e-100, 1e-3, 1.0])
+    for side in (body["_piece_1_from_left"], body["_piece_0_from_right"]):
+        with np.errstate(all="ignore"):  # as in a module: 1/t**(2 - pi) is 0 by 1/inf
+            found = side(t, **OWN).curvature
+            wanted = 1 / 1.5 + q * (q - 1) * (t / 0.5) ** (q - 2) / 0.5
+        assert found == pytest.approx(wanted, rel=1e-12)
 
 
 def test_a_corner_where_an_exponential_is_e_becomes_code(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ import copy
 import pickle
 
 import pytest
-from sympy import Abs, GoldenRatio, I, Integral, Symbol, cosh, nan, oo, sqrt
+from sympy import Abs, GoldenRatio, I, Integral, Max, Symbol, cosh, nan, oo, sqrt
 
 from derive import Geometry, parameter, x
 from derive.errors import (
@@ -213,6 +213,16 @@ def test_numbers_that_have_a_name_are_written_by_their_roots() -> None:
     """Proofs compute sqrt(5) to any number of digits, and know no golden ratio."""
     radius = Symbol("R", positive=True)
     assert Geometry("body", g=GoldenRatio * x**2 / R).g == (1 + sqrt(5)) / 2 * x**2 / radius
+
+
+def test_decimal_numbers_are_the_fractions_that_were_meant() -> None:
+    """0.7 and 0.3 are no binary fractions: as such, pieces would not meet at the kink."""
+    radius, place = (parameter(name, "length", unit="m") for name in ("R", "h_0"))
+    decimal = 0.3 * x**2 / radius + Max(0, x - 0.7 * place) ** 2 / (2.5 * radius)
+    fraction = 3 * x**2 / (10 * radius) + 2 * Max(0, x - 7 * place / 10) ** 2 / (5 * radius)
+    found, wanted = (Geometry("body", g=g) for g in (decimal, fraction))
+    assert found.g == wanted.g
+    assert str(found.slope.kinks[0].position) == "7*h_0/10"
 
 
 def test_a_refused_profile_names_the_body() -> None:
