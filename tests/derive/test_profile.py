@@ -538,7 +538,7 @@ def test_a_switch_that_no_root_is_known_of_is_not_overlooked(g: Expr) -> None:
 
 
 def test_a_switch_beside_another_is_not_taken_for_it() -> None:
-    """x**2/(2 R) < -1e-30 x between -2e-30 R and 0; of a binary 1e-30 SymPy finds 0 alone, twice."""
+    """x**2/(2 R) < -1e-30 x between -2e-30 R and 0; of a binary 1e-30 SymPy finds 0 alone."""
     radius = Symbol("R", positive=True)
     with pytest.raises(BadProfile):
         read_slope("body", Max(x**2 / (2 * radius), -1e-30 * x))
