@@ -291,7 +291,7 @@ def test_list_names_every_geometry_and_its_profile(
     assert "special" not in rows["hertz"]
 
 
-@pytest.mark.parametrize("module", ["derive", "derive.cli"])
+@pytest.mark.parametrize("module", ["derive", pytest.param("derive.cli", marks=pytest.mark.slow)])
 def test_the_command_is_a_module_too(tmp_path: Path, module: str) -> None:
     command = [sys.executable, "-m", module, "new", "body", "x**2/R"]
     environment = os.environ | {"PYTHONPATH": str(ROOT)}

@@ -105,7 +105,17 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(
                     assert abs(abs(mpf(float(value[i]))) - abs(total)) <= 1e-13 * size, t
 
 
-@pytest.mark.parametrize("exponent", [pi, sqrt(2), Rational(7, 3), Rational(9, 4)], ids=str)
+@pytest.mark.parametrize(
+    "exponent",
+    [
+        pi,
+        *(
+            pytest.param(q, marks=pytest.mark.slow)
+            for q in (sqrt(2), Rational(7, 3), Rational(9, 4))
+        ),
+    ],
+    ids=str,
+)
 def test_a_power_that_is_no_whole_or_half_one_is_written_as_it_is(
     exponent: Expr, tmp_path: Path
 ) -> None:
@@ -212,6 +222,7 @@ SMOOTH: dict[str, tuple[Expr, Callable[[mpf], mpf], list[tuple[float, float]]]] 
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SMOOTH)
 def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(
     name: str, tmp_path: Path
@@ -225,7 +236,9 @@ def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(
             assert abs(mpf(float(of(a, c).load)) / wanted - 1) < 1e-13
 
 
-@pytest.mark.parametrize("beyond", [1e-16, 1e-12, 1e-9, 1e-7, 1e-4])
+@pytest.mark.parametrize(
+    "beyond", [pytest.param(1e-16, marks=pytest.mark.slow), 1e-12, 1e-9, 1e-7, 1e-4]
+)
 def test_a_tilt_whose_left_edge_lies_just_beyond_a_smooth_kink(
     beyond: float, tmp_path: Path
 ) -> None:

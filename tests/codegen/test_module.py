@@ -455,6 +455,7 @@ def test_a_tilt_far_above_one_is_held_to_its_own_size() -> None:
 STEEP = "float64 cannot be tried with the others: write a g(x) that rises less steeply"
 
 
+@pytest.mark.slow
 def test_contacts_that_carry_more_than_float64_holds_are_no_trial() -> None:
     """b exp(exp(x/b)) carries 1e572 N/m on a contact of some ten b; most are narrower."""
     b = parameter("b", "a length", unit="m")
@@ -487,6 +488,7 @@ def test_a_body_convex_for_some_parameters_gives_nothing_for_the_others(imported
             assert np.all(np.isnan(result) != exists)
 
 
+@pytest.mark.slow
 def test_an_inverse_without_a_closed_formula_is_solved_for() -> None:
     """Two radii: the contact does not follow from the load in closed form."""
     tree = ast.parse(text("two_radii"))

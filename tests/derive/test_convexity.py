@@ -142,6 +142,7 @@ def _least(curvature: Expr, lower: Expr, upper: Expr) -> Expr:
     return min(poly.eval(place) for place in places)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "g",
     [

@@ -207,7 +207,13 @@ def test_formulas_and_points_are_the_same_whatever_the_hash_seed() -> None:
     assert printed[0].count("E_star = ") >= 4 * POINTS
 
 
-@pytest.mark.parametrize("name", ["wedge", "three_corners", "spline", "skew"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "wedge",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("three_corners", "spline", "skew")),
+    ],
+)
 def test_a_formula_along_x_is_what_it_is_at_every_point(name: str) -> None:
     """At two precisions in turn: what is computed once is so once a precision."""
     of = sheet(name)

@@ -96,7 +96,13 @@ def test_the_pressure_at_a_corner_grows_as_its_logarithm(name: str) -> None:
             assert close(near - far, gained, digits=5)
 
 
-@pytest.mark.parametrize("name", ["flat_rounded", "two_radii", "spline", "half_parabola"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("flat_rounded", "two_radii", "half_parabola"),
+        pytest.param("spline", marks=pytest.mark.slow),
+    ],
+)
 def test_the_pressure_passes_smoothly_where_the_slope_has_no_corner(name: str) -> None:
     for kink in BODIES[name].kinks:
         below, above = (
