@@ -95,6 +95,7 @@ def test_the_page_holds_every_function() -> None:
     assert set(curves(CASES[0], (10,), 0.001)[GENERATED]) == {10}
 
 
+@pytest.mark.slow
 def test_the_picture_is_the_same_for_the_same_figures(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     figures = {case.name: {GENERATED: {1: 1e-6, 10: 2e-6}} for case in CASES}

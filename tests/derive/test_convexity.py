@@ -80,6 +80,7 @@ def test_what_the_least_curvature_demands(g: Expr, wanted: list[str]) -> None:
     assert demands(g) == wanted
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "g",
     [

@@ -196,6 +196,7 @@ def test_a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> None:
     assert abs(off) <= 1e-9 + 16 * rounding(body, found.a[1], found.c[1], **given)
 
 
+@pytest.mark.slow
 def test_a_hyperbola_under_a_far_load() -> None:
     """Its centre 1e5 to 1e9 m from a bend of half a metre, which the right edge has just left."""
     own, a, c = {"b": 0.625, "phi": 0.125}, np.array([1e5, 1e8, 9.5e9]), np.array([-0.5, -2, -6])

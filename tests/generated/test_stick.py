@@ -160,7 +160,9 @@ BESIDE_KINKS: list[tuple[str, dict[str, float], Any]] = [
 
 
 @pytest.mark.parametrize(("name", "other", "edges"), BESIDE_KINKS)
-@pytest.mark.parametrize("near", [1e-2, 1e-3, 1e-5])
+@pytest.mark.parametrize(
+    "near", [1e-3, *(pytest.param(e, marks=pytest.mark.slow) for e in (1e-2, 1e-5))]
+)
 def test_integrands_are_exact_enough_beside_kinks(
     name: str, other: dict[str, float], edges: Any, near: float
 ) -> None:
