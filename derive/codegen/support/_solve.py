@@ -428,8 +428,8 @@ def _newton(
 
         touches = np.isfinite(length) & np.isfinite(miss)
         scaling = (best == np.inf) & ~(touches & (np.abs(need) < NEAR))
-        scale = np.zeros(rows.size)
-        if np.any(scaling):
+        scale, far_off = np.zeros(rows.size), np.any(scaling)
+        if far_off:
             pull = np.pi * np.sqrt(h) / 4 * (now.left * tried_left + now.right * tried_right)
             next_h, widths = widths.beside(h, need, scaling).next(h, need * now.load / pull)
             scale = np.log(next_h / h)
@@ -445,8 +445,10 @@ def _newton(
 
         rounding = 2 * _EPS * (np.abs(wanted.place) + h) / np.minimum(tried_left, tried_right)
         met = better & (length < np.maximum(smallest, rounding))
-        stuck = scaling & (widths.gap < np.where(widths.ends, CLOSEST, narrowed))
-        left, right = (np.where(stuck, widths.wide / 2, v) for v in (left, right))
+        stuck = scaling
+        if far_off:
+            stuck = scaling & (widths.gap < np.where(widths.ends, CLOSEST, narrowed))
+            left, right = (np.where(stuck, widths.wide / 2, v) for v in (left, right))
         done = met | (~moved & (last < SMALL)) | stuck | (part < FINEST)
         last = np.where(better, length, last)
         if not np.any(done):
