@@ -180,7 +180,7 @@ def _asinh_root(over: Array, under: Array) -> Array:
 
 def _beside_corner(over: Array, h: Array, distance: Array) -> Array:
     """asinh sqrt(over/(h distance)), infinite at the corner alone."""
-    ratio = over / (h * distance)
+    ratio = over / h / distance  # a product with the smallest distances would lose their digits
     found = np.arcsinh(np.sqrt(ratio))
     beyond = (ratio == np.inf) & (distance > 0)
     if np.any(beyond):

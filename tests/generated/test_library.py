@@ -342,6 +342,17 @@ def test_a_contact_gives_the_same_bits_wherever_it_stands(name: str) -> None:
         assert np.array_equal(value[0], value[1], equal_nan=True)
 
 
+def test_a_pressure_beside_a_corner_by_quadrature_keeps_its_digits() -> None:
+    """At distances d far below a and c, p/E* = (phi/pi) log(1/d)/2 and what does not change with d:
+    between two of them, one a subnormal number, it rises by (phi/pi) log(d2/d1)/2."""
+    own, a, c = {"R": 1e9, "phi": 0.05}, 2e-12, 2e-5
+    near, far = 8.1257789551387e-311, 8.1257789551387e-201
+    p = module("wedge_parabola").pressure([near, far], a, c, E_star=1.0, **own)
+    with mpmath.workdps(30):
+        rise = mpf(own["phi"]) / mpmath.pi * mpmath.log(mpf(far) / mpf(near)) / 2
+        assert abs(mpf(float(p[0] - p[1])) / rise - 1) < 1e-14
+
+
 def test_the_pressure_beside_a_corner_grows_to_the_smallest_of_numbers() -> None:
     """p = -(phi/pi) log x + what does not change; the corner just inside the left edge."""
     own, E = {"phi": 0.0625, "R": 0.5}, 2.0
