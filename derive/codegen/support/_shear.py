@@ -109,7 +109,10 @@ class _Known:
         self.x, a_1, c_1, a_2, c_2, dQ, dsigma, self.m, self.n, self.regime, f = self.given.values
         self.constants = self.given.constants
         a, c = np.stack([a_1, a_2]), np.stack([c_1, c_2])
-        self.task = task_between(law, a, c, dQ, dsigma, f, self.constants)
+        cycles = a, c, dQ, dsigma, f, self.constants
+        self.task = task_between(law, *cycles)
+        # the same, its pressures to the last digits: to be told, and not integrated
+        self.told = task_between(law._replace(integrand=law.pressure), *cycles)
         known = np.isfinite(self.m) & np.isfinite(self.n)
         self.large = known & (self.regime == Regime.LARGE)
         self.forward = known & np.isin(self.regime, (Regime.MODERATE, Regime.MIXED))
@@ -165,7 +168,7 @@ class _Known:
         x = self._beside_kinks(rows)
         side = np.where(x < (n - m) / 2, -1, 1)
         slips = (x >= n) | (x <= -m)
-        sliding = self.kappa(side, rows) * task.f * self._sum_of_pressures(x, rows)
+        sliding = self.kappa(side, rows) * task.f * self.told.on(rows).sum_of_pressures(x)
         stuck = sliding - 2 * task.f * self.law.pressure(x, m, n, **held)
         some = np.flatnonzero(self.large[rows] & ~slips)
         if some.size:
@@ -173,12 +176,6 @@ class _Known:
         known = self.large[rows] | self.forward[rows]
         found = np.where(known, np.where(slips, sliding, stuck), np.nan)
         return np.where(self.still[rows], 0.0, found)
-
-    def _sum_of_pressures(self, x: Array, rows: Array) -> Array:
-        """p1 + p2 to the last digits, as it is told and not integrated; at a kink nothing."""
-        edges, held = (self.task.a, self.task.c), at_rows(rows, self.constants)
-        first, second = (self.law.pressure(x, *(e[i][rows] for e in edges), **held) for i in (0, 1))
-        return np.where(np.isinf(first + second), 0.0, first + second)
 
     def _beside_kinks(self, rows: Array) -> Array:
         """x, moved off a corner in the stick zone: p is infinite there, dq is not."""
