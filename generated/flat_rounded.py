@@ -19,7 +19,8 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, as_integrand, mended, slope_of
+from ._mended import as_integrand, kept, mended
+from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -104,6 +105,7 @@ _BODY = Profile(
         Piece(_piece_2_from_left, None),
     ),
     4,
+    degree=0,
 )
 
 
@@ -117,31 +119,34 @@ def _state(a: Array, c: Array, *, R: Array, b: Array) -> State:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = only_where(
-        exists,
-        theta_1 * h**2 / (16 * R)
-        + theta_2 * h**2 / (16 * R)
-        + w_1 * (a - 2 * b - c) / (8 * R)
-        - w_2 * (a + 2 * b - c) / (8 * R),
-        theta_1 * h**2 * (a - c) / (32 * R)
-        + theta_2 * h**2 * (a - c) / (32 * R)
-        + w_1 * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2) / (48 * R)
-        - w_2 * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c) / (48 * R),
-        theta_1 * (a - 2 * b - c) / (2 * np.pi * R)
-        + theta_2 * (a + 2 * b - c) / (2 * np.pi * R)
-        + w_1 / (np.pi * R)
-        - w_2 / (np.pi * R),
-        theta_1 * np.sqrt(h) / (2 * np.pi * R)
-        + theta_2 * np.sqrt(h) / (2 * np.pi * R)
-        + w_1 / (np.pi * R * np.sqrt(h))
-        - w_2 / (np.pi * R * np.sqrt(h)),
-        theta_1 * np.sqrt(h) / (2 * np.pi * R)
-        + theta_2 * np.sqrt(h) / (2 * np.pi * R)
-        + w_2 / (np.pi * R * np.sqrt(h))
-        - w_1 / (np.pi * R * np.sqrt(h)),
-    )
     found = mended(
-        found,
+        only_where(
+            exists,
+            theta_1 * h**2 / (16 * R)
+            + theta_2 * h**2 / (16 * R)
+            + w_1 * (a - 2 * b - c) / (8 * R)
+            - w_2 * (a + 2 * b - c) / (8 * R),
+            theta_1 * h**2 * (a - c) / (32 * R)
+            + theta_2 * h**2 * (a - c) / (32 * R)
+            + w_1
+            * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2)
+            / (48 * R)
+            - w_2
+            * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
+            / (48 * R),
+            theta_1 * (a - 2 * b - c) / (2 * np.pi * R)
+            + theta_2 * (a + 2 * b - c) / (2 * np.pi * R)
+            + w_1 / (np.pi * R)
+            - w_2 / (np.pi * R),
+            theta_1 * np.sqrt(h) / (2 * np.pi * R)
+            + theta_2 * np.sqrt(h) / (2 * np.pi * R)
+            + w_1 / (np.pi * R * np.sqrt(h))
+            - w_2 / (np.pi * R * np.sqrt(h)),
+            theta_1 * np.sqrt(h) / (2 * np.pi * R)
+            + theta_2 * np.sqrt(h) / (2 * np.pi * R)
+            + w_2 / (np.pi * R * np.sqrt(h))
+            - w_1 / (np.pi * R * np.sqrt(h)),
+        ),
         exists,
         (
             "load",
@@ -271,16 +276,23 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            theta_1 * (a - 2 * b - c) / (2 * np.pi * R)
-            + theta_2 * (a + 2 * b - c) / (2 * np.pi * R)
-            + w_1 / (np.pi * R)
-            - w_2 / (np.pi * R),
-        )
-    ]
-    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, R=R, b=b)
+    found = kept(
+        {
+            "tilt": (
+                w_1 / (np.pi * R),
+                theta_1 * (a - 2 * b - c) / (2 * np.pi * R),
+                theta_2 * (a + 2 * b - c) / (2 * np.pi * R),
+                -(w_2 / (np.pi * R)),
+            )
+        },
+        exists,
+        1.0,
+        _BODY,
+        a,
+        c,
+        R=R,
+        b=b,
+    )
     return found[0]
 
 
@@ -321,16 +333,23 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (E_star / (16 * R)) * theta_1 * h**2
-            + (E_star / (16 * R)) * theta_2 * h**2
-            + (E_star / (8 * R)) * w_1 * (a - 2 * b - c)
-            - (E_star / (8 * R)) * w_2 * (a + 2 * b - c),
-        )
-    ]
-    found = mended(found, exists, ("load",), E_star, _BODY, a, c, R=R, b=b)
+    found = kept(
+        {
+            "load": (
+                (E_star / (8 * R)) * w_1 * (a - 2 * b - c),
+                (E_star / (16 * R)) * theta_1 * h**2,
+                (E_star / (16 * R)) * theta_2 * h**2,
+                -((E_star / (8 * R)) * w_2 * (a + 2 * b - c)),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        R=R,
+        b=b,
+    )
     return found[0]
 
 
@@ -373,20 +392,29 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (E_star / (32 * R)) * theta_1 * h**2 * (a - c)
-            + (E_star / (32 * R)) * theta_2 * h**2 * (a - c)
-            + (E_star / (48 * R))
-            * w_1
-            * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2)
-            - (E_star / (48 * R))
-            * w_2
-            * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c),
-        )
-    ]
-    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, R=R, b=b)
+    found = kept(
+        {
+            "moment": (
+                (E_star / (48 * R))
+                * w_1
+                * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
+                (E_star / (32 * R)) * theta_1 * h**2 * (a - c),
+                (E_star / (32 * R)) * theta_2 * h**2 * (a - c),
+                -(
+                    (E_star / (48 * R))
+                    * w_2
+                    * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
+                ),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        R=R,
+        b=b,
+    )
     return found[0]
 
 
@@ -441,14 +469,24 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (x == x)
-    found = [
-        only_where(
-            exists,
-            (E_star / np.pi) * (logarithm_2 * (x - b) / (2 * R) - logarithm_1 * (b + x) / (2 * R))
-            + (E_star * (theta_1 + theta_2) / (2 * np.pi * R)) * w,
-        )
-    ]
-    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, R=R, b=b)
+    found = kept(
+        {
+            "p": (
+                (E_star / (2 * np.pi * R)) * logarithm_2 * (x - b),
+                (E_star / (2 * np.pi * R)) * theta_1 * w,
+                (E_star / (2 * np.pi * R)) * theta_2 * w,
+                -((E_star / (2 * np.pi * R)) * logarithm_1 * (b + x)),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        x=x,
+        R=R,
+        b=b,
+    )
     return found[0]
 
 
@@ -492,24 +530,22 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "left": (
+                (E_star / (np.pi * R)) * w_1 / np.sqrt(h),
+                (E_star / (2 * np.pi * R)) * theta_1 * np.sqrt(h),
+                (E_star / (2 * np.pi * R)) * theta_2 * np.sqrt(h),
+                -((E_star / (np.pi * R)) * w_2 / np.sqrt(h)),
+            ),
+            "right": (
+                (E_star / (np.pi * R)) * w_2 / np.sqrt(h),
+                (E_star / (2 * np.pi * R)) * theta_1 * np.sqrt(h),
+                (E_star / (2 * np.pi * R)) * theta_2 * np.sqrt(h),
+                -((E_star / (np.pi * R)) * w_1 / np.sqrt(h)),
+            ),
+        },
         exists,
-        (E_star / (2 * np.pi * R)) * theta_1 * np.sqrt(h)
-        + (E_star / (2 * np.pi * R)) * theta_2 * np.sqrt(h)
-        + (E_star / (np.pi * R)) * w_1 / np.sqrt(h)
-        - (E_star / (np.pi * R)) * w_2 / np.sqrt(h),
-        (E_star / (2 * np.pi * R)) * theta_1 * np.sqrt(h)
-        + (E_star / (2 * np.pi * R)) * theta_2 * np.sqrt(h)
-        + (E_star / (np.pi * R)) * w_2 / np.sqrt(h)
-        - (E_star / (np.pi * R)) * w_1 / np.sqrt(h),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "left",
-            "right",
-        ),
         E_star,
         _BODY,
         a,
@@ -564,24 +600,27 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "second_left": (
+                (E_star / (6 * np.pi * R)) * w_2 * (3 * a + 4 * c - b) / (h * (a + b) * np.sqrt(h)),
+                -((E_star / (4 * np.pi * R)) * theta_1 / np.sqrt(h)),
+                -((E_star / (4 * np.pi * R)) * theta_2 / np.sqrt(h)),
+                -(
+                    (E_star / (6 * np.pi * R))
+                    * w_1
+                    * (3 * a + b + 4 * c)
+                    / (h * (a - b) * np.sqrt(h))
+                ),
+            ),
+            "second_right": (
+                (E_star / (6 * np.pi * R)) * w_1 * (4 * a + 3 * c - b) / (h * (b + c) * np.sqrt(h)),
+                (E_star / (6 * np.pi * R)) * w_2 * (4 * a + b + 3 * c) / (h * (b - c) * np.sqrt(h)),
+                -((E_star / (4 * np.pi * R)) * theta_1 / np.sqrt(h)),
+                -((E_star / (4 * np.pi * R)) * theta_2 / np.sqrt(h)),
+            ),
+        },
         exists,
-        (E_star / (6 * np.pi * R)) * w_2 * (3 * a + 4 * c - b) / (h * (a + b) * np.sqrt(h))
-        - (E_star / (4 * np.pi * R)) * theta_1 / np.sqrt(h)
-        - (E_star / (4 * np.pi * R)) * theta_2 / np.sqrt(h)
-        - (E_star / (6 * np.pi * R)) * w_1 * (3 * a + b + 4 * c) / (h * (a - b) * np.sqrt(h)),
-        (E_star / (6 * np.pi * R)) * w_1 * (4 * a + 3 * c - b) / (h * (b + c) * np.sqrt(h))
-        + (E_star / (6 * np.pi * R)) * w_2 * (4 * a + b + 3 * c) / (h * (b - c) * np.sqrt(h))
-        - (E_star / (4 * np.pi * R)) * theta_1 / np.sqrt(h)
-        - (E_star / (4 * np.pi * R)) * theta_2 / np.sqrt(h),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "second_left",
-            "second_right",
-        ),
         E_star,
         _BODY,
         a,

@@ -18,7 +18,8 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, mended, slope_of
+from ._mended import kept, mended
+from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -101,6 +102,7 @@ _BODY = Profile(
         Piece(_piece_2_from_left, None, straight=True),
     ),
     4,
+    degree=0,
 )
 
 
@@ -114,16 +116,17 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = only_where(
-        exists,
-        (phi / 2) * w_1 + (phi / 2) * w_2,
-        (phi / 8) * w_1 * (a + 2 * b - c) + (phi / 8) * w_2 * (a - 2 * b - c),
-        (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2,
-        (phi / np.pi) * w_1 / ((a - b) * np.sqrt(h)) + (phi / np.pi) * w_2 / ((a + b) * np.sqrt(h)),
-        (phi / np.pi) * w_1 / ((b + c) * np.sqrt(h)) - (phi / np.pi) * w_2 / ((b - c) * np.sqrt(h)),
-    )
     found = mended(
-        found,
+        only_where(
+            exists,
+            (phi / 2) * w_1 + (phi / 2) * w_2,
+            (phi / 8) * w_1 * (a + 2 * b - c) + (phi / 8) * w_2 * (a - 2 * b - c),
+            (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2,
+            (phi / np.pi) * w_1 / ((a - b) * np.sqrt(h))
+            + (phi / np.pi) * w_2 / ((a + b) * np.sqrt(h)),
+            (phi / np.pi) * w_1 / ((b + c) * np.sqrt(h))
+            - (phi / np.pi) * w_2 / ((b - c) * np.sqrt(h)),
+        ),
         exists,
         (
             "load",
@@ -272,8 +275,21 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = [only_where(exists, (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2)]
-    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, b=b, phi=phi)
+    found = kept(
+        {
+            "tilt": (
+                (phi / np.pi) * theta_1,
+                -((phi / np.pi) * theta_2),
+            )
+        },
+        exists,
+        1.0,
+        _BODY,
+        a,
+        c,
+        b=b,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -307,8 +323,21 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = [only_where(exists, (E_star * phi / 2) * w_1 + (E_star * phi / 2) * w_2)]
-    found = mended(found, exists, ("load",), E_star, _BODY, a, c, b=b, phi=phi)
+    found = kept(
+        {
+            "load": (
+                (E_star * phi / 2) * w_1,
+                (E_star * phi / 2) * w_2,
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        b=b,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -343,13 +372,21 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (E_star * phi / 8) * w_1 * (a + 2 * b - c) + (E_star * phi / 8) * w_2 * (a - 2 * b - c),
-        )
-    ]
-    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, b=b, phi=phi)
+    found = kept(
+        {
+            "moment": (
+                (E_star * phi / 8) * w_1 * (a + 2 * b - c),
+                (E_star * phi / 8) * w_2 * (a - 2 * b - c),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        b=b,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -433,20 +470,18 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "left": (
+                (E_star * phi / np.pi) * w_1 / ((a - b) * np.sqrt(h)),
+                (E_star * phi / np.pi) * w_2 / ((a + b) * np.sqrt(h)),
+            ),
+            "right": (
+                (E_star * phi / np.pi) * w_1 / ((b + c) * np.sqrt(h)),
+                -((E_star * phi / np.pi) * w_2 / ((b - c) * np.sqrt(h))),
+            ),
+        },
         exists,
-        (E_star * phi / np.pi) * w_1 / ((a - b) * np.sqrt(h))
-        + (E_star * phi / np.pi) * w_2 / ((a + b) * np.sqrt(h)),
-        (E_star * phi / np.pi) * w_1 / ((b + c) * np.sqrt(h))
-        - (E_star * phi / np.pi) * w_2 / ((b - c) * np.sqrt(h)),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "left",
-            "right",
-        ),
         E_star,
         _BODY,
         a,
@@ -493,26 +528,30 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "second_left": (
+                (E_star * phi / (6 * np.pi))
+                * w_1
+                * (3 * a + 2 * c - b)
+                / (h * (a - b) ** 2 * np.sqrt(h)),
+                (E_star * phi / (6 * np.pi))
+                * w_2
+                * (3 * a + b + 2 * c)
+                / (h * (a + b) ** 2 * np.sqrt(h)),
+            ),
+            "second_right": (
+                (E_star * phi / (6 * np.pi))
+                * w_1
+                * (2 * a + b + 3 * c)
+                / (h * (b + c) ** 2 * np.sqrt(h)),
+                (E_star * phi / (6 * np.pi))
+                * w_2
+                * (2 * a + 3 * c - b)
+                / (h * (b - c) ** 2 * np.sqrt(h)),
+            ),
+        },
         exists,
-        (E_star * phi / (6 * np.pi)) * w_1 * (3 * a + 2 * c - b) / (h * (a - b) ** 2 * np.sqrt(h))
-        + (E_star * phi / (6 * np.pi))
-        * w_2
-        * (3 * a + b + 2 * c)
-        / (h * (a + b) ** 2 * np.sqrt(h)),
-        (E_star * phi / (6 * np.pi)) * w_1 * (2 * a + b + 3 * c) / (h * (b + c) ** 2 * np.sqrt(h))
-        + (E_star * phi / (6 * np.pi))
-        * w_2
-        * (2 * a + 3 * c - b)
-        / (h * (b - c) ** 2 * np.sqrt(h)),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "second_left",
-            "second_right",
-        ),
         E_star,
         _BODY,
         a,

@@ -20,7 +20,8 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, as_integrand, mended, slope_of
+from ._mended import as_integrand, kept, mended
+from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -121,6 +122,7 @@ _BODY = Profile(
     ),
     4,
     plain=(1,),
+    degree=0,
 )
 
 
@@ -134,47 +136,46 @@ def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     # angle of the contact beyond the kink x = -b [-]
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    found = only_where(
-        exists,
-        (phi / (8 * b))
-        * h**2
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        + (phi / (8 * b)) * w_2 * (a + 2 * b - c)
-        - (phi / (16 * b)) * theta_2 * h**2
-        - (phi / (8 * b)) * w_1 * (a - 2 * b - c),
-        (phi / (16 * b))
-        * h**2
-        * (a - c)
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        + (phi / (48 * b))
-        * w_2
-        * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-        - (phi / (32 * b)) * theta_2 * h**2 * (a - c)
-        - (phi / (48 * b))
-        * w_1
-        * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
-        (phi / np.pi) * theta_1
-        + (phi / (np.pi * b)) * w_2
-        + (phi / (np.pi * b))
-        * (a - c)
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
-        - (phi / (np.pi * b)) * w_1,
-        (phi / (np.pi * b))
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        * np.sqrt(h)
-        + (phi / (np.pi * b)) * w_2 / np.sqrt(h)
-        - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
-        - (phi / (np.pi * b)) * w_1 / np.sqrt(h),
-        (phi / (np.pi * b))
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        * np.sqrt(h)
-        + (phi / (np.pi * b)) * w_1 / np.sqrt(h)
-        - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
-        - (phi / (np.pi * b)) * w_2 / np.sqrt(h),
-    )
     found = mended(
-        found,
+        only_where(
+            exists,
+            (phi / (8 * b))
+            * h**2
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+            + (phi / (8 * b)) * w_2 * (a + 2 * b - c)
+            - (phi / (16 * b)) * theta_2 * h**2
+            - (phi / (8 * b)) * w_1 * (a - 2 * b - c),
+            (phi / (16 * b))
+            * h**2
+            * (a - c)
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+            + (phi / (48 * b))
+            * w_2
+            * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
+            - (phi / (32 * b)) * theta_2 * h**2 * (a - c)
+            - (phi / (48 * b))
+            * w_1
+            * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
+            (phi / np.pi) * theta_1
+            + (phi / (np.pi * b)) * w_2
+            + (phi / (np.pi * b))
+            * (a - c)
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+            - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
+            - (phi / (np.pi * b)) * w_1,
+            (phi / (np.pi * b))
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+            * np.sqrt(h)
+            + (phi / (np.pi * b)) * w_2 / np.sqrt(h)
+            - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
+            - (phi / (np.pi * b)) * w_1 / np.sqrt(h),
+            (phi / (np.pi * b))
+            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+            * np.sqrt(h)
+            + (phi / (np.pi * b)) * w_1 / np.sqrt(h)
+            - (phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
+            - (phi / (np.pi * b)) * w_2 / np.sqrt(h),
+        ),
         exists,
         (
             "load",
@@ -310,19 +311,26 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (phi / np.pi) * theta_1
-            + (phi / (np.pi * b)) * w_2
-            + (phi / (np.pi * b))
-            * (a - c)
-            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-            - (phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)
-            - (phi / (np.pi * b)) * w_1,
-        )
-    ]
-    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, b=b, phi=phi)
+    found = kept(
+        {
+            "tilt": (
+                (phi / np.pi) * theta_1,
+                (phi / (np.pi * b)) * w_2,
+                (phi / (np.pi * b))
+                * (a - c)
+                * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0))),
+                -((phi / (np.pi * b)) * w_1),
+                -((phi / (2 * np.pi * b)) * theta_2 * (a + 2 * b - c)),
+            )
+        },
+        exists,
+        1.0,
+        _BODY,
+        a,
+        c,
+        b=b,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -362,18 +370,25 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (E_star * phi / (8 * b))
-            * h**2
-            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-            + (E_star * phi / (8 * b)) * w_2 * (a + 2 * b - c)
-            - (E_star * phi / (16 * b)) * theta_2 * h**2
-            - (E_star * phi / (8 * b)) * w_1 * (a - 2 * b - c),
-        )
-    ]
-    found = mended(found, exists, ("load",), E_star, _BODY, a, c, b=b, phi=phi)
+    found = kept(
+        {
+            "load": (
+                (E_star * phi / (8 * b)) * w_2 * (a + 2 * b - c),
+                (E_star * phi / (8 * b))
+                * h**2
+                * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0))),
+                -((E_star * phi / (8 * b)) * w_1 * (a - 2 * b - c)),
+                -((E_star * phi / (16 * b)) * theta_2 * h**2),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        b=b,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -415,23 +430,32 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (E_star * phi / (16 * b))
-            * h**2
-            * (a - c)
-            * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-            + (E_star * phi / (48 * b))
-            * w_2
-            * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c)
-            - (E_star * phi / (32 * b)) * theta_2 * h**2 * (a - c)
-            - (E_star * phi / (48 * b))
-            * w_1
-            * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2),
-        )
-    ]
-    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, b=b, phi=phi)
+    found = kept(
+        {
+            "moment": (
+                (E_star * phi / (48 * b))
+                * w_2
+                * (3 * a**2 + (2 * b) * a + 3 * c**2 - 2 * a * c - 4 * b**2 - (2 * b) * c),
+                (E_star * phi / (16 * b))
+                * h**2
+                * (a - c)
+                * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0))),
+                -(
+                    (E_star * phi / (48 * b))
+                    * w_1
+                    * (3 * a**2 + (2 * b) * c + 3 * c**2 - (2 * b) * a - 2 * a * c - 4 * b**2)
+                ),
+                -((E_star * phi / (32 * b)) * theta_2 * h**2 * (a - c)),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        b=b,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -484,24 +508,26 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
-    found = [
-        only_where(
-            exists,
-            (E_star / np.pi)
-            * ((phi / (2 * b)) * logarithm_1 * (b + x) - (phi / (2 * b)) * logarithm_2 * (x - b))
-            + (
-                E_star
-                * phi
-                * (
-                    2 * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-                    - theta_2
-                )
-                / (2 * np.pi * b)
+    found = kept(
+        {
+            "p": (
+                (E_star * phi / (2 * np.pi * b)) * logarithm_1 * (b + x),
+                (E_star * phi / (np.pi * b))
+                * w
+                * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0))),
+                -((E_star * phi / (2 * np.pi * b)) * logarithm_2 * (x - b)),
+                -((E_star * phi / (2 * np.pi * b)) * theta_2 * w),
             )
-            * w,
-        )
-    ]
-    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, b=b, phi=phi)
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        x=x,
+        b=b,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -545,28 +571,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "left": (
+                (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h),
+                (E_star * phi / (np.pi * b))
+                * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+                * np.sqrt(h),
+                -((E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h)),
+                -((E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)),
+            ),
+            "right": (
+                (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h),
+                (E_star * phi / (np.pi * b))
+                * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+                * np.sqrt(h),
+                -((E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h)),
+                -((E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)),
+            ),
+        },
         exists,
-        (E_star * phi / (np.pi * b))
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        * np.sqrt(h)
-        + (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h)
-        - (E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
-        - (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h),
-        (E_star * phi / (np.pi * b))
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        * np.sqrt(h)
-        + (E_star * phi / (np.pi * b)) * w_1 / np.sqrt(h)
-        - (E_star * phi / (2 * np.pi * b)) * theta_2 * np.sqrt(h)
-        - (E_star * phi / (np.pi * b)) * w_2 / np.sqrt(h),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "left",
-            "right",
-        ),
         E_star,
         _BODY,
         a,
@@ -621,28 +645,48 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "second_left": (
+                (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h),
+                (E_star * phi / (6 * np.pi * b))
+                * w_1
+                * (3 * a + b + 4 * c)
+                / (h * (a - b) * np.sqrt(h)),
+                -(
+                    (E_star * phi / (2 * np.pi * b))
+                    * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+                    / np.sqrt(h)
+                ),
+                -(
+                    (E_star * phi / (6 * np.pi * b))
+                    * w_2
+                    * (3 * a + 4 * c - b)
+                    / (h * (a + b) * np.sqrt(h))
+                ),
+            ),
+            "second_right": (
+                (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h),
+                -(
+                    (E_star * phi / (2 * np.pi * b))
+                    * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
+                    / np.sqrt(h)
+                ),
+                -(
+                    (E_star * phi / (6 * np.pi * b))
+                    * w_1
+                    * (4 * a + 3 * c - b)
+                    / (h * (b + c) * np.sqrt(h))
+                ),
+                -(
+                    (E_star * phi / (6 * np.pi * b))
+                    * w_2
+                    * (4 * a + b + 3 * c)
+                    / (h * (b - c) * np.sqrt(h))
+                ),
+            ),
+        },
         exists,
-        (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
-        + (E_star * phi / (6 * np.pi * b)) * w_1 * (3 * a + b + 4 * c) / (h * (a - b) * np.sqrt(h))
-        - (E_star * phi / (2 * np.pi * b))
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        / np.sqrt(h)
-        - (E_star * phi / (6 * np.pi * b)) * w_2 * (3 * a + 4 * c - b) / (h * (a + b) * np.sqrt(h)),
-        (E_star * phi / (4 * np.pi * b)) * theta_2 / np.sqrt(h)
-        - (E_star * phi / (2 * np.pi * b))
-        * np.arctan2(np.sqrt(maximum(b + c, 0.0)), np.sqrt(maximum(a - b, 0.0)))
-        / np.sqrt(h)
-        - (E_star * phi / (6 * np.pi * b)) * w_1 * (4 * a + 3 * c - b) / (h * (b + c) * np.sqrt(h))
-        - (E_star * phi / (6 * np.pi * b)) * w_2 * (4 * a + b + 3 * c) / (h * (b - c) * np.sqrt(h)),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "second_left",
-            "second_right",
-        ),
         E_star,
         _BODY,
         a,

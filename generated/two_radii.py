@@ -19,7 +19,8 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, as_integrand, mended, slope_of
+from ._mended import as_integrand, kept, mended
+from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -87,6 +88,7 @@ _BODY = Profile(
         Piece(_piece_1_from_left, None),
     ),
     4,
+    degree=0,
 )
 
 
@@ -98,44 +100,45 @@ def _state(a: Array, c: Array, *, R_1: Array, R_2: Array) -> State:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = only_where(
-        exists,
-        (
-            (R_1 / 16) * theta_1 * h**2
-            + (R_2 / 8) * h**2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            - ((R_1 - R_2) / 8) * w_1 * (a - c)
-        )
-        / root,
-        (
-            (R_1 / 32) * theta_1 * h**2 * (a - c)
-            + (R_2 / 16)
-            * h**2
-            * (a - c)
-            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            - ((R_1 - R_2) / 48) * w_1 * (3 * a**2 + 3 * c**2 - 2 * a * c)
-        )
-        / root,
-        (
-            theta_1 * R_1 * (a - c)
-            + (2 * R_2) * (a - c) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            - (2 * (R_1 - R_2)) * w_1
-        )
-        / (2 * np.pi * root),
-        (
-            theta_1 * R_1 * h
-            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            - (2 * (R_1 - R_2)) * w_1
-        )
-        / (2 * np.pi * root * np.sqrt(h)),
-        (
-            theta_1 * R_1 * h
-            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            + (2 * (R_1 - R_2)) * w_1
-        )
-        / (2 * np.pi * root * np.sqrt(h)),
-    )
     found = mended(
-        found,
+        only_where(
+            exists,
+            (
+                (R_1 / 16) * theta_1 * h**2
+                + (R_2 / 8) * h**2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                - ((R_1 - R_2) / 8) * w_1 * (a - c)
+            )
+            / root,
+            (
+                (R_1 / 32) * theta_1 * h**2 * (a - c)
+                + (R_2 / 16)
+                * h**2
+                * (a - c)
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                - ((R_1 - R_2) / 48) * w_1 * (3 * a**2 + 3 * c**2 - 2 * a * c)
+            )
+            / root,
+            (
+                theta_1 * R_1 * (a - c)
+                + (2 * R_2)
+                * (a - c)
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                - (2 * (R_1 - R_2)) * w_1
+            )
+            / (2 * np.pi * root),
+            (
+                theta_1 * R_1 * h
+                + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                - (2 * (R_1 - R_2)) * w_1
+            )
+            / (2 * np.pi * root * np.sqrt(h)),
+            (
+                theta_1 * R_1 * h
+                + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                + (2 * (R_1 - R_2)) * w_1
+            )
+            / (2 * np.pi * root * np.sqrt(h)),
+        ),
         exists,
         (
             "load",
@@ -266,20 +269,24 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (
-                theta_1 * R_1 * (a - c)
-                + (2 * R_2)
-                * (a - c)
+    found = kept(
+        {
+            "tilt": (
+                theta_1 * (a - c) / (2 * np.pi * R_2),
+                (a - c)
                 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                - (2 * (R_1 - R_2)) * w_1
+                / (np.pi * R_1),
+                -(((R_1 - R_2) / (np.pi * R_1 * R_2)) * w_1),
             )
-            / (2 * np.pi * R_1 * R_2),
-        )
-    ]
-    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, R_1=R_1, R_2=R_2)
+        },
+        exists,
+        1.0,
+        _BODY,
+        a,
+        c,
+        R_1=R_1,
+        R_2=R_2,
+    )
     return found[0]
 
 
@@ -314,18 +321,24 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (E_star / (16 * R_1 * R_2))
-            * (
-                theta_1 * R_1 * h**2
-                + (2 * R_2) * h**2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                - (2 * (R_1 - R_2)) * w_1 * (a - c)
-            ),
-        )
-    ]
-    found = mended(found, exists, ("load",), E_star, _BODY, a, c, R_1=R_1, R_2=R_2)
+    found = kept(
+        {
+            "load": (
+                (E_star / (16 * R_2)) * theta_1 * h**2,
+                (E_star / (8 * R_1))
+                * h**2
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0))),
+                -((E_star * (R_1 - R_2) / (8 * R_1 * R_2)) * w_1 * (a - c)),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        R_1=R_1,
+        R_2=R_2,
+    )
     return found[0]
 
 
@@ -361,21 +374,29 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (E_star / (96 * R_1 * R_2))
-            * (
-                (3 * R_1) * theta_1 * h**2 * (a - c)
-                + (6 * R_2)
+    found = kept(
+        {
+            "moment": (
+                (E_star / (32 * R_2)) * theta_1 * h**2 * (a - c),
+                (E_star / (16 * R_1))
                 * h**2
                 * (a - c)
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                - (2 * (R_1 - R_2)) * w_1 * (3 * a**2 + 3 * c**2 - 2 * a * c)
-            ),
-        )
-    ]
-    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, R_1=R_1, R_2=R_2)
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0))),
+                -(
+                    (E_star * (R_1 - R_2) / (48 * R_1 * R_2))
+                    * w_1
+                    * (3 * a**2 + 3 * c**2 - 2 * a * c)
+                ),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        R_1=R_1,
+        R_2=R_2,
+    )
     return found[0]
 
 
@@ -419,22 +440,25 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (h < MOST) & (x == x)
-    found = [
-        only_where(
-            exists,
-            (E_star * (R_1 - R_2) / (2 * np.pi * R_1 * R_2)) * x * logarithm_1
-            + (
-                E_star
-                * (
-                    theta_1 * R_1
-                    + 2 * R_2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                )
-                / (2 * np.pi * R_1 * R_2)
+    found = kept(
+        {
+            "p": (
+                (E_star / (2 * np.pi * R_2)) * theta_1 * w,
+                (E_star / (np.pi * R_1))
+                * w
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0))),
+                (E_star * (R_1 - R_2) / (2 * np.pi * R_1 * R_2)) * x * logarithm_1,
             )
-            * w,
-        )
-    ]
-    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, R_1=R_1, R_2=R_2)
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        x=x,
+        R_1=R_1,
+        R_2=R_2,
+    )
     return found[0]
 
 
@@ -473,30 +497,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "left": (
+                theta_1 * R_1 * scale * np.sqrt(h),
+                (2 * R_2)
+                * scale
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                * np.sqrt(h),
+                -((2 * (R_1 - R_2)) * w_1 * scale / np.sqrt(h)),
+            ),
+            "right": (
+                (2 * (R_1 - R_2)) * w_1 * scale / np.sqrt(h),
+                theta_1 * R_1 * scale * np.sqrt(h),
+                (2 * R_2)
+                * scale
+                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                * np.sqrt(h),
+            ),
+        },
         exists,
-        scale
-        * (
-            theta_1 * R_1 * h
-            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            - (2 * (R_1 - R_2)) * w_1
-        )
-        / np.sqrt(h),
-        scale
-        * (
-            theta_1 * R_1 * h
-            + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            + (2 * (R_1 - R_2)) * w_1
-        )
-        / np.sqrt(h),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "left",
-            "right",
-        ),
         E_star,
         _BODY,
         a,
@@ -546,36 +566,32 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "second_left": (
+                (2 * E_star * (R_1 - R_2)) * w_1 * (3 * a + 4 * c) * np.sqrt(h) / (a * root),
+                -(
+                    (6 * E_star * R_2)
+                    * h
+                    * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                    * np.sqrt(h)
+                    / root
+                ),
+                -((3 * E_star * R_1) * theta_1 * h * np.sqrt(h) / root),
+            ),
+            "second_right": (
+                -(
+                    (6 * E_star * R_2)
+                    * h
+                    * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                    * np.sqrt(h)
+                    / root
+                ),
+                -((3 * E_star * R_1) * theta_1 * h * np.sqrt(h) / root),
+                -((2 * E_star * (R_1 - R_2)) * w_1 * (4 * a + 3 * c) * np.sqrt(h) / (c * root)),
+            ),
+        },
         exists,
-        (
-            (2 * E_star * (R_1 - R_2)) * w_1 * (3 * a + 4 * c) * np.sqrt(h)
-            - (3 * E_star * R_1) * a * theta_1 * h * np.sqrt(h)
-            - (6 * E_star * R_2)
-            * a
-            * h
-            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            * np.sqrt(h)
-        )
-        / (a * root),
-        (
-            (-((3 * E_star * R_1) * c * theta_1 * h * np.sqrt(h)))
-            - (6 * E_star * R_2)
-            * c
-            * h
-            * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            * np.sqrt(h)
-            - (2 * E_star * (R_1 - R_2)) * w_1 * (4 * a + 3 * c) * np.sqrt(h)
-        )
-        / (c * root),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "second_left",
-            "second_right",
-        ),
         E_star,
         _BODY,
         a,

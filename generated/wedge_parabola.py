@@ -19,7 +19,8 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._quadrature import Curve, Piece, Profile, as_integrand, mended, slope_of
+from ._mended import as_integrand, kept, mended
+from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -86,6 +87,7 @@ _BODY = Profile(
         Piece(_piece_1_from_left, None),
     ),
     4,
+    degree=0,
 )
 
 
@@ -96,25 +98,26 @@ def _state(a: Array, c: Array, *, R: Array, phi: Array) -> State:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = only_where(
-        exists,
-        (theta_1 * h**2 - 2 * w_1 * (a - 4 * R * phi - c)) / (16 * R),
-        (
-            3 * theta_1 * h**2 * (a - c)
-            - 2 * w_1 * ((6 * R * phi) * c + 3 * a**2 + 3 * c**2 - (6 * R * phi) * a - 2 * a * c)
-        )
-        / (96 * R),
-        (
-            (4 * R * phi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-            + theta_1 * (a - c)
-            - 2 * w_1
-        )
-        / (2 * np.pi * R),
-        (a * theta_1 * h - 2 * w_1 * (a - R * phi)) / (2 * np.pi * a * R * np.sqrt(h)),
-        (c * theta_1 * h + 2 * w_1 * (R * phi + c)) / (2 * np.pi * c * R * np.sqrt(h)),
-    )
     found = mended(
-        found,
+        only_where(
+            exists,
+            (theta_1 * h**2 - 2 * w_1 * (a - 4 * R * phi - c)) / (16 * R),
+            (
+                3 * theta_1 * h**2 * (a - c)
+                - 2
+                * w_1
+                * ((6 * R * phi) * c + 3 * a**2 + 3 * c**2 - (6 * R * phi) * a - 2 * a * c)
+            )
+            / (96 * R),
+            (
+                (4 * R * phi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
+                + theta_1 * (a - c)
+                - 2 * w_1
+            )
+            / (2 * np.pi * R),
+            (a * theta_1 * h - 2 * w_1 * (a - R * phi)) / (2 * np.pi * a * R * np.sqrt(h)),
+            (c * theta_1 * h + 2 * w_1 * (R * phi + c)) / (2 * np.pi * c * R * np.sqrt(h)),
+        ),
         exists,
         (
             "load",
@@ -242,18 +245,22 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (
-                (4 * R * phi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                + theta_1 * (a - c)
-                - 2 * w_1
+    found = kept(
+        {
+            "tilt": (
+                theta_1 * (a - c) / (2 * np.pi * R),
+                (2 * phi / np.pi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0))),
+                -(w_1 / (np.pi * R)),
             )
-            / (2 * np.pi * R),
-        )
-    ]
-    found = mended(found, exists, ("tilt",), 1.0, _BODY, a, c, R=R, phi=phi)
+        },
+        exists,
+        1.0,
+        _BODY,
+        a,
+        c,
+        R=R,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -287,10 +294,21 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = [
-        only_where(exists, (E_star / (16 * R)) * (theta_1 * h**2 - 2 * w_1 * (a - 4 * R * phi - c)))
-    ]
-    found = mended(found, exists, ("load",), E_star, _BODY, a, c, R=R, phi=phi)
+    found = kept(
+        {
+            "load": (
+                (E_star / (16 * R)) * theta_1 * h**2,
+                -((E_star / (8 * R)) * w_1 * (a - 4 * R * phi - c)),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        R=R,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -326,19 +344,25 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = [
-        only_where(
-            exists,
-            (E_star / (96 * R))
-            * (
-                3 * theta_1 * h**2 * (a - c)
-                - 2
-                * w_1
-                * ((6 * R * phi) * c + 3 * a**2 + 3 * c**2 - (6 * R * phi) * a - 2 * a * c)
-            ),
-        )
-    ]
-    found = mended(found, exists, ("moment",), E_star, _BODY, a, c, R=R, phi=phi)
+    found = kept(
+        {
+            "moment": (
+                (E_star / (32 * R)) * theta_1 * h**2 * (a - c),
+                -(
+                    (E_star / (48 * R))
+                    * w_1
+                    * ((6 * R * phi) * c + 3 * a**2 + 3 * c**2 - (6 * R * phi) * a - 2 * a * c)
+                ),
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        R=R,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -381,14 +405,22 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (x == x)
-    found = [
-        only_where(
-            exists,
-            (E_star / (2 * np.pi * R)) * logarithm_1 * (R * phi + x)
-            + (theta_1 * E_star / (2 * np.pi * R)) * w,
-        )
-    ]
-    found = mended(found, exists, ("p",), E_star, _BODY, a, c, x=x, R=R, phi=phi)
+    found = kept(
+        {
+            "p": (
+                (E_star / (2 * np.pi * R)) * logarithm_1 * (R * phi + x),
+                (E_star / (2 * np.pi * R)) * theta_1 * w,
+            )
+        },
+        exists,
+        E_star,
+        _BODY,
+        a,
+        c,
+        x=x,
+        R=R,
+        phi=phi,
+    )
     return found[0]
 
 
@@ -425,18 +457,18 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "left": (
+                theta_1 * h * scale,
+                -(2 * w_1 * scale * (a - R * phi) / a),
+            ),
+            "right": (
+                2 * w_1 * scale * (R * phi + c) / c,
+                theta_1 * h * scale,
+            ),
+        },
         exists,
-        scale * (a * theta_1 * h - 2 * w_1 * (a - R * phi)) / a,
-        scale * (c * theta_1 * h + 2 * w_1 * (R * phi + c)) / c,
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "left",
-            "right",
-        ),
         E_star,
         _BODY,
         a,
@@ -484,36 +516,25 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = only_where(
+    found = kept(
+        {
+            "second_left": (
+                (E_star / 6)
+                * w_1
+                * ((3 * R * phi) * a + (2 * R * phi) * c + 3 * a**2 + 4 * a * c)
+                / (a**2 * h * root * np.sqrt(h)),
+                -((E_star / 4) * theta_1 / (root * np.sqrt(h))),
+            ),
+            "second_right": (
+                (E_star * R * phi / 2) * w_1 / (c * h * root * np.sqrt(h)),
+                (E_star * R * phi / 3) * a * w_1 / (c**2 * h * root * np.sqrt(h)),
+                -((E_star / 4) * c * theta_1 / (h * root * np.sqrt(h))),
+                -((E_star / 2) * w_1 / (h * root * np.sqrt(h))),
+                -((E_star / 4) * a * theta_1 / (h * root * np.sqrt(h))),
+                -((2 * E_star / 3) * a * w_1 / (c * h * root * np.sqrt(h))),
+            ),
+        },
         exists,
-        (
-            (2 * E_star)
-            * w_1
-            * ((3 * R * phi) * a + (2 * R * phi) * c + 3 * a**2 + 4 * a * c)
-            * np.sqrt(h)
-            - (3 * E_star) * theta_1 * a**2 * h * np.sqrt(h)
-        )
-        / (12 * a**2 * h**2 * root),
-        -(
-            (E_star / (12 * root))
-            * (
-                3 * a * theta_1 * c**2
-                + 8 * a * c * w_1
-                + 3 * theta_1 * (c * c**2)
-                + 6 * w_1 * c**2
-                - (4 * R * phi) * a * w_1
-                - (6 * R * phi) * c * w_1
-            )
-            / (c**2 * h * np.sqrt(h))
-        ),
-    )
-    found = mended(
-        found,
-        exists,
-        (
-            "second_left",
-            "second_right",
-        ),
         E_star,
         _BODY,
         a,

@@ -18,10 +18,12 @@ from sympy import (
     Gt,
     Integer,
     Max,
+    Mul,
     Piecewise,
     Poly,
     S,
     Symbol,
+    UnevaluatedExpr,
     expand,
     oo,
     re,
@@ -87,6 +89,22 @@ def size_of_terms(slope: Slope) -> tuple[Expr, Expr]:
 def _without_signs(polynomial: Expr) -> Expr:
     """Its terms, all of them positive, at the distance r from the origin."""
     return Add(*(Abs(term.subs(x, _r)) for term in Add.make_args(expand(polynomial))))
+
+
+def terms_of(expr: Expr, places: frozenset[Symbol]) -> list[Expr]:
+    """The terms that an expression adds up, one by one: all but polynomials of places.
+
+    >>> from sympy import atan2, sqrt
+    >>> terms_of((sqrt(a) * (a - c) - atan2(a, c)) / 2, frozenset({a, c}))
+    [sqrt(a)*(a - c)/2, -atan2(a, c)/2]
+    """
+    for factor in Mul.make_args(expr):
+        inner = factor.args[0] if isinstance(factor, UnevaluatedExpr) else factor
+        plain = inner.free_symbols <= places and inner.is_rational_function()
+        if inner.is_Add and not plain:
+            rest = Mul(*(other for other in Mul.make_args(expr) if other is not factor))
+            return [term for part in inner.args for term in terms_of(rest * part, places)]
+    return [expr]
 
 
 @lru_cache(maxsize=16)

@@ -11,6 +11,7 @@ from sympy import (
     Add,
     Expr,
     Function,
+    Poly,
     Pow,
     S,
     Symbol,
@@ -27,14 +28,14 @@ from sympy import (
     tanh,
 )
 
-from derive.codegen.cancel import cancels, cuts_of, plain_cuts, size_of_terms
+from derive.codegen.cancel import cancels, cuts_of, plain_cuts, size_of_terms, terms_of
 from derive.codegen.decay import decaying
 from derive.codegen.function import FunctionText, own_parameters
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
 from derive.codegen.rise import from_zero
 from derive.piece import Piece
-from derive.profile import has_sharp_power
+from derive.profile import Slope, has_sharp_power
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
 
@@ -100,8 +101,18 @@ _FIELDS = {
 class MendedText(FunctionText):
     """The text of a closed function that is integrated where it would lose digits."""
 
-    def _result(self, values: dict[str, str]) -> Iterator[str]:
-        return mended_lines(self, values, _FIELDS[self.function.name])
+    def _result(self, _: dict[str, str]) -> Iterator[str]:
+        """The terms of every formula, one by one, so that their cancelling shows."""
+        steps = {step.symbol for step in self.program.steps}
+        printer = NumPyPrinter({a, c, x, *steps})
+        fields, outputs = _FIELDS[self.function.name], self.program.outputs.values()
+        held = []
+        for field, expr in zip(fields, outputs, strict=True):
+            terms = terms_of(expr, frozenset(expr.free_symbols - steps | {Symbol("h")}))
+            terms.sort(key=lambda term: term.could_extract_minus_sign())
+            held.append(f"{field!r}: ({' '.join(f'{printer.doprint(t)},' for t in terms)})")
+        yield f"    found = kept({{{', '.join(held)}}}, exists, {_mending(self)})"
+        yield from _found(self)
 
     @property
     def _further_checks(self) -> Iterator[str]:
@@ -118,20 +129,25 @@ class MendedText(FunctionText):
         return f"{super()._existence}.  Where {', or '.join(places)}, by quadrature of g''"
 
 
-def mended_lines(
-    made: FunctionText, values: dict[str, str], fields: tuple[str, ...]
-) -> Iterator[str]:
+def mended_lines(made: FunctionText, values: dict[str, str]) -> Iterator[str]:
     """The closed values, and the call that integrates them where they would lose digits."""
+    guarded = f"only_where(exists, {', '.join(values.values())})"
+    names = "".join(f"{name!r}, " for name in values)
+    yield f"    found = mended({guarded}, exists, ({names}), {_mending(made)})"
+    yield from _found(made)
+
+
+def _mending(made: FunctionText) -> str:
+    """What the quadrature in a formula's place is given."""
     _, own = own_parameters(made.sheet)
     scale = "E_star" if E_star in made.keywords else "1.0"
     at = ", x=x" if x in made.function.arguments else ""
-    guarded = f"only_where(exists, {', '.join(values.values())})"
-    names = "".join(f"{name!r}, " for name in fields)
-    yield f"    found = {guarded if len(values) > 1 else f'[{guarded}]'}"
-    yield f"    found = mended(found, exists, ({names}), {scale}, _BODY, a, c{at}{own})"
-    yield (
-        f"    return {made.function.kind}(*found)" if made.function.kind else "    return found[0]"
-    )
+    return f"{scale}, _BODY, a, c{at}{own}"
+
+
+def _found(made: FunctionText) -> Iterator[str]:
+    kind = made.function.kind
+    yield f"    return {kind}(*found)" if kind else "    return found[0]"
 
 
 def is_mended(sheet: FormulaSheet) -> bool:
@@ -182,9 +198,18 @@ def curve_text(sheet: FormulaSheet) -> str:
     if cancels(slope):
         lines += _terms_text(sheet)
         terms = ", _terms"
-    plain = f", plain={cuts}" if is_mended(sheet) and (cuts := plain_cuts(slope)) else ""
-    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach}{terms}{plain})")
+    if is_mended(sheet) and (cuts := plain_cuts(slope)):
+        terms += f", plain={cuts}"
+    if slope.is_polynomial:
+        terms += f", degree={_degree_of_curvature(slope)}"
+    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach}{terms})")
     return "\n".join(lines)
+
+
+def _degree_of_curvature(slope: Slope) -> int:
+    """The degree of g'' on the piece where it is highest."""
+    curved = (piece.curvature for piece in slope.pieces if not piece.straight)
+    return max((int(Poly(curvature, x).degree()) for curvature in curved), default=0)
 
 
 def _terms_text(sheet: FormulaSheet) -> Iterator[str]:

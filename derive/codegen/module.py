@@ -36,10 +36,9 @@ _HELPERS = {
         *("maximum", "minimum", "only_where", "scaled", "select"),
     ),
     "_march": ("march_of",),
-    "_quadrature": (
-        *("Curve", "Piece", "Profile"),
-        *("as_integrand", "mended", "pressure_at", "second_of", "slope_of", "state_of"),
-    ),
+    "_mended": ("as_integrand", "kept", "mended"),
+    "_profile": ("Curve", "Piece", "Profile", "slope_of"),
+    "_quadrature": ("pressure_at", "second_of", "state_of"),
     "_shear": ("shear_change_of", "shear_of", "slip_range_of"),
     "_slip": ("slip_error_of", "slip_zones_of"),
     "_solve": ("contact_at", "contact_under", "level"),

@@ -58,7 +58,7 @@ class StateText(FunctionText):
 
     def _result(self, values: dict[str, str]) -> Iterator[str]:
         if is_mended(self.sheet):
-            yield from mended_lines(self, values, tuple(values))
+            yield from mended_lines(self, values)
             return
         guarded = f"only_where(exists, {values.pop('load')})"
         yield f"    return State({', '.join([guarded, *values.values()])})"

@@ -15,7 +15,8 @@ from sympy import exp as sympy_exp
 from derive import Geometry, parameter, x
 from derive.codegen.integrated import curve_text
 from derive.derivation import derive_sheet
-from generated._quadrature import Curve, Piece, Profile, state_of
+from generated._profile import Curve, Piece, Profile
+from generated._quadrature import state_of
 from generated._state import State
 
 b = parameter("b", "width", unit="m")
