@@ -41,6 +41,9 @@ SUMS = "force", "left", "right", "lean", "arm"
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
 
+_NOTHING = 1e-290
+"""In parts of the width: so close to a part's end, what is taken by parts there is nothing."""
+
 
 def carried(contact: Window, degree: int, wanted: Collection[str] = SUMS) -> list[Array]:
     """The integrals over the curved pieces of
@@ -154,7 +157,7 @@ def _from_nearby(part: Part, place: _Place, h: Array, degree: int) -> Array:
         (arc.start, none, part.length, after_start),
         (arc.end, part.length, none, before_end),
     ):
-        level = place.logarithm(sine, cosine, np.abs(distance))
+        level = place.logarithm(sine, cosine, np.maximum(np.abs(distance), _NOTHING * h))
         reached = (distance != 0) & (sine > 0) & (cosine > 0)  # at the edges L is zero
         total = total + np.where(reached, quotient(along, back) * distance * level, 0.0)
     return total

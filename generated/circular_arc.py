@@ -8,7 +8,6 @@ import numpy as np
 
 from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
-from ._mended import kept
 from ._profile import Curve, Piece, Profile, slope_of
 from ._quadrature import pressure_at, second_of, state_of
 from ._shear import shear_change_of, shear_of, slip_range_of

@@ -19,7 +19,7 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._mended import as_integrand, kept, mended
+from ._mended import as_integrand, mended, mended_sums
 from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -259,7 +259,8 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
 
     Returns alpha [rad].
     NaN unless a + c > 0 and (a > b) | (c > b) and R > 0 and b > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
+    by quadrature of g''.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -276,7 +277,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "tilt": (
                 w_1 / (np.pi * R),
@@ -316,8 +317,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of
-    g''.
+    leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/flat_rounded.py.
@@ -333,7 +334,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "load": (
                 (E_star / (8 * R)) * w_1 * (a - 2 * b - c),
@@ -374,8 +375,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 
     Returns M [N].
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of
-    g''.
+    leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
         at 24 points.
@@ -392,7 +393,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "moment": (
                 (E_star / (48 * R))
@@ -443,8 +444,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
 
     Returns p [Pa].
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of
-    g''.
+    leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -469,7 +470,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (x == x)
-    found = kept(
+    found = mended_sums(
         {
             "p": (
                 (E_star / (2 * np.pi * R)) * logarithm_2 * (x - b),
@@ -512,8 +513,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of
-    g''.
+    leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -530,7 +531,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "left": (
                 (E_star / (np.pi * R)) * w_1 / np.sqrt(h),
@@ -580,8 +581,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of
-    g''.
+    leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
         digits at 24 points.
@@ -600,7 +601,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "second_left": (
                 (E_star / (6 * np.pi * R)) * w_2 * (3 * a + 4 * c - b) / (h * (a + b) * np.sqrt(h)),

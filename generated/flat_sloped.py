@@ -18,7 +18,7 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._mended import kept, mended
+from ._mended import mended, mended_sums
 from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -259,8 +259,8 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 
     Returns alpha [rad].
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and b > 0 and phi > 0; nor
-    where lengths leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by
-    quadrature of g''.
+    where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to
+    an edge or to another kink, by quadrature of g''.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -275,7 +275,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "tilt": (
                 (phi / np.pi) * theta_1,
@@ -310,8 +310,8 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink
+    lies close to an edge or to another kink, by quadrature of g''.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/flat_sloped.py.
@@ -323,7 +323,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "load": (
                 (E_star * phi / 2) * w_1,
@@ -358,8 +358,8 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
     Returns M [N].
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink
+    lies close to an edge or to another kink, by quadrature of g''.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
         at 24 points.
@@ -372,7 +372,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "moment": (
                 (E_star * phi / 8) * w_1 * (a + 2 * b - c),
@@ -456,8 +456,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink
+    lies close to an edge or to another kink, by quadrature of g''.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -470,7 +470,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "left": (
                 (E_star * phi / np.pi) * w_1 / ((a - b) * np.sqrt(h)),
@@ -512,8 +512,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink
+    lies close to an edge or to another kink, by quadrature of g''.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
         digits at 24 points.
@@ -528,7 +528,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
     w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "second_left": (
                 (E_star * phi / (6 * np.pi))

@@ -17,7 +17,6 @@ from ._arrays import (
     scaled,
 )
 from ._march import march_of
-from ._mended import kept
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._stick import Law, closing_tension_of, stick_zone_of, tension_threshold_of

@@ -17,7 +17,6 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._mended import kept
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level

@@ -19,7 +19,7 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._mended import as_integrand, kept, mended
+from ._mended import as_integrand, mended, mended_sums
 from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -254,8 +254,9 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
         R_2  relative radius of curvature on the right [m]
 
     Returns alpha [rad].
-    NaN unless a + c > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to 1e75 m.  Where a
-    kink lies close to an edge or to another kink, by quadrature of g''.
+    NaN unless a + c > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to 1e75 m.  Where
+    terms of the formula cancel, or a kink lies close to an edge or to another kink, by quadrature
+    of g''.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 50 digits at 24 points.
@@ -269,7 +270,7 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "tilt": (
                 theta_1 * (a - c) / (2 * np.pi * R_2),
@@ -308,7 +309,8 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
+    by quadrature of g''.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/two_radii.py.
@@ -321,7 +323,7 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "load": (
                 (E_star / (16 * R_2)) * theta_1 * h**2,
@@ -360,7 +362,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
 
     Returns M [N].
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
+    by quadrature of g''.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
         at 24 points.
@@ -374,7 +377,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "moment": (
                 (E_star / (32 * R_2)) * theta_1 * h**2 * (a - c),
@@ -421,7 +424,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
 
     Returns p [Pa].
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
+    by quadrature of g''.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 50 digits at 24 points.
@@ -440,7 +444,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (h < MOST) & (x == x)
-    found = kept(
+    found = mended_sums(
         {
             "p": (
                 (E_star / (2 * np.pi * R_2)) * theta_1 * w,
@@ -482,7 +486,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
+    by quadrature of g''.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -497,7 +502,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "left": (
                 theta_1 * R_1 * scale * np.sqrt(h),
@@ -549,7 +554,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
+    by quadrature of g''.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
         digits at 24 points.
@@ -566,7 +572,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "second_left": (
                 (2 * E_star * (R_1 - R_2)) * w_1 * (3 * a + 4 * c) * np.sqrt(h) / (a * root),

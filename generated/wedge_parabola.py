@@ -19,7 +19,7 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._mended import as_integrand, kept, mended
+from ._mended import as_integrand, mended, mended_sums
 from ._profile import Curve, Piece, Profile, slope_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
@@ -231,7 +231,8 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
 
     Returns alpha [rad].
     NaN unless a + c > 0 and c > 0 and R > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-    Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    Where terms of the formula cancel, or a kink lies close to an edge or to another kink, by
+    quadrature of g''.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 48 digits at 24 points.
@@ -245,7 +246,7 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "tilt": (
                 theta_1 * (a - c) / (2 * np.pi * R),
@@ -281,7 +282,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/wedge_parabola.py.
@@ -294,7 +296,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "load": (
                 (E_star / (16 * R)) * theta_1 * h**2,
@@ -330,7 +332,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
     Returns M [N].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
         at 24 points.
@@ -344,7 +347,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "moment": (
                 (E_star / (32 * R)) * theta_1 * h**2 * (a - c),
@@ -386,7 +389,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
 
     Returns p [Pa].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -405,7 +409,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (x == x)
-    found = kept(
+    found = mended_sums(
         {
             "p": (
                 (E_star / (2 * np.pi * R)) * logarithm_1 * (R * phi + x),
@@ -442,7 +446,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -457,7 +462,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "left": (
                 theta_1 * h * scale,
@@ -499,7 +504,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where a kink lies close to an edge or to another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
+    another kink, by quadrature of g''.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
         digits at 24 points.
@@ -516,7 +522,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
     w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = kept(
+    found = mended_sums(
         {
             "second_left": (
                 (E_star / 6)

@@ -111,7 +111,7 @@ class MendedText(FunctionText):
             terms = terms_of(expr, frozenset(expr.free_symbols - steps | {Symbol("h")}))
             terms.sort(key=lambda term: term.could_extract_minus_sign())
             held.append(f"{field!r}: ({' '.join(f'{printer.doprint(t)},' for t in terms)})")
-        yield f"    found = kept({{{', '.join(held)}}}, exists, {_mending(self)})"
+        yield f"    found = mended_sums({{{', '.join(held)}}}, exists, {_mending(self)})"
         yield from _found(self)
 
     @property
@@ -121,11 +121,9 @@ class MendedText(FunctionText):
 
     @property
     def _existence(self) -> str:
-        places = []
+        places = ["terms of the formula cancel"]
         if self.sheet.frame.kinks:
             places.append("a kink lies close to an edge or to another kink")
-        if cancels(self.sheet.geometry.slope):
-            places.append("powers of places would cancel")
         return f"{super()._existence}.  Where {', or '.join(places)}, by quadrature of g''"
 
 

@@ -36,7 +36,7 @@ _HELPERS = {
         *("maximum", "minimum", "only_where", "scaled", "select"),
     ),
     "_march": ("march_of",),
-    "_mended": ("as_integrand", "kept", "mended"),
+    "_mended": ("as_integrand", "mended", "mended_sums"),
     "_profile": ("Curve", "Piece", "Profile", "slope_of"),
     "_quadrature": ("pressure_at", "second_of", "state_of"),
     "_shear": ("shear_change_of", "shear_of", "slip_range_of"),

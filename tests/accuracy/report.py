@@ -63,7 +63,7 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "  than that of the inputs, summed over them.  Half a unit in each input explains as much.",
         f"- well: largest error among problems whose condition is at most {WELL:g}.",
         "- ulp/condition: largest error over the condition (at least 1) of its point; 4 or less is",
-        "  what closed formulas are held to.",
+        "  what closed formulas are held to, and those that are mended by quadrature.",
         "- lost: points at which the function gave no number, or none next to a solution.",
         "- paper: worst error of the printed form, where there is one.",
         "",
@@ -117,7 +117,7 @@ def _summed(rows: list[Worst]) -> Worst:
 
 def _worst_points(rows: list[Worst]) -> Iterator[str]:
     """Where closed formulas miss what they are held to."""
-    missed = [row for row in rows if row.kind == CLOSED and row.excess > LIMITS[CLOSED]]
+    missed = [r for r in rows if r.kind in (CLOSED, MENDED) and r.excess > LIMITS[r.kind]]
     yield from ("## Closed formulas beyond 4 times the condition", "")
     if not missed:
         yield from ("None.", "")

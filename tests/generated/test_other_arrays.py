@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.lib.mixins import NDArrayOperatorsMixin
-from numpy.testing import assert_array_equal
+from numpy.testing import assert_allclose, assert_array_equal
 
 from generated import flat_rounded, hyperbola, wedge
 from generated._types import Contact
@@ -22,6 +22,8 @@ STUCK = ("K_T", "L_T", "stick_margin")
 INVERSE = ("contact", "contact_at_tilt")
 INTEGRATED = ("power", "hyperbola", "circular_arc", "catenary")
 CLOSED_INVERSE = ("hertz", "wedge", "unequal_wedge")
+
+MENDED = ("flat_rounded", "flat_sloped", "rounded_wedge", "two_radii", "wedge_parabola")
 
 COMPARISONS = (np.less, np.less_equal, np.greater, np.greater_equal, np.equal, np.not_equal)
 
@@ -99,7 +101,10 @@ def test_explicit_formulas_stay_on_the_device(body: str, name: str) -> None:
     for one, other in zip(fields(found), fields(function(**given)), strict=True):
         assert type(one) is OnDevice
         assert one.dtype == np.float64
-        assert_array_equal(one.held, other)
+        if body in MENDED and name in FORWARD:  # where terms cancel, NumPy's own are integrated
+            assert_allclose(one.held, other, rtol=1e-12)
+        else:
+            assert_array_equal(one.held, other)
 
 
 @pytest.mark.parametrize(

@@ -36,7 +36,7 @@ _integrated = ContextVar("integrated", default=False)
 """Whether pressures are asked for as integrands."""
 
 
-def kept(
+def mended_sums(
     sums: Mapping[str, Sequence[Array]],
     exists: Array,
     scale: Array,
@@ -49,17 +49,19 @@ def kept(
 ) -> list[Array]:
     """Closed formulas to their last digits: like `mended`, and where their terms cancel, too.
 
+    Arrays of other libraries keep what closed formulas give them there: none of their elements is
+    integrated.
+
     sums: the terms of each value by its field.
     """
     values = [sum(terms[1:], terms[0]) for terms in sums.values()]
-    lost = exists & False
-    if not _integrated.get():
+    rough = is_delicate(body, a, c, **constants)
+    if not _integrated.get() and all(isinstance(v, np.ndarray | np.float64) for v in values):
         for value, (field, terms) in zip(values, sums.items(), strict=True):
             size = sum(map(np.abs, terms[1:]), np.abs(terms[0]))
-            lost = lost | (size > LOST.get(field, 4.0) * np.abs(value))
-    rough = exists & (lost | is_delicate(body, a, c, **constants))
+            rough = rough | (size > LOST.get(field, 4.0) * np.abs(value))
     values = only_where(exists, *values) if len(values) > 1 else [only_where(exists, *values)]
-    return _replaced(values, rough, [*sums], scale, body, a, c, x, **constants)
+    return _replaced(values, exists & rough, [*sums], scale, body, a, c, x, **constants)
 
 
 def mended(

@@ -234,7 +234,7 @@ class Part(NamedTuple):
         start, end = self.start_low, self.end_high
         beyond, before = start + self.length, end + self.length
         both = np.sqrt(before * beyond) + np.sqrt(end * start)
-        sine = (start + before) * self.length / both
+        sine = (start + before) * self.length / np.maximum(both, TINY)
         return 2 * np.arctan2(sine, np.sqrt(before * end) + np.sqrt(beyond * start))
 
     def at(self, near_left: bool, q: Array, rest: Array) -> Nodes:
