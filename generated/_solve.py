@@ -43,8 +43,11 @@ QUICK = 6
 CLEAR = 1e-3
 """so it is where a kink lies closer to an edge, in parts of the width."""
 
+EXACT = 1e-13
+"""A contact whose load is off by less, but for the rounding of its edges, is found;"""
+
 ACCEPTED = 1e-9
-"""A contact whose load is off by more, and not for the rounding of its edges, is none."""
+"""one that is off by more, when every way to it has been tried, is none."""
 
 ROUGHEST = 1e-4
 """Where the rounding of the edges moves the load by more, no contact is given."""
@@ -226,37 +229,41 @@ def _solved(
         return state(a, c, **at_rows(rows, constants))
 
     given = (load > 0) & (load < np.inf) & _within_reach(load, goal.place, size, of)
-    a, c, tilt = np.full((3, *load.shape), np.nan)
-    met, told = np.full((2, *load.shape), False)
+    a, c, tilt, off = np.full((4, *load.shape), np.nan)
+    met, told, done = np.full((3, *load.shape), False)
     rows, narrowed = np.flatnonzero(given), NARROWED if cuts else 0.0
     varies = any(map(np.ndim, constants.values()))
     if rows.size > MANY and not varies and not np.ptp(size[rows]) and goal.on(rows).is_one():
         there, values = _between_rungs(load, goal, size, of, rows, cuts, narrowed)
-        met[there] = True
+        met[there] = done[there] = True
         a[there], c[there], tilt[there] = values
         rows = np.flatnonzero(given & ~met)
     if rows.size:
         half = size[rows] / 2
-        found_a, found_c = _newton(load, goal, (half, half), of, rows, narrowed)
-        a[rows], c[rows] = found_a[rows], found_c[rows]
+        found = _newton(load, goal, (half, half), of, rows, narrowed)
+        a[rows], c[rows] = (edge[rows] for edge in found)
         now = of(a[rows], c[rows], rows)
-        tilt[rows] = now.tilt
-        met[rows], told[rows] = _is_met(load[rows], goal.on(rows), a[rows], c[rows], now)
+        judged = _judged(load[rows], goal.on(rows), a[rows], c[rows], now)
+        tilt[rows], (off[rows], met[rows], told[rows], done[rows]) = now.tilt, judged
+    searched = np.full(load.shape, False)
     ways: list[Callable[..., tuple[Array, Array]]] = [
         *(partial(beside, s) for s in goal.steps),
         edges,
         partial(beside, goal.steps[0]),
     ]
     for nearer in ways:
-        rows = np.flatnonzero(given & ~met & ~told)
+        rows = np.flatnonzero(given & ~told & (~done | searched))
         if not rows.size:
             break
         lost = load[rows], goal.on(rows)
         found = nearer(*lost, size[rows], of, rows, [v[rows] for v in cuts], a[rows], c[rows])
         now = of(*found, rows)
-        met[rows], told[rows] = _is_met(*lost, *found, now)
-        for whole, value in zip((a, c, tilt), (*found, now.tilt), strict=True):
-            whole[rows] = np.where(now.load > 0, value, whole[rows])
+        its_off, its_met, its_told, its_done = _judged(*lost, *found, now)
+        better = its_met & ~(its_off > off[rows]) | (now.load > 0) & ~met[rows]
+        fresh = (*found, now.tilt, its_off, its_met, its_told, its_done)
+        for whole, value in zip((a, c, tilt, off, met, told, done), fresh, strict=True):
+            whole[rows] = np.where(better, value, whole[rows])
+        searched[rows] = nearer is edges
     return Solution(*(np.where(met, v, np.nan).reshape(shape)[()] for v in (a, c, tilt)))
 
 
@@ -272,21 +279,25 @@ def _within_reach(load: Array, place: Array, size: Array, state: Callable[..., S
     return within
 
 
-def _is_met(load: Array, goal: Any, a: Array, c: Array, now: State) -> tuple[Array, Array]:
-    """Whether a contact carries what is asked, as exactly as its edges can be numbers at all.
+def _judged(
+    load: Array, goal: Any, a: Array, c: Array, now: State
+) -> tuple[Array, Array, Array, Array]:
+    """How far a contact is from carrying what is asked.
 
-    And whether it is told by it that none does: where its edges lie so close to a kink that their
-    rounding moves the load by ROUGHEST, or where that of what is asked moves them by UNSURE.
+    Whether it is one; whether it tells that there is none, where its edges lie so close to a kink
+    that their rounding moves the load by ROUGHEST, or where that of what is asked moves them by
+    UNSURE; and whether it is as near as its edges can be numbers at all.
     """
     h, mid = a + c, (c - a) / 2
     rounding = np.pi / 4 * _EPS * np.sqrt(h) / now.load
     rounding *= now.left * np.abs(a) + now.right * np.abs(c)
-    allowed = ACCEPTED + 16 * rounding
     given = goal.rounding(h, load)
+    short = np.abs(np.log(load / now.load))
     rest = np.abs(goal.off(now, h, mid, load)) - 16 * np.minimum(given, ROUGHEST)
-    met = (np.abs(np.log(load / now.load)) < allowed) & (rest < 16 * allowed)
+    near = np.maximum(short, rest / 16) < ACCEPTED + 16 * rounding
     clear = (rounding < ROUGHEST) & (given < UNSURE)
-    return met & clear, met & ~clear
+    done = (short < EXACT + 2 * rounding) & (rest < EXACT + 8 * rounding)
+    return np.maximum(short, rest), near & clear, near & ~clear, done
 
 
 class _Widths(NamedTuple):

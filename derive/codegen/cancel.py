@@ -25,9 +25,8 @@ from sympy import (
     Symbol,
     UnevaluatedExpr,
     expand,
+    factor_list,
     oo,
-    re,
-    roots,
     simplify,
 )
 
@@ -150,10 +149,18 @@ def plain_cuts(slope: Slope) -> tuple[int, ...]:
 
 
 def _level_places(piece: Piece) -> list[Expr]:
-    """Real parts of the roots of g'' inside a piece, as far as their order is known."""
+    """Where g'' is level or closest to it inside a piece, as far as their order is known.
+
+    Of its linear and quadratic factors; roots of others are no numbers that code could be written
+    about.
+    """
     found: list[Expr] = []
-    for root in roots(Poly(piece.curvature, x)):
-        place = simplify(re(root))
+    _, factors = factor_list(piece.curvature, x)
+    for factor in (Poly(factor, x) for factor, _ in factors):
+        if factor.degree() not in (1, 2):
+            continue
+        leading, next_to_it, *_ = factor.all_coeffs()
+        place = simplify(-next_to_it / (factor.degree() * leading))
         ends = [piece.lower, *found, piece.upper]
         later = [_follows(end, place) for end in ends]
         sooner = [_follows(place, end) for end in ends]

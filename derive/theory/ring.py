@@ -14,7 +14,22 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import prod
 
 from flint import fmpq, fmpq_mpoly, fmpq_mpoly_ctx
-from sympy import Add, Dummy, Expr, Float, Mul, NumberSymbol, Poly, Pow, Rational, S, Symbol, factor
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    Float,
+    Mul,
+    NumberSymbol,
+    Poly,
+    Pow,
+    Rational,
+    S,
+    Symbol,
+    exp,
+    factor,
+    factorint,
+)
 
 Polynomial = fmpq_mpoly
 
@@ -164,8 +179,15 @@ class Ring:
 
 
 def _factors(expr: Expr) -> Iterator[tuple[Expr, int]]:
-    """base**(n + k/q) as n times its base and k times its root, base**(n k) as n times base**k."""
+    """base**(n + k/q) as n times its base and k times its root, base**(n k) as n times base**k.
+
+    The root of a whole number is one of its primes: sqrt(6) is sqrt(2) sqrt(3), and no generator.
+    """
     base, exponent = expr.as_base_exp()
+    if base.is_Integer and base > 1 and not base.is_prime and exponent.is_Rational:
+        for prime, times in factorint(base).items():
+            yield from _factors(Pow(prime, times * exponent))
+        return
     for term in Add.make_args(exponent):
         count, kind = term.as_coeff_Mul(rational=True)
         if kind == 1:
@@ -216,5 +238,6 @@ def powers_of(symbol: Symbol, polynomial: Expr) -> dict[int, Expr]:
 def _of_quotient(expr: Expr) -> Ring | None:
     """The ring of a quotient of polynomials, None for anything else; monomials in SymPy's order."""
     atoms = expr.atoms(Symbol, NumberSymbol)
+    atoms |= {S.Exp1 for power in expr.atoms(exp) if power.exp.is_Rational}  # exp(-1) hides it
     ring = Ring([expr], Poly(Add(*atoms)).gens if atoms else ())
     return None if {*ring.atoms} != atoms or expr.has(Float) else ring

@@ -26,8 +26,8 @@ NEARER = 1e-2
 FAR = 100.0
 """So are breaks in the contact that lie so many widths from the origin,"""
 
-CANCELLED = 100.0
-"""and terms so many times larger than what the slope rises by in the contact."""
+CANCELLED, TOLD = 10.0, 100.0
+"""and terms so many times larger than what the slope rises by in a contact; in integrands more."""
 
 LOST = {"moment": 8.0, "p": 8.0}
 """Terms that are so many times as large as their sum have lost digits; others four times."""
@@ -158,7 +158,8 @@ def is_delicate(body: Profile, a: Array, c: Array, /, **constants: Array) -> Arr
         rough = _is_lost(body, rough, a, c, constants)
     if body.terms is not None:
         rise = slope_of(body, c, **constants)[0] - slope_of(body, -a, **constants)[0]
-        rough = rough | ~(body.terms(a, c, **constants) < CANCELLED * rise)
+        allowed = TOLD if integrated else CANCELLED
+        rough = rough | ~(body.terms(a, c, **constants) < allowed * rise)
     return rough
 
 
@@ -178,5 +179,5 @@ def _is_lost(body: Profile, rough: Array, a: Array, c: Array, constants: dict[st
             curvature = slope_of(body, x + 0 * a, **held)[1]
             bend = np.where((x > -a) & (x < c), np.maximum(bend, curvature), bend)
     lost = np.full(given.a.shape, False)
-    lost[rows] = ~((a + c) * bend < CANCELLED * (right[0] - left[0]))
+    lost[rows] = ~((a + c) * bend < TOLD * (right[0] - left[0]))
     return given.shaped(lost)

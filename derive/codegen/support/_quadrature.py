@@ -228,10 +228,14 @@ def _integrals(
         here = contact.on(rows)
         fresh = _level_sums(here, integrand, count, level)
         now = before + fresh if level == COARSEST else before / 2 + fresh
-        off = np.abs(now[judged] - before[judged]) - AGREED * np.abs(now[sizes])
-        agreed = np.all(off <= _NOTHING, axis=0) & (level > COARSEST)
-        agreed |= np.any(np.isnan(off), axis=0)
+        alike = np.abs(now[judged] - before[judged]) <= AGREED * np.abs(now[sizes]) + _NOTHING
+        alike |= now[judged] == before[judged]  # both infinite
+        none = np.isnan(now[judged])
+        agreed = np.all(alike | none, axis=0) & ((level > COARSEST) | np.all(none, axis=0))
         told, ended = now.copy(), agreed
+        if level == FINEST:  # what does not agree for itself is not told
+            told[judged] = np.where(alike, told[judged], np.nan)
+            agreed = np.any(alike, axis=0)
         if size is not None:
             rest = np.abs(now[positive] - before[positive])
             ended = agreed & ~(rest > EXACT * size[rows])

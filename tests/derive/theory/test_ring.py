@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sympy import Expr, Integer, Mul, Rational, Symbol, cos, expand, factor, pi, sqrt, srepr
+from sympy import E, Expr, Integer, Mul, Rational, Symbol, cos, exp, expand, factor, pi, sqrt, srepr
 
 from derive.symbols import E_star, a, c, h, s, x
 from derive.theory.ring import Ring, factored, linear_parts, powers_of
@@ -86,3 +86,17 @@ def test_powers_are_lowered_down_to_the_least_that_is_left(least: int, left: Exp
     low = ring.lowered(ring.polynomial(theta**5), theta, 2, a + c, least)
     times = 2 if left == theta else 1
     assert ring.written(low) == expand((a + c) ** times * left)
+
+
+def test_a_root_of_a_product_is_one_of_primes() -> None:
+    """sqrt(6) = sqrt(2) sqrt(3), sqrt(12) = 2 sqrt(3): no further generator, and so no relation."""
+    ring = Ring([sqrt(6) * a, sqrt(2) * c, sqrt(12)])
+    assert {*ring.roots} == {sqrt(2), sqrt(3)}
+    assert ring.polynomial(sqrt(6) * a) == ring.polynomial(sqrt(2)) * ring.polynomial(sqrt(3) * a)
+
+
+def test_the_number_e_below_a_line_is_the_same_generator() -> None:
+    """SymPy writes 1/E as exp(-1), in which E is not found."""
+    parts = linear_parts(a * theta / E + E * c, [theta])
+    assert parts is not None
+    assert parts == {1: E * c, theta: a * exp(-1)}
