@@ -48,6 +48,19 @@ def test_a_body_is_cut_at_the_roots_of_its_curvature() -> None:
     assert len(pieces) == 4
 
 
+def test_a_body_is_not_cut_at_the_roots_of_a_quartic() -> None:
+    """g'' = 1/R + 12 x^2/L^3 + (20/3) x^3/L^4 + 30 x^4/L^5 has no factor of lower degree; its own
+    roots are no places that code could be written about, and took SymPy minutes."""
+    g = x**2 / (2 * R) + x**4 / L**3 + x**5 / (3 * L**4) + x**6 / L**5
+    assert [str(place) for place in cuts_of(slope(g))[0]] == ["0"]
+
+
+def test_a_body_is_cut_where_its_curvature_is_least() -> None:
+    """g'' = ((x - b)^2 + h_0^2)/L^3, whose roots b +- i h_0 lie beside the axis."""
+    g = (((x - b) ** 2 + h_0**2) / L**3).expand().integrate(x).integrate(x)
+    assert [str(place) for place in cuts_of(slope(g))[0]] == ["0", "b"]
+
+
 @pytest.mark.parametrize(
     ("g", "wanted", "plain"),
     [

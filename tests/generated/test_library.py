@@ -186,6 +186,38 @@ def test_an_arc_pressed_in_almost_to_its_ends() -> None:
         assert_allclose(mirrored.c, a, rtol=1e-13)
 
 
+@pytest.mark.parametrize("beyond", [1e-5, 1e-6, 6.3e-8, 1e-9])
+@pytest.mark.parametrize("tilted", [False, True])
+def test_an_edge_just_beyond_a_corner_is_met_to_its_rounding(beyond: float, tilted: bool) -> None:
+    """Not to 1e-9 of the load alone, which leaves the edge's distance from it one part in 1e4."""
+    body, own = module("wedge_parabola"), {"phi": 0.2, "R": 1.3}
+    a, c = beyond * np.array([1.0, -1.7, 0.6]), np.array([3.5, 1.0, 2.0])
+    load = body.load(a, c, E_star=1.0, **own)
+    if tilted:
+        found = body.contact_at_tilt(load, body.tilt(a, c, **own), E_star=1.0, **own)
+    else:
+        found = body.contact(load, body.moment(a, c, E_star=1.0, **own), E_star=1.0, **own)
+    again = body.load(found.a, found.c, E_star=1.0, **own)
+    assert_allclose(again, load, rtol=2e-13)
+
+
+def test_an_edge_at_the_apex_of_a_sharp_power_by_hand() -> None:
+    """k = 3/2, L = 1, contact [-1, 0]: g'' = t**(-1/2)/2 at t = -x, and w = sqrt(t (1 - t)), so
+    P = (1/2) int g'' w = (1/4) int sqrt(1 - t) dt = 1/6.  K_N at the apex is infinite."""
+    body, own = module("power"), {"k": 1.5, "L": 1.0}
+    assert body.load(1.0, 0.0, E_star=1.0, **own) == pytest.approx(1 / 6, rel=1e-13)
+    # M = -mid P - (1/8) int g'' w (2 s + a - c) ds, mid = -1/2, and the integral is
+    # (1/2) int sqrt(1 - t) (1 - 2 t) dt = (1/2) (2/3 - 8/15) = 1/15
+    assert body.moment(1.0, 0.0, E_star=1.0, **own) == pytest.approx(1 / 12 - 1 / 120, rel=1e-13)
+
+
+def test_a_load_whose_edge_coefficients_leave_float64() -> None:
+    """cosh 690 = 1e299: K_N is infinite in float64, and P = (pi/2) r I_1(r) is not."""
+    r = 690.0
+    load = module("catenary").load(r, r, E_star=1.0, R=1.0, b=1.0)
+    assert load == pytest.approx(float(mpmath.pi / 2 * r * mpmath.besseli(1, r)), rel=1e-12)
+
+
 def test_a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> None:
     """A flank of slope phi, tilted to within 2e-14 phi or 1e-12 phi of lying level: rounding,
     2.2e-16 phi, is more than a hundredth of the one gap, and 2.2e-4 of the other."""
