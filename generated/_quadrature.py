@@ -85,10 +85,11 @@ def state_of(
     else:
         sums = carried(shared, body.degree, {name for field in wanted for name in _SUMS[field]})
     force, left, right, lean, arm = sums
-    for part in shared.pieces():
-        slope = part.at_high().slope if part.piece.straight else 0.0
-        if np.any(slope):
-            lean = lean + np.where(part.length > 0, slope * part.angle(), 0.0)
+    if "tilt" in wanted and any(piece.straight for piece in body.pieces):
+        for part in shared.pieces():
+            slope = part.at_high().slope if part.piece.straight else 0.0
+            if np.any(slope):
+                lean = lean + np.where(part.length > 0, slope * part.angle(), 0.0)
     for _, jump, A, B in corners_of(body, a, c, constants):
         root = np.where((A > 0) & (B > 0), np.sqrt(A * B), 0.0)
         inside = root > 0

@@ -55,8 +55,8 @@ def carried(contact: Window, degree: int, wanted: Collection[str] = SUMS) -> lis
     count = NODES + degree
     for rows, here in _in_turn(contact, count):
         h = here.width
-        for part in here.pieces():
-            if part.piece.straight or not np.any(part.length):
+        for part in here.pieces(curved=True):
+            if not np.any(part.length):
                 continue
             arc = _Arc(part, h, count)
             for i, name in enumerate(SUMS):
@@ -73,8 +73,8 @@ def pressed(contact: Window, x: Array, degree: int) -> Array:
     for rows, here in _in_turn(contact, NODES_AFAR + degree):
         place = _Place.at(x[rows], here)
         share = np.zeros(here.width.size)
-        for part in here.pieces():
-            if part.piece.straight or not np.any(part.length):
+        for part in here.pieces(curved=True):
+            if not np.any(part.length):
                 continue
             inside, beyond = part.length > 0, place.beyond(part)
             afar = inside & (beyond > AFAR * _extent(part))
