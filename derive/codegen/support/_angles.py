@@ -17,7 +17,7 @@ farther away L is smooth over the piece, and the left side is integrated as it s
 """
 
 from collections.abc import Callable, Collection, Iterator
-from functools import cache
+from functools import cache, cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -210,13 +210,14 @@ class _Arc:
         own = _on_both_sides(beside, -away)
         return self.h * own * (self.cosine * sine + self.sine * cosine)
 
+    @cached_property
     def curve(self) -> Curve:
         """The curve at the nodes."""
         return self.part.beside(self.along, self.back)
 
     def curvature(self, degree: int) -> Array:
         """g'' at the nodes, or what it is everywhere on the part."""
-        return self.curve().curvature if degree else self.part.constant_curvature()
+        return self.curve.curvature if degree else self.part.constant_curvature()
 
     def integral(self, value: Array) -> Array:
         """int value dt over the part."""
@@ -263,7 +264,7 @@ _INTEGRANDS: dict[str, Callable[[_Arc, int], Array]] = {
     "force": lambda arc, degree: arc.curvature(degree) * (arc.sine * arc.cosine) ** 2,
     "left": lambda arc, degree: arc.curvature(degree) * arc.cosine**2,
     "right": lambda arc, degree: arc.curvature(degree) * arc.sine**2,
-    "lean": lambda arc, _: arc.curve().slope,
+    "lean": lambda arc, _: arc.curve.slope,
     "arm": lambda arc, degree: (
         arc.curvature(degree)
         * (arc.sine * arc.cosine) ** 2
