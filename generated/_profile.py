@@ -51,6 +51,7 @@ class Profile(NamedTuple):
     terms: how large the terms of g' are that closed formulas add up in the contact [-a, c], from a,
         c and the parameters; None where no powers cancel in them, or where there are none.
     plain: numbers of the breaks that are there for quadrature alone: closed formulas have none.
+    smooth: numbers of the breaks at which g' and g'' go on without a jump.
     degree: of g'' where all pieces are polynomials, None where one is not.
     """
 
@@ -60,32 +61,13 @@ class Profile(NamedTuple):
     reach: int
     terms: Callable[..., Array] | None = None
     plain: tuple[int, ...] = ()
+    smooth: tuple[int, ...] = ()
     degree: int | None = None
 
     def places(self, **constants: Array) -> list[Array]:
         """The breaks that closed formulas have."""
         found = enumerate(self.breaks(**constants))
         return [place for i, place in found if i not in self.plain]
-
-
-def uncut(body: Profile) -> Profile:
-    """The body without the cuts that are there for quadrature of g' alone."""
-    if not body.plain:
-        return body
-    kept: list[Piece] = []
-    for i, piece in enumerate(body.pieces):
-        if i - 1 in body.plain:
-            piece = Piece(kept.pop().from_left, piece.from_right)
-        kept.append(piece)
-
-    def corners(**constants: Array) -> tuple[Array, ...]:
-        found = enumerate(body.corners(**constants))
-        return tuple(jump for i, jump in found if i not in body.plain)
-
-    def breaks(**constants: Array) -> tuple[Array, ...]:
-        return tuple(body.places(**constants))
-
-    return body._replace(breaks=breaks, corners=corners, pieces=tuple(kept), plain=())
 
 
 def mirrored(body: Profile) -> Profile:
@@ -110,7 +92,9 @@ def mirrored(body: Profile) -> Profile:
     pieces = tuple(
         Piece(turned(p.from_right), turned(p.from_left), p.straight) for p in reversed(body.pieces)
     )
-    return Profile(breaks, corners, pieces, body.reach)
+    last = len(body.pieces) - 2
+    smooth = tuple(last - i for i in body.smooth)
+    return Profile(breaks, corners, pieces, body.reach, smooth=smooth)
 
 
 def slope_of(body: Profile, x: Array, /, **constants: Array) -> tuple[Array, Array]:

@@ -27,7 +27,7 @@ import numpy as np
 
 from ._angles import carried, pressed
 from ._arrays import Array
-from ._profile import TINY, Elements, Nodes, Profile, Window, corners_of, mirrored, slope_of, uncut
+from ._profile import TINY, Elements, Nodes, Profile, Window, corners_of, mirrored, slope_of
 from ._state import State
 
 COARSEST, FINEST = 1, 9
@@ -38,6 +38,9 @@ AGREED = 1e-11
 
 EXACT = 1e-13
 """A tilt whose sums agree to this is exact to rounding; close to a kink sums get better slowly."""
+
+BESIDE = 0.1
+"""Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
 
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
@@ -158,7 +161,7 @@ def _beside_corner(over: Array, h: Array, distance: Array) -> Array:
 
 def second_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> tuple[Array, Array]:
     """The coefficients of s**(3/2) in the pressure at the left and the right edge for E* = 1."""
-    given, body = Elements(a, c, constants), uncut(body)
+    given = Elements(a, c, constants)
     a, c, constants = given.a, given.c, given.constants
     left = _second_right(mirrored(body), c, a, constants)
     return given.shaped(left), given.shaped(_second_right(body, a, c, constants))
@@ -167,33 +170,36 @@ def second_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> tuple
 def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]) -> Array:
     r"""(1/pi) times the finite part of int g'' k ds, k = r (3 + 2 r**2)/(6 h**(3/2)).
 
-    r = sqrt((a + s)/(c - s)).  On the part that ends at the edge g'' is integrated by parts, with
+    r = sqrt((a + s)/(c - s)).  Towards the edge g'' is integrated by parts, with
 
         int k ds = psi(r)/(3 sqrt(h)),   psi(r) = 2 r - (3/2) atan r - r/(2 (1 + r**2)),
 
-    whose finite part at the edge is -3 pi/4.
+    whose finite part at the edge is -3 pi/4: on the part that ends there, and on those before it
+    from which smooth breaks close to the edge alone divide it.
     """
     h = a + c
     scale = 6 * h * np.sqrt(h)
+    origin = _start_of_last(body, a, c, constants)
 
     def integrand(near: "Nodes", of: Any) -> tuple[Array, ...]:
-        A, B, width = near.from_low, near.from_high, of(h)
-        ends, start = near.ends_high, near.start_low
-        beyond = B + near.from_start  # from the part's start to the edge, which may be close
+        A, B, width, start = near.from_low, near.from_high, of(h), of(origin)
+        from_start = near.start_low - start + near.from_start
+        beyond = B + from_start  # from where it starts to the edge, which may be close
         r, r_0 = np.sqrt(A / B), np.sqrt(start / beyond)
-        step = width * near.from_start / (B * beyond) / (r + r_0)
+        step = width * from_start / (B * beyond) / (r + r_0)
         twist = (1 - r * r_0) / ((1 + r**2) * (1 + r_0**2))
         rise = 2 * step - 1.5 * np.arctan2(step, 1 + r * r_0) - step * twist / 2
         change = np.clip(near.curve.change(), -_HUGE, _HUGE)  # infinite beside some breaks
         by_parts = -change * rise * (2 * width)
         plain = near.curve.curvature * r * (3 + 2 * r**2)
-        value = np.where(ends, by_parts, plain)
+        value = np.where(near.start_low >= start, by_parts, plain)
         return np.abs(value), value
 
     shared = Window(body, constants, -a, c, h, ())
     _, total = _integrals(shared, integrand, 2, 0)
     for piece in shared.pieces():
-        r_0 = np.sqrt(piece.start_low / np.maximum(piece.length + piece.end_high, TINY))
+        start, beyond = piece.start_low, piece.length + piece.end_high
+        r_0 = np.sqrt(origin / np.maximum(np.where(start > origin, h - origin, beyond), TINY))
         psi = 2 * r_0 - 1.5 * np.arctan(r_0) - r_0 / (2 * (1 + r_0**2))
         edge = piece.at_high().curvature * (-0.75 * np.pi - psi) * (2 * h)
         total = total + np.where(piece.ends_high & (piece.length > 0), edge, 0.0)
@@ -201,6 +207,15 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         r = np.sqrt(A / np.where(B > 0, B, 1.0))
         total = total + np.where(B > 0, jump * r * (3 + 2 * r**2), 0.0)
     return total / (np.pi * scale)
+
+
+def _start_of_last(body: Profile, a: Array, c: Array, constants: dict[str, Array]) -> Array:
+    """How far from the left edge integration by parts starts that goes up to the right one."""
+    h, start = a + c, 0 * a
+    for i, place in enumerate(body.breaks(**constants)):
+        close = (i in body.smooth) & (c - place < BESIDE * h)
+        start = np.where((a + place > 0) & (c - place > 0) & ~close, a + place, start)
+    return start
 
 
 def _integrals(

@@ -83,6 +83,7 @@ _BODY = Profile(
         Piece(_piece_1_from_left, None),
     ),
     4,
+    smooth=(0,),
 )
 
 

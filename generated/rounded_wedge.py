@@ -122,6 +122,7 @@ _BODY = Profile(
     ),
     4,
     plain=(1,),
+    smooth=(1,),
     degree=0,
 )
 

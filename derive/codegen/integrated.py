@@ -6,6 +6,7 @@ Out: the text of the body's `Profile`, piece by piece, and of the functions that
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 
 from sympy import (
     Add,
@@ -198,10 +199,21 @@ def curve_text(sheet: FormulaSheet) -> str:
         terms = ", _terms"
     if is_mended(sheet) and (cuts := plain_cuts(slope)):
         terms += f", plain={cuts}"
+    smooth = [i for i, sides in enumerate(pairwise(pieces)) if _goes_on(*sides)]
+    if smooth:
+        terms += f", smooth=({' '.join(f'{i},' for i in smooth)})"
     if slope.is_polynomial:
         terms += f", degree={_degree_of_curvature(slope)}"
     lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach}{terms})")
     return "\n".join(lines)
+
+
+def _goes_on(left: Piece, right: Piece) -> bool:
+    """Whether g' and g'' are known to go on from one piece to the next without a jump."""
+    off = left.profile - right.profile
+    if not off.is_polynomial(x):
+        return False
+    return all(simplify(diff(off, x, n).subs(x, right.lower)) == 0 for n in (1, 2))
 
 
 def _degree_of_curvature(slope: Slope) -> int:
