@@ -70,6 +70,29 @@ class Profile(NamedTuple):
         return [place for i, place in found if i not in self.plain]
 
 
+def uncut(body: Profile) -> Profile:
+    """The body without the cuts that are there for quadrature of g' alone."""
+    if not body.plain:
+        return body
+    kept: list[Piece] = []
+    for i, piece in enumerate(body.pieces):
+        if i - 1 in body.plain:
+            piece = Piece(kept.pop().from_left, piece.from_right)
+        kept.append(piece)
+
+    def corners(**constants: Array) -> tuple[Array, ...]:
+        found = enumerate(body.corners(**constants))
+        return tuple(jump for i, jump in found if i not in body.plain)
+
+    def breaks(**constants: Array) -> tuple[Array, ...]:
+        return tuple(body.places(**constants))
+
+    left = [i for i in range(len(body.pieces) - 1) if i not in body.plain]
+    smooth = tuple(left.index(i) for i in body.smooth if i in left)
+    made = body._replace(breaks=breaks, corners=corners, pieces=tuple(kept))
+    return made._replace(plain=(), smooth=smooth)
+
+
 def mirrored(body: Profile) -> Profile:
     """The body seen from behind the plane, x to the left."""
 

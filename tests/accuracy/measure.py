@@ -28,7 +28,7 @@ Newton's method; the conditions of partial slip."""
 LIMITS = {
     CLOSED: 4.0,
     MENDED: 4.0,
-    INTEGRATED: 1e3,
+    INTEGRATED: 64.0,
     SOLVED: 64.0,
     CYCLE: 64.0,
 }

@@ -82,6 +82,13 @@ def test_formulas_that_are_mended_lose_nothing_either(body: str) -> None:
         assert row.lost == 0
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("body", ["catenary", "circular_arc", "hyperbola"])
+def test_a_cut_beside_an_edge_costs_no_digit_of_the_second_coefficient(body: str) -> None:
+    for row in worst_of(body, 200, "L_N"):
+        assert row.excess <= 4, f"{row.output} in {row.region}: {row.excess:.1f} at {row.over}"
+
+
 @pytest.mark.parametrize("name", BOUNDS)
 @pytest.mark.parametrize("body", CYCLED)
 def test_cycles_keep_their_digits(body: str, name: str) -> None:

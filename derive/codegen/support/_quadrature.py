@@ -26,17 +26,17 @@ import numpy as np
 
 from ._angles import carried, pressed
 from ._arrays import Array
-from ._profile import TINY, Elements, Nodes, Profile, Window, corners_of, mirrored, slope_of
+from ._profile import TINY, Elements, Nodes, Profile, Window, corners_of, mirrored, slope_of, uncut
 from ._state import State
 
 COARSEST, FINEST = 1, 9
 """Steps of the rule are 2**-COARSEST at first and 2**-FINEST at last."""
 
 AGREED = 1e-11
-"""Two sums that agree to this are followed by one that is exact to rounding."""
+"""Two sums that agree to this, the later one is exact to rounding."""
 
 EXACT = 1e-13
-"""A tilt whose sums agree to this is exact to rounding; close to a kink sums get better slowly."""
+"""Tilt and L_N whose sums agree to this are: close to a kink theirs get better slowly."""
 
 BESIDE = 0.1
 """Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
@@ -160,7 +160,7 @@ def _beside_corner(over: Array, h: Array, distance: Array) -> Array:
 
 def second_of(body: Profile, a: Array, c: Array, /, **constants: Array) -> tuple[Array, Array]:
     """The coefficients of s**(3/2) in the pressure at the left and the right edge for E* = 1."""
-    given = Elements(a, c, constants)
+    given, body = Elements(a, c, constants), uncut(body)
     a, c, constants = given.a, given.c, given.constants
     left = _second_right(mirrored(body), c, a, constants)
     return given.shaped(left), given.shaped(_second_right(body, a, c, constants))
@@ -244,7 +244,8 @@ def _integrals(
         here = contact.on(rows)
         fresh = _level_sums(here, integrand, count, level)
         now = before + fresh if level == COARSEST else before / 2 + fresh
-        alike = np.abs(now[judged] - before[judged]) <= AGREED * np.abs(now[sizes]) + _NOTHING
+        allowed = AGREED if positive or level == FINEST else EXACT
+        alike = np.abs(now[judged] - before[judged]) <= allowed * np.abs(now[sizes]) + _NOTHING
         alike |= now[judged] == before[judged]  # both infinite
         none = np.isnan(now[judged])
         agreed = np.all(alike | none, axis=0) & ((level > COARSEST) | np.all(none, axis=0))
