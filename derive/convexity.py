@@ -11,7 +11,7 @@ it fails at any.
 
 import random
 from collections.abc import Callable, Iterator
-from itertools import islice, pairwise, product
+from itertools import chain, islice, pairwise, product
 from math import gcd, prod
 
 import mpmath
@@ -44,6 +44,7 @@ from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadProfile
 from derive.limit import LimitReached, within
+from derive.lows import Lows
 from derive.piece import Piece, beside, step
 from derive.symbols import x
 
@@ -562,6 +563,7 @@ class _Curvature:
         )
         ends = [piece.lower, piece.upper, *domain]
         self._ends = lambdify(symbols, ends, modules="mpmath")
+        self._lows = None if piece.curvature.is_nonnegative else Lows(piece.curvature, symbols)
 
     def demand(self, values: Values) -> None:
         """Refuse a curvature that is negative or not real at any of many places.
@@ -569,7 +571,7 @@ class _Curvature:
         log(x) is not real for x < 0, though its curvature is.
         """
         with mpmath.workdps(_DIGITS):
-            for place in self._places(values):
+            for place in chain(self._places(values), self._suspects(values)):
                 value = self._value(self._at, place, values)
                 if any(map(mpmath.im, (value, self._value(self._profile, place, values)))):
                     raise _Fault(f"is not real near x = {float(place):.3g}", values, real=False)
@@ -578,9 +580,8 @@ class _Curvature:
 
     def _value(self, function: Callable[..., mpf], place: mpf, values: Values) -> mpf:
         """The curvature or the profile; zero where it has no value."""
-        given = [mpf(value.p) / value.q for value in values.values()]
         try:
-            return function(place, *given)
+            return function(place, *_numbers(values))
         except (ZeroDivisionError, OverflowError):
             return mpf(0)
 
@@ -592,7 +593,7 @@ class _Curvature:
 
     def _places(self, values: Values) -> Iterator[mpf]:
         """Places in the piece and the domain, near to its ends and far from them."""
-        given = [mpf(value.p) / value.q for value in values.values()]
+        given = _numbers(values)
         lower, upper, *domain = map(mpf, self._ends(*given))
         least = min([*given, mpf(1)]) / 1000
         steps = 3 * int(mpmath.log10(max([*given, mpf(1)]) * 1000 / least)) + 1
@@ -605,3 +606,17 @@ class _Curvature:
             for place in found:
                 if lower < place < upper and domain[0] < place < domain[1]:
                     yield place
+
+    def _suspects(self, values: Values) -> Iterator[mpf]:
+        """Places in the piece and the domain where it seems to be negative, or to have no value."""
+        if self._lows is None:
+            return
+        given = _numbers(values)
+        lower, upper, first, last = map(mpf, self._ends(*given))
+        lower, upper = max(lower, first), min(upper, last)
+        found = self._lows.places([*map(float, given)], float(lower), float(upper))
+        yield from (place for place in map(mpf, found) if lower < place < upper)
+
+
+def _numbers(values: Values) -> list[mpf]:
+    return [mpf(value.p) / value.q for value in values.values()]

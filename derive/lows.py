@@ -1,0 +1,135 @@
+"""Where a function of x may be negative: searched in double precision at thousands of places.
+
+In:  an expression of x; numbers for its parameters, and the ends of an interval.
+Out: places where it seems to be negative or has no value, few enough to compute each to many
+     digits: double precision alone decides nothing.
+
+Places lie densely at all distances from the origin, from the ends and from where arguments of
+functions vanish or are one, for there narrow features stand.  Between them the search goes down.
+"""
+
+from collections.abc import Iterator, Sequence
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+from sympy import Expr, Function, Poly, Pow, Symbol, exp, fraction, lambdify, powsimp, together
+
+from derive.symbols import x
+
+Array = NDArray[np.float64]
+
+_PER_DECADE = 200
+"""Distances from the origin and from the ends; a quarter as many from other marks."""
+_BEYOND = 1000
+"""How far beyond the largest length that is held, and below the least, places are sought."""
+_DECADES = 16
+"""Spanned by all distances at most."""
+_EVENLY = 4000
+"""Places at equal distances over the marks."""
+_MARKS = 40
+"""Marks at most."""
+_VALLEYS, _STEPS, _ROUNDS = 64, 17, 4
+"""Valleys searched further, places in each, and how often these are drawn together."""
+_NEGATIVE, _WITHOUT = 24, 4
+"""Runs of places that are told, of negative values and of none."""
+
+
+class Lows:
+    """The search in one expression, compiled once for all parameters."""
+
+    def __init__(self, expr: Expr, symbols: Sequence[Symbol]) -> None:
+        expr = powsimp(expr, combine="exp") if expr.has(exp) else expr  # or exp(1e5) * exp(-1e5)
+        self._at = lambdify([x, *symbols], expr, modules="numpy", cse=True)
+        self._polynomials = lambdify(symbols, list(_marking(expr)), modules="numpy")
+
+    def places(self, given: Sequence[float], lower: float, upper: float) -> list[float]:
+        """Places between two ends where the expression may be negative, the surest first."""
+        numbers = [np.float64(value) for value in given]
+        with np.errstate(all="ignore"):
+            places = self._grid(numbers, lower, upper)
+            if not places.size:
+                return []
+            values = self._values(places, numbers)
+            found = self._further(places, values, numbers)
+            places, first = np.unique(np.concatenate((places, found)), return_index=True)
+            values = np.concatenate((values, self._values(found, numbers)))[first]
+        return [*_lowest(places, values), *_without_value(places, values)]
+
+    def _values(self, places: Array, numbers: list[np.float64]) -> Array:
+        try:
+            return np.broadcast_to(np.real(self._at(places, *numbers)), places.shape)
+        except (OverflowError, ZeroDivisionError, TypeError):  # whole numbers beyond 1e308
+            return np.full(places.shape, np.nan)
+
+    def _grid(self, numbers: list[np.float64], lower: float, upper: float) -> Array:
+        roots = self._roots(numbers)
+        ends = np.array([0.0, *(end for end in (lower, upper) if np.isfinite(end))])
+        lengths = np.abs(np.concatenate((roots.real, roots.imag, ends, np.array(numbers))))
+        lengths = lengths[(lengths > 0) & np.isfinite(lengths)]
+        most = float(np.max(lengths, initial=1.0)) * _BEYOND
+        least = max(float(np.min(lengths, initial=1.0)) / _BEYOND, most / 10.0**_DECADES)
+        marks = np.unique(roots.real)[:_MARKS]
+        spread = (float(f(np.concatenate((marks, ends)))) for f in (np.min, np.max))
+        low, high = np.clip(np.array([*spread]) + most / _BEYOND * np.array([-1, 1]), lower, upper)
+        found = [np.linspace(low, high, _EVENLY)]
+        for middles, count in ((ends, _PER_DECADE), (marks, _PER_DECADE // 4)):
+            steps = int(np.log10(most / least) * count) + 1
+            distances = np.geomspace(least, most, steps)
+            found += [(middles[:, None] + sense * distances).ravel() for sense in (-1, 0, 1)]
+        places = np.unique(np.concatenate(found))
+        return places[(places > lower) & (places < upper)]
+
+    def _roots(self, numbers: list[np.float64]) -> NDArray[np.complex128]:
+        """Where arguments vanish or are one, beside the axis, too."""
+        polynomials = [np.array(each, dtype=float) for each in self._polynomials(*numbers)]
+        found = [np.roots(each) for each in polynomials if np.all(np.isfinite(each))]
+        return np.concatenate([np.zeros(0, dtype=complex), *found])
+
+    def _further(self, places: Array, values: Array, numbers: list[np.float64]) -> Array:
+        """Places within the deepest valleys between the grid's, drawn together around the least."""
+        inner = values[1:-1]
+        beside = np.fmax(values[:-2], values[2:])
+        valleys = np.flatnonzero((inner <= values[:-2]) & (inner <= values[2:]) & (inner < beside))
+        deepest = valleys[np.argsort(inner[valleys] / beside[valleys])[:_VALLEYS]]
+        low, high = places[deepest], places[deepest + 2]
+        found = [np.zeros(0)]
+        for _ in range(_ROUNDS if deepest.size else 0):
+            tried = np.linspace(low, high, _STEPS, axis=1)
+            found.append(tried.ravel())
+            heights = self._values(found[-1], numbers).reshape(tried.shape)
+            least = np.argmin(np.where(np.isnan(heights), np.inf, heights), axis=1)
+            rows = np.arange(deepest.size)
+            low = tried[rows, np.maximum(least - 1, 0)]
+            high = tried[rows, np.minimum(least + 1, _STEPS - 1)]
+        return np.concatenate(found)
+
+
+def _marking(expr: Expr) -> Iterator[list[Expr]]:
+    """Polynomials, by their coefficients, whose roots say where a function or a power changes."""
+    arguments = {arg for f in expr.atoms(Function) for arg in f.args}
+    arguments |= {p.exp for p in expr.atoms(Pow)}
+    bases = {p.base for p in expr.atoms(Pow)}
+    wanted = [arg + shift for arg in sorted(arguments, key=str) for shift in (0, -1, 1)]
+    for each in dict.fromkeys([*wanted, *sorted(bases, key=str)]):
+        numerator = fraction(together(each))[0] if each.is_rational_function(x) else each
+        if numerator.has(x) and numerator.is_polynomial(x):
+            yield Poly(numerator, x).all_coeffs()
+
+
+def _runs(flags: NDArray[np.bool_]) -> NDArray[np.int_]:
+    """First and last place, the latter left out, of each run of neighbours; the longest first."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([0], flags.astype(int), [0])))).reshape(-1, 2)
+    return ends[np.argsort(ends[:, 0] - ends[:, 1], kind="stable")]
+
+
+def _lowest(places: Array, values: Array) -> Iterator[float]:
+    """The lowest place of each long run of negative values."""
+    for first, last in islice(_runs(values < 0), _NEGATIVE):
+        yield float(places[first + np.argmin(values[first:last])])
+
+
+def _without_value(places: Array, values: Array) -> Iterator[float]:
+    """The middle of each long run without a value."""
+    for first, last in islice(_runs(np.isnan(values)), _WITHOUT):
+        yield float(places[(first + last) // 2])
