@@ -46,6 +46,7 @@ from derive.errors import BadProfile
 from derive.limit import LimitReached, within
 from derive.lows import Lows
 from derive.piece import Piece, beside, step
+from derive.steep import gently
 from derive.symbols import x
 
 _SAMPLES = 8
@@ -127,14 +128,14 @@ def _leading(piece: Piece) -> Iterator[Expr]:
     for power in sorted(curvature.atoms(Pow), key=str):
         if power.exp.free_symbols and power.base.has(x) and not diff(power.base, x).has(x):
             place = x - power.base / diff(power.base, x)
-            before = simplify(curvature.coeff(power) * (x - place) ** 2).subs(x, place)
+            before = gently(simplify, curvature.coeff(power) * (x - place) ** 2).subs(x, place)
             if before.is_finite and not before.has(nan):
                 yield before
 
 
 def _factored(expr: Expr) -> Expr:
     """`expr` in factors; what is no quotient of polynomials is simplified before."""
-    return factor(expr if expr.is_rational_function() else simplify(expr))
+    return gently(factor, expr if expr.is_rational_function() else gently(simplify, expr))
 
 
 # ------------------------------------------------------------------ signs of what holds no x

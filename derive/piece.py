@@ -23,6 +23,7 @@ from sympy import (
 )
 from sympy.logic.boolalg import Boolean
 
+from derive.steep import gently
 from derive.symbols import x
 
 
@@ -67,7 +68,8 @@ def step(left: Piece, right: Piece, demands: tuple[Boolean, ...] = ()) -> Expr:
         beside(with_surpluses(piece.slope, found), with_surpluses(right.lower, found), sense)
         for piece, sense in ((left, -1), (right, 1))
     )
-    return simplify((beyond - before).subs({up: p - least for p, (least, up) in found.items()}))
+    rise = (beyond - before).subs({up: p - least for p, (least, up) in found.items()})
+    return gently(simplify, rise)
 
 
 def beside(expr: Expr, place: Expr, sense: int) -> Expr:
@@ -79,7 +81,7 @@ def beside(expr: Expr, place: Expr, sense: int) -> Expr:
     if not (at_once.has(nan, zoo, oo, AccumBounds) or any(p.base == 0 for p in at_once.atoms(Pow))):
         return at_once
     distance = Dummy("t", positive=True)
-    near = simplify(expr.subs(x, place + sense * distance))
+    near = gently(simplify, expr.subs(x, place + sense * distance))
     value = near.subs(distance, 0)
     return value if value.is_finite is not False and value is not nan else limit(near, distance, 0)
 
@@ -88,4 +90,4 @@ def vanishes(expr: Expr) -> bool:
     """Whether an expression is zero everywhere; most are not, and one number tells."""
     symbols = sorted(expr.free_symbols, key=str)
     value = expr.xreplace({symbol: Rational(3 * i + 5, 7) for i, symbol in enumerate(symbols)})
-    return bool(abs(value.evalf(30, maxn=100)) < 1e-15 and simplify(expr) == 0)
+    return bool(abs(value.evalf(30, maxn=100)) < 1e-15 and gently(simplify, expr) == 0)

@@ -68,6 +68,7 @@ from sympy.logic.boolalg import Boolean
 from derive.convexity import REAL_AND_FINITE, convex_where, typical, value_beside
 from derive.errors import BadProfile
 from derive.piece import Piece, step, surpluses, with_surpluses
+from derive.steep import gently
 from derive.symbols import a, c, x
 
 _BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
@@ -144,13 +145,13 @@ class Slope:
             return limit(self.pieces[0].slope, x, -oo), limit(self.pieces[-1].slope, x, oo)
         (low, high), (first, last) = self.domain, (self.pieces[0], self.pieces[-1])
         bounds = self._limit(first, low, "+", -oo), self._limit(last, high, "-", oo)
-        rises = simplify(bounds[1] - bounds[0]).is_extended_positive
+        rises = gently(simplify, bounds[1] - bounds[0]).is_extended_positive
         return bounds if rises else (-oo, oo)  # what SymPy finds of powers is not always right
 
     def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
         """Limit of g' at an end; `otherwise`, which bounds nothing, where SymPy finds none."""
         try:
-            slope = simplify(with_surpluses(piece.slope, surpluses(self.demands)))
+            slope = gently(simplify, with_surpluses(piece.slope, surpluses(self.demands)))
             found = limit(slope, x, end, side)
         except (NotImplementedError, ValueError, TypeError, RecursionError, AttributeError):
             return otherwise
@@ -388,7 +389,7 @@ def _merged(pieces: list[Piece]) -> list[Piece]:
     merged = pieces[:1]
     for piece in pieces[1:]:
         last = merged[-1]
-        if simplify(piece.profile - last.profile) == 0:
+        if gently(simplify, piece.profile - last.profile) == 0:
             merged[-1] = Piece(last.lower, piece.upper, last.profile)
         else:
             merged.append(piece)
@@ -453,7 +454,7 @@ def _is_held(place: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
 
 def _demand_continuous(name: str, pieces: list[Piece]) -> None:
     for left, right in pairwise(pieces):
-        step = simplify((right.profile - left.profile).subs(x, right.lower))
+        step = gently(simplify, (right.profile - left.profile).subs(x, right.lower))
         if step is nan:
             raise BadProfile(name, f"has no value at x = {right.lower}", REAL_AND_FINITE)
         if step != 0:

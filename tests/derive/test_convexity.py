@@ -1,6 +1,7 @@
 """For which parameters a body is convex: conditions by hand, and against the least curvature."""
 
 import random
+from collections.abc import Callable
 
 import pytest
 from mpmath import mpf
@@ -15,15 +16,19 @@ from sympy import (
     Poly,
     Rational,
     Symbol,
+    atan,
     cosh,
+    exp,
     log,
     pi,
     sqrt,
+    tanh,
 )
 
 from derive import Geometry, parameter, x
 from derive.derivation import derive_sheet
 from derive.errors import BadProfile
+from derive.limit import within
 from derive.proof.points import contacts, holds
 from derive.sheet import load_conditions, tilt_conditions
 
@@ -131,6 +136,49 @@ def test_a_body_convex_for_no_parameters_is_refused_as_such(g: Expr) -> None:
     with pytest.raises(BadProfile) as caught:
         Geometry("body", g=g)
     assert caught.value.why.startswith("is not convex")
+
+
+# Three places a decade miss each: g'' b is least near x = 5.7 b, 7 b, 7 b and 3 b.
+NARROW = [
+    pytest.param(
+        lambda size: x**2 / b + size * 3 * b * tanh(x / b - 5), id="tanh", marks=pytest.mark.slow
+    ),
+    pytest.param(lambda size: x**2 / b + size * b * atan(30 * (x / b - 7)) / 50, id="atan"),
+    pytest.param(
+        lambda size: x**2 / b + size * b * tanh(1000 * (x / b - 7)) / 370370, id="steep tanh"
+    ),
+    pytest.param(
+        lambda size: x**2 / b + size * b * exp(-((100 * (x / b - 3)) ** 2)) / 50, id="steep bell"
+    ),
+]
+"""With g'' below zero at a narrow place only for size = 1, and nowhere for size = 1/400."""
+
+
+@pytest.mark.parametrize("g", NARROW)
+def test_a_curvature_that_is_negative_at_a_narrow_place_only_is_found(
+    g: Callable[[Rational], Expr],
+) -> None:
+    with pytest.raises(BadProfile) as caught:
+        Geometry("body", g=g(Integer(1)))
+    assert "its curvature is negative near x" in caught.value.why
+    assert demands(g(Rational(1, 400))) == []
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        x**2 / b + b * exp(99999 * x / b),
+        b * exp(x / b) + b * exp(-1234567 * x / b),
+        b * log(exp(99999 * x / b) + 1)
+        + Abs(x) ** Rational(12345, 10000) * b ** Rational(-469, 2000),
+        phi * Abs(x - b) + b * exp(-((100 * (x / b - 3)) ** 2)) / 50000 + x**2 / b,
+    ],
+    ids=str,
+)
+def test_a_steep_function_is_not_taken_for_a_polynomial_of_high_degree(g: Expr) -> None:
+    """exp(99999 x/b) is no power of exp(x/b) to be factored: minutes would pass."""
+    with within(20):
+        assert demands(g) == []
 
 
 def _least(curvature: Expr, lower: Expr, upper: Expr) -> Expr:
