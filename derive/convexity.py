@@ -302,7 +302,7 @@ def _at_ends(pieces: list[Piece]) -> Iterator[Boolean]:
             places.append((Integer(0), 1))
         for place, sense in places:
             value = value_beside(piece.curvature, place, sense)
-            if value is not None and value.is_finite and value.free_symbols:
+            if value is not None and value.is_real and value.free_symbols:
                 yield from _positive(value, Ge) or ()
 
 

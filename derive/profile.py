@@ -9,6 +9,7 @@ Out: a `Slope`, g'(x) as that of one reference piece plus a jump at each kink; w
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
+from math import prod
 
 from sympy import (
     Abs,
@@ -190,15 +191,45 @@ def read_slope(name: str, g: Expr) -> Slope:
 
 def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
     """Split (lower, upper) at the switching points of the innermost branch of g, then again."""
+    g = _with_moduli(g)
     inner = _innermost(g)
     if inner is None:
-        return [Piece(lower, upper, expand(g))]
+        g = expand(g)
+        inner = _innermost(g)  # (x**2 cosh(x/b))**k becomes Abs(x)**(2 k) cosh(x/b)**k
+    if inner is None:
+        return [Piece(lower, upper, g)]
     points = [lower, *_between(name, _switching_points(name, inner), lower, upper), upper]
     pieces = []
     for left, right in pairwise(points):
         value = _branch(name, inner, left, right)
         pieces += _resolved(name, g.xreplace({inner: value}), left, right)
     return pieces
+
+
+def _with_moduli(g: Expr) -> Expr:
+    """g with roots of squares as moduli, for they hide kinks: sqrt(x**2 - 2 b x + b**2)."""
+    powers = [p for p in g.atoms(Pow) if not p.exp.is_Integer and p.base.is_rational_function(x)]
+    found = {p: _without_squares(p) for p in powers if p.base.has(x) and not p.exp.has(x)}
+    return g.xreplace({power: value for power, value in found.items() if value != power})
+
+
+def _without_squares(power: Pow) -> Expr:
+    """(f^(2 n) r)^k, f and r quotients of polynomials, as |f|^(2 n k) r^k."""
+    sides = [Poly(side, x).sqf_list() for side in fraction(together(power.base))]
+    squares = [
+        (abs(part.as_expr()), sense * (times - times % 2))
+        for sense, (_, factors) in zip((1, -1), sides, strict=True)
+        for part, times in factors
+        if times > 1
+    ]
+    if not squares:
+        return power
+    rest = [
+        constant * prod(part.as_expr() ** (times % 2) for part, times in factors)
+        for constant, factors in sides
+    ]
+    moduli = prod(modulus ** (times * power.exp) for modulus, times in squares)
+    return (rest[0] / rest[1]) ** power.exp * moduli
 
 
 def _innermost(g: Expr) -> Expr | None:

@@ -234,6 +234,38 @@ def test_a_branch_that_changes_nothing_makes_no_kink() -> None:
     assert read(Max(x**2, -(x**2)) / R) == (2 * x / radius, [])
 
 
+@pytest.mark.parametrize(
+    ("g", "modulus"),
+    [
+        (sqrt(x**2 - 2 * x * b + b**2) * phi, phi * Abs(x - b)),
+        (b * sqrt(x**2 / b**2 - 2 * x / b + 1), Abs(x - b)),
+        (phi * sqrt(x**2 - 2 * sqrt(3) * x * b + 3 * b**2), phi * Abs(x - sqrt(3) * b)),
+        (phi * sqrt(x**2 - 2 * Abs(x) * b + b**2) + 2 * phi * Abs(x), None),
+        (sqrt(x**2 + 3 * b**2 + sqrt(x**4 - 2 * x**2 * b**2 + b**4)), None),
+        (b * ((x / b) ** 2) ** (1 + psi / 2), b * (Abs(x) / b) ** (2 + psi)),
+        pytest.param(
+            phi * sqrt((x**2 - 2 * x * b + b**2) * (x**2 + b**2)) / b,
+            phi * Abs(x - b) * sqrt(x**2 + b**2) / b,
+            marks=pytest.mark.slow,
+        ),
+    ],
+    ids=str,
+)
+def test_a_kink_in_the_root_of_a_square_is_that_of_a_modulus(g: Expr, modulus: Expr | None) -> None:
+    """sqrt((|x| - b)^2) = ||x| - b|, and so within another root: kinks at -b and b."""
+    found = slope(g + 4 * x**2 / b)
+    assert found.domain == (-oo, oo)
+    if modulus is None:
+        assert {str(kink.position) for kink in found.kinks} >= {"-b", "b"}
+    else:
+        wanted = slope(modulus + 4 * x**2 / b)
+        assert [kink.position for kink in found.kinks] == [kink.position for kink in wanted.kinks]
+        assert all(
+            simplify(mine.step - other.step) == 0
+            for mine, other in zip(found.kinks, wanted.kinks, strict=True)
+        )
+
+
 def test_an_odd_power_of_the_modulus_is_a_kink_of_high_order() -> None:
     radius = Symbol("R", positive=True)
     assert read(Abs(x) ** 3 / R**2) == (-3 * x**2 / radius**2, [(0, 1, 6 * x**2 / radius**2)])
@@ -380,6 +412,7 @@ NOT_REAL = [
     (b * exp(b**2 / x**2), "is infinite at x = 0"),
     (b**3 / (x - b) ** 2 + phi * Abs(x) + phi * Max(0, x - 2 * b), "is infinite at x = b"),
     (b * (Abs(x) / b) ** k * log(Abs(x) / b) + x**2 / R, "has no value at x = 0"),
+    (phi * sqrt((x - b) ** 3 / b) + x**2 / R, "is not real near x = 4.2"),
 ]
 """Each has a curvature that is real, and positive where it is, on both sides of the place."""
 
