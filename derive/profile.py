@@ -173,9 +173,7 @@ def read_slope(name: str, g: Expr) -> Slope:
     _demand_finite(name, pieces, domain)
     _demand_continuous(name, pieces)
     demands = convex_where(name, pieces, domain)
-    reference = next(
-        i for i, piece in enumerate(pieces) if piece.upper == 0 or _is_positive(name, piece.upper)
-    )
+    reference = next(i for i, piece in enumerate(pieces) if _ends_beyond_origin(piece))
     kinks = [
         Kink(
             number=i,
@@ -204,6 +202,14 @@ def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
         value = _branch(name, inner, left, right)
         pieces += _resolved(name, g.xreplace({inner: value}), left, right)
     return pieces
+
+
+def _ends_beyond_origin(piece: Piece) -> bool:
+    """Whether a piece is known to hold the origin or to end right of it, as the last one does.
+
+    The first such piece holds the origin where the kinks' places tell; any other would serve.
+    """
+    return piece.upper == 0 or bool(_is_known_positive(piece.upper))
 
 
 def _with_moduli(g: Expr) -> Expr:
@@ -301,6 +307,19 @@ def _between(name: str, points: list[Expr], lower: Expr, upper: Expr) -> list[Ex
 
 
 def _is_positive(name: str, difference: Expr) -> bool:
+    found = _is_known_positive(difference)
+    if found is None:
+        difference = simplify(difference)
+        raise BadProfile(
+            name,
+            f"has kinks whose order is open: the sign of {difference} depends on the parameters",
+            _order(difference),
+        )
+    return found
+
+
+def _is_known_positive(difference: Expr) -> bool | None:
+    """Whether it is positive; None where that depends on the parameters."""
     difference = simplify(difference)
     if difference.is_extended_positive:
         return True
@@ -309,11 +328,7 @@ def _is_positive(name: str, difference: Expr) -> bool:
     squares = _squares(difference)
     if squares is not None and squares.is_extended_nonzero:
         return bool(squares.is_extended_positive)
-    raise BadProfile(
-        name,
-        f"has kinks whose order is open: the sign of {difference} depends on the parameters",
-        _order(difference),
-    )
+    return None
 
 
 def _squares(difference: Expr) -> Expr | None:
