@@ -17,6 +17,7 @@ from sympy import (
     And,
     Dummy,
     E,
+    Eq,
     Expr,
     Float,
     Function,
@@ -25,6 +26,7 @@ from sympy import (
     Limit,
     Max,
     Min,
+    Ne,
     Not,
     NumberSymbol,
     Or,
@@ -400,6 +402,12 @@ def _branch(name: str, node: Expr, lower: Expr, upper: Expr) -> Expr:
             if isinstance(condition, Not):
                 return not values[0]
             return all(values) if isinstance(condition, And) else any(values)
+        if isinstance(condition, Eq | Ne) and condition.has(x):
+            raise BadProfile(
+                name,
+                f"has the condition {condition}, which sets single points apart",
+                "a profile is continuous: leave the condition out, or use <, <=, >, >=",
+            )
         if isinstance(condition, Relational):
             value = _in_between(condition.lhs - condition.rhs, lower, upper)
             return (

@@ -15,6 +15,7 @@ from sympy import (
     Integer,
     Max,
     Min,
+    Ne,
     Not,
     Or,
     Piecewise,
@@ -580,6 +581,23 @@ def test_a_switch_beside_another_is_not_taken_for_it() -> None:
         read_slope("body", Max(x**2 / (2 * radius), -1e-30 * x))
     for small in (1e-30, 1 / Integer(10) ** 30):  # a Geometry takes a decimal number as a fraction
         assert len(slope(Max(x**2 / (2 * R), -small * x)).kinks) == 2
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        Piecewise((-b, Eq(x, 0)), (x**2 / R, True)),
+        Piecewise((x**2 / R, Ne(x, 0)), (-b, True)),
+        Piecewise((0, x < 0), (b, Eq(x, b) | Eq(x, 2 * b)), (x**2 / R, True)),
+    ],
+    ids=str,
+)
+def test_a_condition_that_holds_at_single_points_is_refused(g: Expr) -> None:
+    """A point that sticks out lies between two pieces, where nothing else would see it."""
+    with pytest.raises(BadProfile) as caught:
+        slope(g)
+    assert "sets single points apart" in caught.value.why
+    assert "continuous" in caught.value.remedy
 
 
 def test_an_unusual_condition_is_refused() -> None:
