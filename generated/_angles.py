@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._arrays import Array
-from ._profile import Curve, Part, Window
+from ._profile import Curve, Part, Window, weighted
 
 NODES = 12
 """Nodes on a piece where g'' is constant; one more for each degree of it."""
@@ -37,6 +37,9 @@ AFAR = 0.25
 
 SUMS = "force", "left", "right", "lean", "arm"
 """What is integrated for load, K_N at both edges, tilt and moment."""
+
+MIDDLE = 1.0
+"""The angle from where on the second coefficient is known by its terms."""
 
 TOGETHER = 8_192
 """Nodes and elements that are evaluated in one piece."""
@@ -85,6 +88,50 @@ def pressed(contact: Window, x: Array, degree: int) -> Array:
                     share[some] += seen(part.on(some), place.on(some), here.width[some], degree)
         total[rows] = share
     return total
+
+
+def of_parabolas(contact: Window) -> Array:
+    """The finite part of int g'' r (3 + 2 r**2) ds, r = tan(t), where g'' is constant on pieces.
+
+    The last piece's g'' counts all over the contact, -(3 pi/2) h of it; that of the others is
+    taken as what it differs by, so that a narrow gap between like pieces is no small difference.
+    """
+    last = 0.0 * contact.width
+    parts = [*contact.pieces()]
+    for part in parts:
+        its = 0.0 if part.piece.straight else part.constant_curvature()
+        last = np.where(part.ends_high & (part.length > 0), its, last)
+    total = -1.5 * np.pi * contact.width * last
+    for part in parts:
+        its = 0.0 if part.piece.straight else part.constant_curvature()
+        counts = (part.length > 0) & ~part.ends_high & (its != last)
+        if np.any(counts):
+            share = 2 * contact.width * (its - last) * _rise(part, contact.width)
+            total = total + np.where(counts, share, 0.0)
+    return total
+
+
+def _rise(part: Part, h: Array) -> Array:
+    """The rise of psi(r) = 2 r - (3/2) atan r - r/(2 (1 + r**2)) over a part, r = tan(t).
+
+    Up to the angle MIDDLE by Gauss's rule, as int (sin(t)**2 + 2 r**2) dt; beyond it by its terms,
+    of which the first is the largest then.  A part that hardly reaches over it is not divided.
+    """
+    start = np.arctan2(np.sqrt(part.start_low), np.sqrt(part.end_high + part.length))
+    extent = _extent(part)
+    over = start + extent - MIDDLE
+    below = np.where(start < MIDDLE - 0.2, np.where(over > 0.2, MIDDLE - start, extent), 0.0)
+    below = np.where(over <= 0, extent, below)
+    p, weight = _nodes(NODES_AFAR)
+    t = _on_both_sides(start + below / 2 + 0 * p[:, None], below * p[:, None])
+    found = below * weighted(weight, np.sin(t) ** 2 + 2 * np.tan(t) ** 2)
+    above, divided, angle = extent > below, below > 0, extent - below
+    low = np.sqrt(part.start_low / (part.end_high + part.length))
+    low = np.where(divided, np.tan(MIDDLE), low)
+    high = np.sqrt((part.start_low + part.length) / part.end_high)
+    step = np.where(divided, high - low, np.tan(angle) * (1 + low * high))
+    twist = (1 - low * high) / ((1 + low**2) * (1 + high**2))
+    return found + np.where(above, 2 * step - 1.5 * angle - step * twist / 2, 0.0)
 
 
 class _Place(NamedTuple):
@@ -222,7 +269,7 @@ class _Arc:
 
     def integral(self, value: Array) -> Array:
         """int value dt over the part."""
-        return self.extent * np.einsum("k,kn->n", self._weight, value)
+        return self.extent * weighted(self._weight, value)
 
 
 def _in_turn(contact: Window, count: int) -> Iterator[tuple[slice, Window]]:

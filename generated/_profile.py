@@ -117,7 +117,7 @@ def mirrored(body: Profile) -> Profile:
     )
     last = len(body.pieces) - 2
     smooth = tuple(last - i for i in body.smooth)
-    return Profile(breaks, corners, pieces, body.reach, smooth=smooth)
+    return Profile(breaks, corners, pieces, body.reach, smooth=smooth, degree=body.degree)
 
 
 def slope_of(body: Profile, x: Array, /, **constants: Array) -> tuple[Array, Array]:
@@ -241,8 +241,9 @@ class Part(NamedTuple):
         """int ds/w over it."""
         start, end = self.start_low, self.end_high
         beyond, before = start + self.length, end + self.length
-        both = np.sqrt(before * beyond) + np.sqrt(end * start)
-        sine = (start + before) * self.length / np.maximum(both, TINY)
+        larger, smaller = np.sqrt(before * beyond), np.sqrt(end * start)
+        product = (start + before) * self.length / np.maximum(larger + smaller, TINY)
+        sine = np.where(smaller < larger / 4, larger - smaller, product)  # fewer roundings
         return 2 * np.arctan2(sine, np.sqrt(before * end) + np.sqrt(beyond * start))
 
     def at(self, near_left: bool, q: Array, rest: Array) -> Nodes:
@@ -308,6 +309,16 @@ class Window(NamedTuple):
 def _between(value: Array, most: Array) -> Array:
     """What lies between zero and `most`; several times faster than np.clip for a few."""
     return np.minimum(np.maximum(value, 0.0), most)
+
+
+def weighted(weight: Array, value: Array, before: Array = 0.0) -> Array:
+    """Sums down the columns, one after the other, added to `before`.
+
+    The same bits however many columns there are, and however many rows at a time.
+    """
+    terms = weight[:, None] * value
+    terms[0] += before
+    return np.add.accumulate(terms, axis=0)[-1]
 
 
 class Elements:

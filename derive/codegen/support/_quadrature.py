@@ -24,9 +24,20 @@ from typing import Any
 
 import numpy as np
 
-from ._angles import carried, pressed
+from ._angles import carried, of_parabolas, pressed
 from ._arrays import Array
-from ._profile import TINY, Elements, Nodes, Profile, Window, corners_of, mirrored, slope_of, uncut
+from ._profile import (
+    TINY,
+    Elements,
+    Nodes,
+    Profile,
+    Window,
+    corners_of,
+    mirrored,
+    slope_of,
+    uncut,
+    weighted,
+)
 from ._state import State
 
 COARSEST, FINEST = 1, 9
@@ -178,6 +189,9 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
     """
     h = a + c
     scale = 6 * h * np.sqrt(h)
+    shared = Window(body, constants, -a, c, h, ())
+    if body.degree == 0:
+        return (of_parabolas(shared) + _of_corners(body, a, c, constants)) / (np.pi * scale)
     origin = _start_of_last(body, a, c, constants)
 
     def integrand(near: "Nodes", of: Any) -> tuple[Array, ...]:
@@ -194,7 +208,6 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         value = np.where(near.start_low >= start, by_parts, plain)
         return np.abs(value), value
 
-    shared = Window(body, constants, -a, c, h, ())
     _, total = _integrals(shared, integrand, 2, 0)
     for piece in shared.pieces():
         start, beyond = piece.start_low, piece.length + piece.end_high
@@ -202,10 +215,16 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         psi = 2 * r_0 - 1.5 * np.arctan(r_0) - r_0 / (2 * (1 + r_0**2))
         edge = piece.at_high().curvature * (-0.75 * np.pi - psi) * (2 * h)
         total = total + np.where(piece.ends_high & (piece.length > 0), edge, 0.0)
+    return (total + _of_corners(body, a, c, constants)) / (np.pi * scale)
+
+
+def _of_corners(body: Profile, a: Array, c: Array, constants: dict[str, Array]) -> Array:
+    """What the corners add to the integral of g'' r (3 + 2 r**2)."""
+    total = 0.0 * a
     for _, jump, A, B in corners_of(body, a, c, constants):
         r = np.sqrt(A / np.where(B > 0, B, 1.0))
         total = total + np.where(B > 0, jump * r * (3 + 2 * r**2), 0.0)
-    return total / (np.pi * scale)
+    return total
 
 
 def _start_of_last(body: Profile, a: Array, c: Array, constants: dict[str, Array]) -> Array:
@@ -283,14 +302,9 @@ def _level_sums(
                 q, rest, weight = mine[:, start : start + many]
                 values = integrand(part.at(near_left, q, rest), of)
                 for i, value in enumerate(values):
-                    share[i] += _weighted(weight[:, 0], value)
+                    share[i] = weighted(weight[:, 0], value, share[i])
         total += np.where(part.length > 0, share * part.length, 0.0)
     return total
-
-
-def _weighted(weight: Array, value: Array) -> Array:
-    """Sums down the columns, each to the same bits wherever it stands, as by `@` they are not."""
-    return weight[0] * value[0] if weight.size == 1 else np.einsum("k,kn->n", weight, value)
 
 
 @cache
