@@ -9,13 +9,15 @@ Between integrals numbers are mpmath's; inside an integrand they are balls of so
 
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
+from functools import reduce
+from operator import mul
 from typing import Any
 
 import mpmath
 from flint import arb, ctx
 from mpmath import mpf
 from mpmath.libmp import from_man_exp
-from sympy import Expr, Float, Piecewise, Rational, lambdify
+from sympy import Expr, Float, Piecewise, Pow, Rational, S, lambdify
 from sympy.printing.pycode import MpmathPrinter
 
 Ball = arb
@@ -72,16 +74,40 @@ def _method(name: str) -> Callable[[Ball], Ball]:
     return lambda value: of(value if type(value) is arb else arb(value))
 
 
+def _raised(base: Ball | int, power: Ball | int) -> Ball:
+    """base**power, of a ball that holds zero, too, where flint goes by the logarithm.
+
+    A whole power is a product there.  Any other has no value below zero: what the ball reaches
+    below it is rounding.
+    """
+    base = arb(base)
+    value = base**power
+    if value.is_finite() or not power > 0 or not base.contains(0):
+        return value
+    if isinstance(power, int):
+        return reduce(mul, [base] * power)
+    return arb(0).union(base.upper() ** power)
+
+
+def _root(base: Ball | int) -> Ball:
+    """The square root as `_raised` has it."""
+    base = arb(base)
+    value = base.sqrt()
+    return arb(0).union(base.upper().sqrt()) if value.is_nan() and base.contains(0) else value
+
+
 _FUNCTIONS = {
     **{
         name: _method(name)
         for name in (
-            *("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan"),
+            *("exp", "log", "sin", "cos", "tan", "asin", "acos", "atan"),
             *("sinh", "cosh", "tanh", "asinh", "acosh", "atanh"),
         )
     },
     "atan2": lambda y, along: arb.atan2(arb(y), arb(along)),
     "sign": _method("sgn"),
+    "sqrt": _root,
+    "raised": _raised,
     "quotient": lambda above, below: arb(above) / below,
     "exactly": lambda mantissa, exponent: arb((mantissa, exponent)),
     "pi": arb.pi,
@@ -105,6 +131,11 @@ class _BallPrinter(MpmathPrinter):
         return f"quotient({expr.p}, {expr.q})"
 
     _print_Half = _print_Rational
+
+    def _print_Pow(self, expr: Pow, rational: bool = False) -> str:
+        if abs(expr.exp) == S.Half or expr.exp == -1:
+            return super()._print_Pow(expr)
+        return f"raised({self._print(expr.base)}, {self._print(expr.exp)})"
 
     def _print_Float(self, expr: Float) -> str:
         sign, mantissa, exponent, _ = expr._mpf_

@@ -52,7 +52,9 @@ def remembered(function: Callable[[Ball], Value]) -> Callable[[Ball], Value]:
 def integral(
     integrand: Function, cuts: Sequence[mpf], method: str = CROWDED, inside: int = 0
 ) -> mpf:
-    """int integrand over [cuts[0], cuts[-1]]; a node where it divides by zero has no weight.
+    """int integrand over [cuts[0], cuts[-1]]; not a number where a part of the integrand is none.
+
+    A node so close to an end that the integrand divides by zero has no weight.
 
     inside: digits of the integrand to begin with; twice as many if its balls grow too wide.
     """
@@ -86,6 +88,11 @@ def _size(integrand: Function, low: mpf, high: mpf) -> mpf:
     return mpf(0) if mpmath.isnan(middle) else abs(middle * (high - low))
 
 
+_AT_AN_END = arb(2) ** -50
+"""The share of all weights that nodes without a value may have: those so close to an end that the
+integrand divides by zero in so many digits."""
+
+
 class _InBalls(QuadratureRule):
     """Gauss's rule or the doubly exponential one, whose nodes and sums are balls.
 
@@ -115,8 +122,11 @@ class _InBalls(QuadratureRule):
 
         Nodes of the doubly exponential rule lie between those before, whose sum is half of the new.
         """
-        terms = (weight * integrand(place) for place, weight in nodes)
-        total = sum((term for term in terms if term.is_finite()), arb(0))
+        terms = [(weight, weight * integrand(place)) for place, weight in nodes]
+        total = sum((term for _, term in terms if term.is_finite()), arb(0))
+        lost = sum((weight for weight, term in terms if not term.is_finite()), arb(0))
+        if lost > _AT_AN_END * sum(weight for weight, _ in terms):
+            total = arb("nan")
         self.width = max(self.width, number(total.rad()))
         if self.method != CROWDED:
             return number(total)

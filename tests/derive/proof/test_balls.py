@@ -26,6 +26,7 @@ from sympy import (
 
 from derive.profile import exact
 from derive.proof.balls import ball, digits, function_of, functions_of, number
+from derive.symbols import x
 
 y, n = symbols("y n", positive=True)
 AT = {y: Rational(3, 10), n: Rational(7, 5)}
@@ -60,6 +61,17 @@ def test_every_function_is_what_sympy_says(expr: Expr, count: int) -> None:
         values = (ball(mpf(v.p)) / v.q for v in AT.values())
         wanted = exact(expr).subs(AT).evalf(count + 10)
         assert abs(number(function(*values)) - mpf(wanted)) < mpf(10) ** (2 - count)
+
+
+@pytest.mark.parametrize("power", [1, 2, 3, 4, Rational(1, 2), Rational(3, 2), Rational(5, 2), n])
+def test_a_power_of_a_ball_about_zero_is_one_about_zero(power: Expr) -> None:
+    """x + |x| at x < 0: zero, but for rounding, whose middle is zero, too."""
+    function = function_of([x, n], (x + abs(x)) ** power)
+    with mpmath.workdps(30), digits(40):
+        value = function(-ball(mpf(1)) / 3, ball(mpf(7)) / 5)
+        assert value.contains(0)
+        assert value.abs_upper() < 1e-15
+        assert mpmath.isnan(number(1 / value))
 
 
 def test_several_expressions_share_what_they_repeat() -> None:

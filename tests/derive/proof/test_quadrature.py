@@ -3,7 +3,7 @@
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Piecewise, Symbol
+from sympy import Abs, Expr, Max, Min, Piecewise, Rational, S, Symbol
 
 from derive import Geometry, x
 from derive.proof.balls import Ball, ball, digits, number
@@ -70,6 +70,16 @@ def test_it_agrees_with_another_quadrature(name: str, left: float, right: float)
     assert close(here.load, integrals.load(body.slope, left, right, body.kinks, E))
     moment = integrals.moment(body.slope, left, right, body.kinks, E)
     assert close(here.moment, moment, scale=here.load)
+
+
+@pytest.mark.parametrize("ramp", [(x + Abs(x)) / 2, x - Min(0, x), Max(0, x)])
+@pytest.mark.parametrize("power", [S(3), Rational(5, 2)])
+def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
+    """x**2 + ramp**n on [-1, 1]: alpha = -(n/pi) int_0^1 s**(n - 1)/sqrt(1 - s**2) ds."""
+    body = Geometry("ramp", x**2 / b + ramp**power / b ** (power - 1))
+    n, one = mpf(power.p) / power.q, mpf(1)
+    here = Contact(body, {q.symbol: one for q in body.parameters}, one, one, one)
+    assert close(here.tilt, -n * mpmath.beta(n / 2, one / 2) / (2 * mpmath.pi))
 
 
 def test_places_and_angles() -> None:

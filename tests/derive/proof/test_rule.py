@@ -63,6 +63,12 @@ def test_what_divides_by_zero_has_no_weight() -> None:
         assert close(found, 2 * mpmath.si(1))
 
 
+@pytest.mark.parametrize("method", ["gauss-legendre", "tanh-sinh"])
+def test_where_a_part_of_the_integrand_is_no_number_the_integral_is_none(method: str) -> None:
+    with mpmath.workdps(30):
+        assert mpmath.isnan(integral(lambda t: t.sqrt(), [mpf(-1), mpf(0), mpf(1)], method))
+
+
 def test_nodes_are_asked_once() -> None:
     asked: list[Ball] = []
 
