@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Piecewise, Symbol, diff, lambdify, nan, piecewise_fold, zoo
+from sympy import Expr, Max, Min, Piecewise, Symbol, diff, lambdify, nan, piecewise_fold, zoo
 
 from derive.geometry import Geometry
 from derive.proof.balls import Ball, ball, digits, function_of
@@ -174,12 +174,24 @@ class Contact:
 @cache
 def _slope_as_given(g: Expr) -> Expr:
     """g'(x) by branches; each by itself where a power of zero would be divided by zero."""
-    branched = g.rewrite(Piecewise)
+    branched = g.replace(Max, _larger).replace(Min, _smaller).rewrite(Piecewise)
     slope = diff(branched, x)
     if slope.has(zoo, nan):
         folded = piecewise_fold(branched)
         slope = Piecewise(*((diff(value, x), holds) for value, holds in folded.args))
     return slope
+
+
+def _larger(first: Expr, *others: Expr) -> Expr:
+    """Max by branches; SymPy's own, which compare other than with zero, may never come to rest."""
+    if not others:
+        return first
+    second = _larger(*others)
+    return Piecewise((first, first - second >= 0), (second, True))
+
+
+def _smaller(*args: Expr) -> Expr:
+    return -_larger(*(-arg for arg in args))
 
 
 @cache
