@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Abs, Expr, Function, Min, Rational, Symbol, UnevaluatedExpr, log, sqrt
+from sympy import Abs, Expr, Function, Rational, Symbol, UnevaluatedExpr, log, sqrt
 
 
 class Kept(UnevaluatedExpr):
@@ -139,4 +139,5 @@ class Program:
 
 def _of_kink(left: Expr, right: Expr, offset: Expr, *_: Expr) -> Expr:
     """What a kink_logarithm is inside the contact, and farther from the kink than at least."""
-    return log(1 + (sqrt(left * right) + Min(left, right)) / Abs(offset))
+    nearer = (left + right - Abs(left - right)) / 2  # SymPy's Min compares what it holds
+    return log(1 + (sqrt(left * right) + nearer) / Abs(offset))

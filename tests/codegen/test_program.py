@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
-from sympy import Symbol, cos, sin, sqrt, symbols
+from sympy import Max, Rational, Symbol, cos, log, sin, sqrt, symbols
 
-from derive.codegen.program import Program, Step
+from derive.codegen.program import Kept, Program, Step, kink_logarithm
 
 x, y = symbols("x y", real=True)
 r, s, t = symbols("r s t", positive=True)
@@ -41,6 +41,16 @@ def test_a_flat_program_holds_no_step() -> None:
 
 def test_a_program_without_steps_is_flat() -> None:
     assert Program({"": x + y}).flat() == {"": x + y}
+
+
+def test_a_flat_logarithm_asks_nothing_of_its_lengths() -> None:
+    """SymPy takes a + x times a quotient that may not be finite for no real number."""
+    a, c = symbols("a c", real=True)
+    share, other = (Kept(2 * Max(0, edge - t) / (a + c)) for edge in (c, a))
+    left, right = a * share + x * share, c * other - x * other
+    flat = Program({"": kink_logarithm(left, right, t - x)}).flat()[""].doit()
+    at = {a: 3, c: 2, x: 1, t: Rational(1, 2)}  # left 12/5, right 1
+    assert abs(flat.subs(at).evalf() - log(1 + 2 * (sqrt(Rational(12, 5)) + 1)).evalf()) < 1e-12
 
 
 def test_steps_come_after_those_they_need() -> None:
