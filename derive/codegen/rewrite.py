@@ -198,9 +198,11 @@ def tangents_from_both_ends(program: Program, example: Point) -> Program:
     """F tan z and F/tan z from t, the tangent of the smaller of z and pi/2 - z.
 
     Near pi/2 the rest pi/2 - z is the exact small difference, and z is not.  Where z and its rest
-    change places with the sign of alpha, the smaller is z at |alpha|.
+    change places with the sign of alpha, the smaller is z at |alpha|.  What a body has of tangents
+    of its own, of parameters, stays.
     """
-    tangents = sorted({t for v in program.outputs.values() for t in v.atoms(tan)}, key=str)
+    found = {t for v in program.outputs.values() for t in v.atoms(tan) if t.has(alpha)}
+    tangents = sorted(found, key=str)
     if len(tangents) != 1:
         return program
     (tangent,) = tangents

@@ -12,9 +12,11 @@ import mpmath
 import numpy as np
 import pytest
 from mpmath import mpf
-from sympy import Expr, Piecewise, Rational, Symbol, atan2, lambdify, nan, pi
+from sympy import Abs, Expr, Piecewise, Rational, Symbol, atan2, lambdify, nan, pi, tan
 
+from derive import Geometry
 from derive.codegen.contract import CONTRACT, Function
+from derive.codegen.function import FunctionText
 from derive.codegen.program import Program
 from derive.codegen.rewrite import prove_equal, shares_of_the_half_circle, stable_program
 from derive.derivation import derive_sheet
@@ -22,9 +24,10 @@ from derive.library import load_geometry
 from derive.proof.points import contacts, loads
 from derive.proof.verdict import Proof, Verdict
 from derive.symbols import P, a, c
+from derive.symbols import x as along
 from generated import hertz, wedge
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, VALUES, sheet
+from tests.derive.bodies import BODIES, VALUES, phi, sheet
 
 WORKING = 50
 DIGITS = 30
@@ -423,3 +426,15 @@ def test_angles_become_shares_of_the_half_circle() -> None:
             assert abs(first - second) < mpf(10) ** -13
     unlike = kink.theta * R_1 + pi * lean
     assert shares_of_the_half_circle(Program({"": unlike}), two).outputs[""] == unlike
+
+
+# ------------------------------------------------------------------ tangents
+
+
+@pytest.mark.parametrize("slope", [tan(phi), tan(phi / 2)])
+def test_a_tangent_of_a_parameter_is_a_number(slope: Expr) -> None:
+    """Also under a tilt, where the edges hold the tangent of the kink's angle as well."""
+    steep = derive_sheet(Geometry("steep", slope * Abs(along)))
+    found = {f.name: f for f in CONTRACT if f.available(steep)}
+    for name in ("tilt", "load", "contact_at_tilt"):
+        FunctionText(steep, found[name], "")  # raises NotProven
