@@ -32,7 +32,6 @@ from sympy import (
     discriminant,
     expand,
     factor,
-    lambdify,
     limit,
     nan,
     oo,
@@ -42,6 +41,7 @@ from sympy import (
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
 
+from derive.compiled import compiled
 from derive.errors import BadProfile
 from derive.limit import LimitReached, within
 from derive.lows import Lows
@@ -559,11 +559,11 @@ class _Curvature:
 
     def __init__(self, piece: Piece, domain: tuple[Expr, Expr], symbols: list[Symbol]) -> None:
         self._at, self._profile = (
-            lambdify([x, *symbols], expr, modules="mpmath")
+            compiled([x, *symbols], expr, modules="mpmath")
             for expr in (piece.curvature, piece.profile)
         )
         ends = [piece.lower, piece.upper, *domain]
-        self._ends = lambdify(symbols, ends, modules="mpmath")
+        self._ends = compiled(symbols, ends, modules="mpmath")
         self._lows = None if piece.curvature.is_nonnegative else Lows(piece.curvature, symbols)
 
     def demand(self, values: Values) -> None:

@@ -99,6 +99,7 @@ _USED_BESIDES = (
         "pressure_at",
         "second_of",
         "mended",
+        "mended_sums",
         "as_integrand",
         "now",
     ),

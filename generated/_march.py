@@ -30,6 +30,7 @@ def march_of(
     M: Array,
     Q: Array,
     sigma: Array,
+    /,
     *,
     f: Array,
     E_star: Array,

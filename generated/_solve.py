@@ -482,6 +482,7 @@ def level(
     tilt: Array,
     size: Array,
     corners: tuple[Array, ...] = (),
+    /,
     **constants: Array,
 ) -> Array:
     """Where the tilted body is level, g'(x) + alpha = 0; NaN where it is nowhere so.

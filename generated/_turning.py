@@ -321,7 +321,7 @@ class _Turning:
         """2 f p."""
         return self.task.f * self.task.sum_of_pressures(x)
 
-    def _with(self, change: Change, cuts: tuple[Array, ...] = (), **changes: Array) -> Task:
+    def _with(self, change: Change, cuts: tuple[Array, ...] = (), /, **changes: Array) -> Task:
         """The task with other pressures, in parts of which p is cut off too."""
         own = self.task
 

@@ -288,6 +288,13 @@ def own_parameters(sheet: FormulaSheet) -> tuple[str, str]:
     return (f", *{taken}" if names else ""), "".join(f", {name}={name}" for name in names)
 
 
+def local(sheet: FormulaSheet, name: str) -> str:
+    """The name of a local variable, which gives way to a parameter of the same name."""
+    while name in {q.name for q in sheet.geometry.parameters}:
+        name += "_"
+    return name
+
+
 def _without_width(conditions: Iterable[Boolean]) -> list[Boolean]:
     """The conditions without h > 0, where a > 0 and c > 0 already say it."""
     held = list(conditions)

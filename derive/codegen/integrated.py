@@ -31,7 +31,7 @@ from sympy import (
 
 from derive.codegen.cancel import cancels, cuts_of, plain_cuts, size_of_terms, terms_of
 from derive.codegen.decay import decaying
-from derive.codegen.function import FunctionText, own_parameters
+from derive.codegen.function import FunctionText, local, own_parameters
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
 from derive.codegen.rise import from_zero
@@ -53,10 +53,10 @@ _RETURNED = {
     "load": "E_star * now.load",
     "moment": "E_star * now.moment",
     "K_N": "E_star * now.left, E_star * now.right",
-    "L_N": "E_star * left, E_star * right",
+    "L_N": "E_star * {left}, E_star * {right}",
     "pressure": "E_star * p",
 }
-"""What each function returns of what the quadrature found."""
+"""What each function returns of what the quadrature found; a few by names of local variables."""
 
 
 class IntegratedText(FunctionText):
@@ -71,14 +71,15 @@ class IntegratedText(FunctionText):
     @property
     def _code(self) -> Iterator[str]:
         _, given = own_parameters(self.sheet)
+        ends = {side: local(self.sheet, side) for side in ("left", "right")}
         match self.function.name:
             case "pressure":
                 yield f"    p = pressure_at(_BODY, x, a, c{given})"
             case "L_N":
-                yield f"    left, right = second_of(_BODY, a, c{given})"
+                yield f"    {', '.join(ends.values())} = second_of(_BODY, a, c{given})"
             case _:
                 yield f"    now = state_of(_BODY, a, c{given})"
-        yield from self._ending({"": _RETURNED[self.function.name]})
+        yield from self._ending({"": _RETURNED[self.function.name].format(**ends)})
 
     @property
     def _further_checks(self) -> Iterator[str]:
@@ -112,8 +113,7 @@ class MendedText(FunctionText):
             terms = terms_of(expr, frozenset(expr.free_symbols - steps | {Symbol("h")}))
             terms.sort(key=lambda term: term.could_extract_minus_sign())
             held.append(f"{field!r}: ({' '.join(f'{printer.doprint(t)},' for t in terms)})")
-        yield f"    found = mended_sums({{{', '.join(held)}}}, exists, {_mending(self)})"
-        yield from _found(self)
+        yield from _found(self, f"mended_sums({{{', '.join(held)}}}, exists, {_mending(self)})")
 
     @property
     def _further_checks(self) -> Iterator[str]:
@@ -132,8 +132,7 @@ def mended_lines(made: FunctionText, values: dict[str, str]) -> Iterator[str]:
     """The closed values, and the call that integrates them where they would lose digits."""
     guarded = f"only_where(exists, {', '.join(values.values())})"
     names = "".join(f"{name!r}, " for name in values)
-    yield f"    found = mended({guarded}, exists, ({names}), {_mending(made)})"
-    yield from _found(made)
+    yield from _found(made, f"mended({guarded}, exists, ({names}), {_mending(made)})")
 
 
 def _mending(made: FunctionText) -> str:
@@ -144,9 +143,10 @@ def _mending(made: FunctionText) -> str:
     return f"{scale}, _BODY, a, c{at}{own}"
 
 
-def _found(made: FunctionText) -> Iterator[str]:
-    kind = made.function.kind
-    yield f"    return {kind}(*found)" if kind else "    return found[0]"
+def _found(made: FunctionText, call: str) -> Iterator[str]:
+    kind, found = made.function.kind, local(made.sheet, "found")
+    yield f"    {found} = {call}"
+    yield f"    return {kind}(*{found})" if kind else f"    return {found}[0]"
 
 
 def is_mended(sheet: FormulaSheet) -> bool:
@@ -268,7 +268,7 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     risen = from_zero(given, _t)
     kept = from_zero(slope, _t) if risen == given else risen
     curves = [kept, from_zero(curvature, _t), change]
-    found = cse([decaying(curve, _t) for curve in curves], symbols=numbered_symbols("s_"))
+    found = cse([decaying(curve, _t) for curve in curves], symbols=_named("s_", curves))
     steps, values = _roots_once(*found)
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     side = "right" if sense > 0 else "left"
@@ -301,6 +301,12 @@ def _rate(expr: Expr) -> Expr:
     return diff(expr.replace(tanh, _tanh), _t).replace(_tanh, tanh)
 
 
+def _named(stem: str, beside: list[Expr]) -> Iterator[Symbol]:
+    """Symbols by number, with names that none has beside them."""
+    taken = [Symbol(symbol.name) for symbol in Tuple(*beside).free_symbols]
+    return iter(numbered_symbols(stem, exclude=taken))
+
+
 def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
     """Several half powers of t or of one step by its root, which is a step of its own.
 
@@ -313,7 +319,7 @@ def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
     for power in Tuple(*values, *(value for _, value in steps)).atoms(Pow):
         if power.base in powers and power.exp.is_Rational and power.exp.q == 2:
             powers[power.base].add(power)
-    named, shared, roots = numbered_symbols("r_"), {}, {}
+    named, shared, roots = _named("r_", values + [value for _, value in steps]), {}, {}
     for base in [base for base, found in powers.items() if len(found) > 1]:
         roots[base] = next(named)
         for power in powers[base]:
@@ -386,8 +392,9 @@ def level_text(sheet: FormulaSheet) -> str:
     """`_slope`: the body's slope and curvature at a place; infinite beyond the body's ends."""
     own, given = own_parameters(sheet)
     printer = NumPyPrinter({x})
+    slope, curvature = local(sheet, "slope"), local(sheet, "curvature")
     beyond = [
-        f"    slope = np.where(x {side} {printer.doprint(end)}, {infinite}, slope)"
+        f"    {slope} = np.where(x {side} {printer.doprint(end)}, {infinite}, {slope})"
         for end, side, infinite in zip(
             sheet.geometry.slope.domain, ("<=", ">="), ("-np.inf", "np.inf"), strict=True
         )
@@ -399,7 +406,11 @@ def level_text(sheet: FormulaSheet) -> str:
             f"def _slope(x: Array{own}) -> tuple[Array, Array]:",
             '    """g\'(x) and g\'\'(x)."""',
             *(
-                [f"    slope, curvature = {found}", *beyond, "    return slope, curvature"]
+                [
+                    f"    {slope}, {curvature} = {found}",
+                    *beyond,
+                    f"    return {slope}, {curvature}",
+                ]
                 if beyond
                 else [f"    return {found}"]
             ),

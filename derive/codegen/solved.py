@@ -11,7 +11,7 @@ from sympy import Expr, Gt, Lt, Piecewise, S, diff, factor
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
-from derive.codegen.function import FunctionText, own_parameters
+from derive.codegen.function import FunctionText, local, own_parameters
 from derive.codegen.integrated import is_mended, mended_lines
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
@@ -73,13 +73,14 @@ def slope_text(sheet: FormulaSheet) -> str:
         slope += Piecewise((factor(kink.jump), beyond), (S.Zero, True))
     printer = NumPyPrinter({x})
     own, _ = own_parameters(sheet)
+    first, second = local(sheet, "slope"), local(sheet, "curvature")
     return "\n".join(
         [
             f"def _slope(x: Array{own}) -> tuple[Array, Array]:",
             '    """g\'(x) and g\'\'(x)."""',
-            f"    slope = {printer.doprint(slope)}",
-            f"    curvature = {printer.doprint(diff(slope, x))}",
-            "    return slope, curvature",
+            f"    {first} = {printer.doprint(slope)}",
+            f"    {second} = {printer.doprint(diff(slope, x))}",
+            f"    return {first}, {second}",
         ]
     )
 

@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from markupsafe import Markup
-from sympy import lambdify
 
 from derive.codegen.function import example_of
 from derive.codegen.trial import imported
+from derive.compiled import compiled
 from derive.handbook.picture import Line, svg
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
@@ -52,7 +52,7 @@ def pictures(sheet: FormulaSheet, text: str) -> Pictures:
 def _profile(sheet: FormulaSheet, own: dict[str, float], reach: float) -> Line:
     places = np.linspace(-reach, reach, SAMPLES)
     names = [q.symbol for q in sheet.geometry.parameters]
-    g = lambdify([x, *names], sheet.geometry.g, modules="numpy")
+    g = compiled([x, *names], sheet.geometry.g, modules="numpy")
     with np.errstate(all="ignore"):
         values = np.broadcast_to(g(places, *(own[str(n)] for n in names)), places.shape)
     there = np.isfinite(values)

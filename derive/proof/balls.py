@@ -17,8 +17,10 @@ import mpmath
 from flint import arb, ctx
 from mpmath import mpf
 from mpmath.libmp import from_man_exp
-from sympy import Expr, Float, Piecewise, Pow, Rational, S, lambdify
+from sympy import Expr, Float, Piecewise, Pow, Rational, S, Symbol
 from sympy.printing.pycode import MpmathPrinter
+
+from derive.compiled import compiled
 
 Ball = arb
 
@@ -50,7 +52,7 @@ def number(value: Ball | int) -> mpf:
     return mpmath.mp.make_mpf(from_man_exp(int(mantissa), int(exponent)))
 
 
-def function_of(symbols: Sequence[Expr], expr: Expr, shared: bool = False) -> Callable[..., Ball]:
+def function_of(symbols: Sequence[Symbol], expr: Expr, shared: bool = False) -> Callable[..., Ball]:
     """An expression as a function of balls.
 
     shared: compute once what it repeats, if there are no branches: one that is not taken may have
@@ -59,14 +61,16 @@ def function_of(symbols: Sequence[Expr], expr: Expr, shared: bool = False) -> Ca
     return _compiled(symbols, expr, shared and not expr.has(Piecewise))
 
 
-def functions_of(symbols: Sequence[Expr], exprs: Sequence[Expr]) -> Callable[..., Sequence[Ball]]:
+def functions_of(symbols: Sequence[Symbol], exprs: Sequence[Expr]) -> Callable[..., Sequence[Ball]]:
     """Several expressions as one function of balls; what they repeat is computed once."""
-    return _compiled(symbols, list(exprs), True)
+    return _compiled(symbols, exprs, True)
 
 
-def _compiled(symbols: Sequence[Expr], expr: object, shared: bool) -> Callable[..., Any]:
+def _compiled(
+    symbols: Sequence[Symbol], expr: Expr | Sequence[Expr], shared: bool
+) -> Callable[..., Any]:
     names = [_FUNCTIONS, "math"]
-    return lambdify(symbols, expr, modules=names, printer=_BallPrinter(), cse=shared)
+    return compiled(symbols, expr, modules=names, printer=_BallPrinter(), shared=shared)
 
 
 def _method(name: str) -> Callable[[Ball], Ball]:
@@ -107,9 +111,9 @@ _FUNCTIONS = {
     "atan2": lambda y, along: arb.atan2(arb(y), arb(along)),
     "sign": _method("sgn"),
     "sqrt": _root,
-    "raised": _raised,
-    "quotient": lambda above, below: arb(above) / below,
-    "exactly": lambda mantissa, exponent: arb((mantissa, exponent)),
+    "_raised": _raised,
+    "_quotient": lambda above, below: arb(above) / below,
+    "_exactly": lambda mantissa, exponent: arb((mantissa, exponent)),
     "pi": arb.pi,
     "e": arb.const_e,
 }
@@ -128,15 +132,15 @@ class _BallPrinter(MpmathPrinter):
         return "e()"
 
     def _print_Rational(self, expr: Rational) -> str:
-        return f"quotient({expr.p}, {expr.q})"
+        return f"_quotient({expr.p}, {expr.q})"
 
     _print_Half = _print_Rational
 
     def _print_Pow(self, expr: Pow, rational: bool = False) -> str:
         if abs(expr.exp) == S.Half or expr.exp == -1:
             return super()._print_Pow(expr)
-        return f"raised({self._print(expr.base)}, {self._print(expr.exp)})"
+        return f"_raised({self._print(expr.base)}, {self._print(expr.exp)})"
 
     def _print_Float(self, expr: Float) -> str:
         sign, mantissa, exponent, _ = expr._mpf_
-        return f"exactly({-int(mantissa) if sign else int(mantissa)}, {exponent})"
+        return f"_exactly({-int(mantissa) if sign else int(mantissa)}, {exponent})"

@@ -14,9 +14,10 @@ from typing import TypeVar
 import mpmath
 from flint import ctx
 from mpmath import mpf
-from sympy import Add, Dummy, Expr, Integral, Mul, Piecewise, Pow, Symbol, count_ops, lambdify
+from sympy import Add, Dummy, Expr, Integral, Mul, Piecewise, Pow, Symbol, count_ops
 from sympy.logic.boolalg import Boolean
 
+from derive.compiled import compiled
 from derive.geometry import Geometry
 from derive.profile import has_sharp_power
 from derive.proof.balls import Ball, ball, digits, function_of, functions_of
@@ -199,7 +200,7 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
     integrand = function_of(taken, over.function.xreplace(fixed), shared=True)
     constants = functions_of(held, [*fixed])
     power = 3 if has_sharp_power(over.function, variable) else 1
-    ends = lambdify(held, [low, high], modules="mpmath")
+    ends = compiled(held, [low, high], modules="mpmath")
     known: dict[tuple[mpf, ...], mpf] = {}
 
     def at(point: Point) -> mpf:
@@ -233,7 +234,8 @@ def _compiled(symbols: list[Symbol], expr: Expr, shared: bool) -> Callable[..., 
 
     Never of branches: one that is not taken may have no value.
     """
-    return lambdify(symbols, expr, modules="mpmath", cse=shared and not expr.has(Piecewise))
+    once = shared and not expr.has(Piecewise)
+    return compiled(symbols, expr, modules="mpmath", shared=once)
 
 
 def _is_fixed(power: Pow, variable: Symbol) -> bool:

@@ -13,8 +13,9 @@ from itertools import pairwise
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Max, Min, Piecewise, Symbol, diff, lambdify, nan, piecewise_fold, zoo
+from sympy import Expr, Max, Min, Piecewise, Symbol, diff, nan, piecewise_fold, zoo
 
+from derive.compiled import compiled
 from derive.geometry import Geometry
 from derive.proof.balls import Ball, ball, digits, function_of
 from derive.proof.rule import CROWDED, SMOOTH, Function, integral, remembered
@@ -201,4 +202,5 @@ def _compiled(expr: Expr, symbols: tuple[Symbol, ...]) -> Function:
 
 def _number(expr: Expr, values: Mapping[Symbol, mpf]) -> mpf:
     symbols = sorted(values, key=str)
-    return mpf(lambdify(symbols, expr, modules="mpmath")(*(values[symbol] for symbol in symbols)))
+    function = compiled(symbols, expr, modules="mpmath")
+    return mpf(function(*(values[symbol] for symbol in symbols)))

@@ -36,7 +36,7 @@ from sympy import (
 import derive.codegen.function
 from derive import Geometry, parameter, x
 from derive.codegen.function import example_of
-from derive.codegen.module import module_text
+from derive.codegen.module import _HELPERS, module_text
 from derive.codegen.publish import package_files, publish
 from derive.codegen.trial import demand_right
 from derive.derivation import derive_sheet
@@ -55,6 +55,7 @@ from tests.derive.bodies import BODIES, VALUES, assumed, sheet
 ROOT = Path(__file__).parents[2]
 SEEDS = ("0", "2024")
 FILES = sorted(GENERATED.glob("*.py"))
+SUPPORT = sorted((ROOT / "derive/codegen/support").glob("*.py"))
 OTHERS = ("unequal_wedge", "two_radii", "flat_rounded")
 """Bodies that are not in the library, of which modules are made here."""
 
@@ -500,6 +501,43 @@ def test_an_inverse_without_a_closed_formula_is_solved_for() -> None:
     assert "from ._solve import" in text("two_radii")
     assert "_solve" not in text("wedge")
     assert "_state" not in text("two_radii").partition("__all__ = ")[2].partition("]")[0]
+
+
+def test_what_takes_parameters_by_name_has_no_other_names() -> None:
+    """`slope`, `size`, `law`: what comes before a body's parameters has a place, not a name."""
+    taken = set()
+    for file in SUPPORT:
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.FunctionDef | ast.Lambda) and node.args.kwarg:
+                taken |= {each.arg for each in (*node.args.args, *node.args.kwonlyargs)}
+    assert not {name for name in taken if may_be_a_parameter(name)}
+
+
+def test_what_a_module_imports_no_parameter_hides() -> None:
+    imported = {name for names in _HELPERS.values() for name in names}
+    used_inside = imported - {"chunkwise", "chunkwise_in_time"}
+    assert not {name for name in used_inside if may_be_a_parameter(name)}
+
+
+LOCALS = ("found", "slope", "curvature", "left", "right", "s_0", "s_1", "r_0")
+found, slope, curvature, left, right, s_0, s_1, r_0 = (parameter(n, "anything") for n in LOCALS)
+NAMED = [
+    x**2 / slope + Max(0, x - found) ** 2 / curvature,
+    sqrt(x**2 + s_0**2) * s_1 / left + sqrt(x**2 + r_0**2) * slope / right + x**2 / curvature,
+    (Abs(x) / s_0) ** Rational(5, 2) * s_1 + sqrt(r_0**2 + x**2) * x**2 / s_1**2,
+]
+"""Profiles whose parameters are called as the local variables of the code."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("g", NAMED)
+def test_local_variables_give_way_to_parameters(g: Expr) -> None:
+    text = module_text(assumed(derive_sheet(Geometry("named", g))), "named.py")
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef):
+            inside = [n for n in ast.walk(node) if isinstance(n, ast.Name)]
+            stored = {n.id for n in inside if isinstance(n.ctx, ast.Store)}
+            assert not stored & {each.arg for each in node.args.kwonlyargs}
 
 
 def test_symbols_of_the_theory_stay_reserved() -> None:

@@ -202,6 +202,13 @@ def test_level_of_a_quartic() -> None:
     assert_allclose(found, -np.cbrt(alpha / 2), rtol=1e-14)
 
 
+def test_level_of_a_body_whose_parameters_are_named_as_its_arguments() -> None:
+    def of(x: Any, *, slope: Any, size: Any) -> tuple[Any, Any]:
+        return slope * x / size, slope / size
+
+    assert level(of, -1.0, 4.0, slope=0.5, size=4.0) == pytest.approx(8.0, rel=1e-12)
+
+
 def test_level_of_a_corner() -> None:
     """g' jumps from b - 1 to b + 1 at b = 2: level at the corner for -3 <= alpha <= -1."""
     alpha = np.array([-4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 5.0])

@@ -63,7 +63,7 @@ class Profile(NamedTuple):
     smooth: tuple[int, ...] = ()
     degree: int | None = None
 
-    def places(self, **constants: Array) -> list[Array]:
+    def places(self, /, **constants: Array) -> list[Array]:
         """The breaks that closed formulas have."""
         found = enumerate(self.breaks(**constants))
         return [place for i, place in found if i not in self.plain]
@@ -99,7 +99,7 @@ def mirrored(body: Profile) -> Profile:
         if branch is None:
             return None
 
-        def of(t: Array, **constants: Array) -> Curve:
+        def of(t: Array, /, **constants: Array) -> Curve:
             slope, curvature, change = branch(t, **constants)
             return Curve(-slope, curvature, lambda: -change())
 

@@ -46,14 +46,14 @@ TOGETHER = 500
 
 
 @np.errstate(all="ignore")
-def shear_change_of(law: Law, *args: Any, **given: Array) -> Array:
+def shear_change_of(law: Law, /, *args: Any, **given: Array) -> Array:
     """dq at x; zero outside both contacts, NaN where the stick zone is not known."""
     cycle = _Known(law, *args, **given)
     return cycle.given.shaped(cycle.in_pieces(_Known.change))
 
 
 @np.errstate(all="ignore")
-def slip_range_of(law: Law, *args: Any, **given: Array) -> Array:
+def slip_range_of(law: Law, /, *args: Any, **given: Array) -> Array:
     """How far the surfaces slip at x over the half-cycle; zero where they stick."""
     cycle = _Known(law, *args, **given)
     return cycle.given.shaped(cycle.in_pieces(_Known.slip))
@@ -66,6 +66,7 @@ def shear_of(
     contact: Contact,
     Q: Array,
     sigma: Array,
+    /,
     *,
     dQ: Array,
     dsigma: Array,
@@ -95,6 +96,7 @@ class _Known:
         second: Contact,
         dQ: Array,
         dsigma: Array,
+        /,
         *,
         f: Array,
         E_star: Array,

@@ -47,14 +47,14 @@ _EPS = 2.0**-52
 
 
 @np.errstate(all="ignore")
-def slip_zones_of(law: Law, *args: Array, order: int, **given: Array) -> Edges:
+def slip_zones_of(law: Law, /, *args: Array, order: int, **given: Array) -> Edges:
     """Slip zones to an order, as seen from the contact [-a, c]."""
     demand_order(order, ORDERS)
     return _Series(law, *args, **given).zones(order)
 
 
 @np.errstate(all="ignore")
-def slip_error_of(law: Law, *args: Array, order: int, **given: Array) -> Edges:
+def slip_error_of(law: Law, /, *args: Array, order: int, **given: Array) -> Edges:
     """By how much the next order changes the slip zones."""
     demand_order(order, ORDERS[:-1])
     series = _Series(law, *args, **given)
@@ -80,6 +80,7 @@ class _Series:
         c: Array,
         dQ: Array,
         dsigma: Array,
+        /,
         *,
         f: Array,
         E_star: Array,

@@ -9,6 +9,7 @@ from sympy import (
     Float,
     Piecewise,
     Rational,
+    Symbol,
     acosh,
     asinh,
     atan,
@@ -79,6 +80,16 @@ def test_several_expressions_share_what_they_repeat() -> None:
     with digits(30):
         root, over = function(ball(mpf(3)))
     assert (number(root), number(over)) == (2, mpf("0.5"))
+
+
+@pytest.mark.parametrize("name", ["raised", "quotient", "exactly", "sqrt", "abs", "x0", "mpf"])
+def test_a_parameter_may_bear_the_name_of_a_function(name: str) -> None:
+    named = Symbol(name, positive=True)
+    expr = sqrt(named) + abs(y - named) / Rational(3, 2) + named**3
+    with digits(30):
+        pair = functions_of([y, named], [expr, expr + sqrt(named)])(ball(mpf(1)), ball(mpf(4)))
+        alone = function_of([y, named], expr)(ball(mpf(1)), ball(mpf(4)))
+    assert [number(value) for value in (*pair, alone)] == pytest.approx([68, 70, 68])
 
 
 def test_a_ball_knows_what_rounding_left_of_it() -> None:
