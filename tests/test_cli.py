@@ -129,6 +129,8 @@ BAD = [
     (("generate", "concave.py", "--out", "new"), "not convex"),
     (("generate", "quits.py", "--out", "new"), "quits.py"),
     (("generate", "cylinder.py", "--out", "notes.txt"), "is no directory"),
+    (("generate", "cylinder.py", "--out", "a" * 300), "too long"),
+    (("show", "--all", "--html", "--out", "a" * 300), "too long"),
     (("generate", "cylinder.py", "--out", "notes.txt/new"), "new"),
     (("generate", "cylinder.py", "--out", "foreign"), "notes.txt"),
     (("generate", "cylinder.py", "--out", "foreign", "--check"), "notes.txt"),

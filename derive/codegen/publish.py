@@ -133,12 +133,16 @@ def _put_back(old: Path, folder: Path) -> str:
 def resolved(folder: Path) -> Path:
     """The directory that a path leads to, through links to directories that are there.
 
-    Raises BadOutput for a link that leads nowhere: what it names would be made wherever that is.
+    Raises BadOutput for a link that leads nowhere: what it names would be made wherever that is;
+    and for what can't be a path.
     """
-    for link in (folder, *folder.parents):
-        if link.is_symlink() and not link.exists():
-            raise BadOutput(str(folder), f"leads through {link.name!r}, a link to nothing")
-    return folder.resolve()
+    try:
+        for link in (folder, *folder.parents):
+            if link.is_symlink() and not link.exists():
+                raise BadOutput(str(folder), f"leads through {link.name!r}, a link to nothing")
+        return folder.resolve()
+    except OSError as error:  # such as a name that is too long
+        raise BadOutput(str(folder), f"can't be reached ({error.strerror})") from error
 
 
 def demand_replaceable(folder: Path) -> None:

@@ -17,6 +17,7 @@ def put_page(text: str, path: Path) -> None:
 
     Raises BadPage for what must not be replaced or cannot be written.
     """
+    _demand_reachable(path)
     if path.is_dir():
         raise BadPage(str(path), "is a directory")
     if (path.exists() or path.is_symlink()) and not _is_ours(path):
@@ -67,6 +68,7 @@ def put_pages(pages: Mapping[str, str], folder: Path) -> None:
 
 def demand_replaceable(folder: Path) -> None:
     """Raise BadPage unless `folder` is absent, empty, or full of pages made here."""
+    _demand_reachable(folder)
     if not folder.exists() and not folder.is_symlink():
         return
     if folder.is_symlink() or not folder.is_dir():
@@ -76,6 +78,14 @@ def demand_replaceable(folder: Path) -> None:
     for path in sorted(folder.iterdir()):
         if not _is_ours(path):
             raise BadPage(str(folder), f"holds {path.name!r}, which is no page made here")
+
+
+def _demand_reachable(path: Path) -> None:
+    """Raise BadPage for what can't be a path, such as a name that is too long."""
+    try:
+        path.exists()
+    except OSError as error:
+        raise BadPage(str(path), f"cannot be reached ({error.strerror})") from error
 
 
 def _is_ours(path: Path) -> bool:

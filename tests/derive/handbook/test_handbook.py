@@ -150,6 +150,8 @@ def test_a_page_of_ones_own_is_never_lost(tmp_path: Path) -> None:
     assert mine.read_text() == "mine"
     with pytest.raises(BadPage, match="is a directory"):
         put_page("<html>", tmp_path)
+    with pytest.raises(BadPage, match="too long"):
+        put_page("<html>", tmp_path / ("a" * 300))
     with pytest.raises(BadPage, match=r"holds 'hertz.html'"):
         put_pages({}, tmp_path)
     assert [p.name for p in tmp_path.iterdir()] == ["hertz.html"]
