@@ -335,16 +335,22 @@ _PLACES = tuple(map(mpf, ("0.5", "0.375", "-0.25", "0.75", "0.1875")))
 """Sizes of the contact, and places in it, that an example may have."""
 
 
+_LONGER = mpf("1.5")
+"""The left arm of an example, in its sizes; the right one is a size long."""
+
+
 def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
     """Plain numbers that meet the function's assumptions, for its docstring."""
     needed = tuple(conditions)
-    for lengths, place, size, lean in product((1, 2), _PLACES, _SIZES, (1, -1, 0)):
-        plain = _plain_parameters(sheet, lengths)
+    given = [_plain_parameters(sheet, lengths) for lengths in (1, 2)]
+    tried = [(plain, place, size) for plain, place, size in product(given, _PLACES, _SIZES)]
+    tried += [(p, place, size) for p in given for size in _within(sheet, p) for place in _PLACES]
+    for (plain, place, size), lean in product(tried, (1, -1, 0)):
         point: Point = {
             **plain,
             E_star: mpf(1),
             x: place,
-            a: mpf("1.5") * size,
+            a: _LONGER * size,
             c: mpf(1) * size,
             P: mpf(size),
             M: mpf("0.25") * size * lean,
@@ -358,6 +364,18 @@ def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
         if holds(needed, point) and _off_all_kinks(sheet, point):
             return point
     raise NotProven(f"no example found for {sheet.geometry.name!r}")
+
+
+def _within(sheet: FormulaSheet, plain: Point) -> list[mpf]:
+    """Sizes at which the longer arm ends between the outermost kink and the body's end."""
+    ends = [abs(numeric(end)(plain)) for end in sheet.geometry.slope.domain]
+    kinks = [abs(numeric(kink.position)(plain)) for kink in sheet.geometry.slope.kinks]
+    start, end = max(kinks, default=mpf(0)), min(ends)
+    if not start < end < mpmath.inf:
+        return []
+    step = mpf(2) ** mpmath.floor(mpmath.log((end - start) / 16, 2))
+    shares = map(mpf, ("0.75", "0.5", "0.25"))
+    return [step * mpmath.floor((start + s * (end - start)) / _LONGER / step) for s in shares]
 
 
 def _middle_tilt(sheet: FormulaSheet, plain: Point) -> mpf:

@@ -446,6 +446,18 @@ def test_an_example_is_found_wherever_the_kinks_are(places: tuple[Expr, ...]) ->
     }
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("flat", [1, 3])
+def test_an_example_lies_between_a_kink_and_the_end_of_the_body(flat: Expr) -> None:
+    """A flat base, its edges rounded by quarters of a circle."""
+    R, b = parameter("R", "a radius", unit="m"), parameter("b", "half the base", unit="m")
+    g = R - sqrt(R**2 - Max(0, Abs(x) - flat * b) ** 2)
+    of = assumed(derive_sheet(Geometry("base", g=g)))
+    point = example_of(of, of["pressure"].conditions)
+    radius, kink = point[Symbol("R", positive=True)], flat * point[Symbol("b", positive=True)]
+    assert kink < max(point[a], point[c]) < kink + radius
+
+
 def test_a_tilt_far_above_one_is_held_to_its_own_size() -> None:
     """Of a body this steep float64 holds alpha, some 1e24, to 1e8."""
     L = parameter("L", "a length", unit="m")
