@@ -17,7 +17,6 @@ from sympy import (
     And,
     Dummy,
     E,
-    Eq,
     Expr,
     Float,
     Function,
@@ -26,7 +25,6 @@ from sympy import (
     Limit,
     Max,
     Min,
-    Ne,
     Not,
     NumberSymbol,
     Or,
@@ -168,7 +166,9 @@ def read_slope(name: str, g: Expr) -> Slope:
 
     Raises BadProfile when g is not real, not continuous, not convex or straight.
     """
-    pieces = _merged(_resolved(name, g, -oo, oo))
+    pieces = _resolved(name, g, -oo, oo)
+    _demand_no_point_apart(name, g, pieces)
+    pieces = _merged(pieces)
     _demand_known_functions(name, pieces)
     _demand_known_numbers(name, pieces)
     domain = _domain(name, pieces)
@@ -402,12 +402,6 @@ def _branch(name: str, node: Expr, lower: Expr, upper: Expr) -> Expr:
             if isinstance(condition, Not):
                 return not values[0]
             return all(values) if isinstance(condition, And) else any(values)
-        if isinstance(condition, Eq | Ne) and condition.has(x):
-            raise BadProfile(
-                name,
-                f"has the condition {condition}, which sets single points apart",
-                "a profile is continuous: leave the condition out, or use <, <=, >, >=",
-            )
         if isinstance(condition, Relational):
             value = _in_between(condition.lhs - condition.rhs, lower, upper)
             return (
@@ -516,6 +510,20 @@ def _demand_continuous(name: str, pieces: list[Piece]) -> None:
                 name,
                 f"jumps by {step} at x = {right.lower}",
                 "a profile is continuous: shift one piece so that both meet",
+            )
+
+
+def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
+    """Refuse a value at one place alone, such as Piecewise((-b, Eq(x, 0)), (x**2/R, True))."""
+    for left, right in pairwise(pieces):
+        here = g.subs(x, right.lower)
+        near = [piece.profile.subs(x, right.lower) for piece in (left, right)]
+        apart, jump = (gently(simplify, value - near[0]) for value in (here, near[1]))
+        if jump == 0 and apart != 0 and apart.is_real and not apart.has(Piecewise):
+            raise BadProfile(
+                name,
+                f"has the value {here} at x = {right.lower} alone, {near[0]} beside it",
+                "a profile is continuous: leave out the condition that holds there only",
             )
 
 
