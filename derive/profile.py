@@ -73,6 +73,8 @@ from derive.steep import gently
 from derive.symbols import a, c, x
 
 _BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
+_JUMPING = (sign, Heaviside, Piecewise)
+"""Branches whose value where they branch may be that of neither side."""
 _SMOOTH = (exp, log, sinh, cosh, tanh, asinh, atan)
 _FIXED = (*_BRANCHING, *_SMOOTH, sin, cos, tan, asin, acos, acosh, atanh, atan2)
 """Functions of parameters, and of numbers, that proofs can compute to any number of digits."""
@@ -515,11 +517,13 @@ def _demand_continuous(name: str, pieces: list[Piece]) -> None:
 
 def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
     """Refuse a value at one place alone, such as Piecewise((-b, Eq(x, 0)), (x**2/R, True))."""
+    if not any(node.has(x) for node in g.atoms(*_JUMPING)):
+        return
     for left, right in pairwise(pieces):
         here = g.subs(x, right.lower)
         near = [piece.profile.subs(x, right.lower) for piece in (left, right)]
         apart, jump = (gently(simplify, value - near[0]) for value in (here, near[1]))
-        if jump == 0 and apart != 0 and apart.is_real and not apart.has(Piecewise):
+        if jump == 0 and apart != 0 and apart.is_real and not apart.has(*_BRANCHING):
             raise BadProfile(
                 name,
                 f"has the value {here} at x = {right.lower} alone, {near[0]} beside it",
