@@ -13,8 +13,20 @@ from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
-from sympy import Expr, Function, Poly, Pow, Symbol, exp, fraction, lambdify, powsimp, together
+from sympy import (
+    Expr,
+    Function,
+    Poly,
+    Pow,
+    Symbol,
+    Tuple,
+    exp,
+    fraction,
+    powsimp,
+    together,
+)
 
+from derive.compiled import compiled
 from derive.symbols import x
 
 Array = NDArray[np.float64]
@@ -40,8 +52,8 @@ class Lows:
 
     def __init__(self, expr: Expr, symbols: Sequence[Symbol]) -> None:
         expr = powsimp(expr, combine="exp") if expr.has(exp) else expr  # or exp(1e5) * exp(-1e5)
-        self._at = lambdify([x, *symbols], expr, modules="numpy", cse=True)
-        self._polynomials = lambdify(symbols, list(_marking(expr)), modules="numpy")
+        self._at = compiled([x, *symbols], expr, shared=True, modules="numpy")
+        self._polynomials = compiled(symbols, list(_marking(expr)), modules="numpy")
 
     def places(self, given: Sequence[float], lower: float, upper: float) -> list[float]:
         """Places between two ends where the expression may be negative, the surest first."""
@@ -105,7 +117,7 @@ class Lows:
         return np.concatenate(found)
 
 
-def _marking(expr: Expr) -> Iterator[list[Expr]]:
+def _marking(expr: Expr) -> Iterator[Tuple]:
     """Polynomials, by their coefficients, whose roots say where a function or a power changes."""
     arguments = {arg for f in expr.atoms(Function) for arg in f.args}
     arguments |= {p.exp for p in expr.atoms(Pow)}
@@ -114,7 +126,7 @@ def _marking(expr: Expr) -> Iterator[list[Expr]]:
     for each in dict.fromkeys([*wanted, *sorted(bases, key=str)]):
         numerator = fraction(together(each))[0] if each.is_rational_function(x) else each
         if numerator.has(x) and numerator.is_polynomial(x):
-            yield Poly(numerator, x).all_coeffs()
+            yield Tuple(*Poly(numerator, x).all_coeffs())
 
 
 def _runs(flags: NDArray[np.bool_]) -> NDArray[np.int_]:
