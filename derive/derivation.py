@@ -130,7 +130,7 @@ def slip_terms(
         series = _pressure_terms(sheet, side, order)
         known |= dict(zip(slip.coefficients(name, order), series, strict=True))
     found = [term.xreplace(known) for term in slip.terms(order)[edge is Edge.RIGHT]]
-    if len(sheet.frame.kinks) < 2:  # more make sums that are too long to factor
+    if not sheet.frame.is_long:  # long sums are too long to factor
         found = [factor(term) for term in found]
     return tuple(sheet.frame.flat(term) for term in found)
 
@@ -198,7 +198,7 @@ def _pressure(sheet: FormulaSheet) -> Iterator[Formula]:
 
 def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
     frame, conditions = sheet.frame, contact_conditions(sheet.frame)
-    if len(frame.kinks) > 1:  # from the edges' side: quotients of long sums would be longer still
+    if frame.is_long:  # from the edges' side: quotients of long sums would be longer still
         right = sheet["K_N_right"].expr
         ratio, rate = right / sheet["K_N_left"].expr, pi / 2 * sqrt(h) * right
     else:

@@ -127,7 +127,7 @@ def _pressure(sheet: FormulaSheet, name: str) -> str | None:
     """
     frame = sheet.frame
     tilt, load, p = (sheet[key].expr for key in ("tilt", "load", name))
-    if len(frame.kinks) > 1 or count_ops(p) > _LONG:
+    if frame.is_long or count_ops(p) > _LONG:
         return _PUNCHES if _grows_by_punches(sheet, p) else None
     by_a, by_c = frame.diff(tilt, a), frame.diff(tilt, c)
 
@@ -231,14 +231,14 @@ def _is_rate(frame: Frame, rate: Expr, of: Expr, edge: Symbol) -> bool:
 
 
 def _by_rates(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
-    """The route of `_equal_to`; with many kinks by the four rates, which are linear in them.
+    """The route of `_equal_to`; of a long body by the four rates, which are linear in them.
 
     Where P_a, P_c = (pi sqrt(h)/4) K_N and alpha_a, alpha_c = +/- K_N/(E* sqrt(h)) at the left and
     the right edge, a'(c) = -alpha_c/alpha_a and P'(c) = P_c + P_a a'(c) follow at once.
     """
 
     def route(sheet: FormulaSheet, name: str) -> str | None:
-        if len(sheet.frame.kinks) < 2:
+        if not sheet.frame.is_long:
             return _equal_to(value, words)(sheet, name)
         rates = [f"{of}_by_{edge}" for of in ("load", "tilt") for edge in (a, c)]
         if not all(_ROUTES[rate](sheet, rate) for rate in rates):

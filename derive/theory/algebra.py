@@ -29,7 +29,7 @@ def reduced(expr: Expr, frame: Frame) -> Expr:
 
 def tidy(expr: Expr, frame: Frame) -> Expr:
     """`expr` in the form that is shown: factored, or collected by the kinks' symbols if shorter."""
-    if len(frame.kinks) > 1:
+    if frame.is_long:
         linear = _collected_linear(expr, frame)
         if linear is not None:
             return linear
@@ -79,7 +79,7 @@ def _collected(quotient: Expr, frame: Frame) -> Expr:
 def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
     """Each coefficient of theta_j and w_j factored by itself; None where they are not linear.
 
-    Without a common denominator of all: with many kinks that would be by far the longest way.
+    Without a common denominator of all: of a long body that would be by far the longest way.
     """
     symbols = _symbols(frame)
     stand_ins = stand_ins_for_roots(expr)

@@ -48,7 +48,7 @@ def pressure_series(frame: Frame, edge: Edge, terms: int) -> list[Expr]:
         sense = kink.kink.side * 2 / pi
         for i, term in enumerate(_product(jump, logarithm, terms)):
             total[i] += sense * term
-    if len(frame.kinks) < 2:  # a common denominator of many kinks is long
+    if not frame.is_long:
         total = [cancel(term) for term in total]
     return [tidy(E_star / 2 * sqrt(h) * term, frame) for term in total]
 

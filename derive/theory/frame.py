@@ -19,10 +19,14 @@ so that one formula serves the contact that has left the kink.
 from dataclasses import dataclass
 from functools import cached_property
 
-from sympy import Abs, Expr, Max, Symbol, atan2, diff, log, sqrt, symbols
+from sympy import Abs, Add, Expr, Max, Symbol, atan2, diff, expand, log, sqrt, symbols
 
 from derive.profile import Kink, Slope
 from derive.symbols import a, c, h, w, x
+
+_FEW_TERMS = 5
+"""Terms of g' up to which a body of one kink is written over one denominator, the shorter form.
+With more of them, each with a length of its own, the contact law takes half a minute to reduce."""
 
 
 @dataclass(frozen=True)
@@ -156,6 +160,15 @@ class Frame:
         """
         always_spanned = len(self.slope.kinks) == 1 and all(p.straight for p in self.slope.pieces)
         return tuple(KinkFrame(kink, clipped=not always_spanned) for kink in self.slope.kinks)
+
+    @cached_property
+    def is_long(self) -> bool:
+        """Whether sums over one denominator are longer by far than each term by itself."""
+        slope = self.slope
+        if len(slope.kinks) != 1 or not slope.is_polynomial:
+            return len(slope.kinks) > 1
+        parts = (slope.base, slope.kinks[0].jump)
+        return sum(len(Add.make_args(expand(part))) for part in parts) > _FEW_TERMS
 
     @cached_property
     def definitions(self) -> dict[Symbol, Expr]:

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mpf
-from sympy import Expr, Symbol
+from sympy import Expr, Max, Symbol
 
+from derive import Geometry, parameter
 from derive.symbols import a, c, x
 from derive.theory.frame import Frame
 from tests.derive.bodies import close, number, sheet
@@ -122,6 +123,25 @@ def test_the_chain_rule_is_the_derivative(
                 return number(flat, **ends, x=place)
 
             assert close(ruled, mpmath.diff(moved, 0), digits=10, scale=1)
+
+
+R = parameter("R", "radius", unit="m")
+b = parameter("b", "place", unit="m")
+L1, L2, L3 = (parameter(f"L{i}", "length", unit="m") for i in (1, 2, 3))
+
+
+@pytest.mark.parametrize(
+    ("g", "wanted"),
+    [
+        (x**2 / (2 * R) + x**4 / L1**3 + x**6 / L2**5, False),
+        (x**2 / (2 * R) + Max(0, x - b) ** 2 / (2 * L1), False),
+        (x**2 / (2 * R) + x**4 / L1**3 + x**6 / L2**5 + Max(0, x - b) ** 3 / L3**2, True),
+        (x**2 / (2 * R) + Max(0, x - b) ** 2 / L1 + Max(0, -x - b) ** 2 / L2, True),
+    ],
+    ids=["no kink", "two radii", "three lengths and a kink", "two kinks"],
+)
+def test_a_body_of_many_terms_is_not_written_over_one_denominator(g: Expr, wanted: bool) -> None:
+    assert Frame(Geometry("body", g=g).slope).is_long is wanted
 
 
 def test_flat_writes_every_symbol_out() -> None:
