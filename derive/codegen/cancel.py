@@ -143,9 +143,14 @@ def _at_origin(piece: Piece, slope: Slope) -> list[Piece]:
 
 
 def plain_cuts(slope: Slope) -> tuple[int, ...]:
-    """Which of the cuts are there for quadrature alone: the origin, where no kink is."""
+    """Which of the cuts are there for quadrature alone: the origin, where no kink is.
+
+    None where it is the only cut: without it the one piece left would have no end.
+    """
     kinks = [kink.position for kink in slope.kinks]
     places, _ = cuts_of(slope)
+    if len(places) == 1:
+        return ()
     return tuple(i for i, place in enumerate(places) if place == 0 and place not in kinks)
 
 

@@ -68,8 +68,9 @@ def test_a_body_is_cut_where_its_curvature_is_least() -> None:
         (x**2 / (2 * R) + Max(0, -x - b) ** 3 / L**2, ["-b", "0"], (1,)),
         (x**2 / (2 * R) + Max(0, x) ** 3 / L**2, ["0"], ()),
         (Max(0, Abs(x) - b) ** 2 / (2 * R), ["-b", "b"], ()),
+        ((x - b) ** 2 / (2 * R) + x**4 / L**3 + (x + h_0) ** 6 / R**5, ["0"], ()),
     ],
-    ids=["before a kink", "beyond a kink", "a kink there", "a flat there"],
+    ids=["before a kink", "beyond a kink", "a kink there", "a flat there", "no kink"],
 )
 def test_a_body_that_is_level_at_the_origin_is_cut_there(
     g: Expr, wanted: list[str], plain: tuple[int, ...]
