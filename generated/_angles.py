@@ -38,7 +38,7 @@ AFAR = 0.25
 SUMS = "force", "left", "right", "lean", "arm"
 """What is integrated for load, K_N at both edges, tilt and moment."""
 
-MIDDLE = 1.0
+STEEP = 1.2
 """The angle from where on the second coefficient is known by its terms."""
 
 TOGETHER = 8_192
@@ -114,24 +114,16 @@ def of_parabolas(contact: Window) -> Array:
 def _rise(part: Part, h: Array) -> Array:
     """The rise of psi(r) = 2 r - (3/2) atan r - r/(2 (1 + r**2)) over a part, r = tan(t).
 
-    Up to the angle MIDDLE by Gauss's rule, as int (sin(t)**2 + 2 r**2) dt; beyond it by its terms,
-    of which the first is the largest then.  A part that hardly reaches over it is not divided.
+    By Gauss's rule as int (sin(t)**2 + 2 r**2) dt; by its terms, of which the first is the largest
+    then, where the part ends beyond the angle STEEP.
     """
-    start = np.arctan2(np.sqrt(part.start_low), np.sqrt(part.end_high + part.length))
-    extent = _extent(part)
-    over = start + extent - MIDDLE
-    below = np.where(start < MIDDLE - 0.2, np.where(over > 0.2, MIDDLE - start, extent), 0.0)
-    below = np.where(over <= 0, extent, below)
-    p, weight = _nodes(NODES_AFAR)
-    t = _on_both_sides(start + below / 2 + 0 * p[:, None], below * p[:, None])
-    found = below * weighted(weight, np.sin(t) ** 2 + 2 * np.tan(t) ** 2)
-    above, divided, angle = extent > below, below > 0, extent - below
-    low = np.sqrt(part.start_low / (part.end_high + part.length))
-    low = np.where(divided, np.tan(MIDDLE), low)
-    high = np.sqrt((part.start_low + part.length) / part.end_high)
-    step = np.where(divided, high - low, np.tan(angle) * (1 + low * high))
+    arc = _Arc(part, h, NODES_AFAR)
+    found = arc.integral(arc.sine**2 + 2 * (arc.sine / arc.cosine) ** 2)
+    low, high = (sine / cosine for sine, cosine in (arc.start, arc.end))
+    step = np.where(2 * low < high, high - low, np.tan(arc.extent) * (1 + low * high))
     twist = (1 - low * high) / ((1 + low**2) * (1 + high**2))
-    return found + np.where(above, 2 * step - 1.5 * angle - step * twist / 2, 0.0)
+    by_terms = 2 * step - 1.5 * arc.extent - step * twist / 2
+    return np.where(high > np.tan(STEEP), by_terms, found)
 
 
 class _Place(NamedTuple):

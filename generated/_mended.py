@@ -30,7 +30,7 @@ FAR = 100.0
 CANCELLED, TOLD = 10.0, 100.0
 """and terms so many times larger than what the slope rises by in a contact; in integrands more."""
 
-LOST = {"moment": 8.0, "p": 8.0, "second_left": 2.5, "second_right": 2.5}
+LOST = {"moment": 8.0, "p": 8.0}
 """Terms that are so many times as large as their sum have lost digits; others four times."""
 
 _integrated = ContextVar("integrated", default=False)

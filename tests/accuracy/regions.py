@@ -92,6 +92,8 @@ class Regions:
         yield "extreme widths", self._of_width((-EXPONENTS["loads"], widest), (-0.45, 0.45))
         lean = 0.5 - self.decades(-EXPONENTS["moments"], -0.5)
         yield "lopsided", self._of_width((-2, min(widest, 2.0)), self.signs * lean)
+        wide = (-EXPONENTS["loads"], widest)
+        yield "extreme widths, lopsided", self._of_width(wide, self.signs * lean)
         level = self.decades(-EXPONENTS["edges"], -1)
         yield "nearly level", self._of_width((-1, min(widest, 1.0)), self.signs * level)
         for kink in self.sheet.geometry.slope.kinks:

@@ -374,6 +374,36 @@ def test_a_contact_gives_the_same_bits_wherever_it_stands(name: str) -> None:
         assert np.array_equal(value[0], value[1], equal_nan=True)
 
 
+@pytest.mark.parametrize("name", ["flat_rounded", "rounded_wedge", "two_radii", "catenary"])
+def test_a_contact_gives_the_same_bits_alone_and_among_others(name: str) -> None:
+    """Sums of one column and of many are added up in one order."""
+    body, own = module(name), OWN[name]
+    a, c = np.random.default_rng(4).uniform([[1.001], [1.0]], [[1.5], [2.0]], (2, 40))
+    whole = [*body.K_N(a, c, E_star=E_STAR, **own), *body.L_N(a, c, E_star=E_STAR, **own)]
+    whole += [body.load(a, c, E_star=E_STAR, **own), body.tilt(a, c, **own)]
+    for i in range(a.size):
+        one = a[i : i + 1], c[i : i + 1]
+        alone = [*body.K_N(*one, E_star=E_STAR, **own), *body.L_N(*one, E_star=E_STAR, **own)]
+        alone += [body.load(*one, E_star=E_STAR, **own), body.tilt(*one, **own)]
+        assert [float(value[0]) for value in alone] == [float(value[i]) for value in whole]
+
+
+def test_a_narrow_flat_in_a_wide_contact_keeps_the_digits_of_the_second_coefficient() -> None:
+    """Without the flat -1/(4 sqrt(h)); the flat takes int k ds/pi away over its width, k of the
+    defining integral.  Both halves of the parabola are ten thousand times as large."""
+    a, c = 1e4, 1e12
+    found = module("flat_rounded").L_N(a, c, E_star=1.0, R=1.0, b=1.0)
+    with mpmath.workdps(40):
+        h = mpf(a) + mpf(c)
+
+        def taken(s: mpf) -> mpf:
+            r = mpmath.sqrt((c - s) / (a + s))
+            return r * (3 + 2 * r**2) / (6 * h ** mpf(1.5))
+
+        exact = -1 / (4 * mpmath.sqrt(h)) - mpmath.quad(taken, [-1, 1]) / mpmath.pi
+        assert abs(mpf(float(found.left)) / exact - 1) < 1e-15
+
+
 def test_a_pressure_beside_a_corner_by_quadrature_keeps_its_digits() -> None:
     """At distances d far below a and c, p/E* = (phi/pi) log(1/d)/2 and what does not change with d:
     between two of them, one a subnormal number, it rises by (phi/pi) log(d2/d1)/2."""
