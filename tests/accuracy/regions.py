@@ -92,8 +92,9 @@ class Regions:
         yield "extreme widths", self._of_width((-EXPONENTS["loads"], widest), (-0.45, 0.45))
         lean = 0.5 - self.decades(-EXPONENTS["moments"], -0.5)
         yield "lopsided", self._of_width((-2, min(widest, 2.0)), self.signs * lean)
+        other = Regions(self.sheet, self.module, self.count, seed=2)  # draws of its own
         wide = (-EXPONENTS["loads"], widest)
-        yield "extreme widths, lopsided", self._of_width(wide, self.signs * lean)
+        yield "extreme widths, lopsided", other._of_width(wide, other.signs * lean)
         level = self.decades(-EXPONENTS["edges"], -1)
         yield "nearly level", self._of_width((-1, min(widest, 1.0)), self.signs * level)
         for kink in self.sheet.geometry.slope.kinks:
