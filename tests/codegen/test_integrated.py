@@ -106,6 +106,7 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(
                     assert abs(abs(mpf(float(value[i]))) - abs(total)) <= 1e-13 * size, t
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "exponent",
     [
@@ -237,6 +238,7 @@ def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(
             assert abs(mpf(float(of(a, c).load)) / wanted - 1) < 1e-13
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "beyond", [pytest.param(1e-16, marks=pytest.mark.slow), 1e-12, 1e-9, 1e-7, 1e-4]
 )

@@ -431,6 +431,7 @@ def test_angles_become_shares_of_the_half_circle() -> None:
 # ------------------------------------------------------------------ tangents
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slope", [tan(phi), tan(phi / 2)])
 def test_a_tangent_of_a_parameter_is_a_number(slope: Expr) -> None:
     """Also under a tilt, where the edges hold the tangent of the kink's angle as well."""

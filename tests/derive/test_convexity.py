@@ -145,10 +145,14 @@ NARROW = [
     ),
     pytest.param(lambda size: x**2 / b + size * b * atan(30 * (x / b - 7)) / 50, id="atan"),
     pytest.param(
-        lambda size: x**2 / b + size * b * tanh(1000 * (x / b - 7)) / 370370, id="steep tanh"
+        lambda size: x**2 / b + size * b * tanh(1000 * (x / b - 7)) / 370370,
+        id="steep tanh",
+        marks=pytest.mark.slow,
     ),
     pytest.param(
-        lambda size: x**2 / b + size * b * exp(-((100 * (x / b - 3)) ** 2)) / 50, id="steep bell"
+        lambda size: x**2 / b + size * b * exp(-((100 * (x / b - 3)) ** 2)) / 50,
+        id="steep bell",
+        marks=pytest.mark.slow,
     ),
 ]
 """With g'' below zero at a narrow place only for size = 1, and nowhere for size = 1/400."""
@@ -164,6 +168,7 @@ def test_a_curvature_that_is_negative_at_a_narrow_place_only_is_found(
     assert demands(g(Rational(1, 400))) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "g",
     [

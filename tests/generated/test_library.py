@@ -172,6 +172,7 @@ def test_one_hopeless_load_is_given_up_early(
     assert len(asked) <= 400
 
 
+@pytest.mark.slow
 def test_an_arc_pressed_in_almost_to_its_ends() -> None:
     """One edge or both 1e-1 to 1e-6 of the radius from an end; none lost, none slow."""
     gap = 10.0 ** -np.linspace(1, 6, 41)
