@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._arrays import Array
-from ._profile import Curve, Part, Window, weighted
+from ._profile import TOGETHER, Curve, Part, Window, weighted
 
 NODES = 12
 """Nodes on a piece where g'' is constant; one more for each degree of it."""
@@ -40,9 +40,6 @@ SUMS = "force", "left", "right", "lean", "arm"
 
 STEEP = 1.2
 """The angle from where on the second coefficient is known by its terms."""
-
-TOGETHER = 8_192
-"""Nodes and elements that are evaluated in one piece."""
 
 _NOTHING = 1e-290
 """In parts of the width: so close to a part's end, what is taken by parts there is nothing."""

@@ -29,6 +29,7 @@ from ._angles import carried, of_parabolas, pressed
 from ._arrays import Array
 from ._profile import (
     TINY,
+    TOGETHER,
     Elements,
     Nodes,
     Profile,
@@ -52,9 +53,6 @@ EXACT = 1e-13
 
 BESIDE = 0.1
 """Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
-
-TOGETHER = 8_192
-"""Nodes and elements that are evaluated in one piece."""
 
 _SUMS = {
     "load": ("force",),

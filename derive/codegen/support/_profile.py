@@ -14,6 +14,9 @@ from ._arrays import Array, at_rows, flattened
 TINY = 5e-324
 """The smallest distance."""
 
+TOGETHER = 8_192
+"""Nodes and elements that are evaluated in one piece."""
+
 
 class Curve(NamedTuple):
     """g' and g'' at one place, and g''' for what asks for it."""
