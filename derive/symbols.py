@@ -94,6 +94,8 @@ _USED_BESIDES = (
         "Curve",
         "Piece",
         "Profile",
+        "Parabolas",
+        "edge",
         "state_of",
         "slope_of",
         "pressure_at",

@@ -5,11 +5,11 @@ A formula's temporaries are as large as its argument.  Evaluated over blocks tha
 processor's cache they cost little; over a whole large array they cost more than the arithmetic.
 """
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import wraps
 from inspect import Parameter, signature
 from itertools import chain, product
-from math import prod
 from typing import Any, TypeVar
 
 import numpy as np
@@ -70,12 +70,13 @@ def elementwise(function: Function) -> Function:
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
+    Float, INFINITE = np.float64, math.inf
     quiet = np.errstate(all="ignore")(function)
     quiet_blocks = np.errstate(all="ignore")(_in_blocks)
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
-        given = dict(zip(names, args, strict=False)) | kwargs
+        given = (dict(zip(names, args, strict=False)) | kwargs) if args else kwargs
         if len(given) < len(args) + len(kwargs):
             return function(*args, **kwargs)  # too many, or one twice: Python's own message
         if len(given) < len(parameters):
@@ -84,10 +85,11 @@ def elementwise(function: Function) -> Function:
         alike, foreign, size = True, False, 1
         for name, value in given.items():
             kind = type(value)
-            if kind is float or kind is np.float64:
-                given[name] = (
-                    _NAN if name in constants and not 0 < value < np.inf else np.float64(value)
-                )
+            if kind is float or kind is Float:
+                if name in constants and not 0 < value < INFINITE:
+                    given[name] = _NAN
+                elif kind is float:
+                    given[name] = Float(value)
                 continue
             if kind is not np.ndarray or value.dtype is not _FLOAT64 or not value.ndim:
                 value = given[name] = _float64(value, name)
@@ -96,7 +98,7 @@ def elementwise(function: Function) -> Function:
             if type(value) is np.ndarray:
                 alike, shape = alike and shape in ((), value.shape), value.shape
                 size = max(size, value.size)
-            elif type(value) is not np.float64:
+            elif type(value) is not Float:
                 foreign = True
         if foreign and any_lazy(given.values()):
             _broadcast(given)
@@ -233,6 +235,12 @@ def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> An
     d is the distance |offset| from the kink, `least` at least.  Also where the quotient leaves
     float64 and its logarithm does not.  The arrays `left` and `right` are used up.
     """
+    if type(left) in _NUMBERS and type(right) in _NUMBERS and type(offset) in _NUMBERS:
+        distance = max(abs(offset), least)
+        if left > 0 and right > 0 and distance > 0:
+            quotient = (math.sqrt(left * right) + min(left, right)) / distance
+            if quotient < math.inf:
+                return np.log1p(quotient)
     if least:
         offset = maximum(np.abs(offset), least)
     held = _between_edges(left, right)
@@ -282,7 +290,7 @@ def _alike(first: Any, second: Any) -> tuple[Any, Any]:
 
 def _zeros(shape: Shape) -> Any:
     """Nothing but zeros, to be read; as many as a block holds need not be made."""
-    size = prod(shape)
+    size = math.prod(shape)
     if size > _ZEROS.size:
         return np.zeros(shape)
     return _ZEROS[:size] if len(shape) == 1 else _ZEROS[:size].reshape(shape)

@@ -18,8 +18,7 @@ from ._arrays import (
     only_where,
 )
 from ._march import march_of
-from ._mended import mended, mended_sums
-from ._profile import Curve, Piece, Profile, slope_of
+from ._parabolas import Parabolas
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -57,97 +56,40 @@ __all__ = [
 ]
 
 
+def _body(*, b: Array, phi: Array) -> Parabolas:
+    """Where the curve is cut, and the lines and parabolas between."""
+    return Parabolas(
+        kinks=(
+            -b,
+            b,
+        ),
+        corners={0: phi, 1: phi},
+        bends=(
+            None,
+            None,
+            None,
+        ),
+        slopes=(
+            (0, -phi),
+            None,
+            (0, phi),
+        ),
+    )
+
+
 def _breaks(*, b: Array, phi: Array) -> tuple[Array, ...]:
     """Where the curve is cut."""
-    return (
-        -b,
-        b,
-    )
-
-
-def _corners(*, b: Array, phi: Array) -> tuple[Array, ...]:
-    """By how much g' rises at the breaks."""
-    return (
-        phi,
-        phi,
-    )
-
-
-def _piece_0_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
-    """g', g'' and g''' at t on the left of a break."""
-    return Curve(-phi, 0, lambda: 0)
-
-
-def _piece_1_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
-    """g', g'' and g''' at t on the right of a break."""
-    return Curve(0, 0, lambda: 0)
-
-
-def _piece_1_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
-    """g', g'' and g''' at t on the left of a break."""
-    return Curve(0, 0, lambda: 0)
-
-
-def _piece_2_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
-    """g', g'' and g''' at t on the right of a break."""
-    return Curve(phi, 0, lambda: 0)
-
-
-_BODY = Profile(
-    _breaks,
-    _corners,
-    (
-        Piece(None, _piece_0_from_right, straight=True),
-        Piece(_piece_1_from_left, _piece_1_from_right, straight=True),
-        Piece(_piece_2_from_left, None, straight=True),
-    ),
-    4,
-    degree=0,
-)
+    return _body(b=b, phi=phi).kinks
 
 
 def _state(a: Array, c: Array, *, b: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
-    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
-    # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = mended(
-        only_where(
-            exists,
-            (phi / 2) * w_1 + (phi / 2) * w_2,
-            (phi / 8) * w_1 * (a + 2 * b - c) + (phi / 8) * w_2 * (a - 2 * b - c),
-            (phi / np.pi) * theta_1 - (phi / np.pi) * theta_2,
-            (phi / np.pi) * w_1 / ((a - b) * np.sqrt(h))
-            + (phi / np.pi) * w_2 / ((a + b) * np.sqrt(h)),
-            (phi / np.pi) * w_1 / ((b + c) * np.sqrt(h))
-            - (phi / np.pi) * w_2 / ((b - c) * np.sqrt(h)),
-        ),
-        exists,
-        (
-            "load",
-            "moment",
-            "tilt",
-            "left",
-            "right",
-        ),
-        1.0,
-        _BODY,
-        a,
-        c,
-        b=b,
-        phi=phi,
-    )
-    return State(*found)
+    return _body(b=b, phi=phi).state(a, c)
 
 
 def _slope(x: Array, *, b: Array, phi: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x)."""
-    return slope_of(_BODY, x, b=b, phi=phi)
+    return _body(b=b, phi=phi).slope(x)
 
 
 @elementwise
@@ -259,8 +201,8 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 
     Returns alpha [rad].
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and b > 0 and phi > 0; nor
-    where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to
-    an edge or to another kink, by quadrature of g''.
+    where lengths leave 1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms
+    cancel.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -269,28 +211,11 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     >>> f"{tilt(3.0, 2.0, b=1.0, phi=0.125):.6g}"
     '0.0175923'
     """
-    # angle of the contact beyond the kink x = -b [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(a - b, 0.0)), np.sqrt(maximum(b + c, 0.0)))
-    # angle of the contact beyond the kink x = b [-]
-    theta_2 = 2 * np.arctan2(np.sqrt(maximum(c - b, 0.0)), np.sqrt(maximum(a + b, 0.0)))
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = mended_sums(
-        {
-            "tilt": (
-                (phi / np.pi) * theta_1,
-                -((phi / np.pi) * theta_2),
-            )
-        },
-        exists,
-        1.0,
-        _BODY,
-        a,
-        c,
-        b=b,
-        phi=phi,
+    exists = (
+        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
     )
-    return found[0]
+    return only_where(exists, _body(b=b, phi=phi).tilt(a, c))
 
 
 @elementwise
@@ -310,8 +235,8 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink
-    lies close to an edge or to another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Computed part by part between the kinks,
+    where no terms cancel.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/flat_sloped.py.
@@ -319,26 +244,11 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     >>> f"{load(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.278093'
     """
-    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = mended_sums(
-        {
-            "load": (
-                (E_star * phi / 2) * w_1,
-                (E_star * phi / 2) * w_2,
-            )
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        b=b,
-        phi=phi,
+    exists = (
+        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
     )
-    return found[0]
+    return only_where(exists, E_star * _body(b=b, phi=phi).load(a, c))
 
 
 @elementwise
@@ -358,8 +268,8 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
     Returns M [N].
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink
-    lies close to an edge or to another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Computed part by part between the kinks,
+    where no terms cancel.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
         at 24 points.
@@ -368,26 +278,11 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     >>> f"{moment(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0835698'
     """
-    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = mended_sums(
-        {
-            "moment": (
-                (E_star * phi / 8) * w_1 * (a + 2 * b - c),
-                (E_star * phi / 8) * w_2 * (a - 2 * b - c),
-            )
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        b=b,
-        phi=phi,
+    exists = (
+        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
     )
-    return found[0]
+    return only_where(exists, E_star * _body(b=b, phi=phi).moment(a, c))
 
 
 @elementwise
@@ -456,8 +351,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink
-    lies close to an edge or to another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Computed part by part between the kinks,
+    where no terms cancel.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -467,29 +362,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0306902', '0.0501169']
     """
     h = a + c  # contact width [m]
-    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = mended_sums(
-        {
-            "left": (
-                (E_star * phi / np.pi) * w_1 / ((a - b) * np.sqrt(h)),
-                (E_star * phi / np.pi) * w_2 / ((a + b) * np.sqrt(h)),
-            ),
-            "right": (
-                (E_star * phi / np.pi) * w_1 / ((b + c) * np.sqrt(h)),
-                -((E_star * phi / np.pi) * w_2 / ((b - c) * np.sqrt(h))),
-            ),
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        b=b,
-        phi=phi,
+    exists = (
+        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
     )
-    return Edges(*found)
+    return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).edges(a, c))))
 
 
 @elementwise
@@ -512,8 +388,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink
-    lies close to an edge or to another kink, by quadrature of g''.
+    phi > 0; nor where lengths leave 1e-75 to 1e75 m.  Computed part by part between the kinks,
+    where no terms cancel.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
         digits at 24 points.
@@ -525,41 +401,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00539662', '0.0151476']
     """
     h = a + c  # contact width [m]
-    w_1 = np.sqrt(maximum(a - b, 0.0) * maximum(b + c, 0.0))  # root at the kink x = -b [m]
-    w_2 = np.sqrt(maximum(a + b, 0.0) * maximum(c - b, 0.0))  # root at the kink x = b [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    found = mended_sums(
-        {
-            "second_left": (
-                (E_star * phi / (6 * np.pi))
-                * w_1
-                * (3 * a + 2 * c - b)
-                / (h * (a - b) ** 2 * np.sqrt(h)),
-                (E_star * phi / (6 * np.pi))
-                * w_2
-                * (3 * a + b + 2 * c)
-                / (h * (a + b) ** 2 * np.sqrt(h)),
-            ),
-            "second_right": (
-                (E_star * phi / (6 * np.pi))
-                * w_1
-                * (2 * a + b + 3 * c)
-                / (h * (b + c) ** 2 * np.sqrt(h)),
-                (E_star * phi / (6 * np.pi))
-                * w_2
-                * (2 * a + 3 * c - b)
-                / (h * (b - c) ** 2 * np.sqrt(h)),
-            ),
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        b=b,
-        phi=phi,
+    exists = (
+        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
     )
-    return Edges(*found)
+    return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).second(a, c))))
 
 
 @elementwise

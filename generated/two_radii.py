@@ -6,21 +6,9 @@ g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geome
 
 import numpy as np
 
-from ._arrays import (
-    LEAST,
-    MOST,
-    TINY,
-    chunkwise,
-    chunkwise_in_time,
-    elementwise,
-    kink_logarithm,
-    maximum,
-    minimum,
-    only_where,
-)
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
-from ._mended import as_integrand, mended, mended_sums
-from ._profile import Curve, Piece, Profile, slope_of
+from ._parabolas import Parabolas
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -58,108 +46,35 @@ __all__ = [
 ]
 
 
+def _body(*, R_1: Array, R_2: Array) -> Parabolas:
+    """Where the curve is cut, and the lines and parabolas between."""
+    return Parabolas(
+        kinks=(0,),
+        corners={},
+        bends=(
+            1 / R_1,
+            1 / R_2,
+        ),
+        slopes=(
+            (0, 0),
+            (0, 0),
+        ),
+    )
+
+
 def _breaks(*, R_1: Array, R_2: Array) -> tuple[Array, ...]:
     """Where the curve is cut."""
-    return (0,)
-
-
-def _corners(*, R_1: Array, R_2: Array) -> tuple[Array, ...]:
-    """By how much g' rises at the breaks."""
-    return (0,)
-
-
-def _piece_0_from_right(t: Array, *, R_1: Array, R_2: Array) -> Curve:
-    """g', g'' and g''' at t on the left of a break."""
-    s_0 = 1 / R_1
-    return Curve(-(s_0 * t), s_0, lambda: 0)
-
-
-def _piece_1_from_left(t: Array, *, R_1: Array, R_2: Array) -> Curve:
-    """g', g'' and g''' at t on the right of a break."""
-    s_0 = 1 / R_2
-    return Curve(s_0 * t, s_0, lambda: 0)
-
-
-_BODY = Profile(
-    _breaks,
-    _corners,
-    (
-        Piece(None, _piece_0_from_right),
-        Piece(_piece_1_from_left, None),
-    ),
-    4,
-    degree=0,
-)
+    return _body(R_1=R_1, R_2=R_2).kinks
 
 
 def _state(a: Array, c: Array, *, R_1: Array, R_2: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
-    h = a + c  # contact width [m]
-    root = R_1 * R_2
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (h < MOST)
-    found = mended(
-        only_where(
-            exists,
-            (
-                (R_1 / 16) * theta_1 * h**2
-                + (R_2 / 8) * h**2 * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                - ((R_1 - R_2) / 8) * w_1 * (a - c)
-            )
-            / root,
-            (
-                (R_1 / 32) * theta_1 * h**2 * (a - c)
-                + (R_2 / 16)
-                * h**2
-                * (a - c)
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                - ((R_1 - R_2) / 48) * w_1 * (3 * a**2 + 3 * c**2 - 2 * a * c)
-            )
-            / root,
-            (
-                theta_1 * R_1 * (a - c)
-                + (2 * R_2)
-                * (a - c)
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                - (2 * (R_1 - R_2)) * w_1
-            )
-            / (2 * np.pi * root),
-            (
-                theta_1 * R_1 * h
-                + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                - (2 * (R_1 - R_2)) * w_1
-            )
-            / (2 * np.pi * root * np.sqrt(h)),
-            (
-                theta_1 * R_1 * h
-                + (2 * R_2) * h * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                + (2 * (R_1 - R_2)) * w_1
-            )
-            / (2 * np.pi * root * np.sqrt(h)),
-        ),
-        exists,
-        (
-            "load",
-            "moment",
-            "tilt",
-            "left",
-            "right",
-        ),
-        1.0,
-        _BODY,
-        a,
-        c,
-        R_1=R_1,
-        R_2=R_2,
-    )
-    return State(*found)
+    return _body(R_1=R_1, R_2=R_2).state(a, c)
 
 
 def _slope(x: Array, *, R_1: Array, R_2: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x)."""
-    return slope_of(_BODY, x, R_1=R_1, R_2=R_2)
+    return _body(R_1=R_1, R_2=R_2).slope(x)
 
 
 @elementwise
@@ -254,9 +169,8 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
         R_2  relative radius of curvature on the right [m]
 
     Returns alpha [rad].
-    NaN unless a + c > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to 1e75 m.  Where
-    terms of the formula cancel, or a kink lies close to an edge or to another kink, by quadrature
-    of g''.
+    NaN unless a + c > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to 1e75 m.  Computed
+    part by part between the kinks, where no terms cancel.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 50 digits at 24 points.
@@ -265,30 +179,9 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     >>> f"{tilt(1.5, 1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.25'
     """
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "tilt": (
-                theta_1 * (a - c) / (2 * np.pi * R_2),
-                (a - c)
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                / (np.pi * R_1),
-                -(((R_1 - R_2) / (np.pi * R_1 * R_2)) * w_1),
-            )
-        },
-        exists,
-        1.0,
-        _BODY,
-        a,
-        c,
-        R_1=R_1,
-        R_2=R_2,
-    )
-    return found[0]
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
+    return only_where(exists, _body(R_1=R_1, R_2=R_2).tilt(a, c))
 
 
 @elementwise
@@ -309,8 +202,7 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
-    by quadrature of g''.
+    1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/two_radii.py.
@@ -319,29 +211,8 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     '1.22718'
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "load": (
-                (E_star / (16 * R_2)) * theta_1 * h**2,
-                (E_star / (8 * R_1))
-                * h**2
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0))),
-                -((E_star * (R_1 - R_2) / (8 * R_1 * R_2)) * w_1 * (a - c)),
-            )
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        R_1=R_1,
-        R_2=R_2,
-    )
-    return found[0]
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
+    return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).load(a, c))
 
 
 @elementwise
@@ -362,8 +233,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
 
     Returns M [N].
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
-    by quadrature of g''.
+    1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
         at 24 points.
@@ -373,34 +243,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     '0.306796'
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "moment": (
-                (E_star / (32 * R_2)) * theta_1 * h**2 * (a - c),
-                (E_star / (16 * R_1))
-                * h**2
-                * (a - c)
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0))),
-                -(
-                    (E_star * (R_1 - R_2) / (48 * R_1 * R_2))
-                    * w_1
-                    * (3 * a**2 + 3 * c**2 - 2 * a * c)
-                ),
-            )
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        R_1=R_1,
-        R_2=R_2,
-    )
-    return found[0]
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
+    return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).moment(a, c))
 
 
 @elementwise
@@ -424,8 +268,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
 
     Returns p [Pa].
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
-    by quadrature of g''.
+    1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 50 digits at 24 points.
@@ -434,36 +277,9 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.5'
     """
-    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    left_1 = (a + x) * (2 * maximum(c, 0.0) / h)  # vanishes at the left edge [m]
-    right_1 = (c - x) * (2 * maximum(a, 0.0) / h)  # vanishes at the right edge [m]
-    # twice the logarithm of the kink x = 0 [-]
-    logarithm_1 = kink_logarithm(left_1, right_1, x, TINY)
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
-    exists = (h > LEAST) & (h < MOST) & (x == x)
-    found = mended_sums(
-        {
-            "p": (
-                (E_star / (2 * np.pi * R_2)) * theta_1 * w,
-                (E_star / (np.pi * R_1))
-                * w
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0))),
-                (E_star * (R_1 - R_2) / (2 * np.pi * R_1 * R_2)) * x * logarithm_1,
-            )
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        x=x,
-        R_1=R_1,
-        R_2=R_2,
-    )
-    return found[0]
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0) & (x == x)
+    return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).pressure(x, a, c))
 
 
 @elementwise
@@ -486,8 +302,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
-    by quadrature of g''.
+    1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -497,39 +312,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     ['0.790569', '0.790569']
     """
     h = a + c  # contact width [m]
-    scale = E_star / (2 * np.pi * R_1 * R_2)
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "left": (
-                theta_1 * R_1 * scale * np.sqrt(h),
-                (2 * R_2)
-                * scale
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                * np.sqrt(h),
-                -((2 * (R_1 - R_2)) * w_1 * scale / np.sqrt(h)),
-            ),
-            "right": (
-                (2 * (R_1 - R_2)) * w_1 * scale / np.sqrt(h),
-                theta_1 * R_1 * scale * np.sqrt(h),
-                (2 * R_2)
-                * scale
-                * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                * np.sqrt(h),
-            ),
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        R_1=R_1,
-        R_2=R_2,
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
+    return Edges(
+        *only_where(exists, *(E_star * edge for edge in _body(R_1=R_1, R_2=R_2).edges(a, c)))
     )
-    return Edges(*found)
 
 
 @elementwise
@@ -554,8 +340,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to another kink,
-    by quadrature of g''.
+    1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
         digits at 24 points.
@@ -567,45 +352,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     ['-0.158114', '-0.158114']
     """
     h = a + c  # contact width [m]
-    root = (12 * np.pi * R_1 * R_2) * h**2
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "second_left": (
-                (2 * E_star * (R_1 - R_2)) * w_1 * (3 * a + 4 * c) * np.sqrt(h) / (a * root),
-                -(
-                    (6 * E_star * R_2)
-                    * h
-                    * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                    * np.sqrt(h)
-                    / root
-                ),
-                -((3 * E_star * R_1) * theta_1 * h * np.sqrt(h) / root),
-            ),
-            "second_right": (
-                -(
-                    (6 * E_star * R_2)
-                    * h
-                    * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                    * np.sqrt(h)
-                    / root
-                ),
-                -((3 * E_star * R_1) * theta_1 * h * np.sqrt(h) / root),
-                -((2 * E_star * (R_1 - R_2)) * w_1 * (4 * a + 3 * c) * np.sqrt(h) / (c * root)),
-            ),
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        R_1=R_1,
-        R_2=R_2,
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
+    return Edges(
+        *only_where(exists, *(E_star * edge for edge in _body(R_1=R_1, R_2=R_2).second(a, c)))
     )
-    return Edges(*found)
 
 
 @elementwise
@@ -715,18 +465,7 @@ def stick_margin(
     )
 
 
-_LAW = Law(
-    contact,
-    contact_at_tilt,
-    tilt,
-    load,
-    moment,
-    pressure,
-    as_integrand(pressure),
-    K_N,
-    L_N,
-    _breaks,
-)
+_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
 
 
 @chunkwise

@@ -6,21 +6,9 @@ g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/we
 
 import numpy as np
 
-from ._arrays import (
-    LEAST,
-    MOST,
-    chunkwise,
-    chunkwise_in_time,
-    elementwise,
-    fmax,
-    kink_logarithm,
-    maximum,
-    minimum,
-    only_where,
-)
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._march import march_of
-from ._mended import as_integrand, mended, mended_sums
-from ._profile import Curve, Piece, Profile, slope_of
+from ._parabolas import Parabolas
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -58,87 +46,35 @@ __all__ = [
 ]
 
 
+def _body(*, R: Array, phi: Array) -> Parabolas:
+    """Where the curve is cut, and the lines and parabolas between."""
+    return Parabolas(
+        kinks=(0,),
+        corners={0: phi},
+        bends=(
+            None,
+            1 / R,
+        ),
+        slopes=(
+            (0, -phi),
+            (0, 0),
+        ),
+    )
+
+
 def _breaks(*, R: Array, phi: Array) -> tuple[Array, ...]:
     """Where the curve is cut."""
-    return (0,)
-
-
-def _corners(*, R: Array, phi: Array) -> tuple[Array, ...]:
-    """By how much g' rises at the breaks."""
-    return (phi,)
-
-
-def _piece_0_from_right(t: Array, *, R: Array, phi: Array) -> Curve:
-    """g', g'' and g''' at t on the left of a break."""
-    return Curve(-phi, 0, lambda: 0)
-
-
-def _piece_1_from_left(t: Array, *, R: Array, phi: Array) -> Curve:
-    """g', g'' and g''' at t on the right of a break."""
-    s_0 = 1 / R
-    return Curve(s_0 * t, s_0, lambda: 0)
-
-
-_BODY = Profile(
-    _breaks,
-    _corners,
-    (
-        Piece(None, _piece_0_from_right, straight=True),
-        Piece(_piece_1_from_left, None),
-    ),
-    4,
-    degree=0,
-)
+    return _body(R=R, phi=phi).kinks
 
 
 def _state(a: Array, c: Array, *, R: Array, phi: Array) -> State:
     """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
-    h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = mended(
-        only_where(
-            exists,
-            (theta_1 * h**2 - 2 * w_1 * (a - 4 * R * phi - c)) / (16 * R),
-            (
-                3 * theta_1 * h**2 * (a - c)
-                - 2
-                * w_1
-                * ((6 * R * phi) * c + 3 * a**2 + 3 * c**2 - (6 * R * phi) * a - 2 * a * c)
-            )
-            / (96 * R),
-            (
-                (4 * R * phi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0)))
-                + theta_1 * (a - c)
-                - 2 * w_1
-            )
-            / (2 * np.pi * R),
-            (a * theta_1 * h - 2 * w_1 * (a - R * phi)) / (2 * np.pi * a * R * np.sqrt(h)),
-            (c * theta_1 * h + 2 * w_1 * (R * phi + c)) / (2 * np.pi * c * R * np.sqrt(h)),
-        ),
-        exists,
-        (
-            "load",
-            "moment",
-            "tilt",
-            "left",
-            "right",
-        ),
-        1.0,
-        _BODY,
-        a,
-        c,
-        R=R,
-        phi=phi,
-    )
-    return State(*found)
+    return _body(R=R, phi=phi).state(a, c)
 
 
 def _slope(x: Array, *, R: Array, phi: Array) -> tuple[Array, Array]:
     """g'(x) and g''(x)."""
-    return slope_of(_BODY, x, R=R, phi=phi)
+    return _body(R=R, phi=phi).slope(x)
 
 
 @elementwise
@@ -231,8 +167,7 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
 
     Returns alpha [rad].
     NaN unless a + c > 0 and c > 0 and R > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-    Where terms of the formula cancel, or a kink lies close to an edge or to another kink, by
-    quadrature of g''.
+    Computed part by part between the kinks, where no terms cancel.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 48 digits at 24 points.
@@ -241,28 +176,9 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     >>> f"{tilt(1.5, 1.0, R=1.0, phi=0.125):.6g}"
     '-0.21036'
     """
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "tilt": (
-                theta_1 * (a - c) / (2 * np.pi * R),
-                (2 * phi / np.pi) * np.arctan2(np.sqrt(maximum(a, 0.0)), np.sqrt(maximum(c, 0.0))),
-                -(w_1 / (np.pi * R)),
-            )
-        },
-        exists,
-        1.0,
-        _BODY,
-        a,
-        c,
-        R=R,
-        phi=phi,
-    )
-    return found[0]
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
+    return only_where(exists, _body(R=R, phi=phi).tilt(a, c))
 
 
 @elementwise
@@ -282,8 +198,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/wedge_parabola.py.
@@ -292,26 +207,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     '0.534937'
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "load": (
-                (E_star / (16 * R)) * theta_1 * h**2,
-                -((E_star / (8 * R)) * w_1 * (a - 4 * R * phi - c)),
-            )
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        R=R,
-        phi=phi,
-    )
-    return found[0]
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
+    return only_where(exists, E_star * _body(R=R, phi=phi).load(a, c))
 
 
 @elementwise
@@ -332,8 +229,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
     Returns M [N].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
         at 24 points.
@@ -343,30 +239,8 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     '-0.0289272'
     """
     h = a + c  # contact width [m]
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "moment": (
-                (E_star / (32 * R)) * theta_1 * h**2 * (a - c),
-                -(
-                    (E_star / (48 * R))
-                    * w_1
-                    * ((6 * R * phi) * c + 3 * a**2 + 3 * c**2 - (6 * R * phi) * a - 2 * a * c)
-                ),
-            )
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        R=R,
-        phi=phi,
-    )
-    return found[0]
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
+    return only_where(exists, E_star * _body(R=R, phi=phi).moment(a, c))
 
 
 @elementwise
@@ -389,8 +263,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
 
     Returns p [Pa].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -399,33 +272,9 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.359742'
     """
-    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    left_1 = (a + x) * (2 * maximum(c, 0.0) / h)  # vanishes at the left edge [m]
-    right_1 = (c - x) * (2 * maximum(a, 0.0) / h)  # vanishes at the right edge [m]
-    # twice the logarithm of the kink x = 0 [-]
-    logarithm_1 = fmax(kink_logarithm(left_1, right_1, x), 0.0)
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (x == x)
-    found = mended_sums(
-        {
-            "p": (
-                (E_star / (2 * np.pi * R)) * logarithm_1 * (R * phi + x),
-                (E_star / (2 * np.pi * R)) * theta_1 * w,
-            )
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        x=x,
-        R=R,
-        phi=phi,
-    )
-    return found[0]
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0) & (x == x)
+    return only_where(exists, E_star * _body(R=R, phi=phi).pressure(x, a, c))
 
 
 @elementwise
@@ -446,8 +295,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -457,31 +305,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     ['0.118599', '0.621996']
     """
     h = a + c  # contact width [m]
-    scale = (E_star / (2 * np.pi * R)) / np.sqrt(h)
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "left": (
-                theta_1 * h * scale,
-                -(2 * w_1 * scale * (a - R * phi) / a),
-            ),
-            "right": (
-                2 * w_1 * scale * (R * phi + c) / c,
-                theta_1 * h * scale,
-            ),
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        R=R,
-        phi=phi,
-    )
-    return Edges(*found)
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
+    return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, phi=phi).edges(a, c))))
 
 
 @elementwise
@@ -504,8 +329,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Where terms of the formula cancel, or a kink lies close to an edge or to
-    another kink, by quadrature of g''.
+    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
         digits at 24 points.
@@ -517,38 +341,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     ['0.0301586', '-0.204532']
     """
     h = a + c  # contact width [m]
-    root = np.pi * R
-    # angle of the contact beyond the kink x = 0 [-]
-    theta_1 = 2 * np.arctan2(np.sqrt(maximum(c, 0.0)), np.sqrt(maximum(a, 0.0)))
-    w_1 = np.sqrt(maximum(a, 0.0) * maximum(c, 0.0))  # root at the kink x = 0 [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    found = mended_sums(
-        {
-            "second_left": (
-                (E_star / 6)
-                * w_1
-                * ((3 * R * phi) * a + (2 * R * phi) * c + 3 * a**2 + 4 * a * c)
-                / (a**2 * h * root * np.sqrt(h)),
-                -((E_star / 4) * theta_1 / (root * np.sqrt(h))),
-            ),
-            "second_right": (
-                (E_star * R * phi / 2) * w_1 / (c * h * root * np.sqrt(h)),
-                (E_star * R * phi / 3) * a * w_1 / (c**2 * h * root * np.sqrt(h)),
-                -((E_star / 4) * c * theta_1 / (h * root * np.sqrt(h))),
-                -((E_star / 2) * w_1 / (h * root * np.sqrt(h))),
-                -((E_star / 4) * a * theta_1 / (h * root * np.sqrt(h))),
-                -((2 * E_star / 3) * a * w_1 / (c * h * root * np.sqrt(h))),
-            ),
-        },
-        exists,
-        E_star,
-        _BODY,
-        a,
-        c,
-        R=R,
-        phi=phi,
-    )
-    return Edges(*found)
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
+    return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, phi=phi).second(a, c))))
 
 
 @elementwise
@@ -658,18 +452,7 @@ def stick_margin(
     )
 
 
-_LAW = Law(
-    contact,
-    contact_at_tilt,
-    tilt,
-    load,
-    moment,
-    pressure,
-    as_integrand(pressure),
-    K_N,
-    L_N,
-    _breaks,
-)
+_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
 
 
 @chunkwise

@@ -17,6 +17,7 @@ from sympy import Symbol
 
 from derive.codegen.function import LINE, example_of, inside_quotes, own_parameters
 from derive.codegen.integrated import breaks_text, is_mended, keeps_its_digits
+from derive.codegen.parabolas import is_parabolic
 from derive.proof.points import Point, numeric
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, c, dQ, dsigma, f, x
@@ -341,7 +342,7 @@ def law_text(sheet: FormulaSheet) -> str:
     lines: list[str] = []
     if sheet.geometry.slope.is_polynomial and not is_mended(sheet):
         lines += breaks_text(sheet)
-    mended = is_mended(sheet) and not keeps_its_digits(sheet, "pressure")
-    integrand = "as_integrand(pressure)" if mended else "pressure"
+    exact = is_parabolic(sheet) or keeps_its_digits(sheet, "pressure")
+    integrand = "as_integrand(pressure)" if is_mended(sheet) and not exact else "pressure"
     functions = f"contact, contact_at_tilt, tilt, load, moment, pressure, {integrand}, K_N, L_N"
     return "\n".join([*lines, f"_LAW = Law({functions}, _breaks)"])

@@ -203,7 +203,7 @@ def curve_text(sheet: FormulaSheet) -> str:
     if smooth:
         terms += f", smooth=({' '.join(f'{i},' for i in smooth)})"
     if slope.is_polynomial:
-        terms += f", degree={_degree_of_curvature(slope)}"
+        terms += f", degree={degree_of_curvature(slope)}"
     lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach}{terms})")
     return "\n".join(lines)
 
@@ -216,7 +216,7 @@ def _goes_on(left: Piece, right: Piece) -> bool:
     return all(simplify(diff(off, x, n).subs(x, right.lower)) == 0 for n in (1, 2))
 
 
-def _degree_of_curvature(slope: Slope) -> int:
+def degree_of_curvature(slope: Slope) -> int:
     """The degree of g'' on the piece where it is highest."""
     curved = (piece.curvature for piece in slope.pieces if not piece.straight)
     return max((int(Poly(curvature, x).degree()) for curvature in curved), default=0)
@@ -388,8 +388,11 @@ def carried_text(sheet: FormulaSheet) -> str:
     )
 
 
-def level_text(sheet: FormulaSheet) -> str:
-    """`_slope`: the body's slope and curvature at a place; infinite beyond the body's ends."""
+def level_text(sheet: FormulaSheet, found: str = "") -> str:
+    """`_slope`: the body's slope and curvature at a place; infinite beyond the body's ends.
+
+    found: the code that finds them, if not from `_BODY`.
+    """
     own, given = own_parameters(sheet)
     printer = NumPyPrinter({x})
     slope, curvature = local(sheet, "slope"), local(sheet, "curvature")
@@ -400,7 +403,7 @@ def level_text(sheet: FormulaSheet) -> str:
         )
         if end.is_finite
     ]
-    found = f"slope_of(_BODY, x{given})"
+    found = found or f"slope_of(_BODY, x{given})"
     return "\n".join(
         [
             f"def _slope(x: Array{own}) -> tuple[Array, Array]:",

@@ -24,6 +24,7 @@ from derive.codegen.integrated import (
     level_text,
 )
 from derive.codegen.mark import MARK
+from derive.codegen.parabolas import ParabolicText, body_of, body_text, is_parabolic, parts_text
 from derive.codegen.solved import SOLVED, SolvedText, StateText, slope_text
 from derive.notation import text_of
 from derive.sheet import FormulaSheet
@@ -37,6 +38,7 @@ _HELPERS = {
     ),
     "_march": ("march_of",),
     "_mended": ("as_integrand", "mended", "mended_sums"),
+    "_parabolas": ("Parabolas",),
     "_profile": ("Curve", "Piece", "Profile", "slope_of"),
     "_quadrature": ("pressure_at", "second_of", "state_of"),
     "_shear": ("shear_change_of", "shear_of", "slip_range_of"),
@@ -83,29 +85,34 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
     solved = [f for f in CONTRACT if f.name in SOLVED and not f.available(sheet)]
     slope = sheet.geometry.slope
     closed, mended = slope.is_polynomial, is_mended(sheet)
-    if mended or not closed:
+    if parabolic := is_parabolic(sheet):
+        yield body_text(sheet)
+        yield parts_text(sheet)
+        yield level_text(sheet, f"{body_of(sheet)}.slope(x)")
+    elif mended or not closed:
         yield curve_text(sheet)
-    if solved:
+    if solved and not parabolic:
         yield StateText(sheet, source).text if closed else carried_text(sheet)
-    if any(alpha in f.arguments for f in solved):
+    if any(alpha in f.arguments for f in solved) and not parabolic:
         yield slope_text(sheet) if closed and not mended else level_text(sheet)
     for function in CONTRACT:
-        yield _made(sheet, function, function in solved, mended)(sheet, function, source).text
+        yield _made(sheet, function, function in solved)(sheet, function, source).text
     yield law_text(sheet)
     for cycle in CYCLE:
         yield CycleText(sheet, cycle, source).text
 
 
-def _made(
-    sheet: FormulaSheet, function: Function, solved: bool, mended: bool
-) -> type[FunctionText]:
+def _made(sheet: FormulaSheet, function: Function, solved: bool) -> type[FunctionText]:
     """How one function is written."""
     if solved:
         return SolvedText
     if not all(sheet.is_closed(name) for name in function.formulas):
         return IntegratedText
-    mended = mended and function.geometric and not keeps_its_digits(sheet, function.name)
-    return MendedText if mended else FunctionText
+    if not function.geometric or keeps_its_digits(sheet, function.name):
+        return FunctionText
+    if is_parabolic(sheet):
+        return ParabolicText
+    return MendedText if is_mended(sheet) else FunctionText
 
 
 def _imports(code: str) -> str:

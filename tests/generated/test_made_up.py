@@ -115,6 +115,30 @@ PROFILES = {
         lambda v: lambda s: s / v["R"] + 4 * min(up(s), v["b"]) ** 3 / v["L"] ** 3,
         lambda v: [mpf(0), v["b"]],
     ),
+    "arcs_and_corners": Profile(
+        "Max(0, x - b)**2/(2*R) + phi*Max(0, x - b - h_0) + Max(0, -x)**2/(2*L) "
+        "+ phi*Max(0, -x - h_0)",
+        "R b L phi h_0",
+        lambda v: (
+            lambda s: (
+                up(s - v["b"]) / v["R"]
+                + v["phi"] * (s > v["b"] + v["h_0"])
+                - up(-s) / v["L"]
+                - v["phi"] * (s < -v["h_0"])
+            )
+        ),
+        lambda v: [-v["h_0"], mpf(0), v["b"], v["b"] + v["h_0"]],
+    ),
+    "cylinder_off_the_origin": Profile(
+        "(x - b)**2/(2*R) + Max(0, x - b - h_0)**2/(2*L) + phi*Max(0, -x)",
+        "R b L phi h_0",
+        lambda v: (
+            lambda s: (
+                (s - v["b"]) / v["R"] + up(s - v["b"] - v["h_0"]) / v["L"] - v["phi"] * (s < 0)
+            )
+        ),
+        lambda v: [mpf(0), v["b"] + v["h_0"]],
+    ),
     "soft_wedge": Profile(
         "phi*b*log(cosh(x/b))",
         "phi b",

@@ -1,0 +1,452 @@
+"""What a contact carries where a body is straight lines and parabolas: sums that lose no digits.
+
+A place s of the contact [-a, c], h wide, is told by its angle t,
+
+    A = a + s = h sin(t)**2,   B = c - s = h cos(t)**2,   ds/w = 2 dt.
+
+The part of a contact that a piece of the body covers, from t_0 to t_1, has the extent e = t_1 - t_0
+and the sum T = t_0 + t_1.  Sines and cosines of both are roots of products of distances, l being
+the part's length,
+
+    sin e = l/(h sin T),                       cos e = (sqrt(A_0 A_1) + sqrt(B_0 B_1))/h,
+    h sin T = sqrt(A_1 B_0) + sqrt(A_0 B_1),   h cos T = sqrt(B_0 B_1) - sqrt(A_0 A_1),
+
+and of the extent itself one function is needed, positive, with a series:
+
+    D = e - sin(e) cos(e) = (2/3) e**3 - (2/15) e**5 + ...
+
+With it the integrals over a part are sums of terms of one sign, however short the part is, and
+however close its ends lie to the edges.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ._arrays import TINY, Array, fmax, kink_logarithm, maximum, minimum, some
+from ._state import State
+
+AFAR = 2.0
+"""A part whose nearer end is so many times its length away from x is seen from afar."""
+
+_BOW = (
+    *(0.6666666666666666, -0.13333333333333314, 0.012698412698410114, -0.0007054673721206159),
+    *(2.565335895128695e-05, -6.577783818838708e-07, 1.2529063478587505e-08),
+    *(-1.8422327086973616e-10, 2.1451333608482876e-12, -1.8613954732794308e-14),
+)
+"""D/e**3 as a polynomial of e**2, exact to rounding up to e = pi/2."""
+
+_EXCESS = (
+    *(0.3333333333333333, 0.20000000000002965, 0.14285714284748624, 0.11111111232826203),
+    *(0.09090901320534385, 0.07692591607313443, 0.06660385044788199, 0.059675976534377624),
+    *(0.04576372547342947, 0.07691310342360806),
+)
+"""(artanh z - z)/z**3 as a polynomial of z**2, exact to rounding up to artanh z = artanh(y)/2."""
+
+_NOTHING = 1e-300
+"""What stands for zero under a line."""
+
+_PI = math.pi
+
+
+class Parabolas(NamedTuple):
+    """A body whose curve is straight lines and parabolas, with its parameters; all for E* = 1.
+
+    kinks: places where the curve changes, from left to right.
+    corners: jumps of g' there, by the numbers of the kinks that are corners.
+    bends: g'' of each piece between the kinks, None where it is straight.
+    slopes: of each piece a place and g' there, on the piece's own line or parabola, of the same
+        sign as all over it, or zero; None where g' is zero all over it.
+    """
+
+    kinks: tuple[Array, ...]
+    corners: Mapping[int, Array]
+    bends: tuple[Array | None, ...]
+    slopes: tuple[tuple[Array, Array] | None, ...]
+
+    def load(self, a: Array, c: Array) -> Array:
+        """The load of the contact [-a, c]; zero where it carries none."""
+        return _Contact(self, a, c).load()
+
+    def moment(self, a: Array, c: Array) -> Array:
+        """The moment."""
+        return _Contact(self, a, c).moment()
+
+    def tilt(self, a: Array, c: Array) -> Array:
+        """The tilt."""
+        return _Contact(self, a, c).tilt()
+
+    def edges(self, a: Array, c: Array) -> tuple[Array, Array]:
+        """K_N at the left and the right edge."""
+        return _Contact(self, a, c).edges()
+
+    def second(self, a: Array, c: Array) -> tuple[Array, Array]:
+        """L_N at the left and the right edge."""
+        return _Contact(self, a, c).second()
+
+    def pressure(self, x: Array, a: Array, c: Array) -> Array:
+        """The pressure at a place x of the contact."""
+        return _Contact(self, a, c).pressure(x)
+
+    def state(self, a: Array, c: Array) -> State:
+        """Load, moment, tilt and K_N at once; a load of NaN where there is none."""
+        contact = _Contact(self, a, c)
+        load = contact.load()
+        found = np.where((contact.h > 0) & (load > 0), load, np.nan)[()]
+        return State(found, contact.moment(), contact.tilt(), *contact.edges())
+
+    def slope(self, x: Array) -> tuple[Array, Array]:
+        """g'(x) and g''(x); at a kink, of the piece on its right."""
+        slope = rate = 0.0 * x
+        for i, (bend, line) in enumerate(zip(self.bends, self.slopes, strict=True)):
+            here = x >= self.kinks[i - 1] if i else True
+            slope = np.where(here, _slope(bend, line, x), slope)
+            rate = np.where(here, 0.0 if bend is None else bend, rate)
+        return slope[()], rate[()]
+
+
+def _slope(bend: Array | None, line: tuple[Array, Array] | None, x: Array) -> Array:
+    """g' at a place of a piece."""
+    if line is None:
+        return 0.0
+    place, there = line
+    return there if bend is None else there + bend * (x - place)
+
+
+class _Part(NamedTuple):
+    """The part of a contact that a piece covers.
+
+    piece: its number.
+    bend: g'' on it.
+    length, sine, cosine, extent, bow: l, sin e, cos e, e and D.
+    near, far, across: sqrt(A_0 A_1), sqrt(B_0 B_1) and h sin T.
+    """
+
+    piece: int
+    bend: Array
+    length: Array
+    sine: Array
+    cosine: Array
+    extent: Array
+    bow: Array
+    near: Array
+    far: Array
+    across: Array
+
+
+class _Arithmetic(NamedTuple):
+    """Of numbers, or of arrays."""
+
+    sqrt: Callable[..., Any]
+    least: Callable[..., Any]
+    most: Callable[..., Any]
+    where: Callable[..., Any]
+    arctan: Callable[..., Any]
+
+
+def _either(condition: bool, value: Array, other: Array) -> Array:
+    return value if condition else other
+
+
+_NUMBERS = _Arithmetic(math.sqrt, min, max, _either, lambda tangent: float(np.arctan(tangent)))
+_ARRAYS = _Arithmetic(np.sqrt, minimum, maximum, np.where, np.arctan)
+
+
+class _Contact:
+    """The contact [-a, c] of a body.
+
+    Where edges and kinks are numbers, it is computed with Python's, whose arithmetic is quicker.
+
+    inside: how far the kinks, drawn in to the contact, lie inside the left and the right edge; the
+        edges before and behind them.
+    """
+
+    def __init__(self, body: Parabolas, a: Array, c: Array) -> None:
+        self.body, self.of, kinks = body, _NUMBERS, body.kinks
+        for value in (a, c, *kinks):
+            if type(value) not in _OF_NUMBERS:
+                self.of = _ARRAYS
+        h = a + c
+        if self.of is _NUMBERS:
+            a, c, kinks = float(a), float(c), tuple(map(float, kinks))
+            h = a + c if a + c > 0 else math.nan
+        self.a, self.c, self.h, self.kinks = a, c, h, kinks
+        self.inside = [(0.0 * h, h), *[self._drawn_in(kink) for kink in kinks], (h, 0.0 * h)]
+        self._curved: list[_Part] | None = None
+
+    def _drawn_in(self, kink: Array) -> tuple[Array, Array]:
+        """How far a kink lies inside the edges; one beyond an edge as if it were there."""
+        left, right, h = self.a + kink, self.c - kink, self.h
+        if self.of is _NUMBERS:
+            return (0.0, h) if left <= 0 else (h, 0.0) if right <= 0 else (left, right)
+        return minimum(maximum(left, 0.0), h), minimum(maximum(right, 0.0), h)
+
+    def part(self, i: int, bend: Array | None) -> _Part | None:
+        """What the contact has of a piece; None where that is nothing, and a number.
+
+        A piece that is given no `bend` gets no `bow`.
+        """
+        (A_0, B_0), (A_1, B_1) = self.inside[i : i + 2]
+        h, kinks, of = self.h, self.kinks, self.of
+        length = A_1 if i < len(kinks) else B_0
+        if 0 < i < len(kinks):
+            length = of.least(of.least(A_1, B_0), kinks[i] - kinks[i - 1])
+        if of is _NUMBERS and not length > 0:
+            return None
+        sqrt = of.sqrt
+        across = sqrt(A_1 * B_0) + sqrt(A_0 * B_1)
+        near, far = sqrt(A_0 * A_1), sqrt(B_0 * B_1)
+        sine, cosine = length / (across + _NOTHING), (near + far) / h
+        extent = 2 * of.arctan(sine / (1 + cosine))
+        square = extent * extent
+        bow = 0.0 if bend is None else extent * square * _polynomial(_BOW, square)
+        return _Part(i, bend, length, sine, cosine, extent, bow, near, far, across)
+
+    def curved(self) -> list[_Part]:
+        """The curved parts."""
+        if self._curved is None:
+            found = [self.part(i, b) for i, b in enumerate(self.body.bends) if b is not None]
+            self._curved = [part for part in found if part]
+        return self._curved
+
+    def corners(self) -> Iterator[tuple[Array, Array, Array]]:
+        """Jumps of g', and how far they lie inside the left and the right edge."""
+        for i, jump in self.body.corners.items():
+            yield jump, *self.inside[i + 1]
+
+    # ------------------------------------------------------------------ what it carries
+
+    def load(self) -> Array:
+        """(1/2) int g'' w ds."""
+        force = 0.0 * self.h
+        for part in self.curved():
+            force = force + self._force(part)
+        for jump, A, B in self.corners():
+            force = force + jump * self.of.sqrt(A * B)
+        return _told(force / 2)
+
+    def moment(self) -> Array:
+        """-(1/2) int g'' w (s + mid)/2 ds."""
+        force = arm = 0.0 * self.h
+        for part in self.curved():
+            (A_0, B_0), (A_1, B_1) = self.inside[part.piece : part.piece + 2]
+            first, last = A_0 * B_0, A_1 * B_1
+            squares = first + self.of.sqrt(first * last) + last
+            arm = arm + part.bend * part.sine * (part.near - part.far) * squares / 1.5
+            force = force + self._force(part)
+        for jump, A, B in self.corners():
+            share = jump * self.of.sqrt(A * B)
+            force, arm = force + share, arm + share * (A - B)
+        return _told((self.a - self.c) * force / 4 - arm / 8)
+
+    def _force(self, part: _Part) -> Array:
+        """int g'' w ds over a part."""
+        twice = 2 * part.sine * part.cosine * (part.across * part.across)
+        return part.bend / 4 * (self.h * self.h * part.bow + twice)
+
+    def tilt(self) -> Array:
+        """-(1/pi) int g'/w ds."""
+        lean = 0.0 * self.h
+        for part in self.curved():
+            i, line = part.piece, self.body.slopes[part.piece]
+            start = self.of.most(-self.a, self.kinks[i - 1]) if i else -self.a
+            end = self.of.least(self.c, self.kinks[i]) if i < len(self.kinks) else self.c
+            hollow = part.sine * part.sine * part.sine - part.cosine * part.bow
+            both = _slope(part.bend, line, start) + _slope(part.bend, line, end)
+            lean = lean + part.extent * both + part.bend * (part.near - part.far) * hollow
+        for i, line in enumerate(self.body.slopes):
+            if line and self.body.bends[i] is None and (flank := self.part(i, None)):
+                lean = lean + 2 * flank.extent * line[1]
+        return _told(-lean / _PI)
+
+    def edges(self) -> tuple[Array, Array]:
+        """(1/(pi sqrt(h))) int g'' w/A ds and the same over B."""
+        left = right = 0.0 * self.h
+        for part in self.curved():
+            bow, twice = self.h * part.bow, 2 * part.sine
+            left = left + part.bend * (bow + twice * part.far)
+            right = right + part.bend * (bow + twice * part.near)
+        for jump, A, B in self.corners():
+            left = left + jump * self.of.sqrt(self._quotient(B, A))
+            right = right + jump * self.of.sqrt(self._quotient(A, B))
+        root = _PI * self.of.sqrt(self.h)
+        return _told(left / root), _told(right / root)
+
+    def second(self) -> tuple[Array, Array]:
+        """(1/pi) times the finite parts of int g'' r (3 + 2 r**2) ds/(6 h**(3/2)).
+
+        r = sqrt(A/B) for the right edge.  The g'' of the part that ends there counts as that of the
+        whole contact, for -(3 pi/2) h; those of the others as what they differ by.
+        """
+        h, of = self.h, self.of
+        bends = [0.0 if bend is None else bend for bend in self.body.bends]
+        first, last = bends[0], bends[-1]
+        for i in range(1, len(bends)):  # kinks at an edge or beyond it divide nothing
+            first = of.where(self.inside[i][0] > 0, first, bends[i])
+            last = of.where(self.inside[-1 - i][1] > 0, last, bends[-1 - i])
+        left, right = (-1.5 * _PI) * h * first, (-1.5 * _PI) * h * last
+        for i, bend in enumerate(bends):
+            inner_left, inner_right = self.inside[i][0] > 0, self.inside[i + 1][1] > 0
+            off_left, off_right = bend - first, bend - last
+            to_left = of is _ARRAYS or (inner_left and off_left != 0)
+            to_right = of is _ARRAYS or (inner_right and off_right != 0)
+            if not (to_left or to_right) or (part := self.part(i, bend)) is None:
+                continue
+            if to_left:
+                share = 2 * h * off_left * self._rise(part, part.far, part.near)
+                left = left + of.where(inner_left, share, 0.0)
+            if to_right:
+                share = 2 * h * off_right * self._rise(part, part.near, part.far)
+                right = right + of.where(inner_right, share, 0.0)
+        for jump, A, B in self.corners():
+            far, near = self._quotient(B, A), self._quotient(A, B)
+            left = left + jump * of.sqrt(far) * (3 + 2 * far)
+            right = right + jump * of.sqrt(near) * (3 + 2 * near)
+        scale = (6 * _PI) * h * of.sqrt(h)
+        return _told(left / scale), _told(right / scale)
+
+    def _rise(self, part: _Part, over: Array, under: Array) -> Array:
+        """int (sin(t)**2 + 2 tan(t)**2) dt over a part for the right edge, r being tan(t)."""
+        tangent = 2 * part.sine / (part.cosine + _NOTHING)
+        hollow = tangent * (part.sine * part.sine) - 1.5 * part.bow
+        return hollow + tangent * self._quotient(over, under) + part.sine * over / self.h
+
+    def pressure(self, x: Array) -> Array:
+        """(1/pi) int g'' L(x, s) ds."""
+        place = _Place(self, x)
+        total = 0.0 * place.root
+        for part in self.curved():
+            total = total + part.bend * place.share(part)
+        for i, jump in self.body.corners.items():
+            total = total + jump * place.level(i + 1)
+        return _told(total / _PI)
+
+    def _quotient(self, over: Array, under: Array) -> Array:
+        """Their quotient, zero where nothing is under the line: there it is not wanted."""
+        if self.of is _NUMBERS:
+            return over / under if under > 0 else 0.0
+        return np.where(under > 0, over / maximum(under, _NOTHING), 0.0)
+
+
+class _Place:
+    """A place x of a contact; one beyond an edge is drawn in to it.
+
+    left, right, root: its distances from the edges, and w(x).
+    offsets: how far the ends of the pieces, and the edges before and behind them, lie right of it.
+    """
+
+    def __init__(self, contact: _Contact, x: Array) -> None:
+        number = contact.of is _NUMBERS and type(x) in _OF_NUMBERS
+        self.of, x = (_NUMBERS, float(x)) if number else (_ARRAYS, x)
+        self.contact = contact
+        x = self.of.least(self.of.most(x, -contact.a), contact.c)
+        self.left, self.right = contact.a + x, contact.c - x
+        self.root = self.of.sqrt(self.left * self.right)
+        self.offsets = [-self.left, *[kink - x for kink in contact.kinks], self.right]
+        self._levels: dict[int, Array] = {0: 0.0, len(self.offsets) - 1: 0.0}
+
+    def level(self, i: int) -> Array:
+        """L(x, s) at the end of a piece; zero for one that is not in the contact."""
+        if i not in self._levels:
+            (A, B), h, offset = self.contact.inside[i], self.contact.h, self.offsets[i]
+            if self.of is _NUMBERS and not (A > 0 and B > 0):
+                return 0.0
+            given = self.left * (2 * B / h), self.right * (2 * A / h), offset
+            least = 0.0 if i - 1 in self.contact.body.corners else TINY
+            twice = kink_logarithm(*given, least)
+            self._levels[i] = float(twice) / 2 if self.of is _NUMBERS else fmax(twice, 0.0) / 2
+        return self._levels[i]
+
+    def arm(self, i: int) -> Array:
+        """(s - x) L(x, s) there."""
+        offset = self.offsets[i]
+        return self.of.where(offset == 0, 0.0, offset * self.level(i))
+
+    def share(self, part: _Part) -> Array:
+        """int L(x, s) ds over a part: by parts, or where x lies far from it, from afar."""
+        i, of, limit = part.piece, self.of, AFAR * part.length
+        start, end = self.offsets[i], self.offsets[i + 1]
+        if of is _NUMBERS and start <= limit and -end <= limit:
+            return self._by_parts(part)
+        given = part.length, part.sine, part.cosine, part.bow
+        if of is _NUMBERS:
+            nearer, farther = (i, i + 1) if start > 0 else (i + 1, i)
+            A, B = self.contact.inside[nearer]
+            seen = abs(self.offsets[nearer]), math.sqrt(A * B), self.level(farther), self.root
+            return _from_afar(of, *seen, *given)
+        found, afar, before = self._by_parts(part), (start > limit) | (-end > limit), start > 0
+        if not some(afar):
+            return found
+        near, other = (self.of.sqrt(A * B) for A, B in self.contact.inside[i : i + 2])
+        seen = (
+            np.where(before, start, -end),
+            np.where(before, near, other),
+            np.where(before, self.level(i + 1), self.level(i)),
+            self.root,
+        )
+        if type(found) is not np.ndarray:
+            return np.where(afar, _from_afar(of, *seen, *given), found)
+        rows = np.broadcast_to(afar, found.shape)
+        found[rows] = _from_afar(
+            of, *(np.broadcast_to(v, rows.shape)[rows] for v in (*seen, *given))
+        )
+        return found
+
+    def _by_parts(self, part: _Part) -> Array:
+        """[(s - x) L(x, s)] + w(x) e, nothing of which is subtracted where x lies on the part."""
+        found = self.root * part.extent
+        if part.piece:  # at the edges L is zero
+            found = found - self.arm(part.piece)
+        if part.piece + 2 < len(self.offsets):
+            found = found + self.arm(part.piece + 1)
+        return found
+
+
+def _from_afar(
+    of: _Arithmetic,
+    distance: Array,
+    near: Array,
+    level: Array,
+    root: Array,
+    length: Array,
+    sine: Array,
+    cosine: Array,
+    bow: Array,
+) -> Array:
+    """int L(x, s) ds over a part whose nearer end is twice its length d > 2 l away from x, or more,
+
+        l L + w(x) (e - tan e + w tan(e)**2/(d + w tan e)) - d (artanh y - y),
+        y = w(x) tan(e)/(d + w tan e) < 1/sqrt(3),
+
+    w = `near` at that end, and L = `level` at the other one.
+    """
+    tangent = sine / cosine
+    reach = distance + near * tangent
+    y = root * tangent / reach
+    z = y / (1 + of.sqrt((1 - y) * (1 + y)))  # artanh y = 2 artanh z
+    excess = 2 * (z * z * z) * _polynomial(_EXCESS, z * z) + y * (z * z)
+    turned = near * (tangent * tangent) / reach - (tangent * (sine * sine) - bow)
+    return length * level + root * turned - distance * excess
+
+
+def _polynomial(coefficients: Sequence[float], z: Array) -> Array:
+    """The sum of coefficients[k] z**k."""
+    total = coefficients[-1] * z + coefficients[-2]
+    if type(total) is not np.ndarray:
+        for coefficient in coefficients[-3::-1]:
+            total = total * z + coefficient
+        return total
+    for coefficient in coefficients[-3::-1]:  # in place
+        total *= z
+        total += coefficient
+    return total
+
+
+def _told(value: Array) -> Array:
+    """A result as it is returned."""
+    return np.float64(value) if type(value) is float else value
+
+
+_OF_NUMBERS = (np.float64, float, int)

@@ -1,0 +1,274 @@
+"""Sums over straight lines and parabolas, support/_parabolas.py: identities, and other routes."""
+
+from collections.abc import Callable
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import mpf
+from numpy.testing import assert_allclose, assert_array_equal
+from sympy import Expr, Rational, cos, integrate, sin, symbols, tan
+
+from generated import _quadrature
+from generated._parabolas import _BOW, _EXCESS, AFAR, Parabolas, _polynomial
+from generated._profile import Curve, Piece, Profile
+
+e, T, t = symbols("e T t", positive=True)
+D = e - sin(e) * cos(e)
+over_the_part = (t, (T - e) / 2, (T + e) / 2)
+"""The angles of a part by the sum T and the difference e of those of its ends."""
+
+
+def vanishes(difference: Expr) -> bool:
+    """Whether a form of sines is zero at four points, to 40 digits: it has no others to hide in."""
+    points = [(30, 90), (110, 170), (1, 2), (150, 160), (5, 250)]
+    return all(
+        abs(difference.subs({e: Rational(x, 100), T: Rational(y, 100)}).evalf(50)) < mpf(10) ** -40
+        for x, y in points
+    )
+
+
+FORMS: dict[str, tuple[Expr, Expr]] = {
+    "w ds, over h^2/4": (
+        8 * (sin(t) * cos(t)) ** 2,
+        D + 2 * sin(e) * cos(e) * sin(T) ** 2,
+    ),
+    "w ds/A, over h": (
+        2 * cos(t) ** 2,
+        D + 2 * sin(e) * cos((T - e) / 2) * cos((T + e) / 2),
+    ),
+    "w ds/B, over h": (
+        2 * sin(t) ** 2,
+        D + 2 * sin(e) * sin((T - e) / 2) * sin((T + e) / 2),
+    ),
+    "w (A - B) ds, over h^3": (
+        2 * (sin(t) * cos(t)) ** 2 * (sin(t) ** 2 - cos(t) ** 2),
+        -sin(e) * cos(T) / 6 * (sin(T - e) ** 2 + sin(T - e) * sin(T + e) + sin(T + e) ** 2),
+    ),
+    "(s - the part's middle) ds/w, over h": (
+        2 * (sin(t) ** 2 - (sin((T - e) / 2) ** 2 + sin((T + e) / 2) ** 2) / 2),
+        -cos(T) * (sin(e) ** 3 - cos(e) * D),
+    ),
+    "(sin(t)**2 + 2 tan(t)**2) dt": (
+        sin(t) ** 2 + 2 * tan(t) ** 2,
+        2 * tan(e) * tan((T - e) / 2) * tan((T + e) / 2)
+        + 2 * sin(e) ** 2 * tan(e)
+        - 3 * D / 2
+        + sin(e) * sin((T - e) / 2) * sin((T + e) / 2),
+    ),
+}
+"""Integrals over a part, s being told by its angle t, and what is added up in their place."""
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_the_sums_are_the_integrals(name: str) -> None:
+    integrand, form = FORMS[name]
+    assert vanishes(integrate(integrand.expand(), over_the_part) - form)
+
+
+def test_both_polynomials_are_exact_to_rounding() -> None:
+    """Their last coefficients are no series', but Chebyshev's."""
+
+    def bow(z: mpf) -> mpf:
+        angle = mpmath.sqrt(z)
+        return (angle - mpmath.sin(angle) * mpmath.cos(angle)) / angle**3
+
+    def excess(z: mpf) -> mpf:
+        y = mpmath.sqrt(z)
+        return (mpmath.atanh(y) - y) / y**3
+
+    half = mpmath.tanh(mpmath.atanh(1 / mpmath.sqrt(3)) / 2)
+    for coefficients, function, end in (
+        (_BOW, bow, (mpmath.pi / 2) ** 2),
+        (_EXCESS, excess, half**2),
+    ):
+        with mpmath.workdps(50):
+            for z in mpmath.linspace(end / 10**6, end, 301):
+                exact = mpmath.polyval([mpf(v) for v in reversed(coefficients)], z)
+                assert abs(exact / function(z) - 1) < mpf(2) ** -53
+            places = np.linspace(0, float(end), 301)[1:]
+            wanted = [float(function(mpf(z))) for z in places]
+        found = _polynomial(coefficients, places)
+        assert_allclose(found, wanted, rtol=2.0**-51)
+        assert_array_equal([_polynomial(coefficients, float(z)) for z in places], found)
+
+
+# ------------------------------------------------------------------ against quadrature
+
+quiet = np.errstate(all="ignore")
+"""As generated functions call what they need."""
+
+KINKS = (-0.7, 0.2, 1.1)
+BENDS = (None, 1.5, 0.25, 2.0)
+JUMP = 0.125
+"""A straight flank, a corner at 0.2, and three radii; g' is zero at 0.2 - 0.125/1.5, say."""
+
+ROOT = 0.2 - JUMP / 1.5
+
+
+def slope_at(number: int, s: Any) -> Any:
+    """g' of each piece, by hand."""
+    after = 1.5 * (0.2 - ROOT) + JUMP
+    return [
+        1.5 * (KINKS[0] - ROOT) + 0 * s,
+        1.5 * (s - ROOT),
+        after + 0.25 * (s - 0.2),
+        after + 0.25 * (1.1 - 0.2) + 2.0 * (s - 1.1),
+    ][number]
+
+
+BODY = Parabolas(
+    kinks=KINKS,
+    corners={1: JUMP},
+    bends=BENDS,
+    slopes=(
+        (0, slope_at(0, 0.0)),
+        (ROOT, 0),
+        (0.2, slope_at(2, 0.2)),
+        (1.1, slope_at(3, 1.1)),
+    ),
+)
+
+
+def integrated() -> Profile:
+    """The same body for quadrature of g'', which knows nothing of parabolas."""
+
+    def branch(number: int, place: float, sense: int) -> Callable[..., Curve]:
+        def curve(t: Any) -> Curve:
+            bend = BENDS[number] or 0.0
+            return Curve(slope_at(number, place + sense * t), bend + 0 * t, lambda: 0 * t)
+
+        return curve
+
+    pieces = []
+    for number, bend in enumerate(BENDS):
+        left = branch(number, KINKS[number - 1], 1) if number else None
+        right = branch(number, KINKS[number], -1) if number < len(KINKS) else None
+        pieces.append(Piece(left, right, straight=bend is None))
+    return Profile(lambda: KINKS, lambda: (0.0, JUMP, 0.0), tuple(pieces), 4)
+
+
+def contacts(count: int = 400, seed: int = 5) -> tuple[Any, Any]:
+    """Contacts with edges anywhere, some of them beside a kink."""
+    rng = np.random.default_rng(seed)
+    left, width = rng.uniform(-3, 1.5, count), 10 ** rng.uniform(-2, 0.7, count)
+    near = rng.choice(KINKS, count) + rng.choice([-1, 1], count) * 10 ** rng.uniform(-9, -1, count)
+    left = np.where(rng.random(count) < 0.4, near, left)
+    return -left, left + width
+
+
+def test_load_moment_tilt_and_K_N_against_quadrature() -> None:
+    a, c = contacts()
+    found, wanted = BODY.state(a, c), quiet(_quadrature.state_of)(integrated(), a, c)
+    assert np.count_nonzero(np.isfinite(found.load)) > 290
+    assert_array_equal(np.isnan(found.load), np.isnan(wanted.load))
+    far = np.maximum(np.abs(a), np.abs(c))
+    sizes = wanted.load, far * wanted.load, 3 + 0 * a, wanted.left, wanted.right
+    for field, size in zip(found._fields, sizes, strict=True):
+        off = np.abs(getattr(found, field) - getattr(wanted, field))
+        assert np.all((off <= 2e-13 * size)[np.isfinite(wanted.load)]), field
+
+
+def test_each_result_alone_is_the_same() -> None:
+    a, c = contacts()
+    state = BODY.state(a, c)
+    there = np.isfinite(state.load)
+    assert_array_equal(BODY.load(a, c)[there], state.load[there])
+    assert_array_equal(BODY.moment(a, c), state.moment)
+    assert_array_equal(BODY.tilt(a, c), state.tilt)
+    assert_array_equal(BODY.edges(a, c), (state.left, state.right))
+
+
+def test_L_N_against_quadrature() -> None:
+    a, c = contacts()
+    found, wanted = BODY.second(a, c), quiet(_quadrature.second_of)(integrated(), a, c)
+    K = BODY.edges(a, c)
+    for one, other, its in zip(found, wanted, K, strict=True):
+        carried = (its > 0) & np.isfinite(other)
+        size = np.maximum(np.abs(other), its / (a + c))[carried]
+        assert np.count_nonzero(carried) > 300
+        assert np.max(np.abs(one - other)[carried] / size) < 1e-12
+
+
+def test_the_pressure_against_quadrature_wherever_x_lies() -> None:
+    """Inside parts, beside them, and many times their length away."""
+    a, c = contacts()
+    rng = np.random.default_rng(6)
+    inside = rng.uniform(-a, c)
+    beside = rng.choice(KINKS, a.size) + rng.choice([-1, 1], a.size) * 10 ** rng.uniform(-12, -1)
+    for x in (inside, np.clip(beside, -a, c), -a + (a + c) * 1e-9, np.append(KINKS, -a[3:])):
+        found, wanted = (
+            BODY.pressure(x, a, c),
+            quiet(_quadrature.pressure_at)(integrated(), x, a, c),
+        )
+        corner = x == KINKS[1]
+        assert np.all((found == wanted)[corner & (x > -a) & (x < c)])
+        loaded = (wanted > 0) & np.isfinite(wanted)
+        assert_allclose(found[loaded], wanted[loaded], rtol=3e-13)
+        assert np.all(found[wanted == 0] == 0)
+
+
+def test_numbers_give_the_bits_of_arrays() -> None:
+    a, c = contacts(60)
+    x = np.linspace(-0.9, 1.5, a.size)
+    for method, at in (
+        *((name, (a, c)) for name in ("load", "moment", "tilt", "edges", "second")),
+        ("pressure", (x, a, c)),
+    ):
+        function = getattr(BODY, method)
+        alone = [function(*numbers) for numbers in zip(*at, strict=True)]
+        there = a + c > 0
+        assert_array_equal(np.transpose(alone)[..., there], np.array(function(*at))[..., there])
+
+
+# ------------------------------------------------------------------ properties
+
+places = st.floats(-2, 2)
+
+
+@given(place=places, a=places, width=st.floats(1e-6, 4))
+def test_a_kink_that_is_none_changes_nothing(place: float, a: float, width: float) -> None:
+    """A parabola cut at any place is the same parabola: parts add up."""
+    whole = Parabolas((0.0,), {}, (2.0, 0.5), ((0, 0), (0, 0)))
+    low, high = sorted((0.0, place))
+    middle = 0.5 if place > 0 else 2.0
+    cut = Parabolas((low, high), {}, (2.0, middle, 0.5), ((0, 0),) * 3)
+    a, c = np.float64(a), np.float64(width - a)
+    one, other = whole.state(a, c), cut.state(a, c)
+    far = max(abs(a), abs(c))
+    for field, size in zip(one._fields, (one.load, far * one.load, 4 * far, *one[3:]), strict=True):
+        assert abs(getattr(one, field) - getattr(other, field)) <= 4e-15 * size, field
+
+
+@given(a=st.floats(0.1, 3), c=st.floats(0.1, 3), x=st.floats(-3, 3))
+def test_mirrored_bodies_carry_mirrored_pressures(a: float, c: float, x: float) -> None:
+    mirrored = Parabolas(
+        tuple(-kink for kink in reversed(KINKS)),
+        {1: JUMP},
+        tuple(reversed(BENDS)),
+        tuple((-place, -slope) for place, slope in reversed(BODY.slopes)),  # type: ignore[misc]
+    )
+    a, c, x = map(np.float64, (a, c, x))
+    assert_allclose(BODY.pressure(x, a, c), mirrored.pressure(-x, c, a), rtol=1e-13, atol=1e-300)
+    assert_allclose(BODY.second(a, c), mirrored.second(c, a)[::-1], rtol=1e-12)
+    assert_allclose(BODY.tilt(a, c), -mirrored.tilt(c, a), atol=1e-14)
+
+
+@given(start=st.floats(0.001, 0.999), share=st.floats(1e-12, 1), length=st.floats(1e-12, 1))
+def test_from_afar_the_argument_of_artanh_is_small(
+    start: float, share: float, length: float
+) -> None:
+    """y = w(x) tan(e)/(d + w tan e) of a part in [0, 1] from `start`, x in front of it: below
+    1/sqrt(3), as the polynomial needs it, wherever x lies more than two lengths away."""
+    distance = start * share
+    length = min(length * distance / AFAR, 1 - start)
+    x, end = start - distance, start + length
+    root = mpmath.sqrt
+    sine = length / (root(end * (1 - start)) + root(start * max(1 - end, 0)))
+    tangent = sine / root(1 - sine**2)
+    near = root(start * (1 - start))
+    y = root(x * (1 - x)) * tangent / (distance + near * tangent)
+    assert y <= 1 / root(3) + 1e-9
