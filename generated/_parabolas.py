@@ -270,8 +270,8 @@ class _Contact:
             left = left + part.bend * (bow + twice * part.far)
             right = right + part.bend * (bow + twice * part.near)
         for jump, A, B in self.corners():
-            left = left + jump * self.of.sqrt(self._quotient(B, A))
-            right = right + jump * self.of.sqrt(self._quotient(A, B))
+            share = jump * self.of.sqrt(A * B)
+            left, right = left + share / (A + _NOTHING), right + share / (B + _NOTHING)
         root = _PI * self.of.sqrt(self.h)
         return _told(left / root), _told(right / root)
 
@@ -302,9 +302,9 @@ class _Contact:
                 share = 2 * h * off_right * self._rise(part, part.near, part.far)
                 right = right + of.where(inner_right, share, 0.0)
         for jump, A, B in self.corners():
-            far, near = self._quotient(B, A), self._quotient(A, B)
-            left = left + jump * of.sqrt(far) * (3 + 2 * far)
-            right = right + jump * of.sqrt(near) * (3 + 2 * near)
+            for_left, for_right = (of.sqrt(A * B) / (v + _NOTHING) for v in (A, B))
+            left = left + jump * for_left * (3 + 2 * (for_left * for_left))
+            right = right + jump * for_right * (3 + 2 * (for_right * for_right))
         scale = (6 * _PI) * h * of.sqrt(h)
         return _told(left / scale), _told(right / scale)
 
@@ -312,7 +312,7 @@ class _Contact:
         """int (sin(t)**2 + 2 tan(t)**2) dt over a part for the right edge, r being tan(t)."""
         tangent = 2 * part.sine / (part.cosine + _NOTHING)
         hollow = tangent * (part.sine * part.sine) - 1.5 * part.bow
-        return hollow + tangent * self._quotient(over, under) + part.sine * over / self.h
+        return hollow + tangent * (over / (under + _NOTHING)) + part.sine * over / self.h
 
     def pressure(self, x: Array) -> Array:
         """(1/pi) int g'' L(x, s) ds."""
@@ -323,12 +323,6 @@ class _Contact:
         for i, jump in self.body.corners.items():
             total = total + jump * place.level(i + 1)
         return _told(total / _PI)
-
-    def _quotient(self, over: Array, under: Array) -> Array:
-        """Their quotient, zero where nothing is under the line: there it is not wanted."""
-        if self.of is _NUMBERS:
-            return over / under if under > 0 else 0.0
-        return np.where(under > 0, over / maximum(under, _NOTHING), 0.0)
 
 
 class _Place:

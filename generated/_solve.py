@@ -240,7 +240,8 @@ def _solved(
         rows = np.flatnonzero(given & ~met)
     if rows.size:
         half = size[rows] / 2
-        found = _newton(load, goal, (half, half), of, rows, narrowed)
+        over = _over_a_kink(goal.place, cuts)
+        found = _newton(load, goal, (half, half), of, rows, narrowed, over=over)
         a[rows], c[rows] = (edge[rows] for edge in found)
         now = of(a[rows], c[rows], rows)
         judged = _judged(load[rows], goal.on(rows), a[rows], c[rows], now)
@@ -265,6 +266,15 @@ def _solved(
             whole[rows] = np.where(better, value, whole[rows])
         searched[rows] = nearer is edges
     return Solution(*(np.where(met, v, np.nan).reshape(shape)[()] for v in (a, c, tilt)))
+
+
+def _over_a_kink(place: Array, cuts: Sequence[Array]) -> Array:
+    """How wide a contact around the place reaches well over the nearest kink.
+
+    Far out on a straight flank no narrower one carries anything.
+    """
+    distances = [np.abs(cut - place) for cut in cuts]
+    return 4 * np.min(distances, axis=0) if distances else 0.0 * place
 
 
 def _within_reach(load: Array, place: Array, size: Array, state: Callable[..., State]) -> Array:
@@ -306,18 +316,20 @@ class _Widths(NamedTuple):
     narrow, wide: too narrow and too wide, as far as known.
     gap: how far apart they were when last looked at, a logarithm.
     ends: whether no load belongs to the wide one, beyond the body's end.
+    over: what to try at least where nothing is carried.
     """
 
     narrow: Array
     wide: Array
     gap: Array
     ends: Array
+    over: Array
 
     @classmethod
-    def unknown(cls, count: int) -> "_Widths":
+    def unknown(cls, over: Array) -> "_Widths":
         """Nothing is known of so many."""
-        far = np.full(count, np.inf)
-        return cls(np.zeros(count), far, far, np.full(count, False))
+        far = np.full(over.size, np.inf)
+        return cls(np.zeros(over.size), far, far, np.full(over.size, False), over)
 
     def beside(self, h: Array, need: Array, scaling: Array) -> "_Widths":
         """With what a width h tells whose load is off by the factor exp(need)."""
@@ -329,9 +341,10 @@ class _Widths(NamedTuple):
 
     def next(self, h: Array, step: Array) -> tuple[Array, "_Widths"]:
         """The width to try: h exp(step), or one between where that leaves or hardly closes in."""
-        narrow, wide, gap, _ = self
+        narrow, wide, gap, _, over = self
         by_step = h * np.exp(np.clip(step, -40, 40))
-        between = np.where(wide < np.inf, np.sqrt(np.maximum(narrow, h / 64) * wide), 8 * h)
+        wider = np.where(np.isnan(step), np.maximum(8 * h, over), 8 * h)
+        between = np.where(wide < np.inf, np.sqrt(np.maximum(narrow, h / 64) * wide), wider)
         closer = np.log(wide / narrow)
         inside = (by_step > narrow) & (by_step < wide) & ~(closer > gap / 2)
         return np.where(inside, by_step, between), self._replace(gap=closer)
@@ -407,11 +420,13 @@ def _newton(
     narrowed: float,
     smallest: float = SMALLEST,
     steps: int = STEPS,
+    over: Array | float = 0.0,
 ) -> tuple[Array, Array]:
     """a and c of some elements, NaN of others; as close as it came where no contact was found.
 
     start: their distances to the edges from which to start.
     smallest: after a step below this it is done; after so many steps it is given up.
+    over: the width to try next, of all elements, where the first contact carries nothing.
     A step is taken from `left` and `right` along `to_left` and `to_right`, logarithms.  If it leads
     away from the loads, a quarter of it is tried, and so on.
     """
@@ -419,7 +434,7 @@ def _newton(
     left, right = start
     to_left = to_right = np.zeros(rows.size)
     part = np.ones(rows.size)
-    widths = _Widths.unknown(rows.size)
+    widths = _Widths.unknown(np.broadcast_to(over, load.shape)[rows])
     best = last = np.full(rows.size, np.inf)
     for _ in range(steps):
         if not rows.size:
