@@ -61,6 +61,7 @@ _far = Dummy("far", positive=True)
 _leaning = Dummy("leaning", real=True)
 _lean = Dummy("lean", real=True)
 _reach = Dummy("reach", nonnegative=True)
+_longer = Dummy("longer", positive=True)
 _quotient = Dummy("quotient", nonnegative=True)
 
 
@@ -340,8 +341,9 @@ def conjugate_roots(program: Program) -> Program:
         Step(_base, other, "half-width without the moment"),
         Step(_lean, leg, ""),
         Step(_reach, Abs(_lean), "how far the moment moves it"),
-        Step(_quotient, Min(_base, _reach) / Max(_base, _reach), ""),
-        Step(_root, Max(_base, _reach) * sqrt(1 + _quotient**2), ""),
+        Step(_longer, Max(_base, _reach), ""),
+        Step(_quotient, Min(_base, _reach) / _longer, ""),
+        Step(_root, _longer * sqrt(1 + _quotient**2), ""),
         Step(_far, _reach + _root, "the farther edge"),
         Step(_near, _base * Kept(_over(_far, other)), "the nearer edge"),
     ]

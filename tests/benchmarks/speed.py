@@ -25,6 +25,7 @@ from tests.benchmarks.cases import CASES, CONTENDERS, EDGES, GENERATED, PUNCH, W
 from tests.benchmarks.picture import draw
 from tests.benchmarks.stages import Seconds, stages
 from tests.benchmarks.timing import (
+    AMONG_ITS_LIKE,
     Call,
     interleaved,
     peak_over_result,
@@ -140,7 +141,7 @@ def cut_or_not(sizes: tuple[int, ...], seconds: float) -> dict[str, dict[int, tu
                 with uncut():
                     return call()
 
-            times = interleaved({"cut": call, "whole": whole}, seconds)
+            times = interleaved({"cut": call, "whole": whole}, seconds, AMONG_ITS_LIKE)
             if size <= 1000:  # the same code runs; what switches it is not counted
                 times["whole"] -= timed(_nothing, 1000)
             found.setdefault(name, {})[size] = times["cut"], times["whole"]

@@ -14,19 +14,27 @@ Call = Callable[[], Any]
 LEAST = 2e-3
 """Seconds of one measurement at least: quicker calls are repeated."""
 
+AMONG_ITS_LIKE = 2e-2
+"""The same where one call is to follow another of its kind: the first after a call that left heap
+and caches in another state is one of many then.
+"""
+
 MOST_ROUNDS, FEWEST_ROUNDS = 200, 5
 
 PACKAGES = ("numpy", "scipy", "sympy", "numexpr", "numba")
 
 
-def interleaved(calls: Mapping[str, Call], seconds: float) -> dict[str, float]:
+def interleaved(
+    calls: Mapping[str, Call], seconds: float, least: float = LEAST
+) -> dict[str, float]:
     """Seconds of one call of each: medians over rounds, for about so many seconds.
 
-    Each round times all in turn, so that a change of the machine's pace meets all of them.
+    Each round times all in turn, so that a change of the machine's pace meets all of them; one
+    measurement takes `least` seconds or one call.
     """
     once = {name: timed(call, 1) for name, call in calls.items()}
     once = {name: min(t, timed(calls[name], 1)) for name, t in once.items()}  # it is warm now
-    repeats = {name: max(1, int(LEAST / t)) for name, t in once.items()}
+    repeats = {name: max(1, int(least / t)) for name, t in once.items()}
     a_round = sum(repeats[name] * t for name, t in once.items())
     rounds = max(FEWEST_ROUNDS, min(MOST_ROUNDS, int(seconds / a_round)))
     times: dict[str, list[float]] = {name: [] for name in calls}

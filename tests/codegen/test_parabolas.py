@@ -224,6 +224,17 @@ def test_numbers_give_the_bits_of_arrays() -> None:
         assert_array_equal(np.transpose(alone)[..., there], np.array(function(*at))[..., there])
 
 
+def test_the_pressure_of_arrays_however_they_lie_in_memory() -> None:
+    """Elements that see a part from afar are put back where they belong."""
+    flat = Parabolas((-1.0, 1.0), {}, (1.0, None, 1.0), ((-1.0, 0), None, (1.0, 0)))
+    x, a = np.linspace(-0.9, 1.1, 12).reshape(3, 4), np.linspace(1.01, 1.4, 4)
+    wanted = [[flat.pressure(p, q, np.float64(1.05)) for p, q in zip(r, a, strict=True)] for r in x]
+    for places in (x, np.asfortranarray(x), x.T.copy().T, x[::-1][::-1]):
+        assert_array_equal(flat.pressure(places, a, np.float64(1.05)), wanted)
+    turned = flat.pressure(np.asfortranarray(x).T, a[:, None], np.float64(1.05))
+    assert_array_equal(turned.T, wanted)
+
+
 # ------------------------------------------------------------------ properties
 
 places = st.floats(-2, 2)

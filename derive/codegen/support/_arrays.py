@@ -46,8 +46,10 @@ _MANY = 3_000
 _ZEROS = np.zeros(WHOLE)
 _ZEROS.flags.writeable = False
 
-_HEAP = 1 << 22
-"""Bytes: more than all temporaries of a block need, those of Newton's method included."""
+_HEAP = 7 << 20
+"""Bytes: half of this is more than all temporaries of a block need, those of Newton's method
+included, beside a result of a hundred thousand elements.
+"""
 
 # glibc gives free memory above 128 KiB back to the system, and asks for each page anew in the next
 # call, which takes longer than the arithmetic: until the process has once let go of a larger piece,

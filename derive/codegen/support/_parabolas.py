@@ -382,10 +382,13 @@ class _Place:
         )
         if type(found) is not np.ndarray:
             return np.where(afar, _from_afar(of, *seen, *given), found)
-        rows = np.broadcast_to(afar, found.shape)
-        found[rows] = _from_afar(
-            of, *(np.broadcast_to(v, rows.shape)[rows] for v in (*seen, *given))
-        )
+        found = np.ascontiguousarray(found)
+        rows = np.flatnonzero(np.broadcast_to(afar, found.shape))
+
+        def of_rows(value: Array) -> Array:
+            return np.broadcast_to(value, found.shape).ravel()[rows] if np.ndim(value) else value
+
+        found.reshape(-1)[rows] = _from_afar(of, *map(of_rows, (*seen, *given)))
         return found
 
     def _by_parts(self, part: _Part) -> Array:
