@@ -216,10 +216,6 @@ class Part(NamedTuple):
         left, right = of_left(past, **self.constants), of_right(ahead, **self.constants)
         return _either(past <= ahead, left, right)
 
-    def constant_curvature(self) -> Array:
-        """g'' where it is the same all over it."""
-        return self.beside(0.0, self.length).curvature
-
     def _curve(self, near_left: bool, along: Array, back: Array) -> Curve:
         """The curve at distances from its left and its right end, of its left or its right half.
 

@@ -7,6 +7,7 @@ contract  which functions a module has
 function  the text of one function
 cancel    where closed formulas lose digits to powers that cancel
 integrated  the text of functions that are integrated, everywhere or where kinks crowd
+parabolas  the text of functions that are added up part by part between kinks
 solved    the text of the inverses that have no closed formula
 module    the one template of a generated module
 mark      what every generated file begins with

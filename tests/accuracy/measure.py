@@ -13,7 +13,8 @@ from mpmath import mpf
 from sympy import Expr, lambdify
 
 from derive.codegen.contract import CONTRACT, Function
-from derive.codegen.integrated import is_mended
+from derive.codegen.integrated import keeps_its_digits
+from derive.codegen.parabolas import is_parabolic
 from derive.proof.points import numeric
 from tests.accuracy.cycles import CYCLES, Cycle
 from tests.accuracy.inverses import INVERSES
@@ -21,13 +22,13 @@ from tests.accuracy.reference import Conditions, Point, condition, exact, sheet_
 from tests.accuracy.regions import Regions, Sample
 from tests.paper_forms import FORMS
 
-CLOSED, MENDED, INTEGRATED, SOLVED, CYCLE = "closed", "mended", "integrated", "solved", "cycle"
+CLOSED, PARTS, INTEGRATED, SOLVED, CYCLE = "closed", "by parts", "integrated", "solved", "cycle"
 """How a function computes: a formula; a formula, or quadrature where its terms cancel; quadrature;
 Newton's method; the conditions of partial slip."""
 
 LIMITS = {
     CLOSED: 4.0,
-    MENDED: 4.0,
+    PARTS: 4.0,
     INTEGRATED: 64.0,
     SOLVED: 64.0,
     CYCLE: 64.0,
@@ -86,10 +87,11 @@ def kind_of(body: str, function: str) -> str:
         return SOLVED
     if not all(sheet.is_closed(name) for name in its.formulas):
         return INTEGRATED
-    return MENDED if its.geometric and is_mended(sheet) else CLOSED
+    by_parts = its.geometric and is_parabolic(sheet) and not keeps_its_digits(sheet, function)
+    return PARTS if by_parts else CLOSED
 
 
-SHARES = {CLOSED: 1.0, MENDED: 1.0, SOLVED: 0.1, INTEGRATED: 0.005}
+SHARES = {CLOSED: 1.0, PARTS: 1.0, SOLVED: 0.1, INTEGRATED: 0.005}
 """How many points are tried in a region, in parts of those asked for: some references are dear."""
 
 

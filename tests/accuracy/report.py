@@ -18,7 +18,7 @@ from tests.accuracy.measure import (
     CYCLE,
     INTEGRATED,
     LIMITS,
-    MENDED,
+    PARTS,
     SOLVED,
     WELL,
     Worst,
@@ -43,7 +43,7 @@ def measured(task: Task, report: Report) -> list[Worst]:
 
 def tasks(bodies: Iterable[str], count: int) -> list[Task]:
     """Every function of the bodies, those first that take longest."""
-    dear = {CLOSED: 2, MENDED: 2, SOLVED: 1, CYCLE: 1, INTEGRATED: 0}
+    dear = {CLOSED: 2, PARTS: 2, SOLVED: 1, CYCLE: 1, INTEGRATED: 0}
     found = [(body, function, count) for body in bodies for function in functions(body)]
     return sorted(found, key=lambda task: dear[kind_of(*task[:2])])
 
@@ -63,7 +63,7 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "  than that of the inputs, summed over them.  Half a unit in each input explains as much.",
         f"- well: largest error among problems whose condition is at most {WELL:g}.",
         "- ulp/condition: largest error over the condition (at least 1) of its point; 4 or less is",
-        "  what closed formulas are held to, and those that are mended by quadrature.",
+        "  what closed formulas are held to, and sums over the parts between kinks.",
         "- lost: points at which the function gave no number, or none next to a solution.",
         "- paper: worst error of the printed form, where there is one.",
         "",
@@ -117,7 +117,7 @@ def _summed(rows: list[Worst]) -> Worst:
 
 def _worst_points(rows: list[Worst]) -> Iterator[str]:
     """Where closed formulas miss what they are held to."""
-    missed = [r for r in rows if r.kind in (CLOSED, MENDED) and r.excess > LIMITS[r.kind]]
+    missed = [r for r in rows if r.kind in (CLOSED, PARTS) and r.excess > LIMITS[r.kind]]
     yield from ("## Closed formulas beyond 4 times the condition", "")
     if not missed:
         yield from ("None.", "")

@@ -14,7 +14,7 @@ from tests.accuracy.measure import (
     CYCLE,
     INTEGRATED,
     LIMITS,
-    MENDED,
+    PARTS,
     SOLVED,
     Worst,
     functions,
@@ -41,7 +41,7 @@ BOUNDS = {
 
 @cache
 def rows_of(body: str) -> tuple[Worst, ...]:
-    cheap = [name for name in functions(body) if kind_of(body, name) in (CLOSED, MENDED)]
+    cheap = [name for name in functions(body) if kind_of(body, name) in (CLOSED, PARTS)]
     return tuple(row for name in cheap for row in worst_of(body, POINTS, name))
 
 
@@ -75,10 +75,10 @@ def test_closed_formulas_lose_nothing_that_the_problem_keeps(body: str) -> None:
 
 
 @QUICK_AND_SLOW
-def test_formulas_that_are_mended_lose_nothing_either(body: str) -> None:
-    for row in (row for row in rows_of(body) if row.kind == MENDED):
+def test_sums_over_parts_lose_nothing_either(body: str) -> None:
+    for row in (row for row in rows_of(body) if row.kind == PARTS):
         what = f"{row.function}.{row.output} in {row.region}"
-        assert row.excess <= LIMITS[MENDED], f"{what}: {row.excess:.1f} at {row.over}"
+        assert row.excess <= LIMITS[PARTS], f"{what}: {row.excess:.1f} at {row.over}"
         assert row.lost == 0
 
 
@@ -134,7 +134,7 @@ def test_a_solution_and_its_condition() -> None:
 @pytest.mark.slow
 def test_every_kind_is_measured() -> None:
     kinds = {kind_of(body, name) for body in library() for name in functions(body)}
-    assert kinds == {CLOSED, MENDED, INTEGRATED, SOLVED, CYCLE}
+    assert kinds == {CLOSED, PARTS, INTEGRATED, SOLVED, CYCLE}
     asked = tasks(["hertz", "power"], 5)
     assert ("hertz", "stick_zone, large tension", 5) in asked
     assert ("power", "pressure", 5) in asked

@@ -26,7 +26,7 @@ from ._arrays import Array
 from ._profile import TOGETHER, Curve, Part, Window, weighted
 
 NODES = 12
-"""Nodes on a piece where g'' is constant; one more for each degree of it."""
+"""Nodes on a piece; one more for each degree of g''."""
 
 NODES_AFAR = 24
 """Nodes for the pressure of a piece seen from outside; so many more as well."""
@@ -36,9 +36,6 @@ AFAR = 0.25
 
 SUMS = "force", "left", "right", "lean", "arm"
 """What is integrated for load, K_N at both edges, tilt and moment."""
-
-STEEP = 1.2
-"""The angle from where on the second coefficient is known by its terms."""
 
 _NOTHING = 1e-290
 """In parts of the width: so close to a part's end, what is taken by parts there is nothing."""
@@ -61,7 +58,7 @@ def carried(contact: Window, degree: int, wanted: Collection[str] = SUMS) -> lis
             arc = _Arc(part, h, count)
             for i, name in enumerate(SUMS):
                 if name in wanted:
-                    share = 2 * arc.integral(_INTEGRANDS[name](arc, degree))
+                    share = 2 * arc.integral(_INTEGRANDS[name](arc))
                     total[i, rows] += np.where(part.length > 0, share, 0.0)
         total[:, rows] *= h**2, h, h, h**0, h**3
     return [*total]
@@ -84,42 +81,6 @@ def pressed(contact: Window, x: Array, degree: int) -> Array:
                     share[some] += seen(part.on(some), place.on(some), here.width[some], degree)
         total[rows] = share
     return total
-
-
-def of_parabolas(contact: Window) -> Array:
-    """The finite part of int g'' r (3 + 2 r**2) ds, r = tan(t), where g'' is constant on pieces.
-
-    The last piece's g'' counts all over the contact, -(3 pi/2) h of it; that of the others is
-    taken as what it differs by, so that a narrow gap between like pieces is no small difference.
-    """
-    last = 0.0 * contact.width
-    parts = [*contact.pieces()]
-    for part in parts:
-        its = 0.0 if part.piece.straight else part.constant_curvature()
-        last = np.where(part.ends_high & (part.length > 0), its, last)
-    total = -1.5 * np.pi * contact.width * last
-    for part in parts:
-        its = 0.0 if part.piece.straight else part.constant_curvature()
-        counts = (part.length > 0) & ~part.ends_high & (its != last)
-        if np.any(counts):
-            share = 2 * contact.width * (its - last) * _rise(part, contact.width)
-            total = total + np.where(counts, share, 0.0)
-    return total
-
-
-def _rise(part: Part, h: Array) -> Array:
-    """The rise of psi(r) = 2 r - (3/2) atan r - r/(2 (1 + r**2)) over a part, r = tan(t).
-
-    By Gauss's rule as int (sin(t)**2 + 2 r**2) dt; by its terms, of which the first is the largest
-    then, where the part ends beyond the angle STEEP.
-    """
-    arc = _Arc(part, h, NODES_AFAR)
-    found = arc.integral(arc.sine**2 + 2 * (arc.sine / arc.cosine) ** 2)
-    low, high = (sine / cosine for sine, cosine in (arc.start, arc.end))
-    step = np.where(2 * low < high, high - low, np.tan(arc.extent) * (1 + low * high))
-    twist = (1 - low * high) / ((1 + low**2) * (1 + high**2))
-    by_terms = 2 * step - 1.5 * arc.extent - step * twist / 2
-    return np.where(high > np.tan(STEEP), by_terms, found)
 
 
 class _Place(NamedTuple):
@@ -175,9 +136,7 @@ def _from_nearby(part: Part, place: _Place, h: Array, degree: int) -> Array:
     fractions, weights = _on_the_unit(degree // 2 + 1)
 
     def quotient(along: Array, back: Array) -> Array:
-        """Q at these distances from the part's ends; one number for each part where it is one."""
-        if not degree:
-            return part.constant_curvature()
+        """Q at these distances from the part's ends."""
         found = 0.0 * along
         for r, weight in zip(fractions, weights, strict=True):
             between = (1 - r) * after_start + r * along, (1 - r) * before_end + r * back
@@ -185,7 +144,7 @@ def _from_nearby(part: Part, place: _Place, h: Array, degree: int) -> Array:
         return found
 
     arc = _Arc(part, h, NODES + degree)
-    whole = arc.integral(quotient(arc.along, arc.back) + 0 * arc.sine)
+    whole = arc.integral(quotient(arc.along, arc.back))
     total = place.root * whole
     none = 0.0 * part.length
     for (sine, cosine), along, back, distance in (
@@ -204,7 +163,7 @@ def _from_afar(part: Part, place: _Place, h: Array, degree: int) -> Array:
     arc = _Arc(part, h, NODES_AFAR + degree)
     distance = np.where(after_start < 0, arc.along - after_start, arc.back - before_end)
     level = place.logarithm(arc.sine, arc.cosine, distance)
-    return 2 * h * arc.integral(arc.curvature(degree) * (arc.sine * arc.cosine * level))
+    return 2 * h * arc.integral(arc.curve.curvature * (arc.sine * arc.cosine * level))
 
 
 class _Arc:
@@ -251,10 +210,6 @@ class _Arc:
         """The curve at the nodes."""
         return self.part.beside(self.along, self.back)
 
-    def curvature(self, degree: int) -> Array:
-        """g'' at the nodes, or what it is everywhere on the part."""
-        return self.curve.curvature if degree else self.part.constant_curvature()
-
     def integral(self, value: Array) -> Array:
         """int value dt over the part."""
         return self.extent * weighted(self._weight, value)
@@ -296,13 +251,13 @@ def _on_the_unit(count: int) -> tuple[Array, Array]:
     return (1 + nodes) / 2, weights / 2
 
 
-_INTEGRANDS: dict[str, Callable[[_Arc, int], Array]] = {
-    "force": lambda arc, degree: arc.curvature(degree) * (arc.sine * arc.cosine) ** 2,
-    "left": lambda arc, degree: arc.curvature(degree) * arc.cosine**2,
-    "right": lambda arc, degree: arc.curvature(degree) * arc.sine**2,
-    "lean": lambda arc, _: arc.curve.slope,
-    "arm": lambda arc, degree: (
-        arc.curvature(degree)
+_INTEGRANDS: dict[str, Callable[[_Arc], Array]] = {
+    "force": lambda arc: arc.curve.curvature * (arc.sine * arc.cosine) ** 2,
+    "left": lambda arc: arc.curve.curvature * arc.cosine**2,
+    "right": lambda arc: arc.curve.curvature * arc.sine**2,
+    "lean": lambda arc: arc.curve.slope,
+    "arm": lambda arc: (
+        arc.curve.curvature
         * (arc.sine * arc.cosine) ** 2
         * (arc.sine - arc.cosine)
         * (arc.sine + arc.cosine)

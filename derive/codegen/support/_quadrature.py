@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from ._angles import carried, of_parabolas, pressed
+from ._angles import carried, pressed
 from ._arrays import Array
 from ._profile import (
     TINY,
@@ -188,8 +188,6 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
     h = a + c
     scale = 6 * h * np.sqrt(h)
     shared = Window(body, constants, -a, c, h, ())
-    if body.degree == 0:
-        return (of_parabolas(shared) + _of_corners(body, a, c, constants)) / (np.pi * scale)
     origin = _start_of_last(body, a, c, constants)
 
     def integrand(near: "Nodes", of: Any) -> tuple[Array, ...]:
