@@ -95,7 +95,6 @@ _USED_BESIDES = (
         "Piece",
         "Profile",
         "Parabolas",
-        "edge",
         "state_of",
         "slope_of",
         "pressure_at",
