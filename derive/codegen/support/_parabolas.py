@@ -120,7 +120,7 @@ class _Part(NamedTuple):
 
     piece: its number.
     bend: g'' on it.
-    length, sine, cosine, extent, bow: l, sin e, cos e, e and D.
+    length, sine, cosine, extent, bow: l, sin e, cos e, e and D, the last only if it was asked for.
     near, far, across: sqrt(A_0 A_1), sqrt(B_0 B_1) and h sin T.
     """
 
@@ -183,11 +183,8 @@ class _Contact:
             return (0.0, h) if left <= 0 else (h, 0.0) if right <= 0 else (left, right)
         return minimum(maximum(left, 0.0), h), minimum(maximum(right, 0.0), h)
 
-    def part(self, i: int, bend: Array | None) -> _Part | None:
-        """What the contact has of a piece; None where that is nothing, and a number.
-
-        A piece that is given no `bend` gets no `bow`.
-        """
+    def part(self, i: int, bend: Array, with_bow: bool = True) -> _Part | None:
+        """What the contact has of a piece; None where that is nothing, and a number."""
         (A_0, B_0), (A_1, B_1) = self.inside[i : i + 2]
         h, kinks, of = self.h, self.kinks, self.of
         length = A_1 if i < len(kinks) else B_0
@@ -200,14 +197,14 @@ class _Contact:
         near, far = sqrt(A_0 * A_1), sqrt(B_0 * B_1)
         sine, cosine = length / (across + _NOTHING), (near + far) / h
         extent = 2 * of.arctan(sine / (1 + cosine))
-        square = extent * extent
-        bow = 0.0 if bend is None else extent * square * _polynomial(_BOW, square)
+        bow = _bow(extent) if with_bow else 0.0
         return _Part(i, bend, length, sine, cosine, extent, bow, near, far, across)
 
-    def curved(self) -> list[_Part]:
+    def curved(self, with_bow: bool = True) -> list[_Part]:
         """The curved parts."""
         if self._curved is None:
-            found = [self.part(i, b) for i, b in enumerate(self.body.bends) if b is not None]
+            bends = enumerate(self.body.bends)
+            found = [self.part(i, bend, with_bow) for i, bend in bends if bend is not None]
             self._curved = [part for part in found if part]
         return self._curved
 
@@ -257,7 +254,7 @@ class _Contact:
             both = _slope(part.bend, line, start) + _slope(part.bend, line, end)
             lean = lean + part.extent * both + part.bend * (part.near - part.far) * hollow
         for i, line in enumerate(self.body.slopes):
-            if line and self.body.bends[i] is None and (flank := self.part(i, None)):
+            if line and self.body.bends[i] is None and (flank := self.part(i, 0.0, False)):
                 lean = lean + 2 * flank.extent * line[1]
         return _told(-lean / _PI)
 
@@ -317,7 +314,7 @@ class _Contact:
         """(1/pi) int g'' L(x, s) ds."""
         place = _Place(self, x)
         total = 0.0 * place.root
-        for part in self.curved():
+        for part in self.curved(with_bow=False):
             total = total + part.bend * place.share(part)
         for i, jump in self.body.corners.items():
             total = total + jump * place.level(i + 1)
@@ -364,7 +361,7 @@ class _Place:
         start, end = self.offsets[i], self.offsets[i + 1]
         if of is _NUMBERS and start <= limit and -end <= limit:
             return self._by_parts(part)
-        given = part.length, part.sine, part.cosine, part.bow
+        given = part.length, part.sine, part.cosine, part.extent
         if of is _NUMBERS:
             nearer, farther = (i, i + 1) if start > 0 else (i + 1, i)
             A, B = self.contact.inside[nearer]
@@ -410,7 +407,7 @@ def _from_afar(
     length: Array,
     sine: Array,
     cosine: Array,
-    bow: Array,
+    extent: Array,
 ) -> Array:
     """int L(x, s) ds over a part whose nearer end is twice its length d > 2 l away from x, or more,
 
@@ -424,8 +421,14 @@ def _from_afar(
     y = root * tangent / reach
     z = y / (1 + of.sqrt((1 - y) * (1 + y)))  # artanh y = 2 artanh z
     excess = 2 * (z * z * z) * _polynomial(_EXCESS, z * z) + y * (z * z)
-    turned = near * (tangent * tangent) / reach - (tangent * (sine * sine) - bow)
+    turned = near * (tangent * tangent) / reach - (tangent * (sine * sine) - _bow(extent))
     return length * level + root * turned - distance * excess
+
+
+def _bow(extent: Array) -> Array:
+    """D of an extent."""
+    square = extent * extent
+    return extent * square * _polynomial(_BOW, square)
 
 
 def _polynomial(coefficients: Sequence[float], z: Array) -> Array:
