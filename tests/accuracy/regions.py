@@ -6,6 +6,7 @@ its tilt is bounded, where its kinks are, and which contacts exist.
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -189,7 +190,7 @@ class Regions:
                 yield f"tilt near its {side} limit", given | {"alpha": bound * (1 - short)}
 
     def inside(self, name: str, given: Sample) -> Iterator[tuple[str, Sample]]:
-        """Places in the bulk, next to both edges and next to every kink."""
+        """Places in the bulk, next to both edges, next to every kink, and beside every part."""
         a, c = given["a"], given["c"]
         count = len(a)
         theta = self.rng.uniform(0.1, np.pi - 0.1, count)
@@ -202,6 +203,17 @@ class Regions:
             signs = self.rng.choice([-1.0, 1.0], count)
             close = signs * self.decades(-EXPONENTS["kinks"], 0, count) * np.minimum(c - at, a + at)
             yield f"{name}, x at kink {kink.number}", self._placed(given, at + close)
+        yield from self._beside_parts(name, given)
+
+    def _beside_parts(self, name: str, given: Sample) -> Iterator[tuple[str, Sample]]:
+        """x outside a part between two kinks or edges, a tenth to ten of its lengths away."""
+        kinks = [self._values(k.position, given) for k in self.sheet.geometry.slope.kinks]
+        low, high = -np.asarray(given["a"]), np.asarray(given["c"])
+        ends = [low, *(np.clip(k, low, high) for k in kinks), high]
+        for number, (start, end) in enumerate(pairwise(ends)) if kinks else ():
+            far = (end - start) * self.decades(-1, 1, len(low))
+            x = np.where(self.rng.random(len(low)) < 0.5, start - far, end + far)
+            yield f"{name}, x beside part {number}", self._placed(given, x)
 
     def _values(self, expr: Expr, given: Sample) -> Any:
         """A place or a slope of the body, in float64."""

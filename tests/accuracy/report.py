@@ -70,7 +70,8 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "Regions: contacts in the bulk; widths, or loads, over 24 decades; lopsided ones, down to",
         "1e-8 of the width on one side of the origin, at extreme widths, too; nearly level; an",
         "edge beside a kink, from 1e-15 to a tenth of the body's size; x beside each edge, and",
-        "beside each kink to 1e-300; tilts near their limit; tiny slip zones, down to 1e-12 of",
+        "beside each kink to 1e-300, and outside the parts between kinks, a tenth to ten of their",
+        "lengths away; tilts near their limit; tiny slip zones, down to 1e-12 of",
         "the load; tension near its threshold.  Integrated bodies are not tried at extreme widths.",
         "",
     ]

@@ -80,7 +80,7 @@ def test_both_polynomials_are_exact_to_rounding() -> None:
         y = mpmath.sqrt(z)
         return (mpmath.atanh(y) - y) / y**3
 
-    half = mpmath.tanh(mpmath.atanh(1 / mpmath.sqrt(3)) / 2)
+    half = mpmath.tanh(mpmath.atanh(mpmath.sqrt(mpf(4) / 7)) / 2)
     for coefficients, function, end in (
         (_BOW, bow, (mpmath.pi / 2) ** 2),
         (_EXCESS, excess, half**2),
@@ -273,7 +273,7 @@ def test_from_afar_the_argument_of_artanh_is_small(
     start: float, share: float, length: float
 ) -> None:
     """y = w(x) tan(e)/(d + w tan e) of a part in [0, 1] from `start`, x in front of it: below
-    1/sqrt(3), as the polynomial needs it, wherever x lies more than two lengths away."""
+    sqrt(4/7), as the polynomial needs it, wherever x lies more than 3/4 of its length away."""
     distance = start * share
     length = min(length * distance / AFAR, 1 - start)
     x, end = start - distance, start + length
@@ -282,4 +282,4 @@ def test_from_afar_the_argument_of_artanh_is_small(
     tangent = sine / root(1 - sine**2)
     near = root(start * (1 - start))
     y = root(x * (1 - x)) * tangent / (distance + near * tangent)
-    assert y <= 1 / root(3) + 1e-9
+    assert y <= root(mpf(4) / 7) + 1e-9

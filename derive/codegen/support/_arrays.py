@@ -404,7 +404,7 @@ def _float64(value: Any, label: str) -> Any:
     """
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.ndim:
         return value
-    if type(value) is float or type(value) is np.float64:
+    if type(value) in _NUMBERS or (type(value) is int and abs(value) < MOST):
         return np.float64(value)
     demand_array(value, label)
     foreign = _is_foreign(value)

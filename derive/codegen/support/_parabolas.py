@@ -28,8 +28,8 @@ import numpy as np
 from ._arrays import TINY, Array, fmax, kink_logarithm, maximum, minimum, some
 from ._state import State
 
-AFAR = 2.0
-"""A part whose nearer end is so many times its length away from x is seen from afar."""
+AFAR = 0.75
+"""A part whose nearer end is farther away from x than so many of its lengths is seen from afar."""
 
 _BOW = (
     *(0.6666666666666666, -0.13333333333333314, 0.012698412698410114, -0.0007054673721206159),
@@ -39,9 +39,10 @@ _BOW = (
 """D/e**3 as a polynomial of e**2, exact to rounding up to e = pi/2."""
 
 _EXCESS = (
-    *(0.3333333333333333, 0.20000000000002965, 0.14285714284748624, 0.11111111232826203),
-    *(0.09090901320534385, 0.07692591607313443, 0.06660385044788199, 0.059675976534377624),
-    *(0.04576372547342947, 0.07691310342360806),
+    *(0.3333333333333333, 0.19999999999999052, 0.1428571428596771, 0.11111111084556022),
+    *(0.09090910532340422, 0.07692261295364107, 0.06667620913180053, 0.05869281769302486),
+    *(0.0538465327208424, 0.03996771140320575, 0.07529359785832947, -0.041692995398121414),
+    0.1461596865204899,
 )
 """(artanh z - z)/z**3 as a polynomial of z**2, exact to rounding up to artanh z = artanh(y)/2."""
 
@@ -287,8 +288,8 @@ class _Contact:
         for i, bend in enumerate(bends):
             inner_left, inner_right = self.inside[i][0] > 0, self.inside[i + 1][1] > 0
             off_left, off_right = bend - first, bend - last
-            to_left = of is _ARRAYS or (inner_left and off_left != 0)
-            to_right = of is _ARRAYS or (inner_right and off_right != 0)
+            to_left = of is _ARRAYS or (inner_left and _may_be(off_left))
+            to_right = of is _ARRAYS or (inner_right and _may_be(off_right))
             if not (to_left or to_right) or (part := self.part(i, bend)) is None:
                 continue
             if to_left:
@@ -314,6 +315,8 @@ class _Contact:
         """(1/pi) int g'' L(x, s) ds."""
         place = _Place(self, x)
         total = 0.0 * place.root
+        if place.of is _NUMBERS and place.root == 0:
+            return _told(total)
         for part in self.curved(with_bow=False):
             total = total + part.bend * place.share(part)
         for i, jump in self.body.corners.items():
@@ -409,10 +412,10 @@ def _from_afar(
     cosine: Array,
     extent: Array,
 ) -> Array:
-    """int L(x, s) ds over a part whose nearer end is twice its length d > 2 l away from x, or more,
+    """int L(x, s) ds over a part whose nearer end lies d > (3/4) l away from x, l long itself,
 
         l L + w(x) (e - tan e + w tan(e)**2/(d + w tan e)) - d (artanh y - y),
-        y = w(x) tan(e)/(d + w tan e) < 1/sqrt(3),
+        y = w(x) tan(e)/(d + w tan e) < sqrt(4/7),
 
     w = `near` at that end, and L = `level` at the other one.
     """
@@ -442,6 +445,11 @@ def _polynomial(coefficients: Sequence[float], z: Array) -> Array:
         total *= z
         total += coefficient
     return total
+
+
+def _may_be(value: Array) -> bool:
+    """Whether it is not known to be zero."""
+    return type(value) not in _OF_NUMBERS or value != 0
 
 
 def _told(value: Array) -> Array:
