@@ -42,6 +42,9 @@ from ._profile import (
 )
 from ._state import State
 
+NEAR = 4
+"""How far the rule goes where g'' is finite; its nodes are next to the ends of a piece by 1e-37."""
+
 COARSEST, FINEST = 1, 9
 """Steps of the rule are 2**-COARSEST at first and 2**-FINEST at last."""
 
@@ -50,6 +53,11 @@ AGREED = 1e-11
 
 EXACT = 1e-13
 """Tilt and L_N whose sums agree to this are: close to a kink theirs get better slowly."""
+
+CUT_OFF = 1e-14
+"""Where g'' is infinite at a break, a sum whose outermost terms are a larger part of it has not
+come to its end: what is left out is some hundredth of them.
+"""
 
 BESIDE = 0.1
 """Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
@@ -275,7 +283,25 @@ def _integrals(
             told[positive] = np.where(ended, told[positive], np.nan)
         sums[:, rows[agreed]] = told[:, agreed]
         rows, before = rows[~ended], now[:, ~ended]
+    if contact.body.reach > NEAR:
+        outermost = _outermost(contact, integrand, count)[judged]
+        sums[judged] = np.where(outermost > CUT_OFF * np.abs(sums[sizes]), np.nan, sums[judged])
     return [*sums]
+
+
+def _outermost(contact: Window, integrand: Callable[..., tuple[Array, ...]], count: int) -> Array:
+    """The largest of the terms at both ends of the rule, over all pieces."""
+    largest = np.zeros((count, contact.width.size))
+    for part in contact.pieces():
+        if part.piece.straight:
+            continue
+        nodes = _nodes(COARSEST, contact.body.reach)
+        for near_left, last in ((True, 0), (False, -1)):
+            q, rest, weight = nodes[:, last, None, None]
+            values = integrand(part.at(near_left, q, rest), lambda value: value)
+            terms = [np.where(part.length > 0, part.length * weight * v, 0.0)[0] for v in values]
+            largest = np.fmax(largest, np.abs(terms))
+    return largest
 
 
 def _level_sums(

@@ -101,9 +101,21 @@ def test_contacts_around_a_kink_are_found_again(name: str, side: int) -> None:
     assert np.all(np.abs(by_moment.a - a) <= 100 * off * (a + c))
 
 
+@pytest.mark.parametrize("k", [1.01, 1.03, 1.041, 1.05])
+def test_a_power_too_close_to_the_wedge_gives_no_number(k: float) -> None:
+    """The rule goes to 1e-275 of a piece, where 1e-275**(k - 1) of the load is left: 1e-14 at 1.05."""
+    body, given = module("power"), {"E_star": 1.0, "k": k, "L": 1.0}
+    assert np.isnan(body.load(1.0, 1.5, **given))
+    assert np.isnan(body.moment(1.0, 1.5, **given))
+    assert np.isnan(body.K_N(1.0, 1.5, **given)).all()
+    assert np.isnan(body.pressure(0.25, 1.0, 1.5, **given))
+    assert np.isnan(body.contact(1.0, 0.0, **given)).all()
+    assert np.isfinite(body.load(1.0, 1.5, **{**given, "k": 1.06}))
+
+
 @pytest.mark.parametrize(
     ("k", "alpha"),
-    [(1.05, 1e-5), (1.05, 1e-8), (1.05, -1e-12), (1.1, 1e-12), (1.1, 1e-25), (1.3, -1e-40)],
+    [(1.06, 1e-6), (1.06, 1e-8), (1.06, -1e-12), (1.1, 1e-12), (1.1, 1e-25), (1.3, -1e-40)],
 )
 def test_a_power_law_level_closer_to_its_apex_than_lengths_can_be(k: float, alpha: float) -> None:
     """(|x|/L)**(k - 1) = alpha within 1e-100 m of it; the contact is micrometres wide all the same.
