@@ -57,6 +57,7 @@ class Parabolas(NamedTuple):
     """A body whose curve is straight lines and parabolas, with its parameters; all for E* = 1.
 
     kinks: places where the curve changes, from left to right.
+    spans: how far each lies from the next one.
     corners: jumps of g' there, by the numbers of the kinks that are corners.
     bends: g'' of each piece between the kinks, None where it is straight.
     slopes: of each piece a place and g' there, on the piece's own line or parabola, of the same
@@ -64,6 +65,7 @@ class Parabolas(NamedTuple):
     """
 
     kinks: tuple[Array, ...]
+    spans: tuple[Array, ...]
     corners: Mapping[int, Array]
     bends: tuple[Array | None, ...]
     slopes: tuple[tuple[Array, Array] | None, ...]
@@ -191,7 +193,7 @@ class _Contact:
         h, kinks, of = self.h, self.kinks, self.of
         length = A_1 if i < len(kinks) else B_0
         if 0 < i < len(kinks):
-            length = of.least(of.least(A_1, B_0), kinks[i] - kinks[i - 1])
+            length = of.least(of.least(A_1, B_0), self.body.spans[i - 1])
         if of is _NUMBERS and not length > 0:
             return None
         sqrt = of.sqrt
@@ -303,7 +305,7 @@ class _Contact:
             for_left, for_right = (of.sqrt(A * B) / (v + _NOTHING) for v in (A, B))
             left = left + jump * for_left * (3 + 2 * (for_left * for_left))
             right = right + jump * for_right * (3 + 2 * (for_right * for_right))
-        scale = (6 * _PI) * h * of.sqrt(h)
+        scale = (6 * _PI) * h * of.sqrt(h) + _NOTHING
         return _told(left / scale), _told(right / scale)
 
     def _rise(self, part: _Part, over: Array, under: Array) -> Array:
@@ -363,7 +365,7 @@ class _Place:
         """int L(x, s) ds over a part: by parts, or where x lies far from it, from afar."""
         i, of, limit = part.piece, self.of, AFAR * part.length
         start, end = self.offsets[i], self.offsets[i + 1]
-        if of is _NUMBERS and start <= limit and -end <= limit:
+        if of is _NUMBERS and not (start > limit or -end > limit):
             return self._by_parts(part)
         given = part.length, part.sine, part.cosine, part.extent
         if of is _NUMBERS:
@@ -423,7 +425,7 @@ def _from_afar(
     tangent = sine / cosine
     reach = distance + near * tangent
     y = root * tangent / reach
-    z = y / (1 + of.sqrt((1 - y) * (1 + y)))  # artanh y = 2 artanh z
+    z = y / (1 + of.sqrt(abs((1 - y) * (1 + y))))  # artanh y = 2 artanh z
     excess = 2 * (z * z * z) * _polynomial(_EXCESS, z * z) + y * (z * z)
     turned = near * (tangent * tangent) / reach - (tangent * (sine * sine) - _bow(extent))
     return length * level + root * turned - distance * excess

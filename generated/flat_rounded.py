@@ -53,6 +53,7 @@ def _body(*, R: Array, b: Array) -> Parabolas:
             -b,
             b,
         ),
+        spans=(2 * b,),
         corners={},
         bends=(
             1 / R,
@@ -181,7 +182,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     '0.367875'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > 0)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return only_where(exists, _body(R=R, b=b).tilt(a, c))
 
 
@@ -214,7 +215,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     '2.53246'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > 0)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return only_where(exists, E_star * _body(R=R, b=b).load(a, c))
 
 
@@ -249,7 +250,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     '1.82431'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > 0)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return only_where(exists, E_star * _body(R=R, b=b).moment(a, c))
 
 
@@ -288,7 +289,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     '0.392783'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > 0) & (x == x)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST) & (x == x)
     return only_where(exists, E_star * _body(R=R, b=b).pressure(x, a, c))
 
 
@@ -324,7 +325,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['0.88135', '0.753378']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > 0)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).edges(a, c))))
 
 
@@ -364,7 +365,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['-0.148383', '-0.196186']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > 0)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).second(a, c))))
 
 

@@ -63,6 +63,7 @@ def _body(*, b: Array, phi: Array) -> Parabolas:
             -b,
             b,
         ),
+        spans=(2 * b,),
         corners={0: phi, 1: phi},
         bends=(
             None,
@@ -213,7 +214,13 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     exists = (
-        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+        (h > LEAST)
+        & ((a > b) | (c > b))
+        & (a > -b)
+        & (c > -b)
+        & (h < MOST)
+        & (b > LEAST)
+        & (phi > 0)
     )
     return only_where(exists, _body(b=b, phi=phi).tilt(a, c))
 
@@ -246,7 +253,13 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     exists = (
-        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+        (h > LEAST)
+        & ((a > b) | (c > b))
+        & (a > -b)
+        & (c > -b)
+        & (h < MOST)
+        & (b > LEAST)
+        & (phi > 0)
     )
     return only_where(exists, E_star * _body(b=b, phi=phi).load(a, c))
 
@@ -280,7 +293,13 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """
     h = a + c  # contact width [m]
     exists = (
-        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+        (h > LEAST)
+        & ((a > b) | (c > b))
+        & (a > -b)
+        & (c > -b)
+        & (h < MOST)
+        & (b > LEAST)
+        & (phi > 0)
     )
     return only_where(exists, E_star * _body(b=b, phi=phi).moment(a, c))
 
@@ -363,7 +382,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     exists = (
-        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+        (h > LEAST)
+        & ((a > b) | (c > b))
+        & (a > -b)
+        & (c > -b)
+        & (h < MOST)
+        & (b > LEAST)
+        & (phi > 0)
     )
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).edges(a, c))))
 
@@ -402,7 +427,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     exists = (
-        (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+        (h > LEAST)
+        & ((a > b) | (c > b))
+        & (a > -b)
+        & (c > -b)
+        & (h < MOST)
+        & (b > LEAST)
+        & (phi > 0)
     )
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).second(a, c))))
 

@@ -54,6 +54,7 @@ def _body(*, b: Array, phi: Array) -> Parabolas:
             -b,
             b,
         ),
+        spans=(2 * b,),
         corners={},
         bends=(
             None,
@@ -188,7 +189,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     '0.0165156'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > LEAST) & (phi > 0)
     return only_where(exists, _body(b=b, phi=phi).tilt(a, c))
 
 
@@ -222,7 +223,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     '0.297035'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > LEAST) & (phi > 0)
     return only_where(exists, E_star * _body(b=b, phi=phi).load(a, c))
 
 
@@ -258,7 +259,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     '0.0787576'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > LEAST) & (phi > 0)
     return only_where(exists, E_star * _body(b=b, phi=phi).moment(a, c))
 
 
@@ -297,7 +298,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     '0.0941076'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0) & (x == x)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > LEAST) & (phi > 0) & (x == x)
     return only_where(exists, E_star * _body(b=b, phi=phi).pressure(x, a, c))
 
 
@@ -335,7 +336,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0295854', '0.0455819']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > LEAST) & (phi > 0)
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).edges(a, c))))
 
 
@@ -377,7 +378,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00457246', '0.0105478']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > 0) & (phi > 0)
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST) & (b > LEAST) & (phi > 0)
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).second(a, c))))
 
 

@@ -50,6 +50,7 @@ def _body(*, R_1: Array, R_2: Array) -> Parabolas:
     """Where the curve is cut, and the lines and parabolas between."""
     return Parabolas(
         kinks=(0,),
+        spans=(),
         corners={},
         bends=(
             1 / R_1,

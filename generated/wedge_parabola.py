@@ -50,6 +50,7 @@ def _body(*, R: Array, phi: Array) -> Parabolas:
     """Where the curve is cut, and the lines and parabolas between."""
     return Parabolas(
         kinks=(0,),
+        spans=(),
         corners={0: phi},
         bends=(
             None,

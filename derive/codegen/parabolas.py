@@ -6,6 +6,7 @@ Out: the text of `_body`, its kinks and the pieces between, and of the functions
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 from sympy import Expr, simplify
 
@@ -49,7 +50,11 @@ class ParabolicText(FunctionText):
     @property
     def _further_checks(self) -> Iterator[str]:
         """Parameters of a part that is not in contact are checked all the same."""
-        yield from (f"{q.name} > 0" for q in self.sheet.geometry.parameters)
+        kinks = self.sheet.geometry.slope.kinks
+        places = set().union(*(kink.position.free_symbols for kink in kinks))
+        for quantity in self.sheet.geometry.parameters:
+            least = "LEAST" if quantity.symbol in places and quantity.unit == "m" else "0"
+            yield f"{quantity.name} > {least}"
         if self.function.name == "pressure":
             yield "x == x"
 
@@ -74,11 +79,12 @@ def body_text(sheet: FormulaSheet) -> str:
     corners = [(i, kink.step) for i, kink in enumerate(slope.kinks) if kink.is_corner]
     fields = {
         "kinks": map(_printed, places),
+        "spans": (_printed(simplify(right - left)) for left, right in pairwise(places)),
         "bends": (_printed_if_any(simplify(piece.curvature)) for piece in pieces),
         "slopes": map(_line, pieces),
     }
     lines = [f"{name}=({' '.join(f'{v},' for v in held)})," for name, held in fields.items()]
-    lines.insert(1, f"corners={{{', '.join(f'{i}: {_printed(jump)}' for i, jump in corners)}}},")
+    lines.insert(2, f"corners={{{', '.join(f'{i}: {_printed(jump)}' for i, jump in corners)}}},")
     return "\n".join(
         [
             f"def _body{signature} -> Parabolas:",

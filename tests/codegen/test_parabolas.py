@@ -1,6 +1,9 @@
 """Sums over straight lines and parabolas, support/_parabolas.py: identities, and other routes."""
 
+import importlib
 from collections.abc import Callable
+from inspect import signature
+from itertools import product
 from typing import Any
 
 import mpmath
@@ -101,34 +104,35 @@ def test_both_polynomials_are_exact_to_rounding() -> None:
 quiet = np.errstate(all="ignore")
 """As generated functions call what they need."""
 
-KINKS = (-0.7, 0.2, 1.1)
+KINKS = (-0.75, 0.25, 1.125)
 BENDS = (None, 1.5, 0.25, 2.0)
 JUMP = 0.125
-"""A straight flank, a corner at 0.2, and three radii; g' is zero at 0.2 - 0.125/1.5, say."""
+"""A straight flank, a corner at 0.25, and three radii; g' is zero at 0.25 - 0.125/1.5, say."""
 
-ROOT = 0.2 - JUMP / 1.5
+ROOT = 0.25 - JUMP / 1.5
 
 
 def slope_at(number: int, s: Any) -> Any:
     """g' of each piece, by hand."""
-    after = 1.5 * (0.2 - ROOT) + JUMP
+    after = 1.5 * (0.25 - ROOT) + JUMP
     return [
         1.5 * (KINKS[0] - ROOT) + 0 * s,
         1.5 * (s - ROOT),
-        after + 0.25 * (s - 0.2),
-        after + 0.25 * (1.1 - 0.2) + 2.0 * (s - 1.1),
+        after + 0.25 * (s - 0.25),
+        after + 0.25 * (1.125 - 0.25) + 2.0 * (s - 1.125),
     ][number]
 
 
 BODY = Parabolas(
     kinks=KINKS,
+    spans=(1.0, 0.875),
     corners={1: JUMP},
     bends=BENDS,
     slopes=(
         (0, slope_at(0, 0.0)),
         (ROOT, 0),
-        (0.2, slope_at(2, 0.2)),
-        (1.1, slope_at(3, 1.1)),
+        (0.25, slope_at(2, 0.25)),
+        (1.125, slope_at(3, 1.125)),
     ),
 )
 
@@ -226,13 +230,60 @@ def test_numbers_give_the_bits_of_arrays() -> None:
 
 def test_the_pressure_of_arrays_however_they_lie_in_memory() -> None:
     """Elements that see a part from afar are put back where they belong."""
-    flat = Parabolas((-1.0, 1.0), {}, (1.0, None, 1.0), ((-1.0, 0), None, (1.0, 0)))
+    flat = Parabolas((-1.0, 1.0), (2.0,), {}, (1.0, None, 1.0), ((-1.0, 0), None, (1.0, 0)))
     x, a = np.linspace(-0.9, 1.1, 12).reshape(3, 4), np.linspace(1.01, 1.4, 4)
     wanted = [[flat.pressure(p, q, np.float64(1.05)) for p, q in zip(r, a, strict=True)] for r in x]
     for places in (x, np.asfortranarray(x), x.T.copy().T, x[::-1][::-1]):
         assert_array_equal(flat.pressure(places, a, np.float64(1.05)), wanted)
     turned = flat.pressure(np.asfortranarray(x).T, a[:, None], np.float64(1.05))
     assert_array_equal(turned.T, wanted)
+
+
+def test_a_short_part_is_as_long_as_its_parameter_says() -> None:
+    """g'' = 1 from b to b + l, both rounded: l is not their difference, and P = l w/2 beside it."""
+    b, short = np.float64(1.1), np.float64(1e-9)
+    body = Parabolas((b, b + short), (short,), {}, (None, 1.0, None), (None, (b, 0), (0, short)))
+    a, c = np.float64(0.5), np.float64(2.9)
+    wanted = short / 2 * np.sqrt((a + b) * (c - b))
+    assert_allclose(body.load(a, c), wanted, rtol=2e-9)  # w changes by 1e-9 of it over the part
+    assert_allclose(body.load(np.array([a]), c), wanted, rtol=2e-9)
+    assert abs((b + short) - b - short) > 1e-8 * short
+
+
+def test_no_number_is_no_error() -> None:
+    """A place that is no number, and a contact too narrow for float64, as numbers and as arrays."""
+    arc = Parabolas((0.0,), (), {}, (1.0, 2.0), ((0, 0), (0, 0)))
+    nan, low, high = (np.float64(v) for v in (np.nan, -1.0, 2.0))
+    assert np.isnan(arc.pressure(nan, low, high))
+    assert np.isnan(arc.pressure(np.array([nan]), low, high)).all()
+    for tiny in (1e-250, 1e-300):
+        arc.second(np.float64(tiny), np.float64(tiny))
+
+
+PARABOLIC = {
+    "flat_rounded": {"R": 1.5, "b": 0.75},
+    "flat_sloped": {"phi": 0.125, "b": 0.75},
+    "rounded_wedge": {"phi": 0.125, "b": 0.75},
+    "two_radii": {"R_1": 1.5, "R_2": 0.5},
+    "wedge_parabola": {"phi": 0.125, "R": 1.5},
+}
+
+
+@pytest.mark.parametrize("name", PARABOLIC)
+def test_every_argument_of_a_generated_function_may_be_an_array(name: str) -> None:
+    """Any of them, with numbers beside it: the bits of one number after the other."""
+    module = importlib.import_module(f"generated.{name}")
+    values = {"x": 0.25, "a": 1.0, "c": 2.0, "E_star": 3.0, **PARABOLIC[name]}
+    for function in ("tilt", "load", "moment", "pressure", "K_N", "L_N"):
+        call = getattr(module, function)
+        given = {k: v for k, v in values.items() if k in signature(call).parameters}
+        for some in product((False, True), repeat=len(given)):
+            arrays = {k: np.array([v, 1.25 * v]) for k, v in given.items()}
+            chosen = dict(zip(given, some, strict=True))
+            found = call(**{k: arrays[k] if chosen[k] else v for k, v in given.items()})
+            for i in (0, 1):
+                one = call(**{k: float(arrays[k][i]) if chosen[k] else v for k, v in given.items()})
+                assert_array_equal(np.array(found)[..., i] if any(some) else np.array(found), one)
 
 
 # ------------------------------------------------------------------ properties
@@ -243,10 +294,10 @@ places = st.floats(-2, 2)
 @given(place=places, a=places, width=st.floats(1e-6, 4))
 def test_a_kink_that_is_none_changes_nothing(place: float, a: float, width: float) -> None:
     """A parabola cut at any place is the same parabola: parts add up."""
-    whole = Parabolas((0.0,), {}, (2.0, 0.5), ((0, 0), (0, 0)))
+    whole = Parabolas((0.0,), (), {}, (2.0, 0.5), ((0, 0), (0, 0)))
     low, high = sorted((0.0, place))
     middle = 0.5 if place > 0 else 2.0
-    cut = Parabolas((low, high), {}, (2.0, middle, 0.5), ((0, 0),) * 3)
+    cut = Parabolas((low, high), (high - low,), {}, (2.0, middle, 0.5), ((0, 0),) * 3)
     a, c = np.float64(a), np.float64(width - a)
     one, other = whole.state(a, c), cut.state(a, c)
     far = max(abs(a), abs(c))
@@ -258,6 +309,7 @@ def test_a_kink_that_is_none_changes_nothing(place: float, a: float, width: floa
 def test_mirrored_bodies_carry_mirrored_pressures(a: float, c: float, x: float) -> None:
     mirrored = Parabolas(
         tuple(-kink for kink in reversed(KINKS)),
+        (0.875, 1.0),
         {1: JUMP},
         tuple(reversed(BENDS)),
         tuple((-place, -slope) for place, slope in reversed(BODY.slopes)),  # type: ignore[misc]

@@ -103,7 +103,7 @@ def test_contacts_around_a_kink_are_found_again(name: str, side: int) -> None:
 
 @pytest.mark.parametrize("k", [1.01, 1.03, 1.041, 1.05])
 def test_a_power_too_close_to_the_wedge_gives_no_number(k: float) -> None:
-    """The rule goes to 1e-275 of a piece, where 1e-275**(k - 1) of the load is left: 1e-14 at 1.05."""
+    """The rule goes to 1e-275 of a piece; 1e-275**(k - 1) of the load is left, 1e-14 at 1.05."""
     body, given = module("power"), {"E_star": 1.0, "k": k, "L": 1.0}
     assert np.isnan(body.load(1.0, 1.5, **given))
     assert np.isnan(body.moment(1.0, 1.5, **given))
