@@ -87,7 +87,18 @@ _USED_BESIDES = (
     # by SymPy
     *("E", "I", "N", "O", "S", "oo", "nan", "inf"),
     # by the generated modules
-    *("np", "scipy", "LEAST", "MOST", "TINY", "elementwise", "only_where", "scaled", "select"),
+    *(
+        "np",
+        "scipy",
+        "LEAST",
+        "MOST",
+        "TINY",
+        "elementwise",
+        "laborious",
+        "only_where",
+        "scaled",
+        "select",
+    ),
     *("maximum", "minimum", "fmax", "kink_logarithm"),
     *("State", "level", "contact_under", "contact_at", "place"),
     *(

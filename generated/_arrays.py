@@ -29,6 +29,10 @@ four of them are less than a tenth of a million elements.
 WHOLE = 40_000
 """Arrays of up to this length are not cut: two calls would cost more than the cache saves."""
 
+LIGHT = 2.5
+"""So many times longer they may be for a formula that has few temporaries, all of which stay in the
+heap; and of what is not much longer, blocks may be as long as WHOLE, and fewer."""
+
 TINY = 1e-150
 """What stands for a distance of zero where a quotient must stay finite."""
 
@@ -44,12 +48,12 @@ _NUMBERS = (np.float64, float)
 _MANY = 3_000
 """Elements from where an array full of one number is made up for."""
 
-_ZEROS = np.zeros(WHOLE)
+_ZEROS = np.zeros(int(LIGHT * WHOLE))
 _ZEROS.flags.writeable = False
 
 _HEAP = 7 << 20
-"""Bytes: half of this is more than all temporaries of a block need, those of Newton's method
-included, beside a result of a hundred thousand elements.
+"""Bytes: twice this is more than the temporaries of a block need, those of Newton's method
+included, or of a formula of a hundred thousand elements; an array of a million is larger.
 """
 
 # glibc gives free memory above 128 KiB back to the system, and asks for each page anew in the next
@@ -59,15 +63,26 @@ np.empty(_HEAP, np.uint8)
 
 
 def elementwise(function: Function) -> Function:
-    """Let `function` take anything that broadcasts, and compute large arrays in blocks.
+    """Let a formula take anything that broadcasts, and compute large arrays in blocks.
 
     Numbers and arrays of any real type become float64; Dask arrays stay lazy, and are computed
     chunk by chunk; arrays of other libraries that follow NumPy's protocols are computed by these.
     Keyword-only arguments are material and geometry: NaN unless positive and finite.  No
-    floating-point warning leaves the call: what does not exist is NaN.
+    floating-point warning leaves the call: what does not exist is NaN.  Large results of several
+    fields share one piece of memory.
 
     Raises TypeError for what is no real number, ValueError for shapes that do not broadcast.
     """
+    return _elementwise(function, LIGHT)
+
+
+def laborious(function: Function) -> Function:
+    """The same for what needs many temporaries."""
+    return _elementwise(function, 1.0)
+
+
+def _elementwise(function: Function, light: float) -> Function:
+    """`light`: by how much longer arrays may be that are not cut."""
     parameters = signature(function).parameters
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
@@ -105,13 +120,14 @@ def elementwise(function: Function) -> Function:
         if foreign and any_lazy(given.values()):
             _broadcast(given)
             return over_chunks(call, given)
-        if foreign or (alike and size <= WHOLE):
+        if foreign or (alike and size <= light * WHOLE):
             return quiet(**given)
         if not alike:
             shape = _broadcast(given)
         if 0 in shape:
             return quiet(**{name: np.broadcast_to(v, shape) for name, v in given.items()})
-        return quiet_blocks(function, given, shape)
+        short = math.prod(shape) <= 4 * light * WHOLE and light > 1
+        return quiet_blocks(function, given, shape, WHOLE if short else BLOCK)
 
     return call  # type: ignore[return-value]
 

@@ -6,7 +6,7 @@ g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
 from ._march import march_of
 from ._parabolas import Parabolas
 from ._shear import shear_change_of, shear_of, slip_range_of
@@ -83,7 +83,7 @@ def _slope(x: Array, *, R: Array, b: Array) -> tuple[Array, Array]:
     return _body(R=R, b=b).slope(x)
 
 
-@elementwise
+@laborious
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -118,7 +118,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise
+@laborious
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -153,7 +153,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b:
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@laborious
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -186,7 +186,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     return only_where(exists, _body(R=R, b=b).tilt(a, c))
 
 
-@elementwise
+@laborious
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -219,7 +219,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * _body(R=R, b=b).load(a, c))
 
 
-@elementwise
+@laborious
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -254,7 +254,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * _body(R=R, b=b).moment(a, c))
 
 
-@elementwise
+@laborious
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -293,7 +293,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     return only_where(exists, E_star * _body(R=R, b=b).pressure(x, a, c))
 
 
-@elementwise
+@laborious
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -329,7 +329,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).edges(a, c))))
 
 
-@elementwise
+@laborious
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

@@ -14,6 +14,7 @@ from ._arrays import (
     elementwise,
     fmax,
     kink_logarithm,
+    laborious,
     maximum,
     only_where,
 )
@@ -93,7 +94,7 @@ def _slope(x: Array, *, b: Array, phi: Array) -> tuple[Array, Array]:
     return _body(b=b, phi=phi).slope(x)
 
 
-@elementwise
+@laborious
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -130,7 +131,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) ->
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise
+@laborious
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, b: Array, phi: Array
 ) -> Contact:
@@ -186,7 +187,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@laborious
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -225,7 +226,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     return only_where(exists, _body(b=b, phi=phi).tilt(a, c))
 
 
-@elementwise
+@laborious
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -264,7 +265,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(b=b, phi=phi).load(a, c))
 
 
-@elementwise
+@laborious
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -350,7 +351,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     )
 
 
-@elementwise
+@laborious
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -393,7 +394,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).edges(a, c))))
 
 
-@elementwise
+@laborious
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

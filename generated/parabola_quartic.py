@@ -12,6 +12,7 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
+    laborious,
     maximum,
     minimum,
     only_where,
@@ -89,7 +90,7 @@ def _slope(x: Array, *, L: Array, R: Array) -> tuple[Array, Array]:
     return slope, curvature
 
 
-@elementwise
+@laborious
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, R: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -124,7 +125,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, R: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise
+@laborious
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, R: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 

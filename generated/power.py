@@ -6,7 +6,7 @@ g(x) = L**(1 - k)*Abs(x)**k/k, from derive/geometries/power.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
 from ._march import march_of
 from ._profile import Curve, Piece, Profile, slope_of
 from ._quadrature import pressure_at, second_of, state_of
@@ -96,7 +96,7 @@ def _slope(x: Array, *, L: Array, k: Array) -> tuple[Array, Array]:
     return slope_of(_BODY, x, L=L, k=k)
 
 
-@elementwise
+@laborious
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -131,7 +131,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise
+@laborious
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -166,7 +166,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, k:
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@laborious
 def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -195,7 +195,7 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     return only_where(exists, now.tilt)
 
 
-@elementwise
+@laborious
 def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -226,7 +226,7 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     return only_where(exists, E_star * now.load)
 
 
-@elementwise
+@laborious
 def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -258,7 +258,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     return only_where(exists, E_star * now.moment)
 
 
-@elementwise
+@laborious
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -297,7 +297,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
     return only_where(exists, E_star * p)
 
 
-@elementwise
+@laborious
 def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -334,7 +334,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
 
 
-@elementwise
+@laborious
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

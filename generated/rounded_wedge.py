@@ -7,7 +7,7 @@ g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), fro
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
 from ._march import march_of
 from ._parabolas import Parabolas
 from ._shear import shear_change_of, shear_of, slip_range_of
@@ -84,7 +84,7 @@ def _slope(x: Array, *, b: Array, phi: Array) -> tuple[Array, Array]:
     return _body(b=b, phi=phi).slope(x)
 
 
-@elementwise
+@laborious
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -121,7 +121,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) ->
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise
+@laborious
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, b: Array, phi: Array
 ) -> Contact:
@@ -160,7 +160,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@laborious
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -193,7 +193,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     return only_where(exists, _body(b=b, phi=phi).tilt(a, c))
 
 
-@elementwise
+@laborious
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -227,7 +227,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(b=b, phi=phi).load(a, c))
 
 
-@elementwise
+@laborious
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -263,7 +263,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(b=b, phi=phi).moment(a, c))
 
 
-@elementwise
+@laborious
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -302,7 +302,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     return only_where(exists, E_star * _body(b=b, phi=phi).pressure(x, a, c))
 
 
-@elementwise
+@laborious
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -340,7 +340,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).edges(a, c))))
 
 
-@elementwise
+@laborious
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

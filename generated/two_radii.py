@@ -6,7 +6,7 @@ g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geome
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
 from ._march import march_of
 from ._parabolas import Parabolas
 from ._shear import shear_change_of, shear_of, slip_range_of
@@ -78,7 +78,7 @@ def _slope(x: Array, *, R_1: Array, R_2: Array) -> tuple[Array, Array]:
     return _body(R_1=R_1, R_2=R_2).slope(x)
 
 
-@elementwise
+@laborious
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -115,7 +115,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array) 
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise
+@laborious
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array
 ) -> Contact:
@@ -154,7 +154,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@laborious
 def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -185,7 +185,7 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     return only_where(exists, _body(R_1=R_1, R_2=R_2).tilt(a, c))
 
 
-@elementwise
+@laborious
 def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -216,7 +216,7 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).load(a, c))
 
 
-@elementwise
+@laborious
 def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -248,7 +248,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).moment(a, c))
 
 
-@elementwise
+@laborious
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -283,7 +283,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).pressure(x, a, c))
 
 
-@elementwise
+@laborious
 def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -319,7 +319,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     )
 
 
-@elementwise
+@laborious
 def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

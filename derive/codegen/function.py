@@ -82,9 +82,12 @@ class FunctionText:
             ]
         )
 
+    light = True
+    """Whether the function has few temporaries."""
+
     @property
     def _decorators(self) -> Iterator[str]:
-        yield "@elementwise"
+        yield "@elementwise" if self.light else "@laborious"
 
     @property
     def _signature(self) -> str:

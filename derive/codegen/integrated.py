@@ -62,6 +62,8 @@ _RETURNED = {
 class IntegratedText(FunctionText):
     """The text of one function that is integrated."""
 
+    light = False
+
     def _made(self) -> Program:
         return Program({})
 
@@ -102,6 +104,8 @@ _FIELDS = {
 
 class MendedText(FunctionText):
     """The text of a closed function that is integrated where it would lose digits."""
+
+    light = False
 
     def _result(self, _: dict[str, str]) -> Iterator[str]:
         """The terms of every formula, one by one, so that their cancelling shows."""

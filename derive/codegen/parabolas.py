@@ -37,6 +37,8 @@ def is_parabolic(sheet: FormulaSheet) -> bool:
 class ParabolicText(FunctionText):
     """The text of one function that is added up from its parts."""
 
+    light = False
+
     def _made(self) -> Program:
         return Program({})
 

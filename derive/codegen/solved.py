@@ -88,6 +88,8 @@ def slope_text(sheet: FormulaSheet) -> str:
 class SolvedText(FunctionText):
     """The text of one inverse of one body, solved by Newton's method."""
 
+    light = False
+
     def _expressions(self) -> dict[str, Expr]:
         return {}
 

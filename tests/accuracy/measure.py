@@ -23,8 +23,8 @@ from tests.accuracy.regions import Regions, Sample
 from tests.paper_forms import FORMS
 
 CLOSED, PARTS, INTEGRATED, SOLVED, CYCLE = "closed", "by parts", "integrated", "solved", "cycle"
-"""How a function computes: a formula; a formula, or quadrature where its terms cancel; quadrature;
-Newton's method; the conditions of partial slip."""
+"""How a function computes: a formula; sums over the parts between kinks; quadrature; Newton's
+method; the conditions of partial slip."""
 
 LIMITS = {
     CLOSED: 4.0,
