@@ -380,9 +380,9 @@ def test_large_chunks_are_computed_in_the_blocks_of_numpy_arrays(
         return real(exists, *values)
 
     monkeypatch.setattr(wedge, "only_where", only_where)
-    count = 8 * _arrays.BLOCK
+    count = 40 * _arrays.BLOCK
     a = np.linspace(1, 2, count)
-    lazily = da.from_array(a, chunks=4 * _arrays.BLOCK)
+    lazily = da.from_array(a, chunks=20 * _arrays.BLOCK)
     found = wedge.load(lazily, 1.25, E_star=1.0, phi=0.25)
     assert_array_equal(found.compute(), wedge.load(a, 1.25, E_star=1.0, phi=0.25))
     assert max(sizes) == _arrays.BLOCK
