@@ -437,6 +437,7 @@ def test_the_program_s_digest_does_not_depend_on_where_it_lies(program: Path) ->
         if path.parent != FOLDER
     ),
 )
+@pytest.mark.slow
 def test_every_source_of_the_program_counts(program: Path, name: str) -> None:
     before = program_digest(program)
     with (program / name).open("a") as file:

@@ -706,6 +706,7 @@ class TestCheck:
         assert "is as generated" in done("generate", "--check")
 
     @pytest.mark.parametrize("name", sorted(p.name for p in GENERATED.iterdir() if p.is_file()))
+    @pytest.mark.slow
     def test_it_fails_and_names_a_file_of_which_a_byte_is_changed(
         self, committed: Path, name: str
     ) -> None:

@@ -417,6 +417,7 @@ def test_a_module_of_another_body_computes_what_quadrature_says(
     [E, exp(Rational(-7, 10)), sqrt(2), log(2), GoldenRatio, EulerGamma, Catalan],
     ids=str,
 )
+@pytest.mark.slow
 def test_a_constant_of_mathematics_is_a_number_in_the_module(
     constant: Expr, imported: Callable
 ) -> None:

@@ -130,6 +130,7 @@ def test_a_rewritten_program_equals_its_source_to_30_digits(body: str) -> None:
 
 
 @pytest.mark.parametrize("body", ["hertz", "wedge", "unequal_wedge"])
+@pytest.mark.slow
 def test_a_rewritten_program_is_not_refuted(body: str) -> None:
     for function in functions(body):
         proof = compared(body, function, rewritten(body, function.name))

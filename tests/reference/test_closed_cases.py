@@ -13,6 +13,7 @@ COUNTS, STEPS = (12, 24, 48), (1, 2, 4)
 
 
 @pytest.mark.parametrize("known", CLOSED, ids=lambda known: known.name)
+@pytest.mark.slow
 def test_the_error_is_small_of_second_order_and_within_the_estimate(known: Known) -> None:
     found, exact = reference(known.case, COUNTS, STEPS), known.exact
     errors = np.abs(np.subtract(found.zones, exact))
@@ -51,6 +52,7 @@ def test_moderate_conditions_are_the_contact_at_lower_load_and_other_tilt(known:
 
 
 @pytest.mark.parametrize("known", CLOSED, ids=lambda known: known.name)
+@pytest.mark.slow
 def test_slip_grows_all_through_both_half_cycles(known: Known) -> None:
     for half in (known.half_cycle, known.half_cycle.back()):
         assert premise(half, known.kappa, known.exact) is Premise.HOLDS

@@ -73,6 +73,7 @@ def test_points_hang_on_the_name_and_on_nothing_else() -> None:
 
 
 @EVERY
+@pytest.mark.slow
 def test_contacts_meet_every_assumption(name: str) -> None:
     body = sheet(name)
     found = drawn(name)

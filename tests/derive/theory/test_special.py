@@ -151,6 +151,7 @@ def test_exponentials(order: int, kind: type, left: str, right: str) -> None:
 @pytest.mark.parametrize(("left", "right"), CONTACTS)
 @pytest.mark.parametrize("quadratic", QUADRATICS.values(), ids=QUADRATICS)
 @pytest.mark.parametrize("order", [0, 1, pytest.param(2, marks=pytest.mark.slow)])
+@pytest.mark.slow
 def test_roots_of_quadratics(order: int, quadratic: Expr, left: str, right: str) -> None:
     edges = {"a": mpf(left), "c": mpf(right)}
     frame = RootFrame(quadratic.expand(), 1)
