@@ -50,7 +50,7 @@ class Profile(NamedTuple):
     breaks: places of the breaks from left to right, from the parameters.
     corners: jumps of g' at the breaks, from the parameters; zero where there is none.
     pieces: one more than breaks.
-    reach: how far the rule goes; farther where g'' is infinite at a break.
+    sharp: whether g'' is infinite at a break.
     terms: how large the terms of g' are that closed formulas add up in the contact [-a, c], from a,
         c and the parameters; None where no powers cancel in them, or where there are none.
     plain: numbers of the breaks that are there for quadrature alone: closed formulas have none.
@@ -61,7 +61,7 @@ class Profile(NamedTuple):
     breaks: Callable[..., tuple[Array, ...]]
     corners: Callable[..., tuple[Array, ...]]
     pieces: tuple[Piece, ...]
-    reach: int
+    sharp: bool = False
     terms: Callable[..., Array] | None = None
     plain: tuple[int, ...] = ()
     smooth: tuple[int, ...] = ()
@@ -120,7 +120,7 @@ def mirrored(body: Profile) -> Profile:
     )
     last = len(body.pieces) - 2
     smooth = tuple(last - i for i in body.smooth)
-    return Profile(breaks, corners, pieces, body.reach, smooth=smooth, degree=body.degree)
+    return Profile(breaks, corners, pieces, body.sharp, smooth=smooth, degree=body.degree)
 
 
 def slope_of(body: Profile, x: Array, /, **constants: Array) -> tuple[Array, Array]:

@@ -42,8 +42,8 @@ from ._profile import (
 )
 from ._state import State
 
-NEAR = 4
-"""How far the rule goes where g'' is finite; its nodes are next to the ends of a piece by 1e-37."""
+NEAR, FAR = 4, 6
+"""How far the rule goes: to 1e-37 of a piece, to 1e-275 of it where g'' is infinite."""
 
 COARSEST, FINEST = 1, 9
 """Steps of the rule are 2**-COARSEST at first and 2**-FINEST at last."""
@@ -283,7 +283,7 @@ def _integrals(
             told[positive] = np.where(ended, told[positive], np.nan)
         sums[:, rows[agreed]] = told[:, agreed]
         rows, before = rows[~ended], now[:, ~ended]
-    if contact.body.reach > NEAR:
+    if contact.body.sharp:
         outermost = _outermost(contact, integrand, count)[judged]
         sums[judged] = np.where(outermost > CUT_OFF * np.abs(sums[sizes]), np.nan, sums[judged])
     return [*sums]
@@ -295,7 +295,7 @@ def _outermost(contact: Window, integrand: Callable[..., tuple[Array, ...]], cou
     for part in contact.pieces():
         if part.piece.straight:
             continue
-        nodes = _nodes(COARSEST, contact.body.reach)
+        nodes = _nodes(COARSEST, FAR)
         for near_left, last in ((True, 0), (False, -1)):
             q, rest, weight = nodes[:, last, None, None]
             values = integrand(part.at(near_left, q, rest), lambda value: value)
@@ -317,7 +317,7 @@ def _level_sums(
     for part in contact.pieces():
         if part.piece.straight or not np.any(part.length):
             continue
-        nodes = _nodes(level, contact.body.reach)
+        nodes = _nodes(level, FAR if contact.body.sharp else NEAR)
         share = np.zeros_like(total)
         for near_left in (True, False):
             mine = nodes[:, (nodes[0] < 0.5) == near_left, None]

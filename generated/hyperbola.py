@@ -82,7 +82,6 @@ _BODY = Profile(
         Piece(None, _piece_0_from_right),
         Piece(_piece_1_from_left, None),
     ),
-    4,
     smooth=(0,),
 )
 

@@ -279,6 +279,18 @@ class FunctionText:
             yield repr(shown[0])
 
 
+class CallingText(FunctionText):
+    """The text of a function that hands its arguments to support/: no formula of it is printed."""
+
+    light = False
+
+    def _made(self) -> Program:
+        return Program({})
+
+    def _demand_equal(self) -> None:
+        """Nothing was rewritten; the module is tried as a whole."""
+
+
 def _is_drawn_in(sheet: FormulaSheet) -> bool:
     """Whether x is drawn in to the nearest edge, as it stands outside roots and logarithms, too."""
     return bool(sheet["pressure"].expr.xreplace({w: S.One}).has(x))

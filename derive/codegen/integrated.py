@@ -31,9 +31,8 @@ from sympy import (
 
 from derive.codegen.cancel import cancels, cuts_of, plain_cuts, size_of_terms, terms_of
 from derive.codegen.decay import decaying
-from derive.codegen.function import FunctionText, local, own_parameters
+from derive.codegen.function import CallingText, FunctionText, local, own_parameters
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.program import Program
 from derive.codegen.rise import from_zero
 from derive.piece import Piece
 from derive.profile import Slope, has_sharp_power
@@ -44,9 +43,6 @@ Steps = list[tuple[Symbol, Expr]]
 
 _t = Symbol("t", positive=True)
 """Distance from a break."""
-
-_NEAR, _FAR = 4, 6
-"""How far the quadrature rule goes: to 1e-37 of a piece, to 1e-275 where g'' is infinite."""
 
 _RETURNED = {
     "tilt": "now.tilt",
@@ -59,16 +55,8 @@ _RETURNED = {
 """What each function returns of what the quadrature found; a few by names of local variables."""
 
 
-class IntegratedText(FunctionText):
+class IntegratedText(CallingText):
     """The text of one function that is integrated."""
-
-    light = False
-
-    def _made(self) -> Program:
-        return Program({})
-
-    def _demand_equal(self) -> None:
-        """Nothing was rewritten; the module is tried as a whole."""
 
     @property
     def _code(self) -> Iterator[str]:
@@ -195,12 +183,12 @@ def curve_text(sheet: FormulaSheet) -> str:
                 signature = f"(t: Array{own})"
                 lines += _branch(name, piece, place, sense, signature)
         held.append(f"Piece({', '.join(names)}{', straight=True' * piece.straight})")
-    sharp = any(has_sharp_power(piece.profile, x) for piece in slope.pieces)
-    reach = _FAR if sharp else _NEAR
     terms = ""
+    if any(has_sharp_power(piece.profile, x) for piece in slope.pieces):
+        terms = ", sharp=True"
     if cancels(slope):
         lines += _terms_text(sheet)
-        terms = ", _terms"
+        terms += ", terms=_terms"
     if is_mended(sheet) and (cuts := plain_cuts(slope)):
         terms += f", plain={cuts}"
     smooth = [i for i, sides in enumerate(pairwise(pieces)) if _goes_on(*sides)]
@@ -208,7 +196,7 @@ def curve_text(sheet: FormulaSheet) -> str:
         terms += f", smooth=({' '.join(f'{i},' for i in smooth)})"
     if slope.is_polynomial:
         terms += f", degree={degree_of_curvature(slope)}"
-    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},), {reach}{terms})")
+    lines.append(f"_BODY = Profile(_breaks, _corners, ({', '.join(held)},){terms})")
     return "\n".join(lines)
 
 
@@ -380,24 +368,27 @@ def _is_uneven(exponent: Expr) -> bool:
     return not (2 * exponent).is_integer
 
 
-def carried_text(sheet: FormulaSheet) -> str:
-    """`_state`: what a contact carries."""
-    own, given = own_parameters(sheet)
+def carried_text(sheet: FormulaSheet, found: str) -> str:
+    """`_state`: what a contact carries.
+
+    found: the code that finds it.
+    """
+    own, _ = own_parameters(sheet)
     return "\n".join(
         [
             f"def _state(a: Array, c: Array{own}) -> State:",
             '    """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""',
-            f"    return state_of(_BODY, a, c{given})",
+            f"    return {found}",
         ]
     )
 
 
-def level_text(sheet: FormulaSheet, found: str = "") -> str:
+def level_text(sheet: FormulaSheet, found: str) -> str:
     """`_slope`: the body's slope and curvature at a place; infinite beyond the body's ends.
 
-    found: the code that finds them, if not from `_BODY`.
+    found: the code that finds them.
     """
-    own, given = own_parameters(sheet)
+    own, _ = own_parameters(sheet)
     printer = NumPyPrinter({x})
     slope, curvature = local(sheet, "slope"), local(sheet, "curvature")
     beyond = [
@@ -407,7 +398,6 @@ def level_text(sheet: FormulaSheet, found: str = "") -> str:
         )
         if end.is_finite
     ]
-    found = found or f"slope_of(_BODY, x{given})"
     return "\n".join(
         [
             f"def _slope(x: Array{own}) -> tuple[Array, Array]:",

@@ -13,7 +13,7 @@ from ruff import find_ruff_bin
 
 from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.cycle import CYCLE, CycleText, law_text
-from derive.codegen.function import LINE, FunctionText, inside_quotes
+from derive.codegen.function import LINE, FunctionText, inside_quotes, own_parameters
 from derive.codegen.integrated import (
     IntegratedText,
     MendedText,
@@ -24,7 +24,7 @@ from derive.codegen.integrated import (
     level_text,
 )
 from derive.codegen.mark import MARK
-from derive.codegen.parabolas import ParabolicText, body_of, body_text, is_parabolic, parts_text
+from derive.codegen.parabolas import ParabolicText, body_of, body_text, is_parabolic
 from derive.codegen.solved import SOLVED, SolvedText, StateText, slope_text
 from derive.notation import text_of
 from derive.sheet import FormulaSheet
@@ -86,16 +86,18 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
     solved = [f for f in CONTRACT if f.name in SOLVED and not f.available(sheet)]
     slope = sheet.geometry.slope
     closed, mended = slope.is_polynomial, is_mended(sheet)
-    if parabolic := is_parabolic(sheet):
+    parabolic, (_, own) = is_parabolic(sheet), own_parameters(sheet)
+    carried, level = f"state_of(_BODY, a, c{own})", f"slope_of(_BODY, x{own})"
+    if parabolic:
         yield body_text(sheet)
-        yield parts_text(sheet)
-        yield level_text(sheet, f"{body_of(sheet)}.slope(x)")
+        carried, level = f"{body_of(sheet)}.state(a, c)", f"{body_of(sheet)}.slope(x)"
     elif mended or not closed:
         yield curve_text(sheet)
-    if solved and not parabolic:
-        yield StateText(sheet, source).text if closed else carried_text(sheet)
-    if any(alpha in f.arguments for f in solved) and not parabolic:
-        yield slope_text(sheet) if closed and not mended else level_text(sheet)
+    if solved:
+        apart = closed and not parabolic
+        yield StateText(sheet, source).text if apart else carried_text(sheet, carried)
+    if any(alpha in f.arguments for f in solved):
+        yield slope_text(sheet) if closed and not mended else level_text(sheet, level)
     for function in CONTRACT:
         yield _made(sheet, function, function in solved)(sheet, function, source).text
     yield law_text(sheet)

@@ -10,10 +10,9 @@ from itertools import pairwise
 
 from sympy import Expr, simplify
 
-from derive.codegen.function import FunctionText, own_parameters
+from derive.codegen.function import CallingText, own_parameters
 from derive.codegen.integrated import degree_of_curvature, is_mended
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.program import Program
 from derive.piece import Piece
 from derive.sheet import FormulaSheet
 from derive.symbols import x
@@ -34,16 +33,8 @@ def is_parabolic(sheet: FormulaSheet) -> bool:
     return is_mended(sheet) and degree_of_curvature(sheet.geometry.slope) == 0
 
 
-class ParabolicText(FunctionText):
+class ParabolicText(CallingText):
     """The text of one function that is added up from its parts."""
-
-    light = False
-
-    def _made(self) -> Program:
-        return Program({})
-
-    def _demand_equal(self) -> None:
-        """Nothing was rewritten; the module is tried as a whole."""
 
     @property
     def _code(self) -> Iterator[str]:
@@ -124,15 +115,3 @@ def _printed_if_any(value: Expr) -> str:
 
 def _printed(value: Expr) -> str:
     return str(NumPyPrinter().doprint(value))
-
-
-def parts_text(sheet: FormulaSheet) -> str:
-    """`_state`: what a contact carries."""
-    own, _ = own_parameters(sheet)
-    return "\n".join(
-        [
-            f"def _state(a: Array, c: Array{own}) -> State:",
-            '    """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""',
-            f"    return {body_of(sheet)}.state(a, c)",
-        ]
-    )

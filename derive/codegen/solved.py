@@ -11,10 +11,9 @@ from sympy import Expr, Gt, Lt, Piecewise, S, diff, factor
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
-from derive.codegen.function import FunctionText, local, own_parameters
+from derive.codegen.function import CallingText, FunctionText, local, own_parameters
 from derive.codegen.integrated import is_mended, mended_lines
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.program import Program
 from derive.proof.points import Point, contacts
 from derive.sheet import FormulaSheet, load_conditions, tilt_conditions
 from derive.symbols import E_star, M, a, alpha, c, x
@@ -85,10 +84,8 @@ def slope_text(sheet: FormulaSheet) -> str:
     )
 
 
-class SolvedText(FunctionText):
+class SolvedText(CallingText):
     """The text of one inverse of one body, solved by Newton's method."""
-
-    light = False
 
     def _expressions(self) -> dict[str, Expr]:
         return {}
@@ -98,12 +95,6 @@ class SolvedText(FunctionText):
         if alpha in self.function.arguments:
             bounds = tilt_conditions(self.sheet.frame)
         return (*bounds, *(Gt(symbol, 0, evaluate=False) for symbol in self.keywords))
-
-    def _made(self) -> Program:
-        return Program({})
-
-    def _demand_equal(self) -> None:
-        """Nothing was rewritten."""
 
     @property
     def _sources(self) -> tuple[str, ...]:

@@ -159,20 +159,23 @@ def _cut_pressure(size: int) -> Call:
 
 
 def _cut_contact(size: int) -> Call:
-    rng = np.random.default_rng(7)
-    P, M = rng.uniform(1e5, 1e7, size), rng.uniform(-1e3, 1e3, size)
+    P, M = _loads(size)
     return lambda: wedge.contact(P, M, **WEDGE)
+
+
+def _cut_cylinder(size: int) -> Call:
+    P, M = _loads(size)
+    return lambda: hertz.contact(P, M, E_star=WEDGE["E_star"], R=0.05)
+
+
+def _loads(size: int) -> tuple[Any, Any]:
+    rng = np.random.default_rng(7)
+    return rng.uniform(1e5, 1e7, size), rng.uniform(-1e3, 1e3, size)
 
 
 def _cut_punch(size: int) -> Call:
     x, a, c = np.random.default_rng(7).uniform(2e-3, 4e-3, (3, size))
     return lambda: flat_rounded.pressure(x - 3e-3, a, c, **PUNCH)
-
-
-def _cut_cylinder(size: int) -> Call:
-    rng = np.random.default_rng(7)
-    P, M = rng.uniform(1e5, 1e7, size), rng.uniform(-1e3, 1e3, size)
-    return lambda: hertz.contact(P, M, E_star=WEDGE["E_star"], R=0.05)
 
 
 _CUT: dict[str, Callable[[int], Call]] = {
@@ -299,11 +302,12 @@ def _case_tables(found: Found) -> Iterator[str]:
 
 
 def _cut_table(found: Found) -> Iterator[str]:
+    light = _arrays.LIGHT * _arrays.WHOLE
     yield from (
         "## Blocks",
         "",
-        f"A formula of more than {_arrays.LIGHT * _arrays.WHOLE:,.0f} elements is computed in "
-        f"blocks of up to {_arrays.WHOLE:,}, from {4 * _arrays.LIGHT * _arrays.WHOLE:,.0f} on",
+        f"A formula of more than {light:,.0f} elements is computed in "
+        f"blocks of up to {_arrays.WHOLE:,}, from {_arrays.FEW * light:,.0f} on",
         f"{_arrays.BLOCK:,}; what needs many temporaries, as `flat_rounded.pressure` does, from "
         f"{_arrays.WHOLE:,} on {_arrays.BLOCK:,}.",
         "Time in blocks over the time of the same function without; under 1 is faster.",

@@ -9,6 +9,7 @@ from numpy.testing import assert_allclose
 from generated._angles import AFAR, carried
 from generated._profile import Curve, Piece, Profile, Window
 from generated._quadrature import pressure_at, state_of
+from tests.codegen.kinked import contacts, profile
 
 KINKS = (-0.7, 0.2, 1.1)
 """Where the body below changes its formula."""
@@ -17,37 +18,19 @@ KINKS = (-0.7, 0.2, 1.1)
 def body(power: int) -> Profile:
     """g'' = 1 + sum of (x - k)**power beyond each kink k: convex, and the same from either side."""
 
-    def piece(number: int, place: float, sense: int) -> Any:
-        def curve(t: Any) -> Curve:
-            s = place + sense * t
-            reached = [s - k for k in KINKS[:number]]
-            slope = s + sum(r ** (power + 1) / (power + 1) for r in reached)
-            curvature = 1 + 0 * s + sum(r**power for r in reached)
-            change = sum(power * r ** max(power - 1, 0) for r in reached) + 0 * s
-            return Curve(slope, curvature, lambda: change)
+    def curve(number: int, s: Any) -> Curve:
+        reached = [s - k for k in KINKS[:number]]
+        slope = s + sum(r ** (power + 1) / (power + 1) for r in reached)
+        curvature = 1 + 0 * s + sum(r**power for r in reached)
+        change = sum(power * r ** max(power - 1, 0) for r in reached) + 0 * s
+        return Curve(slope, curvature, lambda: change)
 
-        return curve
-
-    pieces = []
-    for number in range(len(KINKS) + 1):
-        left = piece(number, KINKS[number - 1], 1) if number else None
-        right = piece(number, KINKS[number], -1) if number < len(KINKS) else None
-        pieces.append(Piece(left, right))
-    return Profile(lambda: KINKS, lambda: (0.0,) * len(KINKS), tuple(pieces), 4, degree=power)
-
-
-def contacts(count: int = 400, seed: int = 3) -> tuple[Any, Any]:
-    """Contacts with edges anywhere, some of them beside a kink."""
-    rng = np.random.default_rng(seed)
-    left, width = rng.uniform(-3, 1.5, count), 10 ** rng.uniform(-2, 0.7, count)
-    near = rng.choice(KINKS, count) + rng.choice([-1, 1], count) * 10 ** rng.uniform(-9, -1, count)
-    left = np.where(rng.random(count) < 0.4, near, left)
-    return -left, left + width
+    return profile(KINKS, (0.0,) * len(KINKS), curve, degree=power)
 
 
 @pytest.mark.parametrize("power", [0, 1, 3, 5])
 def test_both_rules_agree_on_what_a_contact_carries(power: int) -> None:
-    a, c = contacts()
+    a, c = contacts(KINKS, 3)
     with np.errstate(all="ignore"):  # as generated functions call it
         one, other = (state_of(body(power)._replace(degree=d), a, c) for d in (power, None))
     far = np.maximum(np.abs(a), np.abs(c))
@@ -60,7 +43,7 @@ def test_both_rules_agree_on_what_a_contact_carries(power: int) -> None:
 
 @pytest.mark.parametrize("power", [0, 1, 3, 5])
 def test_both_rules_agree_on_the_pressure(power: int) -> None:
-    a, c = contacts()
+    a, c = contacts(KINKS, 3)
     rng = np.random.default_rng(5)
     x = -a + (a + c) * np.where(
         rng.random(a.size) < 0.3, 10 ** rng.uniform(-9, 0, a.size), rng.random(a.size)
@@ -85,7 +68,7 @@ def test_the_pressure_does_not_step_where_a_piece_comes_into_sight() -> None:
 
 def test_what_a_parabola_carries_by_hand() -> None:
     """g'' = 1 all over [-1, 1]: int w = pi/2, int w/(1 + s) = int w/(1 - s) = pi, by symmetry 0."""
-    straight = Profile(lambda: (0.0,), lambda: (0.0,), (_parabola(-1), _parabola(1)), 4, degree=0)
+    straight = Profile(lambda: (0.0,), lambda: (0.0,), (_parabola(-1), _parabola(1)), degree=0)
     one = np.ones(1)
     sums = carried(Window(straight, {}, -one, one, 2 * one, ()), 0)
     assert_allclose(np.ravel(sums), [np.pi / 2, np.pi, np.pi, 0, 0], atol=4e-16)

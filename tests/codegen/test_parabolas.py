@@ -1,7 +1,6 @@
 """Sums over straight lines and parabolas, support/_parabolas.py: identities, and other routes."""
 
 import importlib
-from collections.abc import Callable
 from inspect import signature
 from itertools import product
 from typing import Any
@@ -17,7 +16,8 @@ from sympy import Expr, Rational, cos, integrate, sin, symbols, tan
 
 from generated import _quadrature
 from generated._parabolas import _BOW, _EXCESS, AFAR, Parabolas, _polynomial
-from generated._profile import Curve, Piece, Profile
+from generated._profile import Curve, Profile
+from tests.codegen.kinked import contacts, profile
 
 e, T, t = symbols("e T t", positive=True)
 D = e - sin(e) * cos(e)
@@ -140,32 +140,15 @@ BODY = Parabolas(
 def integrated() -> Profile:
     """The same body for quadrature of g'', which knows nothing of parabolas."""
 
-    def branch(number: int, place: float, sense: int) -> Callable[..., Curve]:
-        def curve(t: Any) -> Curve:
-            bend = BENDS[number] or 0.0
-            return Curve(slope_at(number, place + sense * t), bend + 0 * t, lambda: 0 * t)
+    def curve(number: int, s: Any) -> Curve:
+        return Curve(slope_at(number, s), (BENDS[number] or 0.0) + 0 * s, lambda: 0 * s)
 
-        return curve
-
-    pieces = []
-    for number, bend in enumerate(BENDS):
-        left = branch(number, KINKS[number - 1], 1) if number else None
-        right = branch(number, KINKS[number], -1) if number < len(KINKS) else None
-        pieces.append(Piece(left, right, straight=bend is None))
-    return Profile(lambda: KINKS, lambda: (0.0, JUMP, 0.0), tuple(pieces), 4)
-
-
-def contacts(count: int = 400, seed: int = 5) -> tuple[Any, Any]:
-    """Contacts with edges anywhere, some of them beside a kink."""
-    rng = np.random.default_rng(seed)
-    left, width = rng.uniform(-3, 1.5, count), 10 ** rng.uniform(-2, 0.7, count)
-    near = rng.choice(KINKS, count) + rng.choice([-1, 1], count) * 10 ** rng.uniform(-9, -1, count)
-    left = np.where(rng.random(count) < 0.4, near, left)
-    return -left, left + width
+    straight = [number for number, bend in enumerate(BENDS) if bend is None]
+    return profile(KINKS, (0.0, JUMP, 0.0), curve, straight)
 
 
 def test_load_moment_tilt_and_K_N_against_quadrature() -> None:
-    a, c = contacts()
+    a, c = contacts(KINKS, 5)
     found, wanted = BODY.state(a, c), quiet(_quadrature.state_of)(integrated(), a, c)
     assert np.count_nonzero(np.isfinite(found.load)) > 290
     assert_array_equal(np.isnan(found.load), np.isnan(wanted.load))
@@ -177,7 +160,7 @@ def test_load_moment_tilt_and_K_N_against_quadrature() -> None:
 
 
 def test_each_result_alone_is_the_same() -> None:
-    a, c = contacts()
+    a, c = contacts(KINKS, 5)
     state = BODY.state(a, c)
     there = np.isfinite(state.load)
     assert_array_equal(BODY.load(a, c)[there], state.load[there])
@@ -187,7 +170,7 @@ def test_each_result_alone_is_the_same() -> None:
 
 
 def test_L_N_against_quadrature() -> None:
-    a, c = contacts()
+    a, c = contacts(KINKS, 5)
     found, wanted = BODY.second(a, c), quiet(_quadrature.second_of)(integrated(), a, c)
     K = BODY.edges(a, c)
     for one, other, its in zip(found, wanted, K, strict=True):
@@ -199,7 +182,7 @@ def test_L_N_against_quadrature() -> None:
 
 def test_the_pressure_against_quadrature_wherever_x_lies() -> None:
     """Inside parts, beside them, and many times their length away."""
-    a, c = contacts()
+    a, c = contacts(KINKS, 5)
     rng = np.random.default_rng(6)
     inside = rng.uniform(-a, c)
     beside = rng.choice(KINKS, a.size) + rng.choice([-1, 1], a.size) * 10 ** rng.uniform(-12, -1)
@@ -216,7 +199,7 @@ def test_the_pressure_against_quadrature_wherever_x_lies() -> None:
 
 
 def test_numbers_give_the_bits_of_arrays() -> None:
-    a, c = contacts(60)
+    a, c = contacts(KINKS, 5, 60)
     x = np.linspace(-0.9, 1.5, a.size)
     for method, at in (
         *((name, (a, c)) for name in ("load", "moment", "tilt", "edges", "second")),

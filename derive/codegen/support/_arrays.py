@@ -30,7 +30,10 @@ WHOLE = 40_000
 
 LIGHT = 2.5
 """So many times longer they may be for a formula that has few temporaries, all of which stay in the
-heap; and of what is not much longer, blocks may be as long as WHOLE, and fewer."""
+heap."""
+
+FEW = 4
+"""What is cut of such a formula, and so many times as long at most, is cut in blocks of WHOLE."""
 
 TINY = 1e-150
 """What stands for a distance of zero where a quotient must stay finite."""
@@ -125,7 +128,7 @@ def _elementwise(function: Function, light: float) -> Function:
             shape = _broadcast(given)
         if 0 in shape:
             return quiet(**{name: np.broadcast_to(v, shape) for name, v in given.items()})
-        short = math.prod(shape) <= 4 * light * WHOLE and light > 1
+        short = light > 1 and math.prod(shape) <= FEW * light * WHOLE
         return quiet_blocks(function, given, shape, WHOLE if short else BLOCK)
 
     return call  # type: ignore[return-value]
