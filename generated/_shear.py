@@ -29,7 +29,8 @@ from typing import Any
 import numpy as np
 
 from ._arrays import Array, Flat, at_rows, contact_edges
-from ._stick import Law, stick_zone_of, task_between
+from ._law import Law
+from ._stick import stick_zone_of, task_between
 from ._types import Contact, Regime
 from ._zones import Task, bounded_change, parts_of, turning_place
 

@@ -18,13 +18,14 @@ from ._arrays import (
     maximum,
     only_where,
 )
+from ._law import Law
 from ._march import march_of
 from ._parabolas import Parabolas
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
 from ._state import State
-from ._stick import Law, closing_tension_of, stick_zone_of, tension_threshold_of
+from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
 from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
@@ -546,7 +547,24 @@ def stick_margin(
     )
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
+def _third(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
+    """Coefficients of s**(5/2) in the pressure next to the edges."""
+    return Edges(*(E_star * edge for edge in _body(b=b, phi=phi).third(a, c)))
+
+
+_LAW = Law(
+    contact,
+    contact_at_tilt,
+    tilt,
+    load,
+    moment,
+    pressure,
+    pressure,
+    K_N,
+    L_N,
+    _breaks,
+    third=_third,
+)
 
 
 @chunkwise
@@ -700,9 +718,8 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
-    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
+    + P2), which is sliding.
     Derived from derive/geometries/flat_sloped.py.
 
     >>> law = dict(E_star=1.0, b=1.0, phi=0.125)

@@ -16,10 +16,11 @@ from ._arrays import (
     only_where,
     scaled,
 )
+from ._law import Law
 from ._march import march_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
-from ._stick import Law, closing_tension_of, stick_zone_of, tension_threshold_of
+from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
 from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
@@ -393,12 +394,32 @@ def stick_margin(
     )
 
 
+def _third(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
+    """Coefficients of s**(5/2) in the pressure next to the edges."""
+    h = a + c  # contact width [m]
+    scale = -((E_star / (16 * R)) / (h * np.sqrt(h)))
+    exists = (h > LEAST) & (h < MOST)
+    return Edges(*only_where(exists, scale, scale.copy()))
+
+
 def _breaks(*, R: Array) -> tuple[Array, ...]:
     """Where the curve is cut."""
     return (0,)
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
+_LAW = Law(
+    contact,
+    contact_at_tilt,
+    tilt,
+    load,
+    moment,
+    pressure,
+    pressure,
+    K_N,
+    L_N,
+    _breaks,
+    third=_third,
+)
 
 
 @chunkwise
@@ -544,9 +565,8 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
-    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
+    + P2), which is sliding.
     Derived from derive/geometries/hertz.py.
 
     >>> law = dict(E_star=1.0, R=1.0)

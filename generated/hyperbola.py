@@ -7,6 +7,7 @@ g(x) = phi*sqrt(b**2 + x**2), from derive/geometries/hyperbola.py.
 import numpy as np
 
 from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
+from ._law import Law
 from ._march import march_of
 from ._profile import Curve, Piece, Profile, slope_of
 from ._quadrature import pressure_at, second_of, state_of
@@ -14,7 +15,7 @@ from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
 from ._state import State
-from ._stick import Law, closing_tension_of, stick_zone_of, tension_threshold_of
+from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
 from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
@@ -472,7 +473,9 @@ def stick_margin(
     )
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
+_LAW = Law(
+    contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks, smooth=(0,)
+)
 
 
 @chunkwise

@@ -17,12 +17,13 @@ from ._arrays import (
     minimum,
     only_where,
 )
+from ._law import Law
 from ._march import march_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
 from ._state import State
-from ._stick import Law, closing_tension_of, stick_zone_of, tension_threshold_of
+from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
 from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
@@ -491,12 +492,38 @@ def stick_margin(
     )
 
 
+def _third(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
+    """Coefficients of s**(5/2) in the pressure next to the edges."""
+    h = a + c  # contact width [m]
+    scale = (E_star / (128 * (L * L**2) * R)) / (h * np.sqrt(h))
+    exists = (h > LEAST) & (h < MOST)
+    return Edges(
+        *only_where(
+            exists,
+            scale * ((129 * R) * a**2 + (198 * R) * a * c + (45 * R) * c**2 - 8 * (L * L**2)),
+            scale * ((45 * R) * a**2 + (198 * R) * a * c + (129 * R) * c**2 - 8 * (L * L**2)),
+        )
+    )
+
+
 def _breaks(*, L: Array, R: Array) -> tuple[Array, ...]:
     """Where the curve is cut."""
     return (0,)
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
+_LAW = Law(
+    contact,
+    contact_at_tilt,
+    tilt,
+    load,
+    moment,
+    pressure,
+    pressure,
+    K_N,
+    L_N,
+    _breaks,
+    third=_third,
+)
 
 
 @chunkwise
@@ -648,9 +675,8 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
-    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
+    + P2), which is sliding.
     Derived from derive/geometries/parabola_quartic.py.
 
     >>> law = dict(E_star=1.0, L=1.0, R=1.0)

@@ -7,6 +7,7 @@ g(x) = L**(1 - k)*Abs(x)**k/k, from derive/geometries/power.py.
 import numpy as np
 
 from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
+from ._law import Law
 from ._march import march_of
 from ._profile import Curve, Piece, Profile, slope_of
 from ._quadrature import pressure_at, second_of, state_of
@@ -14,7 +15,7 @@ from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
 from ._state import State
-from ._stick import Law, closing_tension_of, stick_zone_of, tension_threshold_of
+from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
 from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [

@@ -19,10 +19,11 @@ from ._arrays import (
     scaled,
     select,
 )
+from ._law import Law
 from ._march import march_of
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
-from ._stick import Law, closing_tension_of, stick_zone_of, tension_threshold_of
+from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
 from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
@@ -421,12 +422,38 @@ def stick_margin(
     )
 
 
+def _third(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
+    """Coefficients of s**(5/2) in the pressure next to the edges."""
+    h = a + c  # contact width [m]
+    scale = (E_star * phi / (20 * np.pi)) / (h * np.sqrt(a * c * h))
+    exists = (minimum(a, c) > LEAST) & (h < MOST)
+    return Edges(
+        *only_where(
+            exists,
+            scale * (3 * a * c / h + 4 * c + 8 * c * h / a) / a,
+            scale * (3 * a * c / h + 4 * a + 8 * a * h / c) / c,
+        )
+    )
+
+
 def _breaks(*, phi: Array) -> tuple[Array, ...]:
     """Where the curve is cut."""
     return (0,)
 
 
-_LAW = Law(contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks)
+_LAW = Law(
+    contact,
+    contact_at_tilt,
+    tilt,
+    load,
+    moment,
+    pressure,
+    pressure,
+    K_N,
+    L_N,
+    _breaks,
+    third=_third,
+)
 
 
 @chunkwise
@@ -572,9 +599,8 @@ def slip_zones(
         order   order of the series; march takes 0 for the exact conditions
 
     Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
-    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
+    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
+    + P2), which is sliding.
     Derived from derive/geometries/wedge.py.
 
     >>> law = dict(E_star=1.0, phi=0.125)

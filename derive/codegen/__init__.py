@@ -8,6 +8,7 @@ function  the text of one function
 cancel    where closed formulas lose digits to powers that cancel
 integrated  the text of functions that are integrated, everywhere or where kinks crowd
 parabolas  the text of functions that are added up part by part between kinks
+third     the text of the third coefficient of the pressure next to the edges
 solved    the text of the inverses that have no closed formula
 module    the one template of a generated module
 mark      what every generated file begins with

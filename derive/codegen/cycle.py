@@ -18,6 +18,8 @@ from sympy import Symbol
 from derive.codegen.function import LINE, example_of, inside_quotes, own_parameters
 from derive.codegen.integrated import breaks_text, is_mended, keeps_its_digits
 from derive.codegen.parabolas import is_parabolic
+from derive.codegen.third import NAME as THIRD
+from derive.codegen.third import has_third, smooth_cuts
 from derive.proof.points import Point, numeric
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, c, dQ, dsigma, f, x
@@ -69,6 +71,9 @@ _CONTACTS = ("first", "second", "contact")
 
 _TYPES = {"order": "int", "mixed": "bool"}
 """Options that are no arrays."""
+
+_BY_DIFFERENCES = "unless each edge lies off every kink by 1e-7 of its own x"
+"""Where the pressure's third coefficient, of bodies without a formula for it, is known."""
 
 _BETWEEN: tuple[Symbol | str, ...] = ("first", "second", dQ, dsigma)
 _EDGES: tuple[Symbol | str, ...] = (a, c, dQ, dsigma)
@@ -125,8 +130,7 @@ CYCLE: tuple[CycleFunction, ...] = (
             "terms at each edge of both contacts, cut behind that power of d, solved as they stand",
         ),
         "Edges(left [m], right [m])",
-        "slip reaches in at both edges and leaves some stick; to order 3, unless each edge lies "
-        "off every kink by 1e-7 of its own x",
+        "slip reaches in at both edges and leaves some stick",
         "Edges",
         (*_MOTION, ("order", "1")),
     ),
@@ -250,8 +254,11 @@ class CycleText:
             lines.append("Of a Dask array, that axis must be one chunk.")
         lines += self._arguments
         lines += ["", *textwrap.wrap(f"Returns {self.function.returns}.", LINE - 4)]
+        exists = self.function.unless
+        if self.function.name == "slip_zones" and not has_third(self.sheet):
+            exists += f"; to order 3, {_BY_DIFFERENCES}"
         lines += textwrap.wrap(
-            f"NaN unless {self.function.unless}; nor where {self.function.beyond}.",
+            f"NaN unless {exists}; nor where {self.function.beyond}.",
             LINE - 4,
         )
         lines += [f"Derived from {self.source}.", "", *self.example.of(self.function)]
@@ -345,4 +352,7 @@ def law_text(sheet: FormulaSheet) -> str:
     exact = is_parabolic(sheet) or keeps_its_digits(sheet, "pressure")
     integrand = "as_integrand(pressure)" if is_mended(sheet) and not exact else "pressure"
     functions = f"contact, contact_at_tilt, tilt, load, moment, pressure, {integrand}, K_N, L_N"
-    return "\n".join([*lines, f"_LAW = Law({functions}, _breaks)"])
+    further = f", third={THIRD}" if has_third(sheet) else ""
+    if smooth := smooth_cuts(sheet):
+        further += f", smooth=({' '.join(f'{i},' for i in smooth)})"
+    return "\n".join([*lines, f"_LAW = Law({functions}, _breaks{further})"])

@@ -26,6 +26,7 @@ from derive.codegen.integrated import (
 from derive.codegen.mark import MARK
 from derive.codegen.parabolas import ParabolicText, body_of, body_text, is_parabolic
 from derive.codegen.solved import SOLVED, SolvedText, StateText, slope_text
+from derive.codegen.third import has_third, third_text
 from derive.notation import text_of
 from derive.sheet import FormulaSheet
 from derive.symbols import alpha
@@ -37,6 +38,7 @@ _HELPERS = {
         "laborious",
         *("maximum", "minimum", "only_where", "scaled", "select"),
     ),
+    "_law": ("Law",),
     "_march": ("march_of",),
     "_mended": ("as_integrand", "mended", "mended_sums"),
     "_parabolas": ("Parabolas",),
@@ -46,7 +48,7 @@ _HELPERS = {
     "_slip": ("slip_error_of", "slip_zones_of"),
     "_solve": ("contact_at", "contact_under", "level"),
     "_state": ("State",),
-    "_stick": ("Law", "closing_tension_of", "stick_zone_of", "tension_threshold_of"),
+    "_stick": ("closing_tension_of", "stick_zone_of", "tension_threshold_of"),
 }
 """What the modules of support/ offer to those beside them."""
 
@@ -100,6 +102,8 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
         yield slope_text(sheet) if closed and not mended else level_text(sheet, level)
     for function in CONTRACT:
         yield _made(sheet, function, function in solved)(sheet, function, source).text
+    if has_third(sheet):
+        yield third_text(sheet, source)
     yield law_text(sheet)
     for cycle in CYCLE:
         yield CycleText(sheet, cycle, source).text

@@ -21,6 +21,7 @@ from tests.codegen.kinked import contacts, profile
 
 e, T, t = symbols("e T t", positive=True)
 D = e - sin(e) * cos(e)
+tangents = tan((T - e) / 2) * tan((T + e) / 2)
 over_the_part = (t, (T - e) / 2, (T + e) / 2)
 """The angles of a part by the sum T and the difference e of those of its ends."""
 
@@ -61,6 +62,13 @@ FORMS: dict[str, tuple[Expr, Expr]] = {
         + 2 * sin(e) ** 2 * tan(e)
         - 3 * D / 2
         + sin(e) * sin((T - e) / 2) * sin((T + e) / 2),
+    ),
+    "(3 sin(t)**2 + 12 tan(t)**2 + 8 tan(t)**4) dt, less 3 times that": (
+        6 * tan(t) ** 2 + 8 * tan(t) ** 4,
+        6 * tan(e) * tangents
+        + 8 * tan(e) * tangents**2
+        + Rational(8, 3) * (tan(e) * (1 + tangents)) ** 3
+        - 2 * (tan(e) * sin(e) ** 2 - D),
     ),
 }
 """Integrals over a part, s being told by its angle t, and what is added up in their place."""

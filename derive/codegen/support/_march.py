@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ._arrays import Array, Flat
+from ._law import Law
 from ._slip import ORDERS, demand_order, slip_zones_of
-from ._stick import Law, stick_zone_of
+from ._stick import stick_zone_of
 from ._types import Contact, March, Regime
 
 IN_PHASE = 1e-6

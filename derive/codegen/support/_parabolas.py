@@ -89,6 +89,10 @@ class Parabolas(NamedTuple):
         """L_N at the left and the right edge."""
         return _Contact(self, a, c).second()
 
+    def third(self, a: Array, c: Array) -> tuple[Array, Array]:
+        """The coefficients of s**(5/2) in the pressure next to the left and the right edge."""
+        return _Contact(self, a, c).third()
+
     def pressure(self, x: Array, a: Array, c: Array) -> Array:
         """The pressure at a place x of the contact."""
         return _Contact(self, a, c).pressure(x)
@@ -277,8 +281,35 @@ class _Contact:
     def second(self) -> tuple[Array, Array]:
         """(1/pi) times the finite parts of int g'' r (3 + 2 r**2) ds/(6 h**(3/2)).
 
-        r = sqrt(A/B) for the right edge.  The g'' of the part that ends there counts as that of the
-        whole contact, for -(3 pi/2) h; those of the others as what they differ by.
+        r = sqrt(A/B) for the right edge.
+        """
+        scale = (6 * _PI) * self.h * self.of.sqrt(self.h)
+        return self._next(1.5, self._rise, lambda r: r * (3 + 2 * (r * r)), scale)
+
+    def third(self) -> tuple[Array, Array]:
+        """(1/pi) times the finite parts of int g'' r (15 + 20 r**2 + 8 r**4) ds/(40 h**(5/2))."""
+        scale = (40 * _PI) * (self.h * self.h) * self.of.sqrt(self.h)
+
+        def of_corner(r: Array) -> Array:
+            square = r * r
+            return r * (15 + square * (20 + 8 * square))
+
+        return self._next(2.5, self._steeper_rise, of_corner, scale)
+
+    def _next(
+        self,
+        whole: float,
+        rise: Callable[[_Part, Array, Array], Array],
+        of_corner: Callable[[Array], Array],
+        scale: Array,
+    ) -> tuple[Array, Array]:
+        """A coefficient of the pressure behind K_N, over `scale`.
+
+        The g'' of the part that ends at the edge counts as that of the whole contact, for
+        -`whole` pi h; those of the others as what they differ by.
+
+        rise: half the integral over a part, over h.
+        of_corner: the integrand over g''.
         """
         h, of = self.h, self.of
         bends = [0.0 if bend is None else bend for bend in self.body.bends]
@@ -286,7 +317,7 @@ class _Contact:
         for i in range(1, len(bends)):  # kinks at an edge or beyond it divide nothing
             first = of.where(self.inside[i][0] > 0, first, bends[i])
             last = of.where(self.inside[-1 - i][1] > 0, last, bends[-1 - i])
-        left, right = (-1.5 * _PI) * h * first, (-1.5 * _PI) * h * last
+        left, right = (-whole * _PI) * h * first, (-whole * _PI) * h * last
         for i, bend in enumerate(bends):
             inner_left, inner_right = self.inside[i][0] > 0, self.inside[i + 1][1] > 0
             off_left, off_right = bend - first, bend - last
@@ -295,23 +326,34 @@ class _Contact:
             if not (to_left or to_right) or (part := self.part(i, bend)) is None:
                 continue
             if to_left:
-                share = 2 * h * off_left * self._rise(part, part.far, part.near)
+                share = 2 * h * off_left * rise(part, part.far, part.near)
                 left = left + of.where(inner_left, share, 0.0)
             if to_right:
-                share = 2 * h * off_right * self._rise(part, part.near, part.far)
+                share = 2 * h * off_right * rise(part, part.near, part.far)
                 right = right + of.where(inner_right, share, 0.0)
         for jump, A, B in self.corners():
-            for_left, for_right = (of.sqrt(A * B) / (v + _NOTHING) for v in (A, B))
-            left = left + jump * for_left * (3 + 2 * (for_left * for_left))
-            right = right + jump * for_right * (3 + 2 * (for_right * for_right))
-        scale = (6 * _PI) * h * of.sqrt(h) + _NOTHING
-        return _told(left / scale), _told(right / scale)
+            root = of.sqrt(A * B)
+            left = left + jump * of_corner(root / (A + _NOTHING))
+            right = right + jump * of_corner(root / (B + _NOTHING))
+        return _told(left / (scale + _NOTHING)), _told(right / (scale + _NOTHING))
 
     def _rise(self, part: _Part, over: Array, under: Array) -> Array:
         """int (sin(t)**2 + 2 tan(t)**2) dt over a part for the right edge, r being tan(t)."""
         tangent = 2 * part.sine / (part.cosine + _NOTHING)
         hollow = tangent * (part.sine * part.sine) - 1.5 * part.bow
         return hollow + tangent * (over / (under + _NOTHING)) + part.sine * over / self.h
+
+    def _steeper_rise(self, part: _Part, over: Array, under: Array) -> Array:
+        """int (3 sin(t)**2 + 12 tan(t)**2 + 8 tan(t)**4) dt, T = tan e and P = tan t_0 tan t_1:
+
+        3 int (sin(t)**2 + 2 tan(t)**2) dt + 6 T P + 8 T P**2 + (8/3) T**3 (1 + P)**3
+        - 2 (T - e).
+        """
+        tangent, product = part.sine / (part.cosine + _NOTHING), over / (under + _NOTHING)
+        rise = tangent * (1 + product)
+        excess = tangent * (part.sine * part.sine) - part.bow
+        steep = 2 * tangent * product * (3 + 4 * product) + (8 / 3) * (rise * rise * rise)
+        return 3 * self._rise(part, over, under) + steep - 2 * excess
 
     def pressure(self, x: Array) -> Array:
         """(1/pi) int g'' L(x, s) ds."""

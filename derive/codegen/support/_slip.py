@@ -8,8 +8,8 @@ beside a stick zone of width h_s adds to the conditions for a bounded change of 
 
 sums of C_i h_s**(1/2 - j) d**(i + j + 1) and of C_i h_s**(-1/2 - j) d**(i + j + 2).  An order keeps
 powers of d up to itself; both conditions are then solved as they stand.  Each contact of the cycle
-has its own edges, so that varying loads need nothing more.  N follows from how L changes as the
-edge alone moves: N = -(2/5) (dL/dedge + K/(16 h**2)).
+has its own edges, so that varying loads need nothing more.  Where no formula gives N, it follows
+from how L changes as the edge alone moves: N = -(2/5) (dL/dedge + K/(16 h**2)).
 """
 
 from functools import cached_property
@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from ._arrays import Array, Flat
-from ._stick import Law
+from ._law import Law
 from ._types import Edges
 from ._zones import Pair, drawn_in, moved, pulls
 
@@ -43,7 +43,14 @@ of five points is off by 1e-13 then, for truncation as for rounding."""
 FINEST = 1e-10
 """The least step, in parts of the edge's place: it is rounded by a millionth there."""
 
-_EPS = 2.0**-52
+SMALL = 1e-9
+"""A step after which nothing is left to do: the next would be its square."""
+
+ROUNDING = 16 * 2.0**-52
+"""So long steps may stay, for rounding, times the width over the shorter slip zone,"""
+
+IDLE = 3
+"""if so many do not get shorter."""
 
 
 @np.errstate(all="ignore")
@@ -139,16 +146,22 @@ class _Series:
         for (a, c), K, L in zip(self.contacts, self._K, self._L, strict=True):
             left, right = [K.left, L.left], [K.right, L.right]
             if order > 2:
-                left.append(self._third(a, c, K.left, 0))
-                right.append(self._third(a, c, K.right, 1))
+                third = self._third(a, c, K)
+                left.append(third.left)
+                right.append(third.right)
             found.append((left, right))
         return found
 
-    def _third(self, a: Array, c: Array, K: Array, side: int) -> Array:
+    def _third(self, a: Array, c: Array, K: Edges) -> Edges:
+        if self.law.third is not None:
+            return Edges(*self.law.third(a, c, **self.constants))
+        return Edges(*(self._by_differences(a, c, K[side], side) for side in (0, 1)))
+
+    def _by_differences(self, a: Array, c: Array, K: Array, side: int) -> Array:
         h, place = a + c, (-a, c)[side]
         step = h
-        for kink in self.law.places(self.constants):
-            step = np.minimum(step, np.abs(place - kink))
+        for bend in self.law.bends(self.constants):
+            step = np.minimum(step, np.abs(place - bend))
         step = APART * step
 
         def rise(steps: int) -> Array:
@@ -171,7 +184,7 @@ class _Series:
         left = np.maximum(left - self.least_left, least)
         right = np.maximum(right - self.least_right, least)
         left, right = drawn_in(width, left, right)
-        done = np.full(left.shape, False)
+        shortest, idle = np.full(left.shape, np.inf), np.full(left.shape, 0)
         for _ in range(STEPS):
             stuck = width - left - right
             off, rates = self._conditions(coefficients, kappa, left, right, stuck)
@@ -184,7 +197,10 @@ class _Series:
             length = np.maximum(np.abs(by_left), np.abs(by_right))
             shrink = np.minimum(1, LONGEST / length)
             left, right = moved(width, left, right, shrink * by_left, shrink * by_right)
-            done = length < 1e-9 + 16 * _EPS * width / np.minimum(left, right)
+            rounded = length < ROUNDING * width / np.minimum(left, right)
+            idle = np.where(length < shortest / 2, 0, idle + 1)
+            shortest = np.fmin(length, shortest)
+            done = (length < SMALL) | (rounded & (idle >= IDLE))
             if np.all(done | ~np.isfinite(length)):
                 break
         left, right = left + self.least_left, right + self.least_right

@@ -25,13 +25,13 @@ between the slip zones to come, which are at friction since the last half-cycle:
 way if it does at both ends of it.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ._arrays import Array, Flat, at_rows, contact_edges
+from ._law import Law
 from ._roots import around, increasing_root
 from ._turning import turning_zone
 from ._types import Contact, Regime, StickZone, Threshold
@@ -54,33 +54,6 @@ SLACK = 1e-6
 
 HALVINGS = 52
 """Halvings of an interval: to the last bit of float64."""
-
-
-class Law(NamedTuple):
-    """The functions of one body that partial slip is made of; the integrand is the pressure."""
-
-    contact: Callable[..., Contact]
-    contact_at_tilt: Callable[..., Contact]
-    tilt: Callable[..., Array]
-    load: Callable[..., Array]
-    moment: Callable[..., Array]
-    pressure: Callable[..., Array]
-    integrand: Callable[..., Array]
-    K_N: Callable[..., Any]
-    L_N: Callable[..., Any]
-    kinks: Callable[..., tuple[Array, ...]]
-
-    def tilt_of(self, a: Array, c: Array, constants: dict[str, Array]) -> Array:
-        """alpha; of all constants those that are the profile's."""
-        return self.tilt(a, c, **_profile(constants))
-
-    def places(self, constants: dict[str, Array]) -> tuple[Array, ...]:
-        """Where its kinks are."""
-        return self.kinks(**_profile(constants))
-
-
-def _profile(constants: dict[str, Array]) -> dict[str, Array]:
-    return {name: value for name, value in constants.items() if name != "E_star"}
 
 
 @np.errstate(all="ignore")
