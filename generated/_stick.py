@@ -32,7 +32,7 @@ from typing import Any
 import numpy as np
 
 from ._arrays import Array, Flat, at_rows, contact_edges
-from ._law import Law
+from ._law import Law, change_along, change_between
 from ._roots import around, increasing_root
 from ._turning import turning_zone
 from ._types import Contact, Regime, StickZone, Threshold
@@ -52,6 +52,24 @@ LEVEL = 4
 
 SLACK = 1e-6
 """What is allowed for rounding, in parts of the friction."""
+
+ROUNDED = 4.0
+"""Where load and tilt of a contact, rounded, move an edge by so many units, it is sharpened,"""
+
+SHARPENED = 2
+"""by so many of Newton's steps."""
+
+CANCELLED = 2.0
+"""A difference so many times smaller than what it is taken of has lost digits."""
+
+NEARLY = 1e-6
+"""A step of Newton's method after which nothing is left to do, in parts of what is looked for."""
+
+STEPS = 8
+"""Its steps at most; two are common."""
+
+NOTHING = 64 * 2.0**-52
+"""A difference of two widths that is all rounding, in parts of them."""
 
 HALVINGS = 52
 """Halvings of an interval: to the last bit of float64."""
@@ -154,7 +172,12 @@ def closing_tension_of(
         width = _width_under(cycle, load, edge, sense)
         a, c = (width - edge, edge) if sense > 0 else (edge, width - edge)
         leaning = law.tilt_of(a, c, cycle.constants)
-        found.append(4 * cycle.f * cycle.constants["E_star"] * (tilt - leaning))
+        turned = tilt - leaning
+        lost = np.abs(tilt) + np.abs(leaning) > CANCELLED * np.abs(turned)
+        rows = np.flatnonzero(lost | (load > CANCELLED * cycle.dQ / (2 * cycle.f)))
+        if rows.size:
+            turned[rows] = _turned_by(cycle.on(rows), turned[rows], width[rows], sense)
+        found.append(4 * cycle.f * cycle.constants["E_star"] * turned)
     lower, upper = (np.where(cycle.exists & (load > 0), v, np.nan) for v in found)
     return Threshold(given.shaped(lower), given.shaped(upper))
 
@@ -170,6 +193,39 @@ def _width_under(cycle: "_Cycle", load: Array, edge: Array, sense: int) -> Array
         return off, np.pi * np.sqrt(width) / 4 * (K.left if sense > 0 else K.right)
 
     return increasing_root(excess, *around(excess, np.max(cycle.a + cycle.c, axis=0)))
+
+
+def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Array:
+    """By how much the mean tilt exceeds that of the zone whose edge on one side is the contact's.
+
+    `turned` is a difference of two tilts that has lost its digits, as the zone's `width` has.  How
+    far the other edge draws back is solved for instead, from what load and tilt change by as it
+    does; where these are not known to rounding, `turned` remains.
+    """
+    law, constants = cycle.law, cycle.constants
+    other = cycle.c[1] < cycle.c[0] if sense > 0 else cycle.a[1] < cycle.a[0]
+    a, c = (np.where(other, *edges[::-1]) for edges in (cycle.a, cycle.c))
+    risen, leant = (np.where(other, -v, v) / 2 for v in cycle.risen)
+    fallen = cycle.dQ / (2 * cycle.f) - risen
+
+    back, exact = a + c - width, np.full(turned.shape, np.nan)
+    back = np.where(back > NOTHING * (a + c), back, 0.0)
+    rows = np.flatnonzero(fallen > 0)
+    for _ in range(STEPS):
+        drawn, held = back[rows], at_rows(rows, constants)
+        motion = (-drawn, 0.0 * drawn) if sense > 0 else (0.0 * drawn, -drawn)
+        change = change_along(law, (a[rows], c[rows]), motion, held)
+        left, right = a[rows] + motion[0], c[rows] + motion[1]
+        K, root = law.K_N(left, right, **held)[0 if sense > 0 else 1], np.sqrt(left + right)
+        step = (fallen[rows] + change.load) / (np.pi / 4 * root * K)
+        back[rows] = drawn + step
+        found = leant[rows] - change.tilt + sense * step * K / root
+        small = np.abs(step) <= NEARLY * back[rows]
+        exact[rows] = np.where(small & change.settled, found, np.nan)
+        rows = rows[~small & change.settled & (back[rows] > 0)]
+        if not rows.size:
+            break
+    return np.where(np.isfinite(exact), exact / constants["E_star"], turned)
 
 
 # ---------------------------------------------------------------------- the cycle
@@ -206,6 +262,15 @@ class _Cycle:
     def steady(self) -> Array:
         """Whether the contact is the same at both ends."""
         return self.task.alike
+
+    @property
+    def risen(self) -> tuple[Array, Array]:
+        """By how much load, and E* times the tilt, rise from the first contact to the second."""
+        first, second = zip(self.a, self.c, strict=True)
+        between = change_between(self.law, first, second, self.constants)
+        load = np.where(between.settled, between.load, self.load[1] - self.load[0])
+        turned = self.constants["E_star"] * (self.tilt[1] - self.tilt[0])
+        return load, np.where(between.settled, between.tilt, turned)
 
     @property
     def limit(self) -> Array:
@@ -342,7 +407,46 @@ def _moderate(cycle: _Cycle) -> Found:
     if rows.size:
         slips[rows] = _grows(cycle.on(rows))
     patch = _patch(cycle, cycle.load, cycle.tilt, 1.0)
-    return slips & np.isfinite(patch.a), patch.a, patch.c
+    m, n = _sharpened(cycle, patch.a, patch.c, slips & np.isfinite(patch.a))
+    return slips & np.isfinite(m), m, n
+
+
+def _sharpened(cycle: _Cycle, m: Array, n: Array, slips: Array) -> tuple[Array, Array]:
+    """The moderate zone to its last digits, where load and tilt have not told them.
+
+    Close to the largest tilt of a body a tilt is rounded by more than the zone bears.  There the
+    changes of load and tilt from the first contact are added up instead, and Newton's method has
+    one equation an edge: K da and K dc, of which both are half the sum and half the difference.
+    """
+    K = cycle.law.K_N(m, n, **cycle.constants)
+    h, E_star = m + n, cycle.constants["E_star"]
+    rounded = np.abs(cycle.load[0]) * 4 / np.pi + E_star * np.abs(cycle.tilt[0]) * h
+    sizes = np.abs(cycle.a[0]), np.abs(cycle.c[0])
+    lost = [rounded > ROUNDED * k * np.sqrt(h) * size for k, size in zip(K, sizes, strict=True)]
+    rows = np.flatnonzero(slips & (lost[0] | lost[1]))
+    if not rows.size:
+        return m, n
+    there, m, n = cycle.on(rows), m.copy(), n.copy()
+    zone = m[rows], n[rows]
+    load, lean = there.risen
+    load = load / 2 - there.dQ / (2 * there.f)
+    lean = lean / 2 - there.dsigma / (4 * there.f)
+    settled = np.full(rows.shape, True)
+    for _ in range(SHARPENED):
+        first = there.a[0], there.c[0]
+        change = change_between(there.law, first, zone, there.constants)
+        settled &= change.settled
+        root = np.sqrt(zone[0] + zone[1])
+        K = there.law.K_N(*zone, **there.constants)
+        by_load = (load - change.load) * (4 / np.pi) / root
+        by_tilt = (lean - change.tilt) * root
+        zone = (
+            zone[0] + (by_load + by_tilt) / (2 * K.left),
+            zone[1] + (by_load - by_tilt) / (2 * K.right),
+        )
+    settled &= np.isfinite(zone[0]) & np.isfinite(zone[1])
+    m[rows], n[rows] = (np.where(settled, v, w[rows]) for v, w in zip(zone, (m, n), strict=True))
+    return m, n
 
 
 def _patch(cycle: _Cycle, loads: Any, tilts: Any, part: Array) -> Contact:

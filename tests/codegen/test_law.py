@@ -1,0 +1,120 @@
+"""Changes between two contacts, support/_law.py, and what is made sharp by them."""
+
+import importlib
+import math
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import mpf
+from numpy.testing import assert_allclose
+
+from derive.proof.points import numeric
+from derive.symbols import E_star, a, c
+from generated import hertz, rounded_wedge, wedge
+from generated._law import change_along, change_between
+from generated._types import Contact, Regime
+from tests.accuracy.reference import sheet_of
+
+CYLINDER = {"E_star": 3.0, "R": 0.25}
+
+
+def exact(body: str, name: str, edges: tuple[float, float], constants: dict[str, float]) -> mpf:
+    """A formula of the sheet with 50 digits."""
+    sheet = sheet_of(body)
+    point = {q.symbol: mpf(constants[q.name]) for q in sheet.geometry.parameters}
+    point |= {E_star: mpf(constants["E_star"]), a: mpf(edges[0]), c: mpf(edges[1])}
+    with mpmath.workdps(50):
+        return numeric(sheet.flat(name))(point)
+
+
+@pytest.mark.parametrize("back", [1e-14, 1e-6, 0.1, 0.9])
+def test_a_cylinder_by_hand(back: float) -> None:
+    """P = pi E* h**2/(16 R) and alpha = (a - c)/(2 R): from a = c = 1 with the left edge drawn back
+    by d, P falls by pi E* d (4 - d)/(16 R) and E* alpha by E* d/(2 R).
+    """
+    start = np.array([1.0]), np.array([1.0])
+    found = change_along(hertz._LAW, start, (np.array([-back]), np.array([0.0])), CYLINDER)
+    assert_allclose(found.load, -math.pi * 3 * back * (4 - back) / 4, rtol=4e-15)
+    assert_allclose(found.tilt, -3 * back / 0.5, rtol=4e-15)
+    assert found.settled.all()
+
+
+@pytest.mark.parametrize(
+    ("body", "constants", "start", "end"),
+    [
+        ("wedge", {"E_star": 2.0, "phi": 0.3}, (1.0, 1e-9), (0.75, 0.8e-9)),
+        ("rounded_wedge", {"E_star": 2.0, "phi": 0.3, "b": 0.5}, (1.0, 0.75), (0.4, 0.3)),
+        ("rounded_wedge", {"E_star": 2.0, "phi": 0.3, "b": 0.5}, (1.0, -0.25), (0.7, -0.3)),
+        ("flat_rounded", {"E_star": 2.0, "R": 0.3, "b": 0.5}, (1.0, 0.75), (0.6, 0.7)),
+        ("quartic", {"E_star": 2.0, "L": 0.3}, (1.0, 0.75), (0.6, 0.7)),
+    ],
+)
+def test_a_change_is_the_difference_of_two_formulas(
+    body: str, constants: dict[str, float], start: Any, end: Any
+) -> None:
+    law = importlib.import_module(f"generated.{body}")._LAW
+    first, last = (tuple(map(np.atleast_1d, edges)) for edges in (start, end))
+    found = change_between(law, first, last, constants)
+    assert found.settled.all()
+    for value, name, scale in ((found.load, "load", 1), (found.tilt, "tilt", constants["E_star"])):
+        wanted = scale * (exact(body, name, end, constants) - exact(body, name, start, constants))
+        assert_allclose(value, float(wanted), rtol=1e-12)
+
+
+def test_what_is_not_known_to_rounding_is_said() -> None:
+    """K_N of a wedge grows like 1/sqrt(a) as the edge comes close to the apex."""
+    ways = np.array([0.9, 1e-4])
+    first, last = (np.ones(2), np.ones(2)), (ways, np.ones(2))
+    found = change_between(wedge._LAW, first, last, {"E_star": 1.0, "phi": 0.1})
+    assert found.settled.tolist() == [True, False]
+
+
+def test_no_motion_changes_nothing() -> None:
+    here = np.array([1.0]), np.array([0.5])
+    found = change_between(rounded_wedge._LAW, here, here, {"E_star": 1.0, "phi": 0.1, "b": 0.2})
+    assert [*found.load, *found.tilt, *found.settled] == [0, 0, True]
+
+
+@given(st.floats(1e-13, 0.9), st.floats(-0.49, 0.49))
+def test_the_tension_that_closes_a_zone_under_a_cylinder(share: float, middle: float) -> None:
+    """The width under (1 - q) P is h sqrt(1 - q), q = dQ/(2 f P): the far edge draws back by
+    d = h q/(1 + sqrt(1 - q)), which turns the body by d/(2 R): dsigma = 2 f E* d/R.
+    """
+    h, friction = 1.0, 0.5
+    left, right = h * (0.5 + middle), h * (0.5 - middle)
+    width = left + right
+    load = math.pi * CYLINDER["E_star"] * width**2 / (16 * CYLINDER["R"])
+    here = Contact(left, right, 0.0)
+    found = hertz.closing_tension(here, here, 2 * friction * load * share, f=friction, **CYLINDER)
+    back = width * share / (1 + math.sqrt(1 - share))
+    wanted = 2 * friction * CYLINDER["E_star"] * back / CYLINDER["R"]
+    assert_allclose([-found.lower, found.upper], wanted, rtol=2e-14)
+
+
+@pytest.mark.parametrize("right", [1e-2, 1e-6, 1e-11, 1e-14])
+def test_a_moderate_zone_close_to_the_largest_tilt(right: float) -> None:
+    """A wedge that leans almost on one flank: both equations solved with 50 digits."""
+    constants = {"E_star": 2.0, "phi": 0.3}
+    edges, friction = (1.0, right), 0.5
+    load = wedge.load(*edges, **constants)
+    shear, tension = 0.05 * load, 0.02 * load
+    here = Contact(*edges, 0.0)
+    zone = wedge.stick_zone(here, here, shear, tension, f=friction, **constants)
+    assert zone.regime == Regime.MODERATE
+    with mpmath.workdps(50):
+        less = exact("wedge", "load", edges, constants) - mpf(float(shear))
+        lean = exact("wedge", "tilt", edges, constants) - mpf(float(tension)) / 4
+
+        def off(m: mpf, log_n: mpf) -> list[mpf]:
+            point = {E_star: mpf(2), numeric_phi: mpf(0.3), a: m, c: mpmath.exp(log_n)}
+            return [of_load(point) / less - 1, (of_tilt(point) - lean) / mpmath.sqrt(right)]
+
+        numeric_phi = sheet_of("wedge").geometry.parameters[0].symbol
+        of_load, of_tilt = (numeric(sheet_of("wedge").flat(n)) for n in ("load", "tilt"))
+        m, log_n = mpmath.findroot(off, (mpf(float(zone.m)), mpmath.log(mpf(float(zone.n)))))
+        n = mpmath.exp(log_n)
+    assert_allclose([zone.m, zone.n], [float(m), float(n)], rtol=5e-15)
