@@ -4,12 +4,15 @@ import importlib
 from itertools import pairwise
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
+from mpmath import mpf
 from numpy.testing import assert_allclose
 
-from generated import hertz, wedge
+from generated import flat_sloped, hertz, wedge
 from generated._types import Contact, Regime
+from tests.accuracy.inverses import formula
 from tests.benchmarks.series import BODIES, E_STAR, F
 from tests.reference.cases import HERTZ, HERTZ_LOAD
 from tests.reference.kernel import Surface
@@ -366,3 +369,27 @@ def test_the_independent_solver_finds_the_same_shear(tension: float, fall: float
             off.append(np.mean(np.abs(q - exact)) / np.max(np.abs(exact)))
     assert np.all(np.array(off[2:]) < 5e-4)
     assert np.all(np.array(off[2:]) < np.array(off[:2]) / 2.5)
+
+
+@pytest.mark.parametrize("gap", [1e-13, 1e-10, 1e-7])
+def test_at_a_corner_beside_the_end_of_the_stick_zone(gap: float) -> None:
+    """dq = 2 f (p - p_s), both infinite there; the formulas with 400 digits, 1e-150 before it."""
+    law, friction, corner = {"E_star": 2.0, "phi": 0.1, "b": 0.3}, 0.5, 0.3
+    patch = 0.8, corner + gap
+    load = flat_sloped.load(*patch, **law)
+    tilt = flat_sloped.tilt(*patch, phi=0.1, b=0.3)
+    shear = 0.1 * load
+    here = flat_sloped.contact_at_tilt(load + shear / (2 * friction), tilt, **law)
+    cycle = here, here, shear, 0.0
+    zone = flat_sloped.stick_zone(*cycle, f=friction, **law)
+    assert 0 < zone.n - corner < 2 * gap
+    pressure = formula("flat_sloped", "pressure")
+    with mpmath.workdps(400):
+        given = {name: mpf(value) for name, value in law.items()}
+        whole, stuck = (
+            pressure(x=mpf(corner) - mpf(10) ** -150, a=mpf(float(a)), c=mpf(float(c)), **given)
+            for a, c in ((here.a, here.c), (zone.m, zone.n))
+        )
+        wanted = float(2 * friction * (whole - stuck))
+    found = flat_sloped.shear_change(corner, *cycle, f=friction, **law)
+    assert_allclose(found, wanted, rtol=1e-16 / gap + 1e-9)

@@ -36,8 +36,8 @@ from ._zones import Task, bounded_change, parts_of, turning_place
 LEVEL = 5
 """Steps of the quadrature are 2**-LEVEL: enough however close a place is to the stick zone."""
 
-BESIDE = 1e-12
-"""How far a place in the stick zone is kept from a kink, in parts of its width."""
+BESIDE = 1e-20
+"""How far a place in the stick zone is kept from a kink, in parts of its width, or by one float."""
 
 ROUNDED = 1e-9
 """Ends of two stick zones that differ by less, in parts of the contact, may be the same."""
@@ -181,11 +181,13 @@ class _Known:
         return np.where(self.still[rows], 0.0, found)
 
     def _beside_kinks(self, rows: Array) -> Array:
-        """x, moved off a corner in the stick zone: p is infinite there, dq is not."""
+        """x, moved off a corner in the stick zone, inward: p is infinite there, dq is not."""
         x, m, n = self.x[rows], self.m[rows], self.n[rows]
         for place in self.task.kinks(rows):
-            there = (np.abs(x - place) < BESIDE * (m + n)) & (x > -m) & (x < n)
-            x = np.where(there, place + BESIDE * (m + n), x)
+            inward = np.where(place < (n - m) / 2, 1.0, -1.0)
+            away = np.fmax(BESIDE * (m + n), np.spacing(np.abs(place)))
+            there = (np.abs(x - place) < away) & (x > -m) & (x < n)
+            x = np.where(there, place + inward * away, x)
         return x
 
     def slip(self, rows: Array) -> Array:
