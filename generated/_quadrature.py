@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 
 from ._angles import carried, pressed
-from ._arrays import Array
+from ._arrays import Array, weighted
 from ._profile import (
     TINY,
     TOGETHER,
@@ -38,7 +38,6 @@ from ._profile import (
     mirrored,
     slope_of,
     uncut,
-    weighted,
 )
 from ._state import State
 

@@ -29,8 +29,9 @@ from typing import Any
 import numpy as np
 
 from ._arrays import Array, Flat, at_rows, contact_edges
+from ._changes import pressure_along
 from ._law import Law
-from ._stick import stick_zone_of, task_between
+from ._stick import moderate_motion, stick_zone_of, task_between
 from ._types import Contact, Regime
 from ._zones import Task, bounded_change, parts_of, turning_place
 
@@ -39,6 +40,9 @@ LEVEL = 5
 
 BESIDE = 1e-20
 """How far a place in the stick zone is kept from a kink, in parts of its width, or by one float."""
+
+CANCELLED = 4.0
+"""A difference of pressures so many times smaller than these has lost digits."""
 
 ROUNDED = 1e-9
 """Ends of two stick zones that differ by less, in parts of the contact, may be the same."""
@@ -174,12 +178,34 @@ class _Known:
         slips = (x >= n) | (x <= -m)
         sliding = self.kappa(side, rows) * task.f * self.told.on(rows).sum_of_pressures(x)
         stuck = sliding - 2 * task.f * self.law.pressure(x, m, n, **held)
+        lost = self.forward[rows] & ~slips & (np.abs(sliding) > CANCELLED * np.abs(stuck))
+        some = np.flatnonzero(lost)
+        if some.size:
+            stuck[some] = self._grown(rows[some], x[some], stuck[some])
         some = np.flatnonzero(self.large[rows] & ~slips)
         if some.size:
             stuck[some] = bounded_change(task.on(some), m[some], n[some], self.x[rows][some], LEVEL)
         known = self.large[rows] | self.forward[rows]
         found = np.where(known, np.where(slips, sliding, stuck), np.nan)
         return np.where(self.still[rows], 0.0, found)
+
+    def _grown(self, rows: Array, x: Array, stuck: Array) -> Array:
+        """dq = f (p1 + p2 - 2 p_s) where slip zones are short: what p has grown by since p_s.
+
+        `stuck`, the difference, remains where that is not known to rounding.
+        """
+        task, held = self.task.on(rows), at_rows(rows, self.constants)
+        ends = [Contact(a, c, np.nan) for a, c in zip(task.a, task.c, strict=True)]
+        zone = self.m[rows], self.n[rows]
+        (da, dc), settled = moderate_motion(
+            self.law, ends[0], ends[1], task.dQ, task.dsigma, zone, f=task.f, **held
+        )
+        total = 0.0
+        for end in ends:
+            inward = da - (end.a - ends[0].a), dc - (end.c - ends[0].c)
+            risen, known = pressure_along(self.law, x, (end.a, end.c), inward, held)
+            total, settled = total - risen, settled & known
+        return np.where(settled, task.f * total, stuck)
 
     def _beside_kinks(self, rows: Array) -> Array:
         """x, moved off a corner in the stick zone, inward: p is infinite there, dq is not."""

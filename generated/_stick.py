@@ -32,7 +32,8 @@ from typing import Any
 import numpy as np
 
 from ._arrays import Array, Flat, at_rows, contact_edges
-from ._law import Law, change_along, change_between
+from ._changes import Way, change_along, change_between, step_for
+from ._law import Law
 from ._roots import around, increasing_root
 from ._turning import turning_zone
 from ._types import Contact, Regime, StickZone, Threshold
@@ -228,6 +229,38 @@ def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Arra
     return np.where(np.isfinite(exact), exact / constants["E_star"], turned)
 
 
+@np.errstate(all="ignore")
+def moderate_motion(
+    law: Law,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    zone: Way,
+    /,
+    *,
+    f: Array,
+    E_star: Array,
+    **own: Array,
+) -> tuple[Way, Array]:
+    """How far the edges move from the first contact to the moderate zone (m, n), outward.
+
+    To the last digits, where a difference of places has lost them; and whether it is known.  All
+    arrays have one length.
+    """
+    cycle, _ = _cycle(law, first, second, dQ, dsigma, f, E_star, own)
+    motion = zone[0] - cycle.a[0], zone[1] - cycle.c[0]
+    settled = np.full(cycle.dQ.shape, True)
+    load, tilt = cycle.moderate_gain
+    for _ in range(SHARPENED):
+        change = change_along(law, cycle.first, motion, cycle.constants)
+        settled &= change.settled
+        here = cycle.a[0] + motion[0], cycle.c[0] + motion[1]
+        to_m, to_n = step_for(law, here, load - change.load, tilt - change.tilt, cycle.constants)
+        motion = motion[0] + to_m, motion[1] + to_n
+    return motion, settled & np.isfinite(motion[0]) & np.isfinite(motion[1])
+
+
 # ---------------------------------------------------------------------- the cycle
 
 
@@ -271,6 +304,18 @@ class _Cycle:
         load = np.where(between.settled, between.load, self.load[1] - self.load[0])
         turned = self.constants["E_star"] * (self.tilt[1] - self.tilt[0])
         return load, np.where(between.settled, between.tilt, turned)
+
+    @property
+    def first(self) -> tuple[Array, Array]:
+        """Edges of the first contact."""
+        return self.a[0], self.c[0]
+
+    @property
+    def moderate_gain(self) -> tuple[Array, Array]:
+        """By how much load, and E* times the tilt, of the moderate zone exceed the first
+        contact's."""
+        load, tilt = self.risen
+        return load / 2 - self.dQ / (2 * self.f), tilt / 2 - self.dsigma / (4 * self.f)
 
     @property
     def limit(self) -> Array:
@@ -415,8 +460,7 @@ def _sharpened(cycle: _Cycle, m: Array, n: Array, slips: Array) -> tuple[Array, 
     """The moderate zone to its last digits, where load and tilt have not told them.
 
     Close to the largest tilt of a body a tilt is rounded by more than the zone bears.  There the
-    changes of load and tilt from the first contact are added up instead, and Newton's method has
-    one equation an edge: K da and K dc, of which both are half the sum and half the difference.
+    changes of load and tilt from the first contact are added up instead.
     """
     K = cycle.law.K_N(m, n, **cycle.constants)
     h, E_star = m + n, cycle.constants["E_star"]
@@ -427,23 +471,14 @@ def _sharpened(cycle: _Cycle, m: Array, n: Array, slips: Array) -> tuple[Array, 
     if not rows.size:
         return m, n
     there, m, n = cycle.on(rows), m.copy(), n.copy()
-    zone = m[rows], n[rows]
-    load, lean = there.risen
-    load = load / 2 - there.dQ / (2 * there.f)
-    lean = lean / 2 - there.dsigma / (4 * there.f)
-    settled = np.full(rows.shape, True)
+    zone, settled = (m[rows], n[rows]), np.full(rows.shape, True)
+    load, tilt = there.moderate_gain
     for _ in range(SHARPENED):
-        first = there.a[0], there.c[0]
-        change = change_between(there.law, first, zone, there.constants)
+        change = change_between(there.law, there.first, zone, there.constants)
         settled &= change.settled
-        root = np.sqrt(zone[0] + zone[1])
-        K = there.law.K_N(*zone, **there.constants)
-        by_load = (load - change.load) * (4 / np.pi) / root
-        by_tilt = (lean - change.tilt) * root
-        zone = (
-            zone[0] + (by_load + by_tilt) / (2 * K.left),
-            zone[1] + (by_load - by_tilt) / (2 * K.right),
-        )
+        off = load - change.load, tilt - change.tilt
+        to_m, to_n = step_for(there.law, zone, *off, there.constants)
+        zone = zone[0] + to_m, zone[1] + to_n
     settled &= np.isfinite(zone[0]) & np.isfinite(zone[1])
     m[rows], n[rows] = (np.where(settled, v, w[rows]) for v, w in zip(zone, (m, n), strict=True))
     return m, n

@@ -7,6 +7,8 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from mpmath import mpf
 from numpy.testing import assert_allclose
 
@@ -393,3 +395,22 @@ def test_at_a_corner_beside_the_end_of_the_stick_zone(gap: float) -> None:
         wanted = float(2 * friction * (whole - stuck))
     found = flat_sloped.shear_change(corner, *cycle, f=friction, **law)
     assert_allclose(found, wanted, rtol=1e-16 / gap + 1e-9)
+
+
+@given(st.floats(1e-14, 0.5), st.floats(-0.999, 0.999))
+def test_the_shear_of_short_slip_zones_by_hand(share: float, place: float) -> None:
+    """Cattaneo and Mindlin: under a cylinder dq = (f E*/R) (sqrt(b**2 - x**2) - sqrt(d**2 - x**2)),
+    d**2 = (1 - s) b**2 with s = dQ/(2 f P): f E*/R times s b**2 over the sum of both roots.
+    """
+    half, friction, law = 1.5, 0.4, {"E_star": 3.0, "R": 0.25}
+    here = Contact(half, half, 0.0)
+    load = np.pi * law["E_star"] * (2 * half) ** 2 / (16 * law["R"])
+    found = hertz.shear_change(
+        place * half, here, here, 2 * friction * load * share, 0.0, f=friction, **law
+    )
+    outer = half**2 * (1 - place) * (1 + place)
+    inner = max(0.0, outer - share * half**2)
+    by = share * half**2 if inner else outer
+    wanted = friction * law["E_star"] / law["R"] * by / (np.sqrt(outer) + np.sqrt(inner))
+    beside_the_end = 1e-14 / max(1e-300, abs(outer - share * half**2)) ** 0.5
+    assert_allclose(found, wanted, rtol=1e-14 + beside_the_end)

@@ -22,8 +22,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._arrays import Array
-from ._profile import TOGETHER, Curve, Part, Window, weighted
+from ._arrays import Array, weighted
+from ._profile import TOGETHER, Curve, Part, Window
 
 NODES = 12
 """Nodes on a piece; one more for each degree of g''."""

@@ -324,6 +324,16 @@ def _filled(shape: Shape, number: Any) -> Any:
     return filled
 
 
+def weighted(weight: Array, value: Array, before: Array = 0.0) -> Array:
+    """Sums down the columns, one after the other, added to `before`.
+
+    The same bits however many columns there are, and however many rows at a time.
+    """
+    terms = weight[:, None] * value
+    terms[0] += before
+    return np.add.accumulate(terms, axis=0)[-1]
+
+
 class Flat:
     """Arguments along one dimension, and the way back.
 

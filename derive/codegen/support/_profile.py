@@ -309,16 +309,6 @@ def _between(value: Array, most: Array) -> Array:
     return np.minimum(np.maximum(value, 0.0), most)
 
 
-def weighted(weight: Array, value: Array, before: Array = 0.0) -> Array:
-    """Sums down the columns, one after the other, added to `before`.
-
-    The same bits however many columns there are, and however many rows at a time.
-    """
-    terms = weight[:, None] * value
-    terms[0] += before
-    return np.add.accumulate(terms, axis=0)[-1]
-
-
 class Elements:
     """Arguments along one dimension, and the way back."""
 

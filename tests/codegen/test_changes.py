@@ -1,4 +1,4 @@
-"""Changes between two contacts, support/_law.py, and what is made sharp by them."""
+"""Changes between two contacts, support/_changes.py, and what is made sharp by them."""
 
 import importlib
 import math
@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose
 from derive.proof.points import numeric
 from derive.symbols import E_star, a, c
 from generated import hertz, rounded_wedge, wedge
-from generated._law import change_along, change_between
+from generated._changes import change_along, change_between
 from generated._types import Contact, Regime
 from tests.accuracy.reference import sheet_of
 
@@ -118,3 +118,24 @@ def test_a_moderate_zone_close_to_the_largest_tilt(right: float) -> None:
         m, log_n = mpmath.findroot(off, (mpf(float(zone.m)), mpmath.log(mpf(float(zone.n)))))
         n = mpmath.exp(log_n)
     assert_allclose([zone.m, zone.n], [float(m), float(n)], rtol=5e-15)
+
+
+@pytest.mark.parametrize("name", ["wedge", "rounded_wedge"])
+def test_results_are_the_same_bits_alone_and_among_others(name: str) -> None:
+    module: Any = importlib.import_module(f"generated.{name}")
+    own = {"wedge": {"phi": 0.1}, "rounded_wedge": {"phi": 0.1, "b": 0.3}}[name]
+    law, friction, rng = {"E_star": 2.0, **own}, 0.5, np.random.default_rng(2)
+    left = rng.uniform(0.5, 1, 60)
+    right = left * 10 ** rng.uniform(-9, 0, 60)
+    shear = module.load(left, right, **law) * 10 ** rng.uniform(-9, -0.1, 60)
+
+    def all_of(a: Any, c: Any, dQ: Any) -> Any:
+        here = Contact(a, c, 0.0 * a)
+        zone = module.stick_zone(here, here, dQ, 0.0, f=friction, **law)
+        closing = module.closing_tension(here, here, dQ, f=friction, **law)
+        change = module.shear_change((c - a) / 2, here, here, dQ, 0.0, f=friction, **law)
+        return np.array([zone.m, zone.n, *closing, change])
+
+    together = all_of(left, right, shear)
+    alone = [all_of(*given) for given in zip(left, right, shear, strict=True)]
+    assert np.array_equal(together.T, alone, equal_nan=True)

@@ -1,0 +1,147 @@
+"""What load, tilt and pressure change by from one contact to another, added up from flat punches.
+
+An edge that moves outward by da, or dc, adds a flat punch to the pressure,
+
+    dp = K_left sqrt((c - x)/(a + x)) da/(2 sqrt(h)) + K_right sqrt((a + x)/(c - x)) dc/(2 sqrt(h)),
+
+so that load and tilt rise by
+
+    dP = (pi/4) sqrt(h) (K_left da + K_right dc),    E* dalpha = (K_left da - K_right dc)/sqrt(h).
+
+Added up along a straight way they lose nothing where a difference of two loads, two tilts or two
+pressures would.  All arrays have one length.
+"""
+
+from collections.abc import Callable
+from functools import cache
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from ._arrays import Array, at_rows, weighted
+from ._law import Law
+
+NODES, FEWER = 20, 12
+"""Nodes of Gauss's rule along a way between two contacts, and of the one it is held against."""
+
+SETTLED = 1e-9
+"""What both may differ by: the finer one is exact to rounding then."""
+
+Way = tuple[Array, Array]
+"""a and c of a contact, or by how much they change."""
+
+Rates = Callable[[Array, Array, Way, Array], list[Way]]
+"""What is integrated over the places of both edges: of a, c, how far they have moved, and rows."""
+
+
+class Change(NamedTuple):
+    """From one contact to another.
+
+    load: by how much the load rises.
+    tilt: by how much the tilt rises, times E*.
+    settled: whether both are known to rounding.
+    """
+
+    load: Array
+    tilt: Array
+    settled: Array
+
+
+def change_between(law: Law, start: Way, end: Way, constants: dict[str, Array]) -> Change:
+    """From one contact to another."""
+    return change_along(law, start, (end[0] - start[0], end[1] - start[1]), constants)
+
+
+@np.errstate(all="ignore")
+def change_along(law: Law, start: Way, motion: Way, constants: dict[str, Array]) -> Change:
+    """From a contact on, by how much its edges move."""
+
+    def rates(a: Array, c: Array, moved: Way, rows: Array) -> list[Way]:
+        left, right = law.K_N(a, c, **at_rows(rows, constants))
+        root = np.sqrt(a + c)
+        flat = np.pi / 4 * root
+        return [(flat * left, flat * right), (left / root, -right / root)]
+
+    (load, tilt), settled = _added_up(law, start, motion, constants, rates)
+    return Change(load, tilt, settled)
+
+
+@np.errstate(all="ignore")
+def step_for(law: Law, here: Way, load: Array, tilt: Array, constants: dict[str, Array]) -> Way:
+    """Newton's step of both edges of a contact that lacks so much load, and E* times tilt.
+
+    K_left da and K_right dc are half the sum and half the difference of both.
+    """
+    root = np.sqrt(here[0] + here[1])
+    K = law.K_N(*here, **constants)
+    by_load, by_tilt = load * (4 / np.pi) / root, tilt * root
+    return (by_load + by_tilt) / (2 * K.left), (by_load - by_tilt) / (2 * K.right)
+
+
+@np.errstate(all="ignore")
+def pressure_along(
+    law: Law, x: Array, start: Way, motion: Way, constants: dict[str, Array]
+) -> tuple[Array, Array]:
+    """By how much p rises at x, which stays inside; whether that is known to rounding."""
+    before, behind = start[0] + x, start[1] - x
+
+    def rates(a: Array, c: Array, moved: Way, rows: Array) -> list[Way]:
+        left, right = law.K_N(a, c, **at_rows(rows, constants))
+        A, B = before[rows] + moved[0], behind[rows] + moved[1]
+        twice = 2 * np.sqrt(a + c)
+        return [(left * np.sqrt(B / A) / twice, right * np.sqrt(A / B) / twice)]
+
+    (risen,), settled = _added_up(law, start, motion, constants, rates)
+    return risen, settled
+
+
+def _added_up(
+    law: Law, start: Way, motion: Way, constants: dict[str, Array], rates: Rates
+) -> tuple[list[Array], Array]:
+    """The integrals along the way, and whether both rules agree on all of them."""
+    ends = _ends(law, start, motion, constants)
+    found, rough = (_by_rule(start, motion, ends, rates, count) for count in (NODES, FEWER))
+    settled = np.full(start[0].shape, True)
+    for (value, size), (other, _) in zip(found, rough, strict=True):
+        settled &= np.abs(value - other) <= SETTLED * size
+    return [value for value, _ in found], settled
+
+
+def _ends(law: Law, start: Way, motion: Way, constants: dict[str, Array]) -> Array:
+    """Parts of the way, 0 to 1, between which no edge goes across a kink, a column each."""
+    found = [0.0 * start[0], 0.0 * start[0] + 1]
+    for bend in law.bends(constants):
+        for way in ((-start[0] - bend) / motion[0], (bend - start[1]) / motion[1]):
+            found.append(np.where((way > 0) & (way < 1), way, 1.0))
+    return np.sort(found, axis=0)
+
+
+def _by_rule(
+    start: Way, motion: Way, ends: Array, rates: Rates, count: int
+) -> list[tuple[Array, Array]]:
+    """The integrals, and those of the sizes of both edges' shares."""
+    nodes, weights = _rule(count)
+    found: list[tuple[Array, Array]] = []
+    for low, high in pairwise(ends):
+        rows = np.flatnonzero(high > low)
+        length = (high - low)[rows]
+        part = low[rows] + length * nodes[:, None]
+        moved = part * motion[0][rows], part * motion[1][rows]
+        given = rates(start[0][rows] + moved[0], start[1][rows] + moved[1], moved, rows)
+        if not found:
+            found = [(np.zeros(start[0].shape), np.zeros(start[0].shape)) for _ in given]
+        for (value, size), (left, right) in zip(found, given, strict=True):
+            by_left, by_right = length * motion[0][rows] * left, length * motion[1][rows] * right
+            value[rows] = weighted(weights, by_left + by_right, value[rows])
+            size[rows] = weighted(weights, np.abs(by_left) + np.abs(by_right), size[rows])
+    return found
+
+
+@cache
+def _rule(count: int) -> tuple[Array, Array]:
+    """Nodes and weights on (0, 1), for which roots at the ends are smooth: over sin(angle)**2."""
+    angles, weights = np.polynomial.legendre.leggauss(count)
+    angles = np.pi / 4 * (angles + 1)
+    weights = weights * np.sin(2 * angles)
+    return np.sin(angles) ** 2, weights / np.sum(weights)
