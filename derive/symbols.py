@@ -94,7 +94,6 @@ _USED_BESIDES = (
         "MOST",
         "TINY",
         "elementwise",
-        "laborious",
         "only_where",
         "scaled",
         "select",

@@ -22,19 +22,12 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 Shape = tuple[int, ...]
 
 BLOCK = 21_000
-"""Elements evaluated at once at most: a few arrays of this length stay in a core's own cache, and
-four of them are less than a tenth of a million elements.
+"""Elements evaluated at once, of arrays that are cut: a few arrays of this length stay in a core's
+own cache.
 """
 
-WHOLE = 40_000
-"""Arrays of up to this length are not cut: two calls would cost more than the cache saves."""
-
-LIGHT = 2.5
-"""So many times longer they may be for a formula that has few temporaries, all of which stay in the
-heap."""
-
-FEW = 4
-"""What is cut of such a formula, and so many times as long at most, is cut in blocks of WHOLE."""
+SHARE = 10
+"""Blocks are longer where they hold no more than this part of the results and of RESIDENT."""
 
 TINY = 1e-150
 """What stands for a distance of zero where a quotient must stay finite."""
@@ -51,13 +44,17 @@ _NUMBERS = (np.float64, float)
 _MANY = 3_000
 """Elements from where an array full of one number is made up for."""
 
-_ZEROS = np.zeros(int(LIGHT * WHOLE))
-_ZEROS.flags.writeable = False
+_HEAP = 14 << 20
+"""Bytes of the largest array that lies in the process's heap."""
 
-_HEAP = 7 << 20
-"""Bytes: twice this is more than the temporaries of a block need, those of Newton's method
-included, or of a formula of a hundred thousand elements; an array of a million is larger.
+RESIDENT = 2 * _HEAP // 8
+"""Numbers that the heap keeps.  A call that holds no more is not cut: it asks the system for no
+pages, and the processor's last cache holds most of its arrays.  Of several results one is counted:
+what cutting saves of the others, their copies cost.
 """
+
+_ZEROS = np.zeros(RESIDENT // 2)  # the system lends one page for all of it
+_ZEROS.flags.writeable = False
 
 # glibc gives free memory above 128 KiB back to the system, and asks for each page anew in the next
 # call, which takes longer than the arithmetic: until the process has once let go of a larger piece,
@@ -65,8 +62,10 @@ included, or of a formula of a hundred thousand elements; an array of a million 
 np.empty(_HEAP, np.uint8)
 
 
-def elementwise(function: Function) -> Function:
+def elementwise(*, arrays: int) -> Callable[[Function], Function]:
     """Let a formula take anything that broadcasts, and compute large arrays in blocks.
+
+    arrays: how many it holds at once, if its constants are numbers.
 
     Numbers and arrays of any real type become float64; Dask arrays stay lazy, and are computed
     chunk by chunk; arrays of other libraries that follow NumPy's protocols are computed by these.
@@ -74,19 +73,21 @@ def elementwise(function: Function) -> Function:
     floating-point warning leaves the call: what does not exist is NaN.  Large results of several
     fields share one piece of memory.
 
-    Raises TypeError for what is no real number, ValueError for shapes that do not broadcast.
+    The function raises TypeError for what is no real number, ValueError for shapes that do not
+    broadcast.
     """
-    return _elementwise(function, LIGHT)
+
+    def decorated(function: Function) -> Function:
+        return _elementwise(function, arrays)
+
+    return decorated
 
 
-def laborious(function: Function) -> Function:
-    """The same for what needs many temporaries."""
-    return _elementwise(function, 1.0)
-
-
-def _elementwise(function: Function, light: float) -> Function:
-    """`light`: by how much longer arrays may be that are not cut."""
-    parameters = signature(function).parameters
+def _elementwise(function: Function, arrays: int) -> Function:
+    called = signature(function)
+    parameters = called.parameters
+    results = len(getattr(called.return_annotation, "_fields", ("",)))
+    weighed = arrays - results + 1
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
@@ -102,7 +103,7 @@ def _elementwise(function: Function, light: float) -> Function:
         if len(given) < len(parameters):
             given = defaults | given
         shape: Shape = ()
-        alike, foreign, size = True, False, 1
+        alike, foreign, size, held = True, False, 1, weighed
         for name, value in given.items():
             kind = type(value)
             if kind is float or kind is Float:
@@ -118,19 +119,20 @@ def _elementwise(function: Function, light: float) -> Function:
             if type(value) is np.ndarray:
                 alike, shape = alike and shape in ((), value.shape), value.shape
                 size = max(size, value.size)
+                held += name in constants
             elif type(value) is not Float:
                 foreign = True
         if foreign and any_lazy(given.values()):
             _broadcast(given)
             return over_chunks(call, given)
-        if foreign or (alike and size <= light * WHOLE):
+        if foreign or (alike and size * held <= RESIDENT):
             return quiet(**given)
         if not alike:
             shape = _broadcast(given)
         if 0 in shape:
             return quiet(**{name: np.broadcast_to(v, shape) for name, v in given.items()})
-        short = light > 1 and math.prod(shape) <= FEW * light * WHOLE
-        return quiet_blocks(function, given, shape, WHOLE if short else BLOCK)
+        shared = min(RESIDENT, results * math.prod(shape)) // SHARE
+        return quiet_blocks(function, given, shape, max(BLOCK, shared // arrays))
 
     return call  # type: ignore[return-value]
 
@@ -310,7 +312,7 @@ def _alike(first: Any, second: Any) -> tuple[Any, Any]:
 
 
 def _zeros(shape: Shape) -> Any:
-    """Nothing but zeros, to be read; as many as a block holds need not be made."""
+    """Nothing but zeros, to be read; as many as are evaluated at once need not be made."""
     size = math.prod(shape)
     if size > _ZEROS.size:
         return np.zeros(shape)
@@ -463,7 +465,7 @@ def _broadcast(given: Mapping[str, Any]) -> Shape:
 
 
 def _in_blocks(
-    function: Callable[..., Any], given: Mapping[str, Any], shape: Shape, most: int = BLOCK
+    function: Callable[..., Any], given: Mapping[str, Any], shape: Shape, most: int
 ) -> Any:
     """The result of `function` over the whole of `shape`, block by block."""
     fixed = {name: v for name, v in given.items() if not v.ndim}

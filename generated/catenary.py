@@ -6,7 +6,7 @@ g(x) = b**2*(cosh(x/b) - 1)/R, from derive/geometries/catenary.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._law import Law
 from ._march import march_of
 from ._profile import Curve, Piece, Profile, slope_of
@@ -97,7 +97,7 @@ def _slope(x: Array, *, R: Array, b: Array) -> tuple[Array, Array]:
     return slope_of(_BODY, x, R=R, b=b)
 
 
-@laborious
+@elementwise(arrays=90)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -132,7 +132,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@laborious
+@elementwise(arrays=90)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -167,7 +167,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b:
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@laborious
+@elementwise(arrays=90)
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -194,7 +194,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     return only_where(exists, now.tilt)
 
 
-@laborious
+@elementwise(arrays=90)
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -223,7 +223,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * now.load)
 
 
-@laborious
+@elementwise(arrays=90)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -253,7 +253,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * now.moment)
 
 
-@laborious
+@elementwise(arrays=90)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -286,7 +286,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     return only_where(exists, E_star * p)
 
 
-@laborious
+@elementwise(arrays=90)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -321,7 +321,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
 
 
-@laborious
+@elementwise(arrays=90)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -358,7 +358,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(*only_where(exists, E_star * left, E_star * right))
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -391,7 +391,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -426,7 +426,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

@@ -6,7 +6,7 @@ g(x) = R - sqrt(R**2 - x**2), from derive/geometries/circular_arc.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._law import Law
 from ._march import march_of
 from ._profile import Curve, Piece, Profile, slope_of
@@ -106,7 +106,7 @@ def _slope(x: Array, *, R: Array) -> tuple[Array, Array]:
     return slope, curvature
 
 
-@laborious
+@elementwise(arrays=90)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -139,7 +139,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@laborious
+@elementwise(arrays=90)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -173,7 +173,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@laborious
+@elementwise(arrays=90)
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -199,7 +199,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     return only_where(exists, now.tilt)
 
 
-@laborious
+@elementwise(arrays=90)
 def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -228,7 +228,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, E_star * now.load)
 
 
-@laborious
+@elementwise(arrays=90)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -257,7 +257,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, E_star * now.moment)
 
 
-@laborious
+@elementwise(arrays=90)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -290,7 +290,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, E_star * p)
 
 
-@laborious
+@elementwise(arrays=90)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -324,7 +324,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
 
 
-@laborious
+@elementwise(arrays=90)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -362,7 +362,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return Edges(*only_where(exists, E_star * left, E_star * right))
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -395,7 +395,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -430,7 +430,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

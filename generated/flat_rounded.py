@@ -6,7 +6,7 @@ g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._law import Law
 from ._march import march_of
 from ._parabolas import Parabolas
@@ -84,7 +84,7 @@ def _slope(x: Array, *, R: Array, b: Array) -> tuple[Array, Array]:
     return _body(R=R, b=b).slope(x)
 
 
-@laborious
+@elementwise(arrays=90)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -119,7 +119,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@laborious
+@elementwise(arrays=90)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -154,7 +154,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b:
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@laborious
+@elementwise(arrays=90)
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -187,7 +187,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     return only_where(exists, _body(R=R, b=b).tilt(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -220,7 +220,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * _body(R=R, b=b).load(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -255,7 +255,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * _body(R=R, b=b).moment(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -294,7 +294,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     return only_where(exists, E_star * _body(R=R, b=b).pressure(x, a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -330,7 +330,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).edges(a, c))))
 
 
-@laborious
+@elementwise(arrays=90)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -370,7 +370,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).second(a, c))))
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -403,7 +403,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -438,7 +438,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

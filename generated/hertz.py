@@ -53,7 +53,7 @@ __all__ = [
 ]
 
 
-@elementwise
+@elementwise(arrays=6)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -88,7 +88,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     return Contact(*only_where(exists, a, c, e / R))
 
 
-@elementwise
+@elementwise(arrays=5)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -119,7 +119,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@elementwise(arrays=2)
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -145,7 +145,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     return only_where(exists, (a - c) / (2 * R))
 
 
-@elementwise
+@elementwise(arrays=3)
 def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -171,7 +171,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, (np.pi * E_star / (16 * R)) * h**2)
 
 
-@elementwise
+@elementwise(arrays=3)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -198,7 +198,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, (np.pi * E_star / (32 * R)) * h**2 * (a - c))
 
 
-@elementwise
+@elementwise(arrays=2)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -227,7 +227,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, scaled(w, E_star / (2 * R)))
 
 
-@elementwise
+@elementwise(arrays=3)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -256,7 +256,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return Edges(*only_where(exists, scale, scale.copy()))
 
 
-@elementwise
+@elementwise(arrays=3)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -287,7 +287,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return Edges(*only_where(exists, scale, scale.copy()))
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -320,7 +320,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -355,7 +355,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

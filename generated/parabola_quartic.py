@@ -12,7 +12,6 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
-    laborious,
     maximum,
     minimum,
     only_where,
@@ -91,7 +90,7 @@ def _slope(x: Array, *, L: Array, R: Array) -> tuple[Array, Array]:
     return slope, curvature
 
 
-@laborious
+@elementwise(arrays=90)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, R: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -126,7 +125,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, R: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@laborious
+@elementwise(arrays=90)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, R: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -161,7 +160,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, R:
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@elementwise(arrays=5)
 def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -193,7 +192,7 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -226,7 +225,7 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -261,7 +260,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     )
 
 
-@elementwise
+@elementwise(arrays=7)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -307,7 +306,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
     )
 
 
-@elementwise
+@elementwise(arrays=6)
 def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -344,7 +343,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=6)
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -385,7 +384,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -418,7 +417,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -453,7 +452,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

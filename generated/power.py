@@ -6,7 +6,7 @@ g(x) = L**(1 - k)*Abs(x)**k/k, from derive/geometries/power.py.
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._law import Law
 from ._march import march_of
 from ._profile import Curve, Piece, Profile, slope_of
@@ -97,7 +97,7 @@ def _slope(x: Array, *, L: Array, k: Array) -> tuple[Array, Array]:
     return slope_of(_BODY, x, L=L, k=k)
 
 
-@laborious
+@elementwise(arrays=90)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -132,7 +132,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@laborious
+@elementwise(arrays=90)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -167,7 +167,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, k:
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@laborious
+@elementwise(arrays=90)
 def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -196,7 +196,7 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     return only_where(exists, now.tilt)
 
 
-@laborious
+@elementwise(arrays=90)
 def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -227,7 +227,7 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     return only_where(exists, E_star * now.load)
 
 
-@laborious
+@elementwise(arrays=90)
 def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -259,7 +259,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     return only_where(exists, E_star * now.moment)
 
 
-@laborious
+@elementwise(arrays=90)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -298,7 +298,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
     return only_where(exists, E_star * p)
 
 
-@laborious
+@elementwise(arrays=90)
 def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -335,7 +335,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
 
 
-@laborious
+@elementwise(arrays=90)
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -382,7 +382,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     return Edges(*only_where(exists, E_star * left, E_star * right))
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -415,7 +415,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -450,7 +450,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

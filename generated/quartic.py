@@ -12,7 +12,6 @@ from ._arrays import (
     chunkwise,
     chunkwise_in_time,
     elementwise,
-    laborious,
     maximum,
     minimum,
     only_where,
@@ -77,7 +76,7 @@ def _slope(x: Array, *, L: Array) -> tuple[Array, Array]:
     return slope, curvature
 
 
-@laborious
+@elementwise(arrays=90)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -111,7 +110,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array) -> Contact:
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@laborious
+@elementwise(arrays=90)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -145,7 +144,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array) ->
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@elementwise(arrays=4)
 def tilt(a: Array, c: Array, *, L: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -171,7 +170,7 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
     return only_where(exists, (a - c) * (5 * a**2 + 2 * a * c + 5 * c**2) / (16 * (L * L**2)))
 
 
-@elementwise
+@elementwise(arrays=4)
 def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -199,7 +198,7 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     )
 
 
-@elementwise
+@elementwise(arrays=4)
 def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -232,7 +231,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     )
 
 
-@elementwise
+@elementwise(arrays=6)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -268,7 +267,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -301,7 +300,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -338,7 +337,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -371,7 +370,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -406,7 +405,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

@@ -7,7 +7,7 @@ g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), fro
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._law import Law
 from ._march import march_of
 from ._parabolas import Parabolas
@@ -85,7 +85,7 @@ def _slope(x: Array, *, b: Array, phi: Array) -> tuple[Array, Array]:
     return _body(b=b, phi=phi).slope(x)
 
 
-@laborious
+@elementwise(arrays=90)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -122,7 +122,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) ->
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@laborious
+@elementwise(arrays=90)
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, b: Array, phi: Array
 ) -> Contact:
@@ -161,7 +161,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@laborious
+@elementwise(arrays=90)
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -194,7 +194,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     return only_where(exists, _body(b=b, phi=phi).tilt(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -228,7 +228,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(b=b, phi=phi).load(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -264,7 +264,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(b=b, phi=phi).moment(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -303,7 +303,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     return only_where(exists, E_star * _body(b=b, phi=phi).pressure(x, a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -341,7 +341,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).edges(a, c))))
 
 
-@laborious
+@elementwise(arrays=90)
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -383,7 +383,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).second(a, c))))
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -416,7 +416,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -451,7 +451,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

@@ -6,7 +6,7 @@ g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geome
 
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, laborious, only_where
+from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._law import Law
 from ._march import march_of
 from ._parabolas import Parabolas
@@ -79,7 +79,7 @@ def _slope(x: Array, *, R_1: Array, R_2: Array) -> tuple[Array, Array]:
     return _body(R_1=R_1, R_2=R_2).slope(x)
 
 
-@laborious
+@elementwise(arrays=90)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -116,7 +116,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array) 
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@laborious
+@elementwise(arrays=90)
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array
 ) -> Contact:
@@ -155,7 +155,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@laborious
+@elementwise(arrays=90)
 def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -186,7 +186,7 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     return only_where(exists, _body(R_1=R_1, R_2=R_2).tilt(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -217,7 +217,7 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).load(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -249,7 +249,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).moment(a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -284,7 +284,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).pressure(x, a, c))
 
 
-@laborious
+@elementwise(arrays=90)
 def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -320,7 +320,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     )
 
 
-@laborious
+@elementwise(arrays=90)
 def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -360,7 +360,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -393,7 +393,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -428,7 +428,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

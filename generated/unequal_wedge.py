@@ -55,7 +55,7 @@ __all__ = [
 ]
 
 
-@elementwise
+@elementwise(arrays=16)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -112,7 +112,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
     )
 
 
-@elementwise
+@elementwise(arrays=11)
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Array
 ) -> Contact:
@@ -153,7 +153,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@elementwise(arrays=4)
 def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -183,7 +183,7 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
     return only_where(exists, ((2 * phi_1) * np.arctan(np.sqrt(a / c)) - theta_1 * phi_2) / np.pi)
 
 
-@elementwise
+@elementwise(arrays=3)
 def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -211,7 +211,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
     return only_where(exists, (E_star * (phi_1 + phi_2) / 2) * np.sqrt(a * c))
 
 
-@elementwise
+@elementwise(arrays=4)
 def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -240,7 +240,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
     return only_where(exists, (E_star * (phi_1 + phi_2) / 8) * (a - c) * np.sqrt(a * c))
 
 
-@elementwise
+@elementwise(arrays=4)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -276,7 +276,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     return only_where(exists, scaled(logarithm_1, E_star * (phi_1 + phi_2) / (2 * np.pi)))
 
 
-@elementwise
+@elementwise(arrays=4)
 def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -307,7 +307,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     return Edges(*only_where(exists, c * scale, a * scale))
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -340,7 +340,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -373,7 +373,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -408,7 +408,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

@@ -56,7 +56,7 @@ __all__ = [
 ]
 
 
-@elementwise
+@elementwise(arrays=15)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -99,7 +99,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     return Contact(*only_where(exists, a, c, (2 * phi / np.pi) * np.arctan(lean / base)))
 
 
-@elementwise
+@elementwise(arrays=10)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -141,7 +141,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     return Contact(*only_where(exists, a, c, alpha.copy()))
 
 
-@elementwise
+@elementwise(arrays=4)
 def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -168,7 +168,7 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     return only_where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))))
 
 
-@elementwise
+@elementwise(arrays=3)
 def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -194,7 +194,7 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     return only_where(exists, (E_star * phi) * np.sqrt(a * c))
 
 
-@elementwise
+@elementwise(arrays=4)
 def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -221,7 +221,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     return only_where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c))
 
 
-@elementwise
+@elementwise(arrays=4)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -255,7 +255,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     return only_where(exists, scaled(logarithm_1, E_star * phi / np.pi))
 
 
-@elementwise
+@elementwise(arrays=4)
 def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -284,7 +284,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, c * scale, a * scale))
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -315,7 +315,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 
-@elementwise
+@elementwise(arrays=5)
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -348,7 +348,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -383,7 +383,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise
+@elementwise(arrays=5)
 def stick_margin(
     a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
 ) -> Edges:

@@ -4,6 +4,7 @@ program   named steps, then outputs: what a function computes, before it is text
 rewrite   rules that keep digits in floating point; the result is compared with its source
 printer   SymPy -> NumPy source
 contract  which functions a module has
+memory    how many arrays a function holds at once
 function  the text of one function
 cancel    where closed formulas lose digits to powers that cancel
 integrated  the text of functions that are integrated, everywhere or where kinks crowd

@@ -14,6 +14,7 @@ from sympy import Expr, Gt, Lt, Min, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
+from derive.codegen.memory import LABORIOUS, arrays_held
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import LEAST, MOST, TINY, Program
 from derive.codegen.rewrite import prove_equal, stable_program
@@ -82,12 +83,14 @@ class FunctionText:
             ]
         )
 
-    light = True
-    """Whether the function has few temporaries."""
-
     @property
     def _decorators(self) -> Iterator[str]:
-        yield "@elementwise" if self.light else "@laborious"
+        yield f"@elementwise(arrays={self._arrays})"
+
+    @property
+    def _arrays(self) -> int:
+        """How many arrays it holds at once, all arguments by position being arrays."""
+        return arrays_held(self._code, map(str, self.function.arguments))
 
     @property
     def _signature(self) -> str:
@@ -282,7 +285,7 @@ class FunctionText:
 class CallingText(FunctionText):
     """The text of a function that hands its arguments to support/: no formula of it is printed."""
 
-    light = False
+    _arrays = LABORIOUS
 
     def _made(self) -> Program:
         return Program({})

@@ -32,6 +32,7 @@ from sympy import (
 from derive.codegen.cancel import cancels, cuts_of, plain_cuts, size_of_terms, terms_of
 from derive.codegen.decay import decaying
 from derive.codegen.function import CallingText, FunctionText, local, own_parameters
+from derive.codegen.memory import LABORIOUS
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.rise import from_zero
 from derive.piece import Piece
@@ -93,7 +94,7 @@ _FIELDS = {
 class MendedText(FunctionText):
     """The text of a closed function that is integrated where it would lose digits."""
 
-    light = False
+    _arrays = LABORIOUS
 
     def _result(self, _: dict[str, str]) -> Iterator[str]:
         """The terms of every formula, one by one, so that their cancelling shows."""

@@ -35,7 +35,6 @@ _HELPERS = {
     "_arrays": (
         *("LEAST", "MOST", "TINY"),
         *("chunkwise", "chunkwise_in_time", "elementwise", "fmax", "kink_logarithm"),
-        "laborious",
         *("maximum", "minimum", "only_where", "scaled", "select"),
     ),
     "_law": ("Law",),

@@ -21,7 +21,7 @@ from derive.codegen.contract import CONTRACT
 from derive.library import library
 from derive.sheet import FormulaSheet
 from generated import _arrays, flat_rounded, hertz, wedge
-from tests.benchmarks.cases import CASES, CONTENDERS, EDGES, GENERATED, PUNCH, WEDGE, Case
+from tests.benchmarks.cases import CASES, CONTENDERS, CYLINDER, EDGES, GENERATED, PUNCH, WEDGE, Case
 from tests.benchmarks.picture import draw
 from tests.benchmarks.stages import Seconds, stages
 from tests.benchmarks.timing import (
@@ -39,8 +39,11 @@ ROOT = Path(__file__).parents[2]
 PAGE, PICTURE = ROOT / "docs" / "performance.md", ROOT / "docs" / "performance.svg"
 
 SIZES = tuple(10**n for n in range(8))
-CUT_AT = (1, 100, 10**4, 41_000, 60_000, 10**5, 110_000, 200_000, 400_000, 10**6, 10**7)
-"""Where the function is compared with itself uncut: around the lengths at which it is cut, too."""
+CUT_AT = (
+    *(1, 100, 10**4, 41_000, 60_000, 10**5, 200_000, 290_000, 400_000, 650_000, 930_000, 10**6),
+    *(1_300_000, 1_900_000, 10**7),
+)
+"""Where the function is compared with itself uncut: behind the lengths at which it is cut, too."""
 MEMORY_AT = (10**6, 10**5, 100)
 """Memory is measured at the first of these that a contender takes part in."""
 
@@ -122,12 +125,12 @@ def printed(size: int, seconds: float) -> Iterator[Printed]:
 @contextmanager
 def uncut() -> Iterator[None]:
     """Functions compute arrays of every length as a whole."""
-    held = _arrays.WHOLE
-    _arrays.WHOLE = np.iinfo(np.int64).max
+    held = _arrays.RESIDENT
+    _arrays.RESIDENT = np.iinfo(np.int64).max
     try:
         yield
     finally:
-        _arrays.WHOLE = held
+        _arrays.RESIDENT = held
 
 
 def cut_or_not(sizes: tuple[int, ...], seconds: float) -> dict[str, dict[int, tuple[float, float]]]:
@@ -165,12 +168,17 @@ def _cut_contact(size: int) -> Call:
 
 def _cut_cylinder(size: int) -> Call:
     P, M = _loads(size)
-    return lambda: hertz.contact(P, M, E_star=WEDGE["E_star"], R=0.05)
+    return lambda: hertz.contact(P, M, **CYLINDER)
 
 
 def _loads(size: int) -> tuple[Any, Any]:
     rng = np.random.default_rng(7)
     return rng.uniform(1e5, 1e7, size), rng.uniform(-1e3, 1e3, size)
+
+
+def _cut_edges(size: int) -> Call:
+    a, c = np.random.default_rng(7).uniform(0.5e-3, 2e-3, (2, size))
+    return lambda: hertz.K_N(a, c, **CYLINDER)
 
 
 def _cut_punch(size: int) -> Call:
@@ -181,6 +189,7 @@ def _cut_punch(size: int) -> Call:
 _CUT: dict[str, Callable[[int], Call]] = {
     "wedge.pressure": _cut_pressure,
     "hertz.contact": _cut_cylinder,
+    "hertz.K_N": _cut_edges,
     "wedge.contact": _cut_contact,
     "flat_rounded.pressure": _cut_punch,
 }
@@ -302,14 +311,13 @@ def _case_tables(found: Found) -> Iterator[str]:
 
 
 def _cut_table(found: Found) -> Iterator[str]:
-    light = _arrays.LIGHT * _arrays.WHOLE
     yield from (
         "## Blocks",
         "",
-        f"A formula of more than {light:,.0f} elements is computed in "
-        f"blocks of up to {_arrays.WHOLE:,}, from {_arrays.FEW * light:,.0f} on",
-        f"{_arrays.BLOCK:,}; what needs many temporaries, as `flat_rounded.pressure` does, from "
-        f"{_arrays.WHOLE:,} on {_arrays.BLOCK:,}.",
+        "A function is computed in blocks where the arrays that it holds at once, as its decorator",
+        f"counts them, are more than {_arrays.RESIDENT:,} numbers, which the process keeps; of",
+        f"several results one counts.  Blocks have {_arrays.BLOCK:,} elements, or more where they",
+        f"hold no more than one in {_arrays.SHARE} of the results' numbers.",
         "Time in blocks over the time of the same function without; under 1 is faster.",
         "What is copied from the blocks counts where a formula is cheap and has several results.",
         "",

@@ -66,10 +66,10 @@ def test_memory_of_a_large_call_is_its_result() -> None:
 
 
 def test_blocks_are_switched_off_and_on_again() -> None:
-    held = _arrays.WHOLE
+    held = _arrays.RESIDENT
     with uncut():
-        assert held < 10**15 < _arrays.WHOLE
-    assert held == _arrays.WHOLE
+        assert held < 10**15 < _arrays.RESIDENT
+    assert held == _arrays.RESIDENT
     assert all(min(pair) > 0 for row in cut_or_not((10,), 0.001).values() for pair in row.values())
 
 

@@ -380,6 +380,7 @@ def test_large_chunks_are_computed_in_the_blocks_of_numpy_arrays(
         return real(exists, *values)
 
     monkeypatch.setattr(wedge, "only_where", only_where)
+    monkeypatch.setattr(_arrays, "RESIDENT", 0)
     count = 40 * _arrays.BLOCK
     a = np.linspace(1, 2, count)
     lazily = da.from_array(a, chunks=20 * _arrays.BLOCK)

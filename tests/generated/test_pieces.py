@@ -27,7 +27,7 @@ def cycles(count: int) -> tuple[Contact, Any, Any]:
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(_arrays, "PIECE", 7)
     monkeypatch.setattr(_arrays, "BLOCK", 7)
-    monkeypatch.setattr(_arrays, "WHOLE", 14)
+    monkeypatch.setattr(_arrays, "RESIDENT", 14 * 90)  # numbers of 14 elements of the laborious
 
 
 def test_pieces_of_a_cycle_make_the_whole(small: None, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -75,8 +75,63 @@ def test_blocks_make_the_whole(small: None, monkeypatch: pytest.MonkeyPatch, cou
     x, a, c = np.random.default_rng(count).uniform(1.0, 3.0, (3, count))
     law = {"E_star": 1.0, "R": 1.0, "b": 0.5}
     blocks = flat_rounded.pressure(x - 2, a, c, **law)
-    monkeypatch.setattr(_arrays, "WHOLE", 1000)
+    monkeypatch.setattr(_arrays, "RESIDENT", 1000 * 90)
     assert_allclose(blocks, flat_rounded.pressure(x - 2, a, c, **law), rtol=1e-14)
+
+
+@pytest.fixture
+def lengths(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """How many elements formulas of a wedge have computed at once, call by call."""
+    seen: list[int] = []
+    real = wedge.only_where
+
+    def only_where(exists: Any, *values: Any) -> Any:
+        seen.append(np.size(exists))
+        return real(exists, *values)
+
+    monkeypatch.setattr(wedge, "only_where", only_where)
+    return seen
+
+
+@pytest.mark.parametrize("varying", [False, True])
+def test_an_array_is_cut_where_the_heap_does_not_hold_all(
+    monkeypatch: pytest.MonkeyPatch, lengths: list[int], varying: bool
+) -> None:
+    """load holds three arrays: a + c, a c and its root; an array of constants is one more."""
+    monkeypatch.setattr(_arrays, "BLOCK", 7)
+    monkeypatch.setattr(_arrays, "RESIDENT", 120)
+    most = 30 if varying else 40
+    for count in (most, most + 1):
+        a, slope = np.linspace(1, 2, count), np.full(count, 0.1) if varying else 0.1
+        wedge.load(a, a, E_star=1.0, phi=slope)
+    assert lengths[0] == most
+    assert max(lengths[1:]) <= 7
+    assert sum(lengths[1:]) == most + 1
+
+
+def test_of_several_results_one_is_counted(
+    monkeypatch: pytest.MonkeyPatch, lengths: list[int]
+) -> None:
+    """K_N holds four arrays, of which two are results: a + c, what scales, left and right."""
+    monkeypatch.setattr(_arrays, "BLOCK", 7)
+    monkeypatch.setattr(_arrays, "RESIDENT", 120)
+    for count in (40, 41):
+        a = np.linspace(1, 2, count)
+        wedge.K_N(a, a, E_star=1.0, phi=0.1)
+    assert lengths[0] == 40
+    assert max(lengths[1:]) <= 7
+
+
+@pytest.mark.parametrize(("count", "longest"), [(1_240_000, 41_333), (10**7, 122_333)])
+def test_blocks_hold_a_tenth_of_the_results_and_of_the_heap(
+    lengths: list[int], count: int, longest: int
+) -> None:
+    """Of a load, 3 n numbers in a block of n."""
+    a = np.broadcast_to(np.float64(1.5), (count,))
+    wedge.load(a, 1.25, E_star=1.0, phi=0.1)
+    assert len(lengths) > 1
+    assert 0.9 * longest < max(lengths) <= longest
+    assert 30 * max(lengths) <= min(count, _arrays.RESIDENT)
 
 
 def test_no_block_is_longer_than_allowed() -> None:
@@ -179,7 +234,7 @@ print(faults[-1] - faults[1])
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts pages as Linux does")
-@pytest.mark.parametrize("count", [6_000, 13_000, 26_000])
+@pytest.mark.parametrize("count", [6_000, 13_000, 26_000, 200_000])
 def test_temporaries_take_no_new_pages_call_by_call(count: int) -> None:
     """A page is 512 numbers: ten calls that asked for theirs anew would take hundreds."""
     code = [sys.executable, "-c", FRESH.format(count=count)]

@@ -1,0 +1,108 @@
+"""How many arrays a function holds: by hand, and as tracemalloc sees it."""
+
+import importlib
+import re
+import tracemalloc
+from inspect import Parameter, getsource, signature
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derive.codegen.memory import LABORIOUS, arrays_held
+from generated import _arrays
+from tests.benchmarks.speed import SCALARS, uncut
+
+COUNT = 50_000
+"""Long enough for NumPy to compute in the memory of what nothing else refers to."""
+
+
+@pytest.mark.parametrize(
+    ("held", "code"),
+    [
+        (1, "return a * c"),
+        (1, "return a * c + c"),  # the sum in the memory of the product
+        (1, "return 2 * a / c - 1"),
+        (2, "return a / (a + c)"),  # a quotient does not take the memory of its divisor
+        (2, "return np.sqrt(a * c)"),
+        (2, "return R * np.exp(a)**2"),
+        (2, "return a - a * R"),
+        (3, "h = a + c\nreturn Edges(np.sqrt(h), h * a)"),
+        (3, "h = a + c\nexists = (h > LEAST) & (R > 0)\nreturn only_where(exists, np.exp(a * h))"),
+        (2, "return Edges(*only_where(a > 0, a * c, a / c))"),
+        (1, "scale = E_star / R\nreturn scale * a"),  # a number is no array
+        (1, "h = a + c\nreturn only_where(h > 0, scaled(h, R))"),
+        (2, "h = a + c\nreturn scaled(h, a)"),
+        (1, "return maximum(a, 0.0)"),
+        (2, "return maximum(a, R)"),
+        (3, "u = a + 1\nv = c + 1\nreturn kink_logarithm(u, v, a)"),
+        (4, "return select(a > 0, a * c, a / c)"),
+        (2, "h = a + c\nreturn h.copy()"),
+        (1, "# [m]\nh = -(a + c)  # width\nreturn h"),
+    ],
+)
+def test_arrays_are_counted_as_by_hand(held: int, code: str) -> None:
+    lines = code.splitlines()
+    assert arrays_held(lines, ["a", "c"]) == held
+    assert arrays_held([f"    {line}" for line in lines], ["a", "c"]) == held
+
+
+@pytest.mark.parametrize(
+    "code", ["h += a", "if a:\n    h = a", "return [v for v in a]", "a", "h = f(a)"]
+)
+def test_what_is_not_known_is_not_counted(code: str) -> None:
+    with pytest.raises(NotImplementedError):
+        arrays_held([code], ["a"])
+
+
+EXPLICIT = ("tilt", "load", "moment", "pressure", "K_N", "L_N", "K_T", "L_T", "stick_margin")
+FORMULAS = [
+    *((body, name) for body in ("hertz", "wedge", "unequal_wedge", "quartic") for name in EXPLICIT),
+    *((body, name) for body in ("hertz", "wedge") for name in ("contact", "contact_at_tilt")),
+]
+
+
+def _peak(body: str, name: str) -> float:
+    """Arrays that a generated function holds at most, its arguments by position being arrays."""
+    function = getattr(importlib.import_module(f"generated.{body}"), name)
+    near = np.random.default_rng(5).uniform(0.9, 1.1, COUNT)
+    given: dict[str, Any] = {
+        name: SCALARS[name] * (1 if p.kind is Parameter.KEYWORD_ONLY else near)
+        for name, p in signature(function).parameters.items()
+    }
+    with uncut():
+        function(**given)
+        tracemalloc.start()
+        try:
+            before, _ = tracemalloc.get_traced_memory()
+            kept = function(**given)
+            _, peak = tracemalloc.get_traced_memory()
+        finally:
+            tracemalloc.stop()
+    del kept
+    return (peak - before) / near.nbytes
+
+
+def _told(body: str, name: str) -> int:
+    """What the function's decorator says."""
+    function = getattr(importlib.import_module(f"generated.{body}"), name)
+    found = re.match(r"@elementwise\(arrays=(\d+)\)", getsource(function))
+    assert found
+    return int(found[1])
+
+
+@pytest.mark.parametrize(("body", "name"), FORMULAS)
+def test_a_formula_holds_what_is_counted(body: str, name: str) -> None:
+    """Flags, an eighth of an array each, are held besides."""
+    assert _told(body, name) <= _peak(body, name) < _told(body, name) + 0.9
+
+
+@pytest.mark.parametrize("body", ["flat_rounded", "rounded_wedge"])
+@pytest.mark.parametrize("name", ["contact", "contact_at_tilt", "pressure", "load", "L_N"])
+def test_what_is_laborious_holds_no_more_than_it_is_taken_for(body: str, name: str) -> None:
+    assert _told(body, name) == LABORIOUS
+    assert 0.1 * LABORIOUS < _peak(body, name) < LABORIOUS
+
+
+def test_a_block_of_what_is_laborious_stays_in_the_heap() -> None:
+    assert LABORIOUS * _arrays.BLOCK < _arrays.RESIDENT
