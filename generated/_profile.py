@@ -20,11 +20,15 @@ TOGETHER = 8_192
 
 
 class Curve(NamedTuple):
-    """g' and g'' at one place, and g''' for what asks for it."""
+    """g' and g'' at one place, and t g''' for what asks for it: g''' may leave float64 itself.
+
+    distance: t, from the break that was asked.
+    """
 
     slope: Array
     curvature: Array
     change: Callable[[], Array]
+    distance: Array = np.nan
 
 
 Branch = Callable[..., Curve]
@@ -104,8 +108,8 @@ def mirrored(body: Profile) -> Profile:
             return None
 
         def of(t: Array, /, **constants: Array) -> Curve:
-            slope, curvature, change = branch(t, **constants)
-            return Curve(-slope, curvature, lambda: -change())
+            slope, curvature, change, distance = branch(t, **constants)
+            return Curve(-slope, curvature, lambda: -change(), distance)
 
         return of
 
@@ -224,17 +228,21 @@ class Part(NamedTuple):
         of_left, of_right, _ = self.piece
         past, ahead, length = self.beyond_left, self.beyond_right, self.length
         if of_left is None:
-            return of_right(np.maximum(ahead + back, TINY), **self.constants)  # type: ignore[misc]
+            return self._asked(of_right, ahead + back)
         if of_right is None:
-            return of_left(np.maximum(past + along, TINY), **self.constants)
+            return self._asked(of_left, past + along)
         ours = past <= ahead + length if near_left else past + length < ahead
         if np.all(ours):
-            return of_left(np.maximum(past + along, TINY), **self.constants)
-        right = of_right(np.maximum(ahead + back, TINY), **self.constants)
+            return self._asked(of_left, past + along)
+        right = self._asked(of_right, ahead + back)
         if not np.any(ours):
             return right
-        left = of_left(np.maximum(past + along, TINY), **self.constants)
-        return _either(ours, left, right)
+        return _either(ours, self._asked(of_left, past + along), right)
+
+    def _asked(self, branch: Branch | None, distance: Array) -> Curve:
+        """The curve at a distance from a break."""
+        t = np.maximum(distance, TINY)
+        return branch(t, **self.constants)._replace(distance=t)  # type: ignore[misc]
 
     def angle(self) -> Array:
         """int ds/w over it."""
@@ -259,6 +267,7 @@ def _either(first: Array, left: Curve, right: Curve) -> Curve:
         np.where(first, left.slope, right.slope),
         np.where(first, left.curvature, right.curvature),
         lambda: np.where(first, left.change(), right.change()),
+        np.where(first, left.distance, right.distance),
     )
 
 

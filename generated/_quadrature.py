@@ -206,8 +206,7 @@ def _second_right(body: Profile, a: Array, c: Array, constants: dict[str, Array]
         step = width * from_start / (B * beyond) / (r + r_0)
         twist = (1 - r * r_0) / ((1 + r**2) * (1 + r_0**2))
         rise = 2 * step - 1.5 * np.arctan2(step, 1 + r * r_0) - step * twist / 2
-        change = np.clip(near.curve.change(), -_HUGE, _HUGE)  # infinite beside some breaks
-        by_parts = -change * rise * (2 * width)
+        by_parts = -near.curve.change() * (rise / near.curve.distance) * (2 * width)
         plain = near.curve.curvature * r * (3 + 2 * r**2)
         value = np.where(near.start_low >= start, by_parts, plain)
         return np.abs(value), value

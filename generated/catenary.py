@@ -59,21 +59,19 @@ def _corners(*, R: Array, b: Array) -> tuple[Array, ...]:
 
 
 def _piece_0_from_right(t: Array, *, R: Array, b: Array) -> Curve:
-    """g', g'' and g''' at t on the left of a break."""
+    """g', g'' and t g''' at t on the left of a break."""
     s_0 = 1 / R
-    s_1 = 1 / b
-    s_2 = s_1 * t
-    s_3 = s_0 * np.sinh(s_2)
-    return Curve(-(s_3 * b), s_0 * np.cosh(s_2), lambda: -(s_1 * s_3))
+    s_1 = t / b
+    s_2 = s_0 * np.sinh(s_1)
+    return Curve(-(s_2 * b), s_0 * np.cosh(s_1), lambda: -(s_1 * s_2))
 
 
 def _piece_1_from_left(t: Array, *, R: Array, b: Array) -> Curve:
-    """g', g'' and g''' at t on the right of a break."""
+    """g', g'' and t g''' at t on the right of a break."""
     s_0 = 1 / R
-    s_1 = 1 / b
-    s_2 = s_1 * t
-    s_3 = s_0 * np.sinh(s_2)
-    return Curve(s_3 * b, s_0 * np.cosh(s_2), lambda: s_1 * s_3)
+    s_1 = t / b
+    s_2 = s_0 * np.sinh(s_1)
+    return Curve(s_2 * b, s_0 * np.cosh(s_1), lambda: s_1 * s_2)
 
 
 _BODY = Profile(

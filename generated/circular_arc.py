@@ -59,26 +59,28 @@ def _corners(*, R: Array) -> tuple[Array, ...]:
 
 
 def _piece_0_from_right(t: Array, *, R: Array) -> Curve:
-    """g', g'' and g''' at t on the left of a break."""
+    """g', g'' and t g''' at t on the left of a break."""
     s_0 = R**2
-    s_1 = s_0 - t**2
-    r_0 = np.sqrt(s_1)
+    s_1 = t**2
+    s_2 = s_0 - s_1
+    r_0 = np.sqrt(s_2)
     return Curve(
         -(t / r_0),
         s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-        lambda: -(3 * s_0 * t / (r_0 * s_1**2)),
+        lambda: -(3 * s_0 * s_1 / (r_0 * s_2**2)),
     )
 
 
 def _piece_1_from_left(t: Array, *, R: Array) -> Curve:
-    """g', g'' and g''' at t on the right of a break."""
+    """g', g'' and t g''' at t on the right of a break."""
     s_0 = R**2
-    s_1 = s_0 - t**2
-    r_0 = np.sqrt(s_1)
+    s_1 = t**2
+    s_2 = s_0 - s_1
+    r_0 = np.sqrt(s_2)
     return Curve(
         t / r_0,
         s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-        lambda: 3 * s_0 * t / (r_0 * s_1**2),
+        lambda: 3 * s_0 * s_1 / (r_0 * s_2**2),
     )
 
 

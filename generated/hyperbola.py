@@ -59,21 +59,23 @@ def _corners(*, b: Array, phi: Array) -> tuple[Array, ...]:
 
 
 def _piece_0_from_right(t: Array, *, b: Array, phi: Array) -> Curve:
-    """g', g'' and g''' at t on the left of a break."""
+    """g', g'' and t g''' at t on the left of a break."""
     s_0 = b**2
-    s_1 = s_0 + t**2
-    r_0 = np.sqrt(s_1)
-    s_2 = phi * t
-    return Curve(-(s_2 / r_0), s_0 * phi / (r_0 * s_1), lambda: 3 * s_0 * s_2 / (r_0 * s_1**2))
+    s_1 = t**2
+    s_2 = s_0 + s_1
+    r_0 = np.sqrt(s_2)
+    s_3 = s_0 * phi
+    return Curve(-(phi * t / r_0), s_3 / (r_0 * s_2), lambda: 3 * s_1 * s_3 / (r_0 * s_2**2))
 
 
 def _piece_1_from_left(t: Array, *, b: Array, phi: Array) -> Curve:
-    """g', g'' and g''' at t on the right of a break."""
+    """g', g'' and t g''' at t on the right of a break."""
     s_0 = b**2
-    s_1 = s_0 + t**2
-    r_0 = np.sqrt(s_1)
-    s_2 = phi * t
-    return Curve(s_2 / r_0, s_0 * phi / (r_0 * s_1), lambda: -(3 * s_0 * s_2 / (r_0 * s_1**2)))
+    s_1 = t**2
+    s_2 = s_0 + s_1
+    r_0 = np.sqrt(s_2)
+    s_3 = s_0 * phi
+    return Curve(phi * t / r_0, s_3 / (r_0 * s_2), lambda: -(3 * s_1 * s_3 / (r_0 * s_2**2)))
 
 
 _BODY = Profile(

@@ -59,21 +59,21 @@ def _corners(*, L: Array, k: Array) -> tuple[Array, ...]:
 
 
 def _piece_0_from_right(t: Array, *, L: Array, k: Array) -> Curve:
-    """g', g'' and g''' at t on the left of a break."""
+    """g', g'' and t g''' at t on the left of a break."""
     s_0 = k - 1
     s_1 = L ** (-s_0)
     s_2 = k - 2
-    s_3 = s_0 * s_1
-    return Curve(-(s_1 * t**s_0), s_3 * t**s_2, lambda: -(s_2 * s_3 * t ** (k - 3)))
+    s_3 = s_0 * s_1 * t**s_2
+    return Curve(-(s_1 * t**s_0), s_3, lambda: -(s_2 * s_3))
 
 
 def _piece_1_from_left(t: Array, *, L: Array, k: Array) -> Curve:
-    """g', g'' and g''' at t on the right of a break."""
+    """g', g'' and t g''' at t on the right of a break."""
     s_0 = k - 1
     s_1 = L ** (-s_0)
     s_2 = k - 2
-    s_3 = s_0 * s_1
-    return Curve(s_1 * t**s_0, s_3 * t**s_2, lambda: s_2 * s_3 * t ** (k - 3))
+    s_3 = s_0 * s_1 * t**s_2
+    return Curve(s_1 * t**s_0, s_3, lambda: s_2 * s_3)
 
 
 _BODY = Profile(

@@ -249,7 +249,7 @@ def _tuple_of(
 
 
 def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) -> Iterator[str]:
-    """g', g'' and g''' at t beside a break."""
+    """g', g'' and t g''' at t beside a break."""
 
     def rates(expr: Expr) -> list[Expr]:
         return [sense * _rate(term) for term in Add.make_args(expr)]
@@ -257,7 +257,7 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     given = piece.slope.subs(x, place + sense * _t)
     slope = _shortest(simplify, Add.make_args(given))
     curvature = _shortest(_positive_form, rates(slope), is_positive=True)
-    change = _shortest(simplify, rates(curvature))
+    change = _shortest(simplify, [_t * rate for rate in rates(curvature)])
     risen = from_zero(given, _t)
     kept = from_zero(slope, _t) if risen == given else risen
     curves = [kept, from_zero(curvature, _t), change]
@@ -266,7 +266,7 @@ def _branch(name: str, piece: Piece, place: Expr, sense: int, signature: str) ->
     printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
     side = "right" if sense > 0 else "left"
     yield f"def {name}{signature} -> Curve:"
-    yield f"    \"\"\"g', g'' and g''' at t on the {side} of a break.\"\"\""
+    yield f"    \"\"\"g', g'' and t g''' at t on the {side} of a break.\"\"\""
     for symbol, value in steps:
         yield f"    {symbol} = {printer.doprint(value)}"
     first, second, third = (printer.doprint(value) for value in values)

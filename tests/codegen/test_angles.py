@@ -22,8 +22,7 @@ def body(power: int) -> Profile:
         reached = [s - k for k in KINKS[:number]]
         slope = s + sum(r ** (power + 1) / (power + 1) for r in reached)
         curvature = 1 + 0 * s + sum(r**power for r in reached)
-        change = sum(power * r ** max(power - 1, 0) for r in reached) + 0 * s
-        return Curve(slope, curvature, lambda: change)
+        return Curve(slope, curvature, lambda: np.nan)  # nothing here asks for g'''
 
     return profile(KINKS, (0.0,) * len(KINKS), curve, degree=power)
 

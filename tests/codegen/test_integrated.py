@@ -99,6 +99,7 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(
         for i, t in enumerate(DISTANCES):
             with mpmath.workdps(40):
                 wanted = terms(mpf(float(t)), mpf(exponent))
+                wanted[2] = [mpf(float(t)) * term for term in wanted[2]]  # t g'''
                 totals = [(sum(each), sum(map(abs, each))) for each in wanted]
             pairs = [(left[n], right[n]) for n in (0, 1)] + [(left.change(), right.change())]
             for sides, (total, size) in zip(pairs, totals, strict=True):

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -104,6 +105,25 @@ def test_a_power_law_under_a_centred_load_by_the_gamma_function() -> None:
     k, L, a = np.array([1.1, 1.5, 2.0, 3.7, 8.0]), 1.25, 0.75
     load = E * (k - 1) / L ** (k - 1) * a**k / 2 * beta((k - 1) / 2, 1.5)
     assert_allclose(power.load(a, a, E_star=E, k=k, L=L), load, rtol=1e-13)
+
+
+@pytest.mark.parametrize("k", [1.06, 1.07, 1.3, 2.5, 20.0])
+def test_the_second_coefficient_of_a_centred_power_law_by_the_gamma_function(k: float) -> None:
+    """r (3 + 2 r**2) = (a + s)**2 (5 a - s)/(a**2 - s**2)**(3/2), of which 5 a**3 + 3 a s**2 over
+    that root is even in s; with u = (s/a)**2 the finite part of its integral with
+    g'' = (k - 1) s**(k - 2) is half of 5 B((k - 1)/2, -1/2) + 3 B((k + 1)/2, -1/2), a**(k - 1)
+    apart, where beta functions go on beyond zero: L_N = (k - 1) a**(k - 1)/(6 pi (2 a)**(3/2))
+    times twice that half.  k = 2: B = 0 and -pi, L_N = -1/(4 sqrt(2 a)), as Hertz has it.
+    """
+    half = 0.75
+    with mpmath.workdps(30):
+        exponent = mpmath.mpf(k)
+        betas = 5 * mpmath.beta((exponent - 1) / 2, -0.5)
+        betas += 3 * mpmath.beta((exponent + 1) / 2, -0.5)
+        scale = (exponent - 1) * half ** (exponent - 1) / (6 * mpmath.pi * 1.5**1.5)
+        wanted = float(scale * betas)
+    found = power.L_N(half, half, E_star=1.0, L=1.0, k=k)
+    assert_allclose([*found], wanted, rtol=4e-15)
 
 
 def test_a_power_law_tends_to_the_wedge() -> None:
