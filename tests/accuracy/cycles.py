@@ -1,255 +1,266 @@
-"""What the functions of partial slip solve, in many digits, and where they are tried.
+"""The functions of partial slip that are measured: what each solves, and where it is tried."""
 
-Constant normal loads: the contact [-a, c] at both ends of the cycle.
-"""
-
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cache
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Any
 
-import mpmath
 import numpy as np
-from mpmath import mpf
 
 from derive.sheet import FormulaSheet
-from derive.symbols import h
-from derive.theory import slip
-from generated._types import Contact, Regime
-from tests.accuracy.inverses import formula
-from tests.accuracy.reference import Conditions, function_of
-from tests.accuracy.regions import EXPONENTS, Regions, Sample
-from tests.derive.partial_slip import Cycle as Integrals
+from generated._types import Regime
+from tests.accuracy import loads, marches, series, tensions, tractions
+from tests.accuracy.loads import Where, contacts_of, law_of
+from tests.accuracy.reference import Problem
+from tests.accuracy.regions import Sample
 
-Given = Mapping[str, mpf]
+Results = Callable[[Any, Sample], tuple[Any, ...]]
+"""Numbers of a generated module at a sample."""
 
 
 @dataclass(frozen=True)
 class Cycle:
     """One function.
 
-    fields      its numbers, in the order of the unknowns
+    fields      its numbers
     results     them, from the generated module
-    conditions  what vanishes at them
-    regions     where
-    digits      of the reference
+    problem     what they solve, of a body
+    where       regions
+    starts      the unknowns, if the numbers are told from them
     share       of the points asked for
-    bodies      those that it is measured for; all with closed formulas if none is named
+    integrated  whether it is measured for bodies whose formulas are integrals, too
+    bodies      those that it is measured for; all if none is named
     """
 
     name: str
     fields: tuple[str, ...]
-    results: Callable[[Any, Sample], tuple[Any, ...]]
-    conditions: Callable[[str], Conditions]
-    regions: Callable[[Regions], Iterator[tuple[str, Sample]]]
-    digits: int = 50
+    results: Results
+    problem: Callable[[str], Problem]
+    where: Where
+    starts: Results | None = None
     share: float = 0.2
+    integrated: bool = False
     bodies: tuple[str, ...] = ()
 
     def takes(self, sheet: FormulaSheet) -> bool:
-        """Whether it is measured for a body: its reference needs closed formulas."""
+        """Whether it is measured for a body."""
         among = not self.bodies or sheet.geometry.name in self.bodies
-        return among and sheet.geometry.slope.is_polynomial
+        return among and (self.integrated or sheet.geometry.slope.is_polynomial)
 
-
-# ------------------------------------------------------------------ conditions
-
-
-def _patch(body: str) -> Conditions:
-    """Moderate tension: the contact at a reduced load and a shifted tilt."""
-    load, tilt = formula(body, "load"), formula(body, "tilt")
-
-    def off(edges: Sequence[mpf], given: Given) -> list[mpf]:
-        there = {**given, "a": edges[0], "c": edges[1]}
-        return [
-            load(**there) - load(**given) + given["dQ"] / (2 * given["f"]),
-            tilt(**there) - tilt(**given) + given["dsigma"] / (4 * given["f"] * given["E_star"]),
-        ]
-
-    return off
-
-
-def _between(body: str) -> Conditions:
-    """Large tension: both conditions of the singular integral equation, by quadrature."""
-    pressure = formula(body, "pressure")
-
-    def off(edges: Sequence[mpf], given: Given) -> list[mpf]:
-        def p(x: mpf) -> mpf:
-            return pressure(**{**given, "x": x})
-
-        sense = 1 if given["dsigma"] > 0 else -1
-        cycle = Integrals(
-            (p, p),
-            (given["a"],) * 2,
-            (given["c"],) * 2,
-            given["f"],
-            given["dQ"],
-            given["dsigma"],
-            (sense, -sense),
-        )
-        return [*cycle.residuals(edges[0], edges[1])]
-
-    return off
-
-
-def _threshold(body: str) -> Conditions:
-    """Both K_T vanish in turn."""
-
-    def off(tensions: Sequence[mpf], given: Given) -> list[mpf]:
-        width = given["a"] + given["c"]
-        return [
-            mpmath.pi * width * t / 8 - s * given["dQ"]
-            for t, s in zip(tensions, (-1, 1), strict=True)
-        ]
-
-    return off
-
-
-def _first_order(body: str) -> Conditions:
-    """d = |K_T|/(f K_N)."""
-    K_N = formula(body, "K_N_left"), formula(body, "K_N_right")
-
-    def off(zones: Sequence[mpf], given: Given) -> list[mpf]:
-        width = given["a"] + given["c"]
-        strain = mpmath.pi * width * given["dsigma"] / 8
-        scale = mpmath.pi * mpmath.sqrt(width) * given["f"]
-        pulls = abs(given["dQ"] + strain), abs(given["dQ"] - strain)
-        return [scale * K(**given) * d - p for K, d, p in zip(K_N, zones, pulls, strict=True)]
-
-    return off
-
-
-def _series(order: int) -> Callable[[str], Conditions]:
-    """The conditions of derive/theory/slip.py, cut behind an order."""
-    if order == 1:
-        return _first_order
-    both = slip.conditions(order)
-    names, functions = zip(*(function_of(condition) for condition in both), strict=True)
-
-    def conditions(body: str) -> Conditions:
-        at = {n: formula(body, n) for n in ("K_N_left", "K_N_right", "L_N_left", "L_N_right")}
-
-        @cache
-        def known(point: tuple[tuple[str, mpf], ...], digits: int) -> dict[str, mpf]:
-            given = dict(point)
-            width = given["a"] + given["c"]
-            held = {**given, str(h): width}
-            for side, edge in (("left", "a"), ("right", "c")):
-                C = [at[f"K_N_{side}"](**given), at[f"L_N_{side}"](**given)]
-                if order > 2:
-                    step = width * mpf(10) ** (-digits // 3)
-                    more, less = (
-                        at[f"L_N_{side}"](**{**given, edge: given[edge] + s * step})
-                        for s in (1, -1)
-                    )
-                    rate = (more - less) / (2 * step)
-                    C.append((C[0] / 2 * mpf(-1) / 8 / width**2 - rate) / mpf("2.5"))
-                held |= {f"C_{side}_{i}": v for i, v in enumerate(C)}
-                sense = 1 if side == "left" else -1
-                pull = given["dQ"] + sense * mpmath.pi * width * given["dsigma"] / 8
-                held[f"K_T_{side}"] = pull / (mpmath.pi * mpmath.sqrt(width))
-                held[f"kappa_{side}"] = mpf(1 if pull >= 0 else -1)
-            return held
-
-        def off(zones: Sequence[mpf], given: Given) -> list[mpf]:
-            held = known(tuple(given.items()), mpmath.mp.dps)
-            held = {**held, "d_left": zones[0], "d_right": zones[1]}
-            return [of(*(held[n] for n in its)) for its, of in zip(names, functions, strict=True)]
-
-        return off
-
-    return conditions
+    def of(self, body: str, digits: int) -> Problem:
+        """Its problem, to no more digits than these."""
+        problem = self.problem(body)
+        return replace(problem, digits=min(digits, problem.digits))
 
 
 # ------------------------------------------------------------------ what is judged
 
 
-def _zone(module: Any, sample: Sample, regime: Regime) -> tuple[Any, ...]:
-    here = Contact(sample["a"], sample["c"], np.zeros(len(sample["a"])))
-    law = {n: v for n, v in sample.items() if n not in ("a", "c", "dQ", "dsigma")}
-    zone = module.stick_zone(here, here, sample["dQ"], sample["dsigma"], **law)
-    right = zone.regime == regime
-    return np.where(right, zone.m, np.nan), np.where(right, zone.n, np.nan)
-
-
-def _limits(module: Any, sample: Sample) -> tuple[Any, ...]:
-    here = Contact(sample["a"], sample["c"], np.zeros(len(sample["a"])))
-    law = {n: v for n, v in sample.items() if n not in ("a", "c", "dQ")}
-    return tuple(module.tension_threshold(here, here, sample["dQ"], **law))
-
-
-def _zones(order: int) -> Callable[[Any, Sample], tuple[Any, ...]]:
-    return lambda module, sample: tuple(module.slip_zones(**sample, order=order))
-
-
-# ------------------------------------------------------------------ where
-
-
-def _slipping(
-    regions: Regions, given: Sample, part: tuple[float, float], tension: tuple[float, float]
-) -> Sample:
-    """Shear of so many decades of f P; tension in parts of that at which K_T vanishes."""
-    count = len(given["a"])
-    law = {n: v for n, v in given.items() if n not in "ac"}
-    friction = regions.decades(-1, 0, count)
-    dQ = 2 * friction * regions.module.load(given["a"], given["c"], **law)
-    dQ = dQ * regions.decades(*part, count)
-    signs = regions.rng.choice([-1.0, 1.0], count)
-    over = signs * regions.rng.uniform(*tension, count)
-    width = given["a"] + given["c"]
-    return {**given, "f": friction, "dQ": dQ, "dsigma": over * 8 * dQ / (np.pi * width)}
-
-
-def _slips(
-    tension: tuple[float, float],
-) -> Callable[[Regions], Iterator[tuple[str, Sample]]]:
-    def of(regions: Regions) -> Iterator[tuple[str, Sample]]:
-        for name, given in regions.contacts():
-            if len(given["a"]):
-                yield name, _slipping(regions, given, (-1.5, -0.3), tension)
-        bulk = next(given for name, given in regions.contacts() if name == "bulk")
-        yield "tiny slip zones", _slipping(regions, bulk, (-EXPONENTS["slip"], -4), tension)
-        if tension[1] < 1:
-            almost = 1 - regions.decades(-6, -2, len(bulk["a"]))
-            near = _slipping(regions, bulk, (-0.5, -0.2), (1, 1))
-            yield "tension near the threshold", {**near, "dsigma": near["dsigma"] * almost}
+def _zone(regime: Regime) -> Results:
+    def of(module: Any, sample: Sample) -> tuple[Any, ...]:
+        changes = sample["dQ"], sample["dsigma"]
+        zone = module.stick_zone(*contacts_of(sample), *changes, **law_of(sample))
+        right = zone.regime == regime
+        return np.where(right, zone.m, np.nan), np.where(right, zone.n, np.nan)
 
     return of
 
 
-def _shears(regions: Regions) -> Iterator[tuple[str, Sample]]:
-    for name, sample in _slips((0, 0.9))(regions):
-        if "threshold" not in name:
-            yield name, {n: v for n, v in sample.items() if n != "dsigma"}
+def _tensions(name: str) -> Results:
+    def of(module: Any, sample: Sample) -> tuple[Any, ...]:
+        return tuple(getattr(module, name)(*contacts_of(sample), sample["dQ"], **law_of(sample)))
 
+    return of
+
+
+def _patch_edges(module: Any, sample: Sample) -> tuple[Any, ...]:
+    """The edges that move as the moderate solution closes a slip zone."""
+    found = _tensions("closing_tension")(module, sample)
+    law = {n: v for n, v in law_of(sample).items() if n != "f"}
+    own = {n: v for n, v in law.items() if n != "E_star"}
+    ends = contacts_of(sample)
+    load = sum(module.load(e.a, e.c, **law) for e in ends) / 2 - sample["dQ"] / (2 * sample["f"])
+    tilt = sum(module.tilt(e.a, e.c, **own) for e in ends) / 2
+    scale = 4 * sample["f"] * sample["E_star"]
+    lower, upper = (module.contact_at_tilt(load, tilt - t / scale, **law) for t in found)
+    return lower.c, upper.a
+
+
+def _series(name: str, *orders: int) -> Results:
+    def of(module: Any, sample: Sample) -> tuple[Any, ...]:
+        zones = [getattr(module, name)(**sample, order=order) for order in orders]
+        return tuple(edge for zone in zones for edge in zone)
+
+    return of
+
+
+def _traction(name: str) -> Results:
+    def of(module: Any, sample: Sample) -> tuple[Any, ...]:
+        changes = sample["dQ"], sample["dsigma"]
+        law = law_of(sample)
+        return (getattr(module, name)(sample["x"], *contacts_of(sample), *changes, **law),)
+
+    return of
+
+
+def _shear(module: Any, sample: Sample) -> tuple[Any, ...]:
+    here, _ = contacts_of(sample)
+    fall = {"dQ": sample["dQ"], "dsigma": sample["dsigma"]}
+    loaded = sample["x"], here, sample["Q"], sample["sigma"]
+    return (module.shear(*loaded, **law_of(sample), **fall),)
+
+
+def _risen_and_fallen(regime: Regime) -> Results:
+    def of(module: Any, sample: Sample) -> tuple[Any, ...]:
+        risen = {**sample, "dQ": 2 * sample["Q"], "dsigma": 2 * sample["sigma"]}
+        return _zone(regime)(module, risen) + _zone(regime)(module, sample)
+
+    return of
+
+
+def _march(module: Any, sample: Sample) -> tuple[Any, ...]:
+    cycle = _marched(module, sample)
+    return tuple(v[..., now] for now in marches.INSTANTS for v in cycle[:4])
+
+
+def _march_starts(module: Any, sample: Sample) -> tuple[Any, ...]:
+    cycle, found = _marched(module, sample), []
+    for now, begun in marches.INSTANTS.items():
+        found += [*(v[..., now] for v in cycle[:4]), *(v[..., begun] for v in cycle[:2])]
+    return tuple(found)
+
+
+def _marched(module: Any, sample: Sample) -> Any:
+    instants = range(len(marches.WAY))
+    given = [
+        np.stack([sample[marches.at(name, i)] for i in instants], axis=-1) for name in marches.LOADS
+    ]
+    law = {n: v[:, None] for n, v in sample.items() if n[:-2] not in marches.LOADS}
+    return module.march(*given, **law)
+
+
+# ------------------------------------------------------------------ the catalogue
+
+_VARIED = loads.moderate_and_varied
+_STUCK, _SLID = Regime.MODERATE, Regime.LARGE
+_CLOSED_EITHER_WAY = ("hertz", "wedge")
 
 CYCLES = (
     Cycle(
         "stick_zone, moderate tension",
         ("m", "n"),
-        lambda module, sample: _zone(module, sample, Regime.MODERATE),
-        _patch,
-        _slips((0, 0.9)),
+        _zone(_STUCK),
+        lambda body: Problem(tensions.patch(body)),
+        _VARIED,
+        integrated=True,
     ),
     Cycle(
         "stick_zone, large tension",
         ("m", "n"),
-        lambda module, sample: _zone(module, sample, Regime.LARGE),
-        _between,
-        _slips((2.5, 4.0)),
-        digits=30,
-        share=0.02,
-        bodies=("hertz", "wedge"),
+        _zone(_SLID),
+        lambda body: Problem(tensions.between(body), digits=tractions.LARGE_DIGITS),
+        loads.large,
+        share=0.03,
     ),
-    Cycle("tension_threshold", ("lower", "upper"), _limits, _threshold, _shears),
+    Cycle(
+        "tension_threshold",
+        ("lower", "upper"),
+        _tensions("tension_threshold"),
+        lambda body: Problem(tensions.threshold(body)),
+        loads.without_tension(loads.moderate),
+        integrated=True,
+    ),
+    Cycle(
+        "closing_tension",
+        ("lower", "upper"),
+        _tensions("closing_tension"),
+        tensions.closing,
+        loads.without_tension(_VARIED),
+        starts=_patch_edges,
+        integrated=True,
+    ),
     *(
         Cycle(
             f"slip_zones, order {order}",
             ("left", "right"),
-            _zones(order),
-            _series(order),
-            _slips((0, 0.9)),
+            _series("slip_zones", order),
+            series.series(order),
+            loads.as_gained(_VARIED),
+            integrated=order == 1,
         )
         for order in (1, 2, 3)
+    ),
+    *(
+        Cycle(
+            f"slip_error, order {order}",
+            ("left", "right"),
+            _series("slip_error", order),
+            series.error(order),
+            loads.moderate,
+            starts=_series("slip_zones", order, order + 1),
+        )
+        for order in (1, 2)
+    ),
+    Cycle(
+        "shear_change, moderate tension",
+        ("",),
+        _traction("shear_change"),
+        tractions.change,
+        loads.placed(loads.moderate),
+        starts=_zone(_STUCK),
+        integrated=True,
+    ),
+    Cycle(
+        "shear_change, large tension",
+        ("",),
+        _traction("shear_change"),
+        lambda body: tractions.change(body, large=True),
+        loads.placed(loads.large),
+        starts=_zone(_SLID),
+        share=0.02,
+    ),
+    Cycle(
+        "shear, moderate tension",
+        ("",),
+        _shear,
+        tractions.shear,
+        loads.risen_and_fallen(loads.placed(loads.moderate)),
+        starts=_risen_and_fallen(_STUCK),
+    ),
+    Cycle(
+        "shear, large tension",
+        ("",),
+        _shear,
+        lambda body: tractions.shear(body, large=True),
+        loads.risen_and_fallen(loads.placed(loads.large)),
+        starts=_risen_and_fallen(_SLID),
+        share=0.02,
+        bodies=_CLOSED_EITHER_WAY,
+    ),
+    Cycle(
+        "slip_range, moderate tension",
+        ("",),
+        _traction("slip_range"),
+        tractions.slip,
+        loads.placed(loads.moderate, slips=True),
+        starts=_zone(_STUCK),
+        share=0.02,
+    ),
+    Cycle(
+        "slip_range, large tension",
+        ("",),
+        _traction("slip_range"),
+        lambda body: tractions.slip(body, large=True),
+        loads.placed(loads.large, slips=True),
+        starts=_zone(_SLID),
+        share=0.02,
+    ),
+    Cycle(
+        "march",
+        marches.FIELDS,
+        _march,
+        marches.march,
+        loads.histories,
+        starts=_march_starts,
+        share=0.1,
     ),
 )

@@ -1,28 +1,12 @@
 """What the inverses solve, written with the formulas of the sheet in many digits."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 
-import mpmath
 from mpmath import mpf
 
-from derive.proof.points import numeric
-from tests.accuracy.reference import Conditions, function_of, sheet_of
-
-Formula = Callable[..., mpf]
-
-
-@cache
-def formula(body: str, name: str) -> Formula:
-    """One formula of a body's sheet, by keywords; what it does not hold is left aside."""
-    sheet = sheet_of(body)
-    expr = sheet.flat(name)
-    if sheet.geometry.slope.is_polynomial:
-        names, function = function_of(expr)
-        return lambda **given: mpmath.re(function(*(given[n] for n in names)))
-    symbols, by_integrals = expr.free_symbols, numeric(expr)
-    return lambda **given: by_integrals({s: given[str(s)] for s in symbols})
+from tests.accuracy.definitions import formula
+from tests.accuracy.reference import Given, Problem
 
 
 @dataclass(frozen=True)
@@ -32,16 +16,16 @@ class Inverse:
     arguments: tuple[str, ...]
     formulas: tuple[str, ...]
 
-    def conditions(self, body: str) -> Conditions:
+    def problem(self, body: str, digits: int) -> Problem:
         """What vanishes at the contact."""
         laws = [formula(body, name) for name in self.formulas]
 
-        def off(edges: Sequence[mpf], given: Mapping[str, mpf]) -> list[mpf]:
+        def off(edges: Sequence[mpf], given: Given) -> list[mpf]:
             held = {**given, "a": edges[0], "c": edges[1]}
             pairs = zip(laws, self.arguments, strict=True)
             return [law(**held) - given[name] for law, name in pairs]
 
-        return off
+        return Problem(off, digits=digits)
 
 
 INVERSES = {

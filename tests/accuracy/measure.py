@@ -15,10 +15,10 @@ from sympy import Expr, lambdify
 from derive.codegen.contract import CONTRACT, Function
 from derive.codegen.integrated import keeps_its_digits
 from derive.codegen.parabolas import is_parabolic
-from derive.proof.points import numeric
 from tests.accuracy.cycles import CYCLES, Cycle
+from tests.accuracy.definitions import formula
 from tests.accuracy.inverses import INVERSES
-from tests.accuracy.reference import Conditions, Point, condition, exact, sheet_of, solved
+from tests.accuracy.reference import Answer, Point, Problem, condition, exact, sheet_of
 from tests.accuracy.regions import Regions, Sample
 from tests.paper_forms import FORMS
 
@@ -91,7 +91,7 @@ def kind_of(body: str, function: str) -> str:
     return PARTS if by_parts else CLOSED
 
 
-SHARES = {CLOSED: 1.0, PARTS: 1.0, SOLVED: 0.1, INTEGRATED: 0.005}
+SHARES = {CLOSED: 1.0, PARTS: 1.0, SOLVED: 0.1, INTEGRATED: 0.05}
 """How many points are tried in a region, in parts of those asked for: some references are dear."""
 
 
@@ -109,11 +109,11 @@ def worst_of(body: str, count: int, only: str = "") -> Iterator[Worst]:
             cycle = next((c for c in CYCLES if c.name == name), None)
             share = cycle.share if cycle else SHARES[kind]
             integrated = not sheet_of(body).geometry.slope.is_polynomial
-            if kind == SOLVED and integrated:
-                share = SHARES[INTEGRATED] / 2  # each is many integrals
+            if integrated and kind != CLOSED:
+                share = min(share, SHARES[INTEGRATED])
             points = max(1, round(share * count))
             regions = Regions(sheet_of(body), importlib.import_module(f"generated.{body}"), points)
-            for region, sample in cycle.regions(regions) if cycle else regions.of(name):
+            for region, sample in cycle.where(regions) if cycle else regions.of(name):
                 if integrated and "extreme widths" in region:
                     continue  # the proofs' quadrature does not reach so far
                 if len(next(iter(sample.values()))):
@@ -149,7 +149,10 @@ def _formulas(
             continue  # an argument, handed back
         expr = sheet.frame.flat(expr)
         got = getattr(result, field) if field else result
-        of = _by_integrals(expr) if kind == INTEGRATED else _by_formula(body, expr)
+        if kind == INTEGRATED:
+            of = _by_integrals(body, dict(function.fields)[field])
+        else:
+            of = _by_formula(body, expr)
         yield _worst(
             (body, function.name, field, region, kind),
             got,
@@ -183,24 +186,22 @@ def _by_formula(body: str, expr: Expr) -> _Reference:
     )
 
 
-def _by_integrals(expr: Expr) -> _Reference:
-    """The defining integrals, by the rule of the proofs."""
-    function, step = numeric(expr), mpf(10) ** -15
-    names = {str(s): s for s in expr.free_symbols}
+@cache
+def _by_integrals(body: str, name: str) -> _Reference:
+    """The defining integrals."""
+    of = formula(body, name)
 
-    def value(point: Point) -> mpf:
-        with mpmath.workdps(40):
-            known = {s: mpf(point[n]) for n, s in names.items() if n in point}
-            return function(known | {s: mpf(1) for n, s in _edges.items() if n not in names})
+    def problem() -> Problem:
+        return Problem(lambda _, __: [], lambda _, given: [of(**given)], digits=_digits(body))
 
-    def conditioned(_: int, point: Point) -> float:
-        with mpmath.workdps(40):
-            at = value(point)
-            moved = (value({**point, n: mpf(v) * (1 + step)}) for n, v in point.items())
-            return max(1.0, float(sum(abs((v - at) / (step * at)) for v in moved)))
+    @cache
+    def answer(point: tuple[tuple[str, float], ...]) -> Answer:
+        return problem().answer([], dict(point))
 
-    _edges: dict[str, Any] = {}
-    return _Reference(value, conditioned)
+    return _Reference(
+        lambda point: answer(tuple(point.items())).numbers[0],
+        lambda _, point: answer(tuple(point.items())).conditions[0],
+    )
 
 
 def _paper(
@@ -221,60 +222,68 @@ def _paper(
 # ------------------------------------------------------------------ what is solved
 
 
+def _digits(body: str) -> int:
+    """Of what is solved for."""
+    return 50 if sheet_of(body).geometry.slope.is_polynomial else 36
+
+
 def _inverses(body: str, name: str, region: str, sample: Sample) -> Iterator[Worst]:
     sheet, inverse = sheet_of(body), INVERSES[name]
-    digits = 50 if sheet.geometry.slope.is_polynomial else 36
     names = [*inverse.arguments, "E_star", *(q.name for q in sheet.geometry.parameters)]
     given = {n: sample[n] for n in names}
     result = getattr(importlib.import_module(f"generated.{body}"), name)(**given)
-    points, found = _points(given), list(zip(result.a, result.c, strict=True))
-    answers = [
-        _answer(inverse.conditions(body), edges, point, digits)
-        for edges, point in zip(found, points, strict=True)
-    ]
-    for i, field in enumerate("ac"):
-        yield _of_answers(
-            (body, name, field, region, SOLVED), getattr(result, field), points, answers, i
-        )
+    found = result.a, result.c
+    problem = inverse.problem(body, _digits(body))
+    yield from _answered((body, name), ("a", "c"), region, SOLVED, given, found, found, problem)
 
 
 def _cycles(body: str, region: str, sample: Sample, cycle: Cycle) -> Iterator[Worst]:
     module = importlib.import_module(f"generated.{body}")
-    results, points = cycle.results(module, sample), _points(sample)
-    answers = [
-        _answer(cycle.conditions(body), start, point, cycle.digits)
-        for start, point in zip(zip(*results, strict=True), points, strict=True)
-    ]
-    for i, field in enumerate(cycle.fields):
-        got = results[i]
-        yield _of_answers((body, cycle.name, field, region, CYCLE), got, points, answers, i)
+    results = cycle.results(module, sample)
+    starts = cycle.starts(module, sample) if cycle.starts else results
+    problem, names = cycle.of(body, _digits(body)), (body, cycle.name)
+    yield from _answered(names, cycle.fields, region, CYCLE, sample, results, starts, problem)
 
 
-def _answer(conditions: Conditions, start: Sequence[float], point: Point, digits: int) -> Any:
+def _answered(
+    names: tuple[str, str],
+    fields: Sequence[str],
+    region: str,
+    kind: str,
+    sample: Sample,
+    results: Sequence[Any],
+    starts: Sequence[Any],
+    problem: Problem,
+) -> Iterator[Worst]:
+    """The worst of each number; what was not solved is lost."""
+    points, begun = _points(sample), [*zip(*starts, strict=True)]
+    given = np.all(np.isfinite(np.array(results, dtype=float)), axis=0)
+    answers = {
+        k: answer
+        for k, point in enumerate(points)
+        if given[k] and (answer := _answer(problem, begun[k], point)) is not None
+    }
+    there = [*answers]
+    for i, field in enumerate(fields):
+        yield _worst(
+            (*names, field, region, kind),
+            np.array([results[i][k] for k in there]),
+            [points[k] for k in there],
+            [answers[k].numbers[i] for k in there],
+            lambda k, _, i=i: answers[there[k]].conditions[i],  # type: ignore[misc]
+            None,
+            lost=len(points) - len(there),
+        )
+
+
+def _answer(problem: Problem, start: Sequence[float], point: Point) -> Answer | None:
     """The solution next to what a function gave; None where there is none."""
-    if not np.isfinite(start[0]):
+    if not np.all(np.isfinite(start)):
         return None
     try:
-        return solved(conditions, start, point, digits)
+        return problem.answer(start, point)
     except ArithmeticError:
         return None
-
-
-def _of_answers(
-    names: tuple[str, ...], got: Any, points: list[Point], answers: list[Any], i: int
-) -> Worst:
-    """The worst of one unknown; what was not solved is lost."""
-    there = [k for k, answer in enumerate(answers) if answer is not None]
-    row = _worst(
-        names,
-        np.array([got[k] for k in there]),
-        [points[k] for k in there],
-        [answers[k][0][i] for k in there],
-        lambda k, _: answers[there[k]][1][i],
-        None,
-        lost=len(answers) - len(there),
-    )
-    return row
 
 
 # ------------------------------------------------------------------ the worst of many

@@ -1,7 +1,8 @@
 """Exact values at float64 inputs, to far more digits than float64 holds, and their conditioning."""
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, cached_property
 
 import mpmath
 from mpmath import mpf
@@ -74,61 +75,127 @@ def condition(expr: Expr, point: Point) -> float:
 
 # ------------------------------------------------------------------ what is solved for
 
-Conditions = Callable[[Sequence[mpf], Mapping[str, mpf]], Sequence[mpf]]
+Given = Mapping[str, mpf]
+
+Conditions = Callable[[Sequence[mpf], Given], Sequence[mpf]]
 """What vanishes at the solution, from the unknowns and the inputs."""
 
-_STEP = mpf(10) ** -18
-"""Of the unknowns and the inputs, relative: differences in place of derivatives."""
+Told = Callable[[Sequence[mpf], Given], Sequence[mpf]]
+"""What a function gives, from the unknowns and the inputs."""
+
+_SLOW = 1e-6
+"""A step that has not shrunk by this much asks for rates of its own."""
 
 
-def solved(
-    conditions: Conditions, start: Sequence[float], point: Point, digits: int = 50
-) -> tuple[list[mpf], list[float]]:
-    """The solution next to `start`, and the condition of each of its numbers.
+@dataclass(frozen=True)
+class Problem:
+    """What a function gives, by conditions for unknowns.
 
-    Newton's method; `start` is what is judged, so that it must be close, or the solution is not.
+    conditions  as many as there are unknowns, which may be none
+    told        the function's numbers; the unknowns themselves unless it says more
+    digits      of the reference
     """
-    with mpmath.workdps(digits):
-        given = {name: mpf(value) for name, value in point.items()}
-        now = [mpf(v) for v in start]
-        for _ in range(12):
-            off, rates = conditions(now, given), _rates(conditions, now, given)
-            step = _of_two(rates, [-v for v in off])
-            now = [v + d for v, d in zip(now, step, strict=True)]
-            if all(
-                abs(d) <= mpf(10) ** (15 - digits) * abs(v) for v, d in zip(now, step, strict=True)
-            ):
-                return now, _conditioned(conditions, now, given)
-        raise ArithmeticError(f"no solution next to {list(start)} at {dict(point)}")
+
+    conditions: Conditions
+    told: Told | None = None
+    digits: int = 50
+
+    def answer(self, start: Sequence[float], point: Point) -> "Answer":
+        """Its solution next to `start`.
+
+        Newton's method; `start` comes from what is judged, so that it must be close, or the
+        solution is not.
+        """
+        with mpmath.workdps(self.digits):
+            given = {name: mpf(value) for name, value in point.items()}
+            now, before = [mpf(v) for v in start], mpf(0)
+            if not now:
+                return Answer(self, [], given, [])
+            rates: list[list[mpf]] = []
+            for _ in range(20):
+                at = self.conditions(now, given)
+                rates = rates or _rates(self.conditions, now, given, at)
+                step = _solution(rates, [-v for v in at], now)
+                now = [v + d for v, d in zip(now, step, strict=True)]
+                length = max(abs(d / v) for v, d in zip(now, step, strict=True))
+                if length <= mpf(10) ** (15 - self.digits):
+                    return Answer(self, now, given, rates)
+                if not length < _SLOW * before:
+                    rates = []
+                before = length
+            raise ArithmeticError(f"no solution next to {list(start)} at {dict(point)}")
+
+    def numbers(self, unknowns: Sequence[mpf], given: Given) -> list[mpf]:
+        """What the function gives."""
+        return [*(self.told(unknowns, given) if self.told else unknowns)]
 
 
-def _of_two(columns: list[list[mpf]], right: Sequence[mpf]) -> list[mpf]:
-    """Two linear equations, by determinants: no pivot is too small for numbers of any size."""
-    (a_11, a_21), (a_12, a_22) = columns
-    by = a_11 * a_22 - a_12 * a_21
-    return [(right[0] * a_22 - right[1] * a_12) / by, (a_11 * right[1] - a_21 * right[0]) / by]
+@dataclass(frozen=True)
+class Answer:
+    """A solution: `numbers` are what is compared."""
+
+    problem: Problem
+    unknowns: list[mpf]
+    given: dict[str, mpf]
+    rates: list[list[mpf]]
+
+    @cached_property
+    def numbers(self) -> list[mpf]:
+        """What the function gives, in many digits."""
+        with mpmath.workdps(self.problem.digits):
+            return self.problem.numbers(self.unknowns, self.given)
+
+    @cached_property
+    def conditions(self) -> list[float]:
+        """Of each of these numbers."""
+        with mpmath.workdps(self.problem.digits):
+            total = [mpf(0)] * len(self.numbers)
+            at = self.problem.conditions(self.unknowns, self.given)
+            for name, value in self.given.items():
+                if value:
+                    moved = self._moved(self.given | {name: value * (1 + _step())}, at)
+                    total = [t + d for t, d in zip(total, moved, strict=True)]
+            return [max(1.0, float(t)) for t in total]
+
+    def _moved(self, given: dict[str, mpf], at: Sequence[mpf]) -> list[mpf]:
+        """Relative changes of the numbers per relative change of an input."""
+        there = self.problem.conditions(self.unknowns, given)
+        back = [p - q for p, q in zip(at, there, strict=True)]
+        step = _solution(self.rates, back, self.unknowns) if back else []
+        unknowns = [v + d for v, d in zip(self.unknowns, step, strict=True)]
+        numbers = self.problem.numbers(unknowns, given)
+        return [
+            abs((p - q) / (_step() * q)) if q else mpf(0)
+            for p, q in zip(numbers, self.numbers, strict=True)
+        ]
 
 
-def _rates(conditions: Conditions, now: list[mpf], given: Mapping[str, mpf]) -> list[list[mpf]]:
+def _step() -> mpf:
+    """Of the unknowns and the inputs, relative: differences in place of derivatives."""
+    return mpf(10) ** (-9 * mpmath.mp.dps // 20)
+
+
+def _solution(columns: list[list[mpf]], right: list[mpf], sizes: list[mpf]) -> list[mpf]:
+    """Linear equations; a column an unknown of such a size, numbers of any size."""
+    scaled = [[v * size for v in column] for column, size in zip(columns, sizes, strict=True)]
+    rows = []
+    for row in zip(*scaled, right, strict=True):
+        most = max(map(abs, row[:-1]))
+        if not most:
+            raise ZeroDivisionError("a condition that no unknown changes")
+        rows.append([v / most for v in row])
+    found = mpmath.lu_solve([row[:-1] for row in rows], [row[-1] for row in rows])
+    return [v * size for v, size in zip(found, sizes, strict=True)]
+
+
+def _rates(
+    conditions: Conditions, now: list[mpf], given: Given, at: Sequence[mpf]
+) -> list[list[mpf]]:
     """By each of the unknowns, a column each."""
-    at = conditions(now, given)
-    columns = []
+    columns, step = [], _step()
     for i, v in enumerate(now):
         moved = [*now]
-        moved[i] = v * (1 + _STEP)
+        moved[i] = v * (1 + step)
         there = conditions(moved, given)
-        columns.append([(q - p) / (v * _STEP) for p, q in zip(at, there, strict=True)])
+        columns.append([(q - p) / (v * step) for p, q in zip(at, there, strict=True)])
     return columns
-
-
-def _conditioned(conditions: Conditions, now: list[mpf], given: dict[str, mpf]) -> list[float]:
-    at, rates = conditions(now, given), _rates(conditions, now, given)
-    total = [mpf(0)] * len(now)
-    for name, value in given.items():
-        if value == 0:
-            continue
-        there = conditions(now, given | {name: value * (1 + _STEP)})
-        change = [(q - p) / _STEP for p, q in zip(at, there, strict=True)]
-        moved = _of_two(rates, change)
-        total = [t + abs(d / v) for t, d, v in zip(total, moved, now, strict=True)]
-    return [max(1.0, float(t)) for t in total]

@@ -17,11 +17,25 @@ from derive.sheet import FormulaSheet
 Sample = Mapping[str, Any]
 """float64 arrays of one length by argument name."""
 
-EXPONENTS = {"loads": 12, "moments": 8, "edges": 15, "kinks": 300, "limit": 12, "slip": 12}
+EXPONENTS = {
+    "loads": 12,
+    "moments": 8,
+    "edges": 15,
+    "kinks": 300,
+    "limit": 12,
+    "slip": 12,
+    "parameters": 6,
+}
 """How far each corner is explored, in decades."""
+
+EVEN, UNEVEN = (1.1, 4.0), (1.06, 60.0)
+"""Exponents of a body, as they are drawn evenly, and over decades."""
 
 WIDEST = {"catenary": 1.0, "circular_arc": -0.1}
 """Decades of the widest contact, where a body ends or its load leaves float64."""
+
+
+UNEVEN_REGION = "uneven parameters"
 
 
 class Regions:
@@ -58,23 +72,44 @@ class Regions:
         """-1 and 1 at random."""
         return self.rng.choice([-1.0, 1.0], self.count)
 
-    def material(self) -> dict[str, Any]:
-        """E_star and the body's parameters; the lengths of one body within two decades."""
+    def material(self, uneven: bool = False) -> dict[str, Any]:
+        """E_star and the body's parameters; the lengths of one body within two decades, or six."""
         given, scale = {"E_star": self.decades(0, 3)}, self.decades(-3, 0)
+        apart = EXPONENTS["parameters"] / 2 if uneven else 1
         for q in self.sheet.geometry.parameters:
             match q.unit:
                 case "m":
-                    given[q.name] = scale * self.decades(-1, 1)
+                    given[q.name] = scale * self.decades(-apart, apart)
                 case "rad":
-                    given[q.name] = self.decades(-3, 0)
+                    given[q.name] = self.decades(-2 * apart, 0) if uneven else self.decades(-3, 0)
+                case _ if uneven:
+                    given[q.name] = self.decades(np.log10(UNEVEN[0]), np.log10(UNEVEN[1]))
                 case _:
-                    given[q.name] = self.rng.uniform(1.1, 4, self.count)
+                    given[q.name] = self.rng.uniform(*EVEN, self.count)
         return given
+
+    @property
+    def may_be_uneven(self) -> bool:
+        """Whether parameters can differ from each other, or one is an exponent."""
+        parameters = self.sheet.geometry.parameters
+        return len(parameters) > 1 or any(q.unit not in ("m", "rad") for q in parameters)
+
+    @property
+    def _lengths(self) -> list[str]:
+        return [q.name for q in self.sheet.geometry.parameters if q.unit == "m"]
 
     def size(self, given: Sample) -> Any:
         """A length of the body's order."""
-        lengths = [q.name for q in self.sheet.geometry.parameters if q.unit == "m"]
+        lengths = self._lengths
         return given["b" if "b" in lengths else lengths[0]] if lengths else np.ones(self.count)
+
+    def _any_size(self, given: Sample) -> Any:
+        """One of the body's lengths; that beyond which it has no end if it has one."""
+        lengths = self._lengths
+        if not lengths or self.sheet.geometry.name in WIDEST:
+            return self.size(given)
+        chosen = self.rng.integers(len(lengths), size=self.count)
+        return np.choose(chosen, [given[name] for name in lengths])
 
     @cached_property
     def exists(self) -> Any:
@@ -96,6 +131,9 @@ class Regions:
         other = Regions(self.sheet, self.module, self.count, seed=2)  # draws of its own
         wide = (-EXPONENTS["loads"], widest)
         yield "extreme widths, lopsided", other._of_width(wide, other.signs * lean)
+        if self.may_be_uneven:
+            apart = Regions(self.sheet, self.module, self.count, seed=3)
+            yield UNEVEN_REGION, apart._of_width((-0.5, min(widest, 1.0)), (-0.45, 0.45), True)
         level = self.decades(-EXPONENTS["edges"], -1)
         yield "nearly level", self._of_width((-1, min(widest, 1.0)), self.signs * level)
         for kink in self.sheet.geometry.slope.kinks:
@@ -106,10 +144,10 @@ class Regions:
         """Whether contacts exist that do not hold a kink."""
         return any(k.clipped for k in self.sheet.frame.kinks if k.kink.position == place)
 
-    def _of_width(self, widths: tuple[float, float], middle: Any) -> Sample:
+    def _of_width(self, widths: tuple[float, float], middle: Any, uneven: bool = False) -> Sample:
         """Widths so many decades of the body's size; middles in parts of the width."""
-        given = self.material()
-        width = self.size(given) * self.decades(*widths)
+        given = self.material(uneven)
+        width = (self._any_size(given) if uneven else self.size(given)) * self.decades(*widths)
         if isinstance(middle, tuple):
             middle = self.rng.uniform(*middle, self.count)
         given |= {"a": width * (0.5 - middle), "c": width * (0.5 + middle)}
@@ -133,9 +171,11 @@ class Regions:
 
     # ------------------------------------------------------------------ loads
 
-    def loads(self, decades: float, moments: tuple[float, float] | None) -> dict[str, Any]:
+    def loads(
+        self, decades: float, moments: tuple[float, float] | None, uneven: bool = False
+    ) -> dict[str, Any]:
         """P over so many decades, M from so many decades of P times the half-width."""
-        given = {"P": self.decades(-decades, decades), **self.material()}
+        given = {"P": self.decades(-decades, decades), **self.material(uneven)}
         if moments is None:
             return given | {"M": np.zeros(self.count)}
         half = self.module.contact(**given).a
@@ -148,6 +188,9 @@ class Regions:
             yield "extreme loads", self.loads(EXPONENTS["loads"], (-8, 0))
             yield "large moments", self.loads(3, (0, EXPONENTS["moments"]))
             yield "no moment", self.loads(EXPONENTS["loads"], None)
+            if self.may_be_uneven:
+                apart = Regions(self.sheet, self.module, self.count, seed=3)
+                yield UNEVEN_REGION, apart.loads(0, (-2, 0), uneven=True)
             return
         for name, given in self.contacts():
             law = {n: v for n, v in given.items() if n not in "ac"}

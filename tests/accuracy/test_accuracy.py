@@ -22,7 +22,7 @@ from tests.accuracy.measure import (
     ulps,
     worst_of,
 )
-from tests.accuracy.reference import condition, exact, sheet_of, solved
+from tests.accuracy.reference import Problem, condition, exact, sheet_of
 from tests.accuracy.report import page, tasks
 
 POINTS = 8
@@ -124,11 +124,14 @@ def test_a_solution_and_its_condition() -> None:
     def off(u: list[mpf], given: dict[str, mpf]) -> list[mpf]:
         return [u[0] ** 2 - given["p"], u[0] * u[1] - given["q"]]
 
-    (x, y), conditions = solved(off, (1.4, 2.1), {"p": 2.0, "q": 3.0})
+    answer = Problem(off).answer((1.4, 2.1), {"p": 2.0, "q": 3.0})
+    x, y = answer.numbers
     with mpmath.workdps(40):
         assert abs(x - mpmath.sqrt(2)) < mpf(10) ** -30
         assert abs(y - 3 / mpmath.sqrt(2)) < mpf(10) ** -30
-    assert conditions == pytest.approx([1, 1.5])  # at least 1
+    assert answer.conditions == pytest.approx([1, 1.5])  # at least 1
+    told = Problem(off, lambda u, given: [u[0] * u[1] ** 2 * given["q"]])  # q**3/sqrt(p)
+    assert told.answer((1.4, 2.1), {"p": 2.0, "q": 3.0}).conditions == pytest.approx([3.5])
 
 
 @pytest.mark.slow
