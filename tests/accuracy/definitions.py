@@ -15,12 +15,13 @@ from functools import cache, lru_cache
 
 import mpmath
 from mpmath import mpf
-from sympy import diff
+from sympy import diff, powsimp
 
-from derive.proof.balls import Ball, ball, function_of
-from derive.proof.points import numeric_along
+from derive.proof.balls import Ball, ball
+from derive.proof.points import Point, numeric_along
+from derive.proof.rule import remembered
 from derive.symbols import x
-from tests.accuracy.quadrature import over_contact
+from tests.accuracy.quadrature import DIFFERENCES, SECOND_DIFFERENCES, over_contact
 from tests.accuracy.reference import function_of as in_mpmath
 from tests.accuracy.reference import sheet_of
 
@@ -83,17 +84,17 @@ class _Slope:
 
     def derivative(self, order: int) -> Callable[[Ball], Ball]:
         """Of g; order 1 or 2."""
-        known, pieces = [ball(v) for v in self.parameters], _derivatives(self.body, order)
-        if len(pieces) == 1:
-            return lambda s: pieces[0](s, *known)
-        return lambda s: pieces[0 if s < 0 else 1](s, *known)
+        symbols = (q.symbol for q in sheet_of(self.body).geometry.parameters)
+        point = dict(zip(symbols, self.parameters, strict=True))
+        pieces = [along(point) for along in _derivatives(self.body, order)]
+        return lambda s: pieces[0 if s < 0 else -1](s)
 
 
 @cache
-def _derivatives(body: str, order: int) -> list[Callable[..., Ball]]:
-    geometry = sheet_of(body).geometry
-    taken = [x, *(q.symbol for q in geometry.parameters)]
-    return [function_of(taken, diff(piece.profile, x, order)) for piece in geometry.slope.pieces]
+def _derivatives(body: str, order: int) -> list[Callable[[Point], Callable[[Ball], Ball]]]:
+    """Piece by piece; there are one or two, that meet at 0."""
+    pieces = sheet_of(body).geometry.slope.pieces
+    return [numeric_along(powsimp(diff(piece.profile, x, order)), x) for piece in pieces]
 
 
 @lru_cache(maxsize=1000)
@@ -109,15 +110,31 @@ def _moments(slope: _Slope, a: mpf, c: mpf, count: int) -> list[mpf]:
 
 
 @lru_cache(maxsize=1000)
-def _quotients(slope: _Slope, a: mpf, c: mpf, place: mpf, count: int) -> list[mpf]:
-    """Mean of (g'(s) - g'(x))/(s - x), and its derivative by x."""
-    rise, bend, at = slope.derivative(1), slope.derivative(2), ball(place)
+def _quotient(slope: _Slope, a: mpf, c: mpf, place: mpf, count: int) -> mpf:
+    """Mean of (g'(s) - g'(x))/(s - x)."""
+    rise, at = slope.derivative(1), ball(place)
+    here = remembered(lambda _: rise(at))
 
     def values(s: Ball, away: Ball) -> list[Ball]:
-        risen = rise(s) - rise(at)
-        return [risen / away, (risen - bend(at) * away) / away**2]
+        return [(rise(s) - here(at)) / away]
 
-    return [v / mpmath.pi for v in over_contact(values, a, c, slope.kinks, count, place)]
+    found = over_contact(values, a, c, slope.kinks, count, place, DIFFERENCES)
+    return found[0] / mpmath.pi
+
+
+@lru_cache(maxsize=1000)
+def _rate(slope: _Slope, a: mpf, c: mpf, place: mpf, count: int) -> mpf:
+    """Its derivative by x."""
+    rise, at = slope.derivative(1), ball(place)
+    bend = slope.derivative(2)
+    here = remembered(lambda _: (rise(at), bend(at)))
+
+    def values(s: Ball, away: Ball) -> list[Ball]:
+        risen, bent = here(at)
+        return [(rise(s) - risen - bent * away) / away**2]
+
+    found = over_contact(values, a, c, slope.kinks, count, place, SECOND_DIFFERENCES)
+    return found[0] / mpmath.pi
 
 
 def _at_edge(sense: int, order: int) -> Callable[[_Slope, Given], mpf]:
@@ -125,9 +142,9 @@ def _at_edge(sense: int, order: int) -> Callable[[_Slope, Given], mpf]:
 
     def of(slope: _Slope, given: Given) -> mpf:
         a, c = given["a"], given["c"]
-        value, rate = _quotients(slope, a, c, c if sense > 0 else -a, mpmath.mp.dps)
-        scale = given["E_star"] / 2 * mpmath.sqrt(a + c)
-        return scale * (-value / (2 * (a + c)) - sense * rate if order else value)
+        at = slope, a, c, c if sense > 0 else -a, mpmath.mp.dps
+        scale, value = given["E_star"] / 2 * mpmath.sqrt(a + c), _quotient(*at)
+        return scale * (-value / (2 * (a + c)) - sense * _rate(*at) if order else value)
 
     return of
 
@@ -149,7 +166,7 @@ def _moment(slope: _Slope, given: Given) -> mpf:
 
 def _pressure(slope: _Slope, given: Given) -> mpf:
     a, c, place = given["a"], given["c"], given["x"]
-    value, _ = _quotients(slope, a, c, place, mpmath.mp.dps)
+    value = _quotient(slope, a, c, place, mpmath.mp.dps)
     return given["E_star"] / 2 * mpmath.sqrt((a + place) * (c - place)) * value
 
 

@@ -19,8 +19,9 @@ from derive.proof.balls import Ball, ball, digits, number
 Integrand = Callable[[Ball, Ball, Ball], Sequence[Ball]]
 """Several integrands at once: of a place, and of its distances from both ends of its part."""
 
-SPARE = 4
-"""Working digits, in parts of those asked for: differences next to an end keep theirs."""
+SUMS, DIFFERENCES, SECOND_DIFFERENCES = 1.5, 2.5, 4.0
+"""Working digits, in parts of those asked for: what is divided by a distance from an end, or by its
+square, keeps its own."""
 
 _NEGLIGIBLE = arb(2) ** -60
 """Share of all weights at which an integrand may have no value: so close to an end that it is none
@@ -40,6 +41,7 @@ def integrals(
     grows: tuple[float, float] = (-0.5, -0.5),
     near: float = 1.0,
     bends: bool = False,
+    working: float = DIFFERENCES,
 ) -> list[mpf]:
     """Integrals over [cuts[0], cuts[-1]] to so many digits.
 
@@ -47,12 +49,13 @@ def integrals(
            is bounded, but for logarithms
     near   the shortest length over which it changes there, in parts of the part
     bends  whether it is singular square to the axis at a cut
+    working  digits, in parts of those asked for
     """
     whole = count * log(10)
     ends = [grows[0], *(0.0 for _ in cuts[1:-1]), grows[1]]
     reaches = [whole / (1 + power) - min(0.0, log(near)) for power in ends]
     steps = whole / (2 * pi * (_BEND if bends else _STRIP))
-    with digits(SPARE * count):
+    with digits(int(working * count)):
         total, lost = [], arb(0)
         for (low, high), reach in zip(pairwise(map(ball, cuts)), pairwise(reaches), strict=True):
             width = high - low
@@ -94,14 +97,20 @@ Values = Callable[[Ball, Ball], Sequence[Ball]]
 
 
 def over_contact(
-    values: Values, a: mpf, c: mpf, kinks: Sequence[mpf], count: int, x: mpf | None = None
+    values: Values,
+    a: mpf,
+    c: mpf,
+    kinks: Sequence[mpf],
+    count: int,
+    x: mpf | None = None,
+    working: float = SUMS,
 ) -> list[mpf]:
     """int values/sqrt((a + s)(c - s)) ds over the contact, to so many digits.
 
     Without kinks by Gauss's rule for this weight, as long as few nodes are enough.
     """
     found = None if kinks else _along_the_circle(values, a, c, count, x)
-    return found or _part_by_part(values, a, c, kinks, count, x)
+    return found or _part_by_part(values, a, c, kinks, count, x, working)
 
 
 def _along_the_circle(
@@ -111,52 +120,59 @@ def _along_the_circle(
     nodes = LEAST
     with digits(2 * count):
         half, middle = (ball(a) + ball(c)) / 2, (ball(c) - ball(a)) / 2
+        here = ball(x) if x is not None else arb(0)
         while nodes <= MOST:
             places = [middle + half * cosine for cosine in _chebyshev(nodes, ctx.prec)]
-            here = ball(x) if x is not None else arb(0)
             rows = [values(s, s - here) for s in places]
-            now = [arb.pi() * sum(column, arb(0)) / nodes for column in zip(*rows, strict=True)]
+            columns = [*zip(*rows, strict=True)]
+            now, sizes = ([sum(map(of, v), arb(0)) / nodes for v in columns] for of in (arb, abs))
             if not all(value.is_finite() for value in now):
                 return None
-            sizes = [sum(map(abs, column), arb(0)) / nodes for column in zip(*rows, strict=True)]
             if before is not None and all(
                 abs(p - q) <= arb(10) ** -count * size
                 for p, q, size in zip(before, now, sizes, strict=True)
             ):
-                return [number(value) for value in now]
+                return [number(arb.pi() * value) for value in now]
             before, nodes = now, 2 * nodes
     return None
 
 
 def _part_by_part(
-    values: Values, a: mpf, c: mpf, kinks: Sequence[mpf], count: int, x: mpf | None
+    values: Values,
+    a: mpf,
+    c: mpf,
+    kinks: Sequence[mpf],
+    count: int,
+    x: mpf | None,
+    working: float,
 ) -> list[mpf]:
     middle = [] if kinks else [mpf(0)]  # beside it smooth bodies bend
     inside = {place for place in (*kinks, *middle, *([] if x is None else [x])) if -a < place < c}
     cuts = sorted({-a, c, *inside})
-    nearest = min(q - p for p, q in pairwise(cuts)) / (a + c)
-    left, right = ball(a), ball(c)
-    here = ball(x) if x is not None else arb(0)
+    nearest = float(min(q - p for p, q in pairwise(cuts)) / (a + c))
     total: list[mpf] = []
     for low, high in pairwise(cuts):
-        with digits(SPARE * count):
-            start, end = ball(low), ball(high)
-            before, behind = start + left, right - end
-            off_low, off_high = start - here, end - here
-
-        def integrand(
-            s: Ball,
-            y: Ball,
-            z: Ball,
-            before: Ball = before,
-            behind: Ball = behind,
-            off_low: Ball = off_low,
-            off_high: Ball = off_high,
-        ) -> list[Ball]:
-            away = off_low + y if off_low >= 0 else off_high - z
-            root = ((before + y) * (behind + z)).sqrt()
-            return [value / root for value in values(s, away)]
-
-        part = integrals(integrand, (low, high), count, near=float(nearest), bends=not kinks)
+        part = integrals(
+            _weighted(values, low, high, (a, c), mpf(0) if x is None else x),
+            (low, high),
+            count,
+            (-0.5 if low == -a else 0.0, -0.5 if high == c else 0.0),
+            nearest,
+            bends=not kinks,
+            working=working,
+        )
         total = [p + q for p, q in zip(total, part, strict=True)] if total else part
     return total
+
+
+def _weighted(values: Values, low: mpf, high: mpf, edges: tuple[mpf, mpf], x: mpf) -> Integrand:
+    """Over w, on a part that does not hold x but may end there."""
+    start, end, left, right, here = map(ball, (low, high, *edges, x))
+    beyond = low >= x
+
+    def integrand(s: Ball, y: Ball, z: Ball) -> list[Ball]:
+        away = (start - here) + y if beyond else (end - here) - z
+        root = ((start + left + y) * (right - end + z)).sqrt()
+        return [value / root for value in values(s, away)]
+
+    return integrand
