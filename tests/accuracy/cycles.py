@@ -261,6 +261,6 @@ CYCLES = (
         marches.march,
         loads.histories,
         starts=_march_starts,
-        share=0.1,
+        share=0.04,
     ),
 )

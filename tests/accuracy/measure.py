@@ -101,17 +101,23 @@ def functions(body: str) -> Iterator[str]:
     yield from (cycle.name for cycle in CYCLES if cycle.takes(sheet_of(body)))
 
 
+def share_of(body: str, name: str) -> float:
+    """Of the points asked for, those that are tried of one function."""
+    cycle = next((c for c in CYCLES if c.name == name), None)
+    kind = kind_of(body, name)
+    share = cycle.share if cycle else SHARES[kind]
+    dear = kind != CLOSED and not sheet_of(body).geometry.slope.is_polynomial
+    return min(share, SHARES[INTEGRATED]) if dear else share
+
+
 def worst_of(body: str, count: int, only: str = "") -> Iterator[Worst]:
     """Every function of one body, or one of them, over all its regions."""
     for name in functions(body):
         if only in ("", name):
             kind = kind_of(body, name)
             cycle = next((c for c in CYCLES if c.name == name), None)
-            share = cycle.share if cycle else SHARES[kind]
             integrated = not sheet_of(body).geometry.slope.is_polynomial
-            if integrated and kind != CLOSED:
-                share = min(share, SHARES[INTEGRATED])
-            points = max(1, round(share * count))
+            points = max(1, round(share_of(body, name) * count))
             regions = Regions(sheet_of(body), importlib.import_module(f"generated.{body}"), points)
             for region, sample in cycle.where(regions) if cycle else regions.of(name):
                 if integrated and "extreme widths" in region:
