@@ -233,7 +233,10 @@ class Regions:
                 yield f"tilt near its {side} limit", given | {"alpha": bound * (1 - short)}
 
     def inside(self, name: str, given: Sample) -> Iterator[tuple[str, Sample]]:
-        """Places in the bulk, next to both edges, next to every kink, and beside every part."""
+        """Places in the bulk, next to both edges, next to every kink, and beside every part.
+
+        Next to the origin, too, of smooth bodies that are integrated.
+        """
         a, c = given["a"], given["c"]
         count = len(a)
         theta = self.rng.uniform(0.1, np.pi - 0.1, count)
@@ -246,6 +249,11 @@ class Regions:
             signs = self.rng.choice([-1.0, 1.0], count)
             close = signs * self.decades(-EXPONENTS["kinks"], 0, count) * np.minimum(c - at, a + at)
             yield f"{name}, x at kink {kink.number}", self._placed(given, at + close)
+        if not self.sheet.geometry.slope.is_polynomial and not self.sheet.geometry.slope.kinks:
+            other = Regions(self.sheet, self.module, self.count, seed=4)
+            close = other.rng.choice([-1.0, 1.0], count) * np.minimum(a, c)
+            close = close * other.decades(-EXPONENTS["edges"], -1, count)
+            yield f"{name}, x at the origin", self._placed(given, close)
         yield from self._beside_parts(name, given)
 
     def _beside_parts(self, name: str, given: Sample) -> Iterator[tuple[str, Sample]]:
