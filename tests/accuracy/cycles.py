@@ -159,7 +159,7 @@ CYCLES = (
         _zone(_SLID),
         lambda body: Problem(tensions.between(body), digits=tractions.LARGE_DIGITS),
         loads.large,
-        share=0.03,
+        share=0.02,
     ),
     Cycle(
         "tension_threshold",
@@ -177,6 +177,7 @@ CYCLES = (
         loads.without_tension(_VARIED),
         starts=_patch_edges,
         integrated=True,
+        share=0.1,
     ),
     *(
         Cycle(
@@ -186,6 +187,7 @@ CYCLES = (
             series.series(order),
             loads.as_gained(_VARIED),
             integrated=order == 1,
+            share=0.1,
         )
         for order in (1, 2, 3)
     ),
@@ -197,6 +199,7 @@ CYCLES = (
             series.error(order),
             loads.moderate,
             starts=_series("slip_zones", order, order + 1),
+            share=0.05,
         )
         for order in (1, 2)
     ),
@@ -208,6 +211,7 @@ CYCLES = (
         loads.placed(loads.moderate),
         starts=_zone(_STUCK),
         integrated=True,
+        share=0.1,
     ),
     Cycle(
         "shear_change, large tension",
@@ -216,7 +220,7 @@ CYCLES = (
         lambda body: tractions.change(body, large=True),
         loads.placed(loads.large),
         starts=_zone(_SLID),
-        share=0.02,
+        share=0.01,
     ),
     Cycle(
         "shear, moderate tension",
@@ -225,6 +229,7 @@ CYCLES = (
         tractions.shear,
         loads.risen_and_fallen(loads.placed(loads.moderate)),
         starts=_risen_and_fallen(_STUCK),
+        share=0.05,
     ),
     Cycle(
         "shear, large tension",
@@ -252,7 +257,7 @@ CYCLES = (
         lambda body: tractions.slip(body, large=True),
         loads.placed(loads.large, slips=True),
         starts=_zone(_SLID),
-        share=0.02,
+        share=0.01,
     ),
     Cycle(
         "march",
