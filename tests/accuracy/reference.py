@@ -83,7 +83,7 @@ Conditions = Callable[[Sequence[mpf], Given], Sequence[mpf]]
 Told = Callable[[Sequence[mpf], Given], Sequence[mpf]]
 """What a function gives, from the unknowns and the inputs."""
 
-_SLOW = 1e-6
+_SLOW = 1e-2
 """A step that has not shrunk by this much asks for rates of its own."""
 
 
@@ -118,7 +118,8 @@ class Problem:
                 step = _solution(rates, [-v for v in at], now)
                 now = [v + d for v, d in zip(now, step, strict=True)]
                 length = max(abs(d / v) for v, d in zip(now, step, strict=True))
-                if length <= mpf(10) ** (15 - self.digits):
+                rests = length <= mpf(10) ** (15 - self.digits) and length > before / 10 > 0
+                if rests or length <= mpf(10) ** (5 - self.digits):
                     return Answer(self, now, given, rates)
                 if not length < _SLOW * before:
                     rates = []
@@ -172,7 +173,7 @@ class Answer:
 
 def _step() -> mpf:
     """Of the unknowns and the inputs, relative: differences in place of derivatives."""
-    return mpf(10) ** (-9 * mpmath.mp.dps // 20)
+    return mpf(10) ** -max(18, 9 * mpmath.mp.dps // 20)
 
 
 def _solution(columns: list[list[mpf]], right: list[mpf], sizes: list[mpf]) -> list[mpf]:
