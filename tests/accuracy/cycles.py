@@ -248,7 +248,7 @@ CYCLES = (
         tractions.slip,
         loads.placed(loads.moderate, slips=True),
         starts=_zone(_STUCK),
-        share=0.02,
+        share=0.01,
     ),
     Cycle(
         "slip_range, large tension",
@@ -266,6 +266,6 @@ CYCLES = (
         marches.march,
         loads.histories,
         starts=_march_starts,
-        share=0.04,
+        share=0.03,
     ),
 )
