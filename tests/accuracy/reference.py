@@ -83,8 +83,8 @@ Conditions = Callable[[Sequence[mpf], Given], Sequence[mpf]]
 Told = Callable[[Sequence[mpf], Given], Sequence[mpf]]
 """What a function gives, from the unknowns and the inputs."""
 
-_SLOW = 1e-2
-"""A step that has not shrunk by this much asks for rates of its own."""
+_FAR, _SLOW = 1e-6, 1e-2
+"""A step longer than this, or one that has not shrunk by so much, asks for new rates."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ class Problem:
                 rests = length <= mpf(10) ** (15 - self.digits) and length > before / 10 > 0
                 if rests or length <= mpf(10) ** (5 - self.digits):
                     return Answer(self, now, given, rates)
-                if not length < _SLOW * before:
+                if length > _FAR or not length < _SLOW * before:
                     rates = []
                 before = length
             raise ArithmeticError(f"no solution next to {list(start)} at {dict(point)}")
