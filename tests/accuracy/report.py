@@ -50,10 +50,10 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "# Accuracy",
         "",
         f"Made by `make accuracy`: random float64 inputs, {count} a region for closed formulas",
-        f"and fewer where the reference is dear: {_points(count, 0.2)} to {_points(count, 0.05)}",
-        f"for most functions of partial slip, {_points(count, 0.05)} where the pressure is an",
-        f"integral, {_points(count, 0.02)} or {_points(count, 0.01)} where every condition is one,",
-        "as under large tension.  They are compared with many digits of mpmath and python-flint.",
+        f"and fewer where the reference is dear: {_points(count, 0.2)} to {_points(count, 0.05)} for",
+        f"most functions of partial slip, {_points(count, 0.05)} where the pressure is an integral, and",
+        f"{_points(count, 0.01)} to {_points(count, 0.03)} for slip, marches and large tension; against",
+        "many digits of mpmath and python-flint.",
         "The reference of a formula is the proven formula itself with 60 digits or more; of an",
         "integral, its definition, by a quadrature of its own; of what is solved for, the",
         "equations solved in many digits from the very same inputs, and so is the stick zone from",
@@ -77,8 +77,8 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "limit; parameters six decades apart, and exponents from 1.06 to 60; tiny slip zones, down",
         "to 1e-12 of the load; tension near its threshold; normal loads that vary, where the",
         "program calls the cycle moderate; x beside an end of the stick zone, to 1e-10 of the slip",
-        "zone.  Integrated bodies are not tried at extreme",
-        "widths.  Of large tension, what the program calls mixed is left out.",
+        "zone.  Integrated bodies are not tried at extreme widths.  Of large tension, what the",
+        "program calls mixed is left out.",
         "",
         "A small difference of large numbers loses digits that the problem keeps: changes of",
         "shear in the stick zone, closing tensions and `slip_error` do where slip zones are tiny",
@@ -88,10 +88,10 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
     grouped = worst_rows(rows)
     for body in sorted({row.body for row in rows}):
         lines += [f"## {body}", "", *_header()]
-        for (its, function), found in grouped.items():
-            if its == body:
-                shown = found if regions else [_summed(found)]
-                lines += [_line(function, row) for row in shown]
+        for function in functions(body):
+            found = grouped.get((body, function), [])
+            shown = found if regions or not found else [_summed(found)]
+            lines += [_line(function, row) for row in shown]
         lines.append("")
     return "\n".join([*lines, *_worst_points(rows)])
 
