@@ -46,14 +46,14 @@ def tasks(bodies: Iterable[str], count: int) -> list[Task]:
 
 def page(rows: list[Worst], count: int, regions: bool = False) -> str:
     """The tables in Markdown, a section a body."""
+    most, few, least = (max(1, round(share * count)) for share in (0.2, 0.05, 0.01))
     lines = [
         "# Accuracy",
         "",
         f"Made by `make accuracy`: random float64 inputs, {count} a region for closed formulas",
-        f"and fewer where the reference is dear: {_points(count, 0.2)} to {_points(count, 0.05)} for",
-        f"most functions of partial slip, {_points(count, 0.05)} where the pressure is an integral, and",
-        f"{_points(count, 0.01)} to {_points(count, 0.03)} for slip, marches and large tension; against",
-        "many digits of mpmath and python-flint.",
+        f"and fewer where the reference is dear: {most} to {few} for most functions of partial",
+        f"slip, {few} where the pressure is an integral, {least} or more for slip, marches and",
+        "large tension; against many digits of mpmath and python-flint.",
         "The reference of a formula is the proven formula itself with 60 digits or more; of an",
         "integral, its definition, by a quadrature of its own; of what is solved for, the",
         "equations solved in many digits from the very same inputs, and so is the stick zone from",
@@ -94,11 +94,6 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
             lines += [_line(function, row) for row in shown]
         lines.append("")
     return "\n".join([*lines, *_worst_points(rows)])
-
-
-def _points(count: int, share: float) -> int:
-    """A region."""
-    return max(1, round(share * count))
 
 
 def _header() -> Iterator[str]:
