@@ -51,7 +51,8 @@ AGREED = 1e-11
 """Two sums that agree to this, the later one is exact to rounding."""
 
 EXACT = 1e-13
-"""Tilt and L_N whose sums agree to this are: close to a kink theirs get better slowly."""
+"""Tilt and L_N whose sums agree to this are, and pressures beside a break: there sums get better
+slowly."""
 
 CUT_OFF = 1e-14
 """Where g'' is infinite at a break, a sum whose outermost terms are a larger part of it has not
@@ -59,7 +60,9 @@ come to its end: what is left out is some hundredth of them.
 """
 
 BESIDE = 0.1
-"""Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
+"""Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N; a place
+closer to a break is beside it.
+"""
 
 _SUMS = {
     "load": ("force",),
@@ -153,9 +156,12 @@ def _pressed(body: Profile, x: Array, a: Array, c: Array, constants: dict[str, A
         u_or_v = near.from_high * of(left)
         return (near.curve.curvature * _asinh_root(u_or_v, of(h) * near.from_low),)
 
-    total = 0 * h
+    total, beside = 0 * h, np.full(h.shape, False)
+    for place in body.breaks(**constants):
+        beside |= np.abs(x - place) < BESIDE * h
     for low, high, width, kernel in ((-a, x, left, on_the_left), (x, c, right, on_the_right)):
-        (part,) = _integrals(Window(body, constants, low, high, width, ()), kernel, 1, 1)
+        window = Window(body, constants, low, high, width, ())
+        (part,) = _integrals(window, kernel, 1, 1, slow=beside)
         total = total + part
     return total
 
@@ -245,12 +251,15 @@ def _integrals(
     count: int,
     positive: int,
     size: Array | None = None,
+    slow: Array | None = None,
 ) -> list[Array]:
     """Integrals over the windows, NaN where the sums do not agree; straight pieces add nothing.
 
     The first few are positive, and each of these has to agree for itself.  The next one, if its
     `size` is given, has to agree against that, for its own sake alone.  Where none is positive, the
     last one has to, against the first one, which is its size and need not be smooth.
+
+    slow: whether sums get better slowly.
     """
     sums = np.full((count, contact.width.size), np.nan)
     rows = np.flatnonzero(contact.width > 0)
@@ -266,7 +275,9 @@ def _integrals(
         here = contact.on(rows)
         fresh = _level_sums(here, integrand, count, level)
         now = before + fresh if level == COARSEST else before / 2 + fresh
-        allowed = AGREED if positive or level == FINEST else EXACT
+        allowed: Array = AGREED if positive or level == FINEST else EXACT
+        if slow is not None and level < FINEST:
+            allowed = np.where(slow[rows], EXACT, AGREED)
         alike = np.abs(now[judged] - before[judged]) <= allowed * np.abs(now[sizes]) + _NOTHING
         alike |= now[judged] == before[judged]  # both infinite
         none = np.isnan(now[judged])

@@ -1,5 +1,6 @@
 """Bodies of the library at the limits that tie them together, and quartic and cosh by hand."""
 
+import math
 from typing import Any
 
 import mpmath
@@ -133,3 +134,26 @@ def test_a_power_law_tends_to_the_wedge() -> None:
     found = [power.load(0.75, 0.5, E_star=E, k=p, L=1.0) for p in k]
     wanted = wedge.load(0.75, 0.5, E_star=E, phi=1.0)
     assert_allclose(np.dot(weights, found), wanted, rtol=1e-5)
+
+
+@pytest.mark.parametrize("place", [1.0332621980744286e-07, 1e-12, -1e-9, -1e-4, 1e-2])
+def test_the_pressure_of_a_circular_arc_beside_its_lowest_point(place: float) -> None:
+    """p = (E*/pi) int g'' L ds with g'' = R**2/(R**2 - s**2)**(3/2), and L = artanh of
+    sqrt((c - x)(a + s)/((a + x)(c - s))) for s < x, else of its inverse: by mpmath, in parts that
+    crowd towards x.  The body is cut at its lowest point, which leaves a short piece there.
+    """
+    left, right = 0.6690008998646891, 0.23710362890825895
+    with mpmath.workdps(30):
+        at = mpmath.mpf(place)
+
+        def integrand(s: Any) -> Any:
+            u, v = (right - at) * (left + s), (left + at) * (right - s)
+            ratio = mpmath.sqrt(u / v) if s < at else mpmath.sqrt(v / u)
+            return 9 / mpmath.sqrt(9 - s**2) ** 3 * mpmath.atanh(ratio)
+
+        near = [mpmath.mpf(10) ** -k for k in range(19)]
+        below = [at - (at + left) * step for step in near]
+        above = [at + (right - at) * step for step in near]
+        wanted = float(mpmath.quad(integrand, below) + mpmath.quad(integrand, above[::-1]))
+    found = circular_arc.pressure(place, left, right, E_star=math.pi, R=3.0)
+    assert_allclose(found, wanted, rtol=4e-15)
