@@ -80,9 +80,9 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "zone.  Integrated bodies are not tried at extreme widths.  Of large tension, what the",
         "program calls mixed is left out.",
         "",
-        "A small difference of large numbers loses digits that the problem keeps: changes of",
-        "shear in the stick zone, closing tensions and `slip_error` do where slip zones are tiny",
-        "against the contact, and the stick zone of a very lopsided one.",
+        "Digits that the problem keeps are lost in two places.  `slip_error` is a difference of",
+        "two orders, all rounding where slip zones are tiny.  Under large tension pressures inside",
+        "tiny slip zones are told by their places, which are rounded: so are changes of shear.",
         "",
     ]
     grouped = worst_rows(rows)
