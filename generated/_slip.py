@@ -186,6 +186,7 @@ class _Series:
         right = np.maximum(right - self.least_right, least)
         left, right = drawn_in(width, left, right)
         shortest, idle = np.full(left.shape, np.inf), np.full(left.shape, 0)
+        done = np.full(left.shape, False)
         for _ in range(STEPS):
             stuck = width - left - right
             off, rates = self._conditions(coefficients, kappa, left, right, stuck)
@@ -197,11 +198,14 @@ class _Series:
             by_left, by_right = to_left / left + more, to_right / right + more
             length = np.maximum(np.abs(by_left), np.abs(by_right))
             shrink = np.minimum(1, LONGEST / length)
-            left, right = moved(width, left, right, shrink * by_left, shrink * by_right)
+            following = moved(width, left, right, shrink * by_left, shrink * by_right)
+            left, right = (
+                np.where(done, v, w) for v, w in zip((left, right), following, strict=True)
+            )
             rounded = length < ROUNDING * width / np.minimum(left, right)
             idle = np.where(length < shortest / 2, 0, idle + 1)
             shortest = np.fmin(length, shortest)
-            done = (length < SMALL) | (rounded & (idle >= IDLE))
+            done |= (length < SMALL) | (rounded & (idle >= IDLE))
             if np.all(done | ~np.isfinite(length)):
                 break
         left, right = left + self.least_left, right + self.least_right

@@ -200,8 +200,8 @@ def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Arra
     """By how much the mean tilt exceeds that of the zone whose edge on one side is the contact's.
 
     `turned` is a difference of two tilts that has lost its digits, as the zone's `width` has.  How
-    far the other edge draws back is solved for instead, from what load and tilt change by as it
-    does; where these are not known to rounding, `turned` remains.
+    far the other edge draws back, or reaches out, is solved for instead, from what load and tilt
+    change by as it does; where these are not known to rounding, `turned` remains.
     """
     law, constants = cycle.law, cycle.constants
     other = cycle.c[1] < cycle.c[0] if sense > 0 else cycle.a[1] < cycle.a[0]
@@ -210,8 +210,8 @@ def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Arra
     fallen = cycle.dQ / (2 * cycle.f) - risen
 
     back, exact = a + c - width, np.full(turned.shape, np.nan)
-    back = np.where(back > NOTHING * (a + c), back, 0.0)
-    rows = np.flatnonzero(fallen > 0)
+    back = np.where(np.abs(back) > NOTHING * (a + c), back, 0.0)
+    rows = np.flatnonzero(np.isfinite(fallen))
     for _ in range(STEPS):
         drawn, held = back[rows], at_rows(rows, constants)
         motion = (-drawn, 0.0 * drawn) if sense > 0 else (0.0 * drawn, -drawn)
@@ -221,9 +221,9 @@ def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Arra
         step = (fallen[rows] + change.load) / (np.pi / 4 * root * K)
         back[rows] = drawn + step
         found = leant[rows] - change.tilt + sense * step * K / root
-        small = np.abs(step) <= NEARLY * back[rows]
+        small = np.abs(step) <= NEARLY * np.abs(back[rows])
         exact[rows] = np.where(small & change.settled, found, np.nan)
-        rows = rows[~small & change.settled & (back[rows] > 0)]
+        rows = rows[~small & change.settled]
         if not rows.size:
             break
     return np.where(np.isfinite(exact), exact / constants["E_star"], turned)

@@ -139,3 +139,21 @@ def test_results_are_the_same_bits_alone_and_among_others(name: str) -> None:
     together = all_of(left, right, shear)
     alone = [all_of(*given) for given in zip(left, right, shear, strict=True)]
     assert np.array_equal(together.T, alone, equal_nan=True)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.9, 1.1, 10.0])
+@pytest.mark.parametrize("grown", [1e-4, 1e-8, 1e-11])
+def test_a_closing_tension_between_two_cylinder_contacts(grown: float, share: float) -> None:
+    """From a = c = 1 to 1 + e, E* = 3, R = 1/4, f = 1/2: P = (3 pi/4) h**2.  The zone carries
+    (P1 + P2)/2 - dQ; its width h = sqrt(4 P/(3 pi)) may be more than 2.  With c = 1 kept its left
+    edge is at h - 1: 4 f E* times the mean tilt, 0, less (h - 2)/(2 R) is 12 (2 - h).
+    """
+    end = 1 + grown
+    with mpmath.workdps(40):
+        loads = [3 * mpmath.pi / 4 * (2 * mpf(edge)) ** 2 for edge in (1.0, end)]
+        shear = float(share * (loads[1] - loads[0]))
+        width = mpmath.sqrt(4 * (sum(loads) / 2 - mpf(shear)) / (3 * mpmath.pi))
+        wanted = float(12 * (2 - width))
+    first, second = Contact(1.0, 1.0, 0.0), Contact(end, end, 0.0)
+    found = hertz.closing_tension(first, second, shear, f=0.5, **CYLINDER)
+    assert_allclose([found.upper, -found.lower], wanted, rtol=4e-15)
