@@ -124,8 +124,9 @@ def _by_rule(
     """The integrals, and those of the sizes of both edges' shares."""
     nodes, weights = _rule(count)
     found: list[tuple[Array, Array]] = []
+    moves = (motion[0] != 0) | (motion[1] != 0)
     for low, high in pairwise(ends):
-        rows = np.flatnonzero(high > low)
+        rows = np.flatnonzero((high > low) & moves)
         length = (high - low)[rows]
         part = low[rows] + length * nodes[:, None]
         moved = part * motion[0][rows], part * motion[1][rows]

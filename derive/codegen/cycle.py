@@ -38,6 +38,7 @@ class CycleFunction:
     optional    keyword-only arguments behind the body's own, with their defaults
     meanings    of arguments that mean something else here than elsewhere
     beyond      loads under which nothing is known
+    by_differences  where else it is not, of bodies without a formula for the third coefficient
     """
 
     name: str
@@ -50,6 +51,7 @@ class CycleFunction:
     optional: tuple[tuple[str, str], ...] = ()
     meanings: tuple[tuple[str, str], ...] = ()
     beyond: str = "dQ < 0 or dQ >= f (P1 + P2), which is sliding"
+    by_differences: str = ""
 
 
 _MEANINGS = {
@@ -71,9 +73,6 @@ _CONTACTS = ("first", "second", "contact")
 
 _TYPES = {"order": "int", "mixed": "bool"}
 """Options that are no arrays."""
-
-_BY_DIFFERENCES = "unless each edge lies off every kink by 1e-7 of its own x"
-"""Where the pressure's third coefficient, of bodies without a formula for it, is known."""
 
 _BETWEEN: tuple[Symbol | str, ...] = ("first", "second", dQ, dsigma)
 _EDGES: tuple[Symbol | str, ...] = (a, c, dQ, dsigma)
@@ -133,6 +132,7 @@ CYCLE: tuple[CycleFunction, ...] = (
         "slip reaches in at both edges and leaves some stick",
         "Edges",
         (*_MOTION, ("order", "1")),
+        by_differences="; to order 3, unless each edge lies off every kink by 1e-7 of its own x",
     ),
     CycleFunction(
         "slip_error",
@@ -255,8 +255,8 @@ class CycleText:
         lines += self._arguments
         lines += ["", *textwrap.wrap(f"Returns {self.function.returns}.", LINE - 4)]
         exists = self.function.unless
-        if self.function.name == "slip_zones" and not has_third(self.sheet):
-            exists += f"; to order 3, {_BY_DIFFERENCES}"
+        if not has_third(self.sheet):
+            exists += self.function.by_differences
         lines += textwrap.wrap(
             f"NaN unless {exists}; nor where {self.function.beyond}.",
             LINE - 4,
@@ -354,5 +354,5 @@ def law_text(sheet: FormulaSheet) -> str:
     functions = f"contact, contact_at_tilt, tilt, load, moment, pressure, {integrand}, K_N, L_N"
     further = f", third={THIRD}" if has_third(sheet) else ""
     if smooth := smooth_cuts(sheet):
-        further += f", smooth=({' '.join(f'{i},' for i in smooth)})"
+        further += f", smooth={smooth}"
     return "\n".join([*lines, f"_LAW = Law({functions}, _breaks{further})"])

@@ -282,6 +282,18 @@ class FunctionText:
             yield repr(shown[0])
 
 
+class BareText(FunctionText):
+    """The text of a function for the module alone: no check of arguments, and no example."""
+
+    @property
+    def _decorators(self) -> Iterator[str]:
+        return iter(())
+
+    @property
+    def _docstring(self) -> str:
+        return f'"""{self.function.summary}"""'
+
+
 class CallingText(FunctionText):
     """The text of a function that hands its arguments to support/: no formula of it is printed."""
 

@@ -11,7 +11,7 @@ from sympy import Expr, Gt, Lt, Piecewise, S, diff, factor
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
-from derive.codegen.function import CallingText, FunctionText, local, own_parameters
+from derive.codegen.function import BareText, CallingText, local, own_parameters
 from derive.codegen.integrated import is_mended, mended_lines
 from derive.codegen.printer import NumPyPrinter
 from derive.proof.points import Point, contacts
@@ -38,7 +38,7 @@ _STATE = Function(
 )
 
 
-class StateText(FunctionText):
+class StateText(BareText):
     """`_state` of one body: load, moment, tilt and K_N at once, their steps shared."""
 
     def __init__(self, sheet: FormulaSheet, source: str) -> None:
@@ -46,14 +46,6 @@ class StateText(FunctionText):
 
     def _expressions(self) -> dict[str, Expr]:
         return {name: expr.subs(E_star, 1) for name, expr in super()._expressions().items()}
-
-    @property
-    def _decorators(self) -> Iterator[str]:
-        return iter(())
-
-    @property
-    def _docstring(self) -> str:
-        return f'"""{self.function.summary}"""'
 
     def _result(self, values: dict[str, str]) -> Iterator[str]:
         if is_mended(self.sheet):

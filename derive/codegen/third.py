@@ -12,7 +12,7 @@ from sympy import Expr, simplify
 
 from derive.codegen.cancel import cuts_of
 from derive.codegen.contract import Function
-from derive.codegen.function import CallingText, FunctionText
+from derive.codegen.function import BareText, CallingText
 from derive.codegen.integrated import is_mended
 from derive.codegen.parabolas import body_of, is_parabolic
 from derive.codegen.rewrite import prove_equal
@@ -58,19 +58,7 @@ def smooth_cuts(sheet: FormulaSheet) -> tuple[int, ...]:
     return tuple(i for i, (left, right) in sides if simplify(left.profile - right.profile) == 0)
 
 
-class _ThirdText(FunctionText):
-    """The bare text of it: no check of arguments, and no example."""
-
-    @property
-    def _decorators(self) -> Iterator[str]:
-        return iter(())
-
-    @property
-    def _docstring(self) -> str:
-        return f'"""{self.function.summary}"""'
-
-
-class _SummedText(_ThirdText, CallingText):
+class _SummedText(BareText, CallingText):
     """Added up part by part."""
 
     @property
@@ -78,7 +66,7 @@ class _SummedText(_ThirdText, CallingText):
         yield f"    return Edges(*(E_star * edge for edge in {body_of(self.sheet)}.third(a, c)))"
 
 
-class _ExpandedText(_ThirdText):
+class _ExpandedText(BareText):
     """The pressure expanded once more."""
 
     def _expressions(self) -> dict[str, Expr]:

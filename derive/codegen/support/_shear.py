@@ -199,11 +199,13 @@ class _Known:
         (da, dc), settled = moderate_motion(
             self.law, ends[0], ends[1], task.dQ, task.dsigma, zone, f=task.f, **held
         )
-        total = 0.0
+        total, times = 0.0, 1
+        if np.all(task.alike):
+            ends, times = ends[:1], 2
         for end in ends:
             inward = da - (end.a - ends[0].a), dc - (end.c - ends[0].c)
             risen, known = pressure_along(self.law, x, (end.a, end.c), inward, held)
-            total, settled = total - risen, settled & known
+            total, settled = total - times * risen, settled & known
         return np.where(settled, task.f * total, stuck)
 
     def _beside_kinks(self, rows: Array) -> Array:

@@ -249,15 +249,7 @@ def moderate_motion(
     """
     cycle, _ = _cycle(law, first, second, dQ, dsigma, f, E_star, own)
     motion = zone[0] - cycle.a[0], zone[1] - cycle.c[0]
-    settled = np.full(cycle.dQ.shape, True)
-    load, tilt = cycle.moderate_gain
-    for _ in range(SHARPENED):
-        change = change_along(law, cycle.first, motion, cycle.constants)
-        settled &= change.settled
-        here = cycle.a[0] + motion[0], cycle.c[0] + motion[1]
-        to_m, to_n = step_for(law, here, load - change.load, tilt - change.tilt, cycle.constants)
-        motion = motion[0] + to_m, motion[1] + to_n
-    return motion, settled & np.isfinite(motion[0]) & np.isfinite(motion[1])
+    return _stepped(cycle, motion, cycle.first)
 
 
 # ---------------------------------------------------------------------- the cycle
@@ -470,17 +462,28 @@ def _sharpened(cycle: _Cycle, m: Array, n: Array, slips: Array) -> tuple[Array, 
     if not rows.size:
         return m, n
     there, m, n = cycle.on(rows), m.copy(), n.copy()
-    zone, settled = (m[rows], n[rows]), np.full(rows.shape, True)
-    load, tilt = there.moderate_gain
-    for _ in range(SHARPENED):
-        change = change_between(there.law, there.first, zone, there.constants)
-        settled &= change.settled
-        off = load - change.load, tilt - change.tilt
-        to_m, to_n = step_for(there.law, zone, *off, there.constants)
-        zone = zone[0] + to_m, zone[1] + to_n
-    settled &= np.isfinite(zone[0]) & np.isfinite(zone[1])
+    zone, settled = _stepped(there, (m[rows], n[rows]), (0.0, 0.0))
     m[rows], n[rows] = (np.where(settled, v, w[rows]) for v, w in zip(zone, (m, n), strict=True))
     return m, n
+
+
+def _stepped(cycle: _Cycle, edges: Way, origin: Way) -> tuple[Way, Array]:
+    """Edges of the moderate zone after Newton's steps, and whether they are known to rounding.
+
+    They are told from the edges of an origin, as places or as motions, and keep the digits of that.
+    """
+    (left, right), (a, c) = edges, cycle.first
+    settled = np.full(cycle.dQ.shape, True)
+    load, tilt = cycle.moderate_gain
+    for _ in range(SHARPENED):
+        motion = left + (origin[0] - a), right + (origin[1] - c)
+        change = change_along(cycle.law, cycle.first, motion, cycle.constants)
+        settled &= change.settled
+        here = origin[0] + left, origin[1] + right
+        off = load - change.load, tilt - change.tilt
+        to_left, to_right = step_for(cycle.law, here, *off, cycle.constants)
+        left, right = left + to_left, right + to_right
+    return (left, right), settled & np.isfinite(left) & np.isfinite(right)
 
 
 def _patch(cycle: _Cycle, loads: Any, tilts: Any, part: Array) -> Contact:
