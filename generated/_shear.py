@@ -33,7 +33,7 @@ from ._changes import pressure_along
 from ._law import Law
 from ._stick import moderate_motion, stick_zone_of, task_between
 from ._types import Contact, Regime
-from ._zones import Task, bounded_change, parts_of, turning_place
+from ._zones import Task, parts_of, solved_change, turning_place
 
 LEVEL = 5
 """Steps of the quadrature are 2**-LEVEL: enough however close a place is to the stick zone."""
@@ -184,7 +184,7 @@ class _Known:
             stuck[some] = self._grown(rows[some], x[some], stuck[some])
         some = np.flatnonzero(self.large[rows] & ~slips)
         if some.size:
-            stuck[some] = bounded_change(task.on(some), m[some], n[some], self.x[rows][some], LEVEL)
+            stuck[some] = solved_change(task.on(some), m[some], n[some], self.x[rows][some], LEVEL)
         known = self.large[rows] | self.forward[rows]
         found = np.where(known, np.where(slips, sliding, stuck), np.nan)
         return np.where(self.still[rows], 0.0, found)

@@ -11,14 +11,20 @@ sums of C_i h_s**(1/2 - j) d**(i + j + 1) and of C_i h_s**(-1/2 - j) d**(i + j +
 powers of d up to itself; both conditions are then solved as they stand.  Each contact of the cycle
 has its own edges, so that varying loads need nothing more.  Where no formula gives N, it follows
 from how L changes as the edge alone moves: N = -(2/5) (dL/dedge + K/(16 h**2)).
+
+What the next order adds to the slip zones would lose its digits as a difference of two orders.  It
+is solved for: at the zones of an order, the conditions of the next one are off by the terms that
+they have gained.
 """
 
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ._arrays import Array, Flat
+from ._changes import edges_along
 from ._law import Law
 from ._types import Edges
 from ._zones import Pair, drawn_in, moved, pulls
@@ -44,21 +50,37 @@ of five points is off by 1e-13 then, for truncation as for rounding."""
 FINEST = 1e-10
 """The least step, in parts of the edge's place: it is rounded by a millionth there."""
 
+LEAST_SLIP = 1e-14
+"""Shortest slip zone to start from, in parts of the other one and of what the contact gains."""
+
 SMALL = 1e-9
 """A step after which nothing is left to do: the next would be its square."""
 
 ROUNDING = 16 * 2.0**-52
-"""So long steps may stay, for rounding, times the width over the shorter slip zone,"""
+"""So long steps may stay, for rounding, times the longer slip zone over the shorter one,"""
 
 IDLE = 3
 """if so many do not get shorter."""
+
+CLOSE = 1.0
+"""What two orders differ by is solved for if it is less, in parts of slip zones and stick zone."""
+
+TURNS = 8
+"""How often, at most: each time its error shrinks as the zones do from one order to the next."""
+
+SETTLED = 1e-12
+"""It is known to rounding if the last time it changed by less, in parts of it."""
+
+NODES = 12
+"""Of Gauss's rule, for the mean rates between two orders."""
 
 
 @np.errstate(all="ignore")
 def slip_zones_of(law: Law, /, *args: Array, order: int, **given: Array) -> Edges:
     """Slip zones to an order, as seen from the contact [-a, c]."""
     demand_order(order, ORDERS)
-    return _Series(law, *args, **given).zones(order)
+    series = _Series(law, *args, **given)
+    return Edges(*map(series.given.shaped, series.zones(order)))
 
 
 @np.errstate(all="ignore")
@@ -66,8 +88,7 @@ def slip_error_of(law: Law, /, *args: Array, order: int, **given: Array) -> Edge
     """By how much the next order changes the slip zones."""
     demand_order(order, ORDERS[:-1])
     series = _Series(law, *args, **given)
-    now, following = series.zones(order), series.zones(order + 1)
-    return Edges(*(np.abs(v - w) for v, w in zip(now, following, strict=True)))
+    return Edges(*(series.given.shaped(np.abs(gain)) for gain in series.gains(order)))
 
 
 def demand_order(order: Any, allowed: tuple[int, ...]) -> None:
@@ -119,12 +140,85 @@ class _Series:
         """pi sqrt(h) K_T at the left and the right edge."""
         return pulls(self.dQ, self.dsigma, self.h)
 
-    def zones(self, order: int) -> Edges:
+    @cached_property
+    def _kappa(self) -> Pair:
+        """Sense of slip at the left and the right edge, times f."""
+        left, right = (np.where(v < 0, -1.0, 1.0) * self.f for v in self.pulls)
+        return left, right
+
+    def zones(self, order: int) -> Pair:
         """To an order; NaN where slip does not reach in at both edges, or leaves no stick."""
         left, right = self._first_order if order == 1 else self._solved(order)
         sound = self.exists & (left >= self.least_left) & (right >= self.least_right)
         sound &= left + right < self.h
-        return Edges(*(self.given.shaped(np.where(sound, v, np.nan)) for v in (left, right)))
+        return np.where(sound, left, np.nan), np.where(sound, right, np.nan)
+
+    def gains(self, order: int) -> Pair:
+        """What the next order adds to the zones of an order."""
+        now, following = self.zones(order), self.zones(order + 1)
+        gain = following[0] - now[0], following[1] - now[1]
+        length = np.maximum(*(np.abs(v) / w for v, w in zip(gain, now, strict=True)))
+        length = np.maximum(length, (gain[0] + gain[1]) / (self.h - now[0] - now[1]))
+        if not np.any(length < CLOSE):
+            return gain
+        coefficients = self._coefficients(order + 1)
+        off, best, done = self._gained(order, coefficients, *now), gain, ~(length < CLOSE)
+        for _ in range(TURNS):
+            found = _step(off, self._mean_rates(coefficients, now, best))
+            rests = [np.abs(v - w) <= SETTLED * np.abs(w) for v, w in zip(best, found, strict=True)]
+            best = np.where(done, best[0], found[0]), np.where(done, best[1], found[1])
+            done |= rests[0] & rests[1]
+            if np.all(done):
+                break
+        return np.where(done, best[0], gain[0]), np.where(done, best[1], gain[1])
+
+    def _gained(self, order: int, coefficients: Any, left: Array, right: Array) -> Sequence[Array]:
+        """What the conditions of the next order are off by at the zones of an order."""
+        stuck = self.h - left - right
+        own = self._left_over() if order == 1 else (0.0, 0.0)
+        off = [v + 0.0 * stuck for v in own]
+        moves = (0.0, 0.0), (self.da, self.dc)
+        for pressures, (da, dc) in zip(coefficients, moves, strict=False):
+            for i, (pressure, d) in enumerate(zip(pressures, (left - da, right - dc), strict=True)):
+                kappa = 2 / len(coefficients) * self._kappa[i]
+                for j, rule in ((i, _near), (1 - i, _far)):
+                    off[j] = off[j] + kappa * rule(pressure, d, stuck, last=True)[0]
+        return off
+
+    def _left_over(self) -> Iterator[Array]:
+        """What both conditions with K alone are off by at the first order, which takes the whole
+        width for that of the stick zone."""
+        zones = self._first_order
+        risen, lost = self._risen, zones[0] + zones[1]
+        root = np.sqrt(self.h - lost)
+        by_tension = np.pi * self.dsigma / 8 * lost
+        for i, (d, gap) in enumerate(zip(zones, (self.da, self.dc), strict=True)):
+            by_width = self._K[0][i] * (d - gap / 2) * -lost / (root + np.sqrt(self.h))
+            by_gain = risen[i] * (d - gap) / 2 * root
+            tension = by_tension if i == 0 else -by_tension
+            yield np.pi * self._kappa[i] * (by_width + by_gain) + tension
+
+    @property
+    def _risen(self) -> Sequence[Array]:
+        """By how much K_N differs at the other end of the half-cycle."""
+        if not self.varies:
+            return 0.0, 0.0
+        motion = -self.da, -self.dc
+        risen, settled = edges_along(self.law, self.contacts[0], motion, self.constants)
+        told = [w - v for v, w in zip(*self._K, strict=True)]
+        return [np.where(settled, v, w) for v, w in zip(risen, told, strict=True)]
+
+    def _mean_rates(self, coefficients: Any, zones: Pair, gain: Pair) -> list[list[Array]]:
+        """Rates of the conditions, their means on the way from one order to the next."""
+        parts, weights = np.polynomial.legendre.leggauss(NODES)
+        mean: Any = 0.0
+        for part, weight in zip((1 + parts) / 2, weights / 2, strict=True):
+            left, right = (v + part * w for v, w in zip(zones, gain, strict=True))
+            _, rates = self._conditions(
+                coefficients, left - self.least_left, right - self.least_right
+            )
+            mean = mean + weight * np.array(rates)
+        return mean
 
     @cached_property
     def _K(self) -> list[Edges]:
@@ -180,21 +274,15 @@ class _Series:
         """Both conditions cut behind an order, by Newton's method from the first order."""
         coefficients, (left, right) = self._coefficients(order), self._first_order
         width = self.h - self.least_left - self.least_right
-        kappa = [np.where(v < 0, -1.0, 1.0) * self.f for v in self.pulls]
-        least = 1e-14 * width
-        left = np.maximum(left - self.least_left, least)
-        right = np.maximum(right - self.least_right, least)
-        left, right = drawn_in(width, left, right)
+        gained = np.maximum(np.abs(self.da), np.abs(self.dc))
+        left, right = left - self.least_left, right - self.least_right
+        least = LEAST_SLIP * np.maximum(np.maximum(left, right), gained)
+        left, right = drawn_in(width, np.maximum(left, least), np.maximum(right, least))
         shortest, idle = np.full(left.shape, np.inf), np.full(left.shape, 0)
         done = np.full(left.shape, False)
         for _ in range(STEPS):
-            stuck = width - left - right
-            off, rates = self._conditions(coefficients, kappa, left, right, stuck)
-            (left_l, left_r), (right_l, right_r) = rates
-            determinant = left_l * right_r - left_r * right_l
-            to_left = (left_r * off[1] - right_r * off[0]) / determinant
-            to_right = (right_l * off[0] - left_l * off[1]) / determinant
-            more = (to_left + to_right) / stuck
+            to_left, to_right = _step(*self._conditions(coefficients, left, right))
+            more = (to_left + to_right) / (width - left - right)
             by_left, by_right = to_left / left + more, to_right / right + more
             length = np.maximum(np.abs(by_left), np.abs(by_right))
             shrink = np.minimum(1, LONGEST / length)
@@ -202,7 +290,8 @@ class _Series:
             left, right = (
                 np.where(done, v, w) for v, w in zip((left, right), following, strict=True)
             )
-            rounded = length < ROUNDING * width / np.minimum(left, right)
+            longest = np.maximum(np.maximum(left, right), gained)
+            rounded = length < ROUNDING * longest / np.minimum(left, right)
             idle = np.where(length < shortest / 2, 0, idle + 1)
             shortest = np.fmin(length, shortest)
             done |= (length < SMALL) | (rounded & (idle >= IDLE))
@@ -212,9 +301,13 @@ class _Series:
         return np.where(done, left, np.nan), np.where(done, right, np.nan)
 
     def _conditions(
-        self, coefficients: Any, kappa: list[Array], left: Array, right: Array, stuck: Array
+        self, coefficients: Any, left: Array, right: Array
     ) -> tuple[list[Array], list[list[Array]]]:
-        """What is left over at both ends of the stick zone; its rates with both slip zones."""
+        """What is left over at both ends of the stick zone; its rates with both slip zones.
+
+        These are told without what the contact has gained.
+        """
+        stuck = self.h - self.least_left - self.least_right - left - right
         tension = np.pi * self.dsigma / 8
         off = [-pull for pull in pulls(self.dQ, self.dsigma, stuck)]
         rates = [[tension, tension], [-tension, -tension]]
@@ -226,28 +319,47 @@ class _Series:
             for i, (pressure, d) in enumerate(zones):
                 for j, rule in ((i, _near), (1 - i, _far)):
                     value, by_d, by_stuck = rule(pressure, d, stuck)
-                    off[j] = off[j] + share * kappa[i] * value
-                    rates[j][i] = rates[j][i] + share * kappa[i] * (by_d - by_stuck)
-                    rates[j][1 - i] = rates[j][1 - i] - share * kappa[i] * by_stuck
+                    off[j] = off[j] + share * self._kappa[i] * value
+                    rates[j][i] = rates[j][i] + share * self._kappa[i] * (by_d - by_stuck)
+                    rates[j][1 - i] = rates[j][1 - i] - share * self._kappa[i] * by_stuck
         return off, rates
 
 
-def _near(pressure: list[Array], d: Array, stuck: Array) -> tuple[Array, Array, Array]:
-    """At a slip zone's own end of the stick zone; rates with its length and with `stuck`."""
-    return _summed(NEAR, pressure, d, stuck, len(pressure), 1, 0.5)
+def _step(off: Sequence[Array], rates: Any) -> Pair:
+    """By how much both slip zones have to change."""
+    (left_l, left_r), (right_l, right_r) = rates
+    determinant = left_l * right_r - left_r * right_l
+    to_left = (left_r * off[1] - right_r * off[0]) / determinant
+    return to_left, (right_l * off[0] - left_l * off[1]) / determinant
 
 
-def _far(pressure: list[Array], d: Array, stuck: Array) -> tuple[Array, Array, Array]:
+Sums = tuple[Array, Array, Array]
+"""A sum; its rates with the length of a slip zone and with `stuck`."""
+
+
+def _near(pressure: list[Array], d: Array, stuck: Array, last: bool = False) -> Sums:
+    """At a slip zone's own end of the stick zone; all terms, or those of the last order."""
+    return _summed(NEAR, pressure, d, stuck, len(pressure), 1, 0.5, last)
+
+
+def _far(pressure: list[Array], d: Array, stuck: Array, last: bool = False) -> Sums:
     """At the other end."""
-    return _summed(FAR, pressure, d, stuck, len(pressure) - 1, 2, -0.5)
+    return _summed(FAR, pressure, d, stuck, len(pressure) - 1, 2, -0.5, last)
 
 
 def _summed(
-    table: Any, pressure: list[Array], d: Array, stuck: Array, order: int, least: int, power: float
-) -> tuple[Array, Array, Array]:
+    table: Any,
+    pressure: list[Array],
+    d: Array,
+    stuck: Array,
+    order: int,
+    least: int,
+    power: float,
+    last: bool,
+) -> Sums:
     value = by_d = by_stuck = 0.0 * d
     for i in range(order):
-        for j in range(order - i):
+        for j in range(order - i - 1 if last else 0, order - i):
             exponent, falling = i + j + least, power - j
             term = np.pi * table[i][j] * pressure[i] * stuck**falling * d ** (exponent - 1)
             value = value + term * d

@@ -16,7 +16,7 @@ parts of int r/(w (xi - n)) dxi and int r/(w (xi + m)) dxi, and F = (right - lef
 Next to the solution F vanishes and each end is sought by itself.  The unknowns of Newton's method
 are the logarithms of both slip zones over the stick zone, so that all three stay positive.
 
-Inside, dq is an integral of r over the slip zones, `bounded_change`.
+Inside, dq is an integral of r over the slip zones, `bounded_change`, or `solved_change`.
 
 Each slip zone is cut where a contact ends and at the body's kinks; on each part the nodes of the
 double exponential rule crowd towards both ends.  The step is halved until the solution stays.
@@ -401,14 +401,54 @@ def bounded_change(task: Task, m: Array, n: Array, x: Array, level: int) -> Arra
 
     x: a place of each element, or a column of them.
     """
-    total, stuck = 0.0, m + n
-    for side, end, smaller in ((-1, m, task.smaller_a), (1, n, task.smaller_c)):
-        slip, away = smaller - end, (end - side * x)[..., None, :]
-        start, length = task.slip_zone(side, slip)
-        for y, weight in parts_of(length, task.cuts(side, slip), level):
-            force = weight * task.sum_of_pressures(side * (start + y)) / np.sqrt(y * (y + stuck))
-            total = total - side * np.sum(force / (y + away), axis=-2)
-    return task.sense * task.f * np.sqrt((x + m) * (n - x)) / np.pi * total
+    left, right = (_drawn(task, side, m, n, x, level).whole for side in (-1, 1))
+    return task.sense * task.f * np.sqrt((x + m) * (n - x)) / np.pi * (left - right)
+
+
+def solved_change(task: Task, m: Array, n: Array, x: Array, level: int) -> Array:
+    """The same where m and n meet both conditions, to the last digits however short a slip zone is.
+
+    The place of a short one is all rounding, and so are its integrals.  Seen from afar it counts
+    by int p/|w| dy alone, which the conditions tell from the changes of shear and tension.
+    """
+    left, right = (_drawn(task, side, m, n, x, level) for side in (-1, 1))
+    kappa, stuck, skew = task.sense * task.f, m + n, left.far - right.far
+    found, pulled = [], pulls(task.dQ, task.dsigma, stuck)
+    for side, zone, pull in zip((-1, 1), (left, right), pulled, strict=True):
+        driven = -side * pull / kappa
+        force = (driven + side * skew) / stuck
+        short = (left.far + right.far < driven / 2) & (zone.beyond < force / 2)
+        found.append(np.where(short, (force - zone.beyond) / zone.away, zone.whole))
+    return kappa * np.sqrt((x + m) * (n - x)) / np.pi * (found[0] - found[1])
+
+
+class _Drawn(NamedTuple):
+    """Integrals of p1 + p2 over one slip zone, as x in the stick zone feels it.
+
+    away    distance of x from the slip zone
+    whole   int p/(|w| (y + away)) dy
+    beyond  int p y/(|w| (y + away)) dy
+    far     int p y/|w| dy
+    """
+
+    away: Array
+    whole: Array
+    beyond: Array
+    far: Array
+
+
+def _drawn(task: Task, side: int, m: Array, n: Array, x: Array, level: int) -> _Drawn:
+    """The integrals over the slip zone on the left (side -1) or on the right (+1)."""
+    end, smaller = (n, task.smaller_c) if side > 0 else (m, task.smaller_a)
+    slip, away, stuck = smaller - end, end - side * x, m + n
+    start, length = task.slip_zone(side, slip)
+    whole = beyond = far = 0.0
+    for y, weight in parts_of(length, task.cuts(side, slip), level):
+        force = weight * task.sum_of_pressures(side * (start + y)) / np.sqrt(y * (y + stuck))
+        felt = force / (y + away[..., None, :])
+        whole, beyond = whole + np.sum(felt, axis=-2), beyond + np.sum(felt * y, axis=-2)
+        far = far + np.sum(force * y, axis=-2)
+    return _Drawn(away, whole, beyond, far)
 
 
 def force_rates(slip: Array, stuck: Array, h: Array, own: Array, other: Array) -> Pair:

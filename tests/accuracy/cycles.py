@@ -197,7 +197,7 @@ CYCLES = (
             ("left", "right"),
             _series("slip_error", order),
             series.error(order),
-            loads.moderate,
+            loads.as_gained(_VARIED),
             starts=_series("slip_zones", order, order + 1),
             share=0.05,
         )

@@ -15,11 +15,21 @@ from numpy.testing import assert_allclose
 from derive.proof.points import numeric
 from derive.symbols import E_star, a, c
 from generated import hertz, rounded_wedge, wedge
-from generated._changes import change_along, change_between
+from generated._changes import change_along, change_between, edges_along
 from generated._types import Contact, Regime
 from tests.accuracy.reference import sheet_of
 
 CYLINDER = {"E_star": 3.0, "R": 0.25}
+
+
+WAYS: list[tuple[str, dict[str, float], Any, Any]] = [
+    ("wedge", {"E_star": 2.0, "phi": 0.3}, (1.0, 1e-9), (0.75, 0.8e-9)),
+    ("rounded_wedge", {"E_star": 2.0, "phi": 0.3, "b": 0.5}, (1.0, 0.75), (0.4, 0.3)),
+    ("rounded_wedge", {"E_star": 2.0, "phi": 0.3, "b": 0.5}, (1.0, -0.25), (0.7, -0.3)),
+    ("flat_rounded", {"E_star": 2.0, "R": 0.3, "b": 0.5}, (1.0, 0.75), (0.8, 0.7)),
+    ("quartic", {"E_star": 2.0, "L": 0.3}, (1.0, 0.75), (0.6, 0.7)),
+]
+"""Bodies, their constants, and contacts between which they change."""
 
 
 def exact(body: str, name: str, edges: tuple[float, float], constants: dict[str, float]) -> mpf:
@@ -43,16 +53,7 @@ def test_a_cylinder_by_hand(back: float) -> None:
     assert found.settled.all()
 
 
-@pytest.mark.parametrize(
-    ("body", "constants", "start", "end"),
-    [
-        ("wedge", {"E_star": 2.0, "phi": 0.3}, (1.0, 1e-9), (0.75, 0.8e-9)),
-        ("rounded_wedge", {"E_star": 2.0, "phi": 0.3, "b": 0.5}, (1.0, 0.75), (0.4, 0.3)),
-        ("rounded_wedge", {"E_star": 2.0, "phi": 0.3, "b": 0.5}, (1.0, -0.25), (0.7, -0.3)),
-        ("flat_rounded", {"E_star": 2.0, "R": 0.3, "b": 0.5}, (1.0, 0.75), (0.6, 0.7)),
-        ("quartic", {"E_star": 2.0, "L": 0.3}, (1.0, 0.75), (0.6, 0.7)),
-    ],
-)
+@pytest.mark.parametrize(("body", "constants", "start", "end"), WAYS)
 def test_a_change_is_the_difference_of_two_formulas(
     body: str, constants: dict[str, float], start: Any, end: Any
 ) -> None:
@@ -62,6 +63,33 @@ def test_a_change_is_the_difference_of_two_formulas(
     assert found.settled.all()
     for value, name, scale in ((found.load, "load", 1), (found.tilt, "tilt", constants["E_star"])):
         wanted = scale * (exact(body, name, end, constants) - exact(body, name, start, constants))
+        assert_allclose(value, float(wanted), rtol=1e-12)
+
+
+@pytest.mark.parametrize("back", [1e-14, 1e-6, 0.1, 0.9])
+def test_roots_at_the_edges_of_a_cylinder_by_hand(back: float) -> None:
+    """K = E* sqrt(h)/(2 R) at both edges: from h = 2 to 2 - d both fall by
+    E* d/(2 R (sqrt(2) + sqrt(2 - d))).
+    """
+    start = np.array([1.0]), np.array([1.0])
+    motion = np.array([0.0]), np.array([-back])
+    roots, settled = edges_along(hertz._LAW, start, motion, CYLINDER)
+    wanted = -3 * back / (0.5 * (math.sqrt(2) + math.sqrt(2 - back)))
+    assert_allclose(roots, [[wanted], [wanted]], rtol=4e-15)
+    assert settled.all()
+
+
+@pytest.mark.parametrize(("body", "constants", "start", "end"), WAYS)
+def test_a_change_of_roots_is_the_difference_of_two_formulas(
+    body: str, constants: dict[str, float], start: Any, end: Any
+) -> None:
+    law = importlib.import_module(f"generated.{body}")._LAW
+    first, last = (tuple(map(np.atleast_1d, edges)) for edges in (start, end))
+    motion = last[0] - first[0], last[1] - first[1]
+    roots, settled = edges_along(law, first, motion, constants)
+    assert settled.all()
+    for value, name in zip(roots, ("K_N_left", "K_N_right"), strict=True):
+        wanted = exact(body, name, end, constants) - exact(body, name, start, constants)
         assert_allclose(value, float(wanted), rtol=1e-12)
 
 

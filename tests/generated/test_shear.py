@@ -414,3 +414,18 @@ def test_the_shear_of_short_slip_zones_by_hand(share: float, place: float) -> No
     wanted = friction * law["E_star"] / law["R"] * by / (np.sqrt(outer) + np.sqrt(inner))
     beside_the_end = 1e-14 / max(1e-300, abs(outer - share * half**2)) ** 0.5
     assert_allclose(found, wanted, rtol=1e-14 + beside_the_end)
+
+
+@pytest.mark.parametrize("share", [1e-15, 1e-12])
+@pytest.mark.parametrize("x", [-0.9, 0.3])
+def test_tiny_slip_zones_of_large_tension_by_hand(share: float, x: float) -> None:
+    """Where next to nothing slips dq is that of full stick, (dQ - pi dsigma x/4)/(pi w(x)) in a
+    contact with a = c = 1: the zones' own integrals have four digits left, or one, and their sums
+    are known.
+    """
+    here, law = Contact(1.0, 1.0, 0.0), {"f": 0.4, "E_star": 1.0, "R": 1.0}
+    dQ, dsigma = share, 8 * share  # pi h dsigma/8 = 2 pi dQ
+    assert hertz.stick_zone(here, here, dQ, dsigma, **law).regime == Regime.LARGE
+    found = hertz.shear_change(x, here, here, dQ, dsigma, **law)
+    wanted = (dQ - np.pi * dsigma * x / 4) / (np.pi * np.sqrt((1 - x) * (1 + x)))
+    assert_allclose(found, wanted, rtol=1e-14 + 1e3 * share)

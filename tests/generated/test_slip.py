@@ -108,6 +108,23 @@ def test_the_estimate_is_what_one_more_term_changes() -> None:
         assert np.all((ratio > 0.7) & (ratio < 1.3))
 
 
+@pytest.mark.parametrize("share", [1e-15, 1e-9, 1e-6])
+def test_the_estimate_of_tiny_slip_zones_by_hand(share: float) -> None:
+    """A cylinder: K, L = -K/(2 h), N = -K/(8 h**2).  By the first order d = h q/4, q = dQ/(2 f P).
+
+    Exactly the stick zone is h sqrt(1 - q) wide, d = h (q/4 + q**2/16 + ...): the second order adds
+    d**2/h.  To the conditions, (1/2) K sqrt(h) d = dQ/(2 pi f) at first, the third order adds
+    (-K/128 + L h/32 + 5 N h**2/16) d**3/h**(3/2) at one edge and (-K/32 + L h/16) d**3/h**(3/2)
+    from the other one, -K d**3/(8 h**(3/2)) together, so that d grows by d**3/(4 h**2).
+    With a = c = 1, E* = 1 and R = pi/2 the load is P = pi E* h**2/(16 R) = 1/2.
+    """
+    here, law = (1.0, 1.0, F * share, 0.0), {"f": F, "E_star": 1.0, "R": np.pi / 2}
+    d = share / 2
+    first, second = (hertz.slip_error(*here, **law, order=order) for order in (1, 2))
+    assert_allclose(first, d**2 / 2, rtol=1e-14 + 4 * d)
+    assert_allclose(second, d**3 / 16, rtol=1e-14 + 8 * d)
+
+
 def test_where_there_is_no_slip_zone() -> None:
     whole = 2 * F * load(1.5, 1.0)
     for shear, tension in ((whole, 0.0), (-0.1 * whole, 0.0), (np.nan, 0.0), (0.1 * whole, 10.0)):

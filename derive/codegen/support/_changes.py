@@ -1,15 +1,16 @@
-"""What load, tilt and pressure change by from one contact to another, added up from flat punches.
+"""What load, tilt, pressure and K_N change by, added up from flat punches.
 
 An edge that moves outward by da, or dc, adds a flat punch to the pressure,
 
     dp = K_left sqrt((c - x)/(a + x)) da/(2 sqrt(h)) + K_right sqrt((a + x)/(c - x)) dc/(2 sqrt(h)),
 
-so that load and tilt rise by
+so that load, tilt and the root at the right edge rise by
 
-    dP = (pi/4) sqrt(h) (K_left da + K_right dc),    E* dalpha = (K_left da - K_right dc)/sqrt(h).
+    dP = (pi/4) sqrt(h) (K_left da + K_right dc),    E* dalpha = (K_left da - K_right dc)/sqrt(h),
+    dK_right = K_left da/(2 h) - (K_right/(4 h) + (3/2) L_right) dc,
 
-Added up along a straight way they lose nothing where a difference of two loads, two tilts or two
-pressures would.  All arrays have one length.
+and that at the left edge in the same way.  Added up along a straight way from one contact to
+another they lose nothing where a difference would.  All arrays have one length.
 """
 
 from collections.abc import Callable
@@ -94,6 +95,22 @@ def pressure_along(
 
     (risen,), settled = _added_up(law, start, motion, constants, rates)
     return risen, settled
+
+
+@np.errstate(all="ignore")
+def edges_along(
+    law: Law, start: Way, motion: Way, constants: dict[str, Array]
+) -> tuple[Way, Array]:
+    """By how much K_N rises at the left and the right edge; whether that is known to rounding."""
+
+    def rates(a: Array, c: Array, moved: Way, rows: Array) -> list[Way]:
+        held, h = at_rows(rows, constants), a + c
+        K, L = law.K_N(a, c, **held), law.L_N(a, c, **held)
+        own = [-(k / (4 * h) + 1.5 * slope) for k, slope in zip(K, L, strict=True)]
+        return [(own[0], K.right / (2 * h)), (K.left / (2 * h), own[1])]
+
+    (left, right), settled = _added_up(law, start, motion, constants, rates)
+    return (left, right), settled
 
 
 def _added_up(
