@@ -47,6 +47,9 @@ CANCELLED = 4.0
 ROUNDED = 1e-9
 """Ends of two stick zones that differ by less, in parts of the contact, may be the same."""
 
+SHARED = 4
+"""Places a cycle has at least, in the mean, if its pressures are to be shared."""
+
 TOGETHER = 500
 """Elements that are computed in one piece."""
 
@@ -184,10 +187,29 @@ class _Known:
             stuck[some] = self._grown(rows[some], x[some], stuck[some])
         some = np.flatnonzero(self.large[rows] & ~slips)
         if some.size:
-            stuck[some] = solved_change(task.on(some), m[some], n[some], self.x[rows][some], LEVEL)
+            stuck[some] = self._between(rows[some])
         known = self.large[rows] | self.forward[rows]
         found = np.where(known, np.where(slips, sliding, stuck), np.nan)
         return np.where(self.still[rows], 0.0, found)
+
+    def _between(self, rows: Array) -> Array:
+        """dq between slip zones of opposite signs.
+
+        Of a cycle with many places their integrals are taken over the same pressures.
+        """
+        zones = np.stack([self.m, self.n, *self.task.a, *self.task.c, self.task.dQ])
+        told = self.task.dsigma, self.task.f, *filter(np.ndim, self.constants.values())
+        cycles, of = np.unique(np.vstack([zones, *told])[:, rows], axis=1, return_inverse=True)
+        if SHARED * cycles.shape[1] > rows.size:
+            given = self.m[rows], self.n[rows], self.x[rows]
+            return solved_change(self.task.on(rows), *given, LEVEL)
+        found = np.empty(rows.size)
+        for number in range(cycles.shape[1]):
+            some = np.flatnonzero(of.ravel() == number)
+            one, places = rows[some[:1]], self.x[rows[some]][:, None]
+            given = self.m[one], self.n[one], places
+            found[some] = solved_change(self.task.on(one), *given, LEVEL)[:, 0]
+        return found
 
     def _grown(self, rows: Array, x: Array, stuck: Array) -> Array:
         """dq = f (p1 + p2 - 2 p_s) where slip zones are short: what p has grown by since p_s.
