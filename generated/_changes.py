@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._arrays import Array, at_rows, weighted
+from ._arrays import TINY, Array, at_rows, weighted
 from ._law import Law
 
 NODES, FEWER = 20, 12
@@ -42,12 +42,17 @@ class Change(NamedTuple):
 
     load: by how much the load rises.
     tilt: by how much the tilt rises, times E*.
-    settled: whether both are known to rounding.
+    doubt: what they may be off by, in parts of both edges' shares.
     """
 
     load: Array
     tilt: Array
-    settled: Array
+    doubt: Array
+
+    @property
+    def settled(self) -> Array:
+        """Whether both are known to rounding."""
+        return self.doubt <= SETTLED
 
 
 def change_between(law: Law, start: Way, end: Way, constants: dict[str, Array]) -> Change:
@@ -65,8 +70,8 @@ def change_along(law: Law, start: Way, motion: Way, constants: dict[str, Array])
         flat = np.pi / 4 * root
         return [(flat * left, flat * right), (left / root, -right / root)]
 
-    (load, tilt), settled = _added_up(law, start, motion, constants, rates)
-    return Change(load, tilt, settled)
+    (load, tilt), doubt = _added_up(law, start, motion, constants, rates)
+    return Change(load, tilt, doubt)
 
 
 @np.errstate(all="ignore")
@@ -94,8 +99,8 @@ def pressure_along(
         twice = 2 * np.sqrt(a + c)
         return [(left * np.sqrt(B / A) / twice, right * np.sqrt(A / B) / twice)]
 
-    (risen,), settled = _added_up(law, start, motion, constants, rates)
-    return risen, settled
+    (risen,), doubt = _added_up(law, start, motion, constants, rates)
+    return risen, doubt <= SETTLED
 
 
 @np.errstate(all="ignore")
@@ -110,20 +115,20 @@ def edges_along(
         own = [-(k / (4 * h) + 1.5 * slope) for k, slope in zip(K, L, strict=True)]
         return [(own[0], K.right / (2 * h)), (K.left / (2 * h), own[1])]
 
-    (left, right), settled = _added_up(law, start, motion, constants, rates)
-    return (left, right), settled
+    (left, right), doubt = _added_up(law, start, motion, constants, rates)
+    return (left, right), doubt <= SETTLED
 
 
 def _added_up(
     law: Law, start: Way, motion: Way, constants: dict[str, Array], rates: Rates
 ) -> tuple[list[Array], Array]:
-    """The integrals along the way, and whether both rules agree on all of them."""
+    """The integrals along the way, and how far both rules differ, in parts of the shares."""
     ends = _ends(law, start, motion, constants)
     found, rough = (_by_rule(start, motion, ends, rates, count) for count in (NODES, FEWER))
-    settled = np.full(start[0].shape, True)
+    doubt = np.zeros(start[0].shape)
     for (value, size), (other, _) in zip(found, rough, strict=True):
-        settled &= np.abs(value - other) <= SETTLED * size
-    return [value for value, _ in found], settled
+        doubt = np.maximum(doubt, np.abs(value - other) / (size + TINY))
+    return [value for value, _ in found], doubt
 
 
 def _ends(law: Law, start: Way, motion: Way, constants: dict[str, Array]) -> Array:

@@ -200,7 +200,7 @@ def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Arra
 
     `turned` is a difference of two tilts that has lost its digits, as the zone's `width` has.  How
     far the other edge draws back, or reaches out, is solved for instead, from what load and tilt
-    change by as it does; where these are not known to rounding, `turned` remains.
+    change by as it does; where these are known no better, `turned` remains.
     """
     law, constants = cycle.law, cycle.constants
     other = cycle.c[1] < cycle.c[0] if sense > 0 else cycle.a[1] < cycle.a[0]
@@ -208,7 +208,8 @@ def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Arra
     risen, leant = (np.where(other, -v, v) / 2 for v in cycle.risen)
     fallen = cycle.dQ / (2 * cycle.f) - risen
 
-    back, exact = a + c - width, np.full(turned.shape, np.nan)
+    back = a + c - width
+    found, doubt = np.full((2, *turned.shape), np.nan)
     back = np.where(np.abs(back) > NOTHING * (a + c), back, 0.0)
     rows = np.flatnonzero(np.isfinite(fallen))
     for _ in range(STEPS):
@@ -219,13 +220,32 @@ def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Arra
         K, root = law.K_N(left, right, **held)[0 if sense > 0 else 1], np.sqrt(left + right)
         step = (fallen[rows] + change.load) / (np.pi / 4 * root * K)
         back[rows] = drawn + step
-        found = leant[rows] - change.tilt + sense * step * K / root
         small = np.abs(step) <= NEARLY * np.abs(back[rows])
-        exact[rows] = np.where(small & change.settled, found, np.nan)
-        rows = rows[~small & change.settled]
+        found[rows] = leant[rows] - change.tilt + sense * step * K / root
+        shares = np.abs(change.tilt) + _tilt_of(change.load, left + right)
+        told = np.where(change.settled, 0.0, change.doubt * shares)
+        doubt[rows] = np.where(small, told, np.nan)
+        rows = rows[~small & np.isfinite(step)]
         if not rows.size:
             break
-    return np.where(np.isfinite(exact), exact / constants["E_star"], turned)
+    better = doubt <= _doubt_of_difference(cycle, turned, width, sense)
+    return np.where(better, found / constants["E_star"], turned)
+
+
+def _doubt_of_difference(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Array:
+    """What a difference of tilts may be off by, times E*: for rounding, and for the width."""
+    edge = (np.min(cycle.c, axis=0), np.min(cycle.a, axis=0))[sense < 0]
+    a, c = (width - edge, edge) if sense > 0 else (edge, width - edge)
+    tilt = (cycle.tilt[0] + cycle.tilt[1]) / 2
+    load = (cycle.load[0] + cycle.load[1]) / 2 - cycle.dQ / (2 * cycle.f)
+    missed = cycle.law.load(a, c, **cycle.constants) - load
+    rounded = NOTHING * cycle.constants["E_star"] * (np.abs(tilt) + np.abs(tilt - turned))
+    return rounded + _tilt_of(missed, width)
+
+
+def _tilt_of(load: Array, width: Array) -> Array:
+    """How far a load tilts a contact of which one edge rests, times E*."""
+    return np.abs(load) * (4 / np.pi) / width
 
 
 @np.errstate(all="ignore")
