@@ -85,22 +85,29 @@ def elementwise(*, arrays: int) -> Callable[[Function], Function]:
 
 def _elementwise(function: Function, arrays: int) -> Function:
     called = signature(function)
-    parameters = called.parameters
+    parameters, count = called.parameters, len(called.parameters)
     results = len(getattr(called.return_annotation, "_fields", ("",)))
     weighed = arrays - results + 1
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
-    Float, INFINITE = np.float64, math.inf
+    Float, INFINITE, plain = np.float64, math.inf, frozenset(_NUMBERS)
     quiet = np.errstate(all="ignore")(function)
     quiet_blocks = np.errstate(all="ignore")(_in_blocks)
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
+        if len(args) + len(kwargs) == count and plain.issuperset(
+            map(type, chain(args, kwargs.values()))
+        ):
+            for name, value in kwargs.items():
+                sound = name not in constants or 0 < value < INFINITE
+                kwargs[name] = Float(value) if sound else _NAN
+            return quiet(*map(Float, args), **kwargs)
         given = (dict(zip(names, args, strict=False)) | kwargs) if args else kwargs
         if len(given) < len(args) + len(kwargs):
             return function(*args, **kwargs)  # too many, or one twice: Python's own message
-        if len(given) < len(parameters):
+        if len(given) < count:
             given = defaults | given
         shape: Shape = ()
         alike, foreign, size, held = True, False, 1, weighed

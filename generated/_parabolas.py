@@ -22,6 +22,8 @@ however close its ends lie to the edges.
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import lru_cache, wraps
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,18 +34,26 @@ from ._state import State
 AFAR = 0.75
 """A part whose nearer end is farther away from x than so many of its lengths is seen from afar."""
 
+KEPT = 64
+"""Bodies that are kept to be looked up."""
+
 _BOW = (
-    *(0.6666666666666666, -0.13333333333333314, 0.012698412698410114, -0.0007054673721206159),
-    *(2.565335895128695e-05, -6.577783818838708e-07, 1.2529063478587505e-08),
-    *(-1.8422327086973616e-10, 2.1451333608482876e-12, -1.8613954732794308e-14),
+    (-1.8613954732794308e-14, 2.1451333608482876e-12),
+    (-1.8422327086973616e-10, 1.2529063478587505e-08),
+    (-6.577783818838708e-07, 2.565335895128695e-05),
+    (-0.0007054673721206159, 0.012698412698410114),
+    (-0.13333333333333314, 0.6666666666666666),
 )
 """D/e**3 as a polynomial of e**2, exact to rounding up to e = pi/2."""
 
 _EXCESS = (
-    *(0.3333333333333333, 0.19999999999999052, 0.1428571428596771, 0.11111111084556022),
-    *(0.09090910532340422, 0.07692261295364107, 0.06667620913180053, 0.05869281769302486),
-    *(0.0538465327208424, 0.03996771140320575, 0.07529359785832947, -0.041692995398121414),
-    0.1461596865204899,
+    (0.15222205279200518, -0.060024385504267745),
+    (0.08181066285527305, 0.03222982838448558),
+    (0.049649434988923956, 0.05237790918986339),
+    (0.05884565690504169, 0.0666653299439528),
+    (0.07692313148109936, 0.09090908947167069),
+    (0.11111111113373036, 0.14285714285695758),
+    (0.2000000000000006, 0.3333333333333333),
 )
 """(artanh z - z)/z**3 as a polynomial of z**2, exact to rounding up to artanh z = artanh(y)/2."""
 
@@ -62,6 +72,7 @@ class Parabolas(NamedTuple):
     bends: g'' of each piece between the kinks, None where it is straight.
     slopes: of each piece a place and g' there, on the piece's own line or parabola, of the same
         sign as all over it, or zero; None where g' is zero all over it.
+    plain: whether all of these are known to be Python's numbers.
     """
 
     kinks: tuple[Array, ...]
@@ -69,6 +80,18 @@ class Parabolas(NamedTuple):
     corners: Mapping[int, Array]
     bends: tuple[Array | None, ...]
     slopes: tuple[tuple[Array, Array] | None, ...]
+    plain: bool = False
+
+    def in_numbers(self) -> "Parabolas":
+        """The same in Python's numbers, whose arithmetic is quicker."""
+        return Parabolas(
+            tuple(map(float, self.kinks)),
+            tuple(map(float, self.spans)),
+            {i: float(jump) for i, jump in self.corners.items()},
+            tuple(None if bend is None else float(bend) for bend in self.bends),
+            tuple(line and (float(line[0]), float(line[1])) for line in self.slopes),
+            plain=True,
+        )
 
     def load(self, a: Array, c: Array) -> Array:
         """The load of the contact [-a, c]; zero where it carries none."""
@@ -113,6 +136,23 @@ class Parabolas(NamedTuple):
             slope = np.where(here, _slope(bend, line, x), slope)
             rate = np.where(here, 0.0 if bend is None else bend, rate)
         return slope[()], rate[()]
+
+
+def looked_up(build: Callable[..., Parabolas]) -> Callable[..., Parabolas]:
+    """Bodies from their parameters, which are looked up where these are numbers."""
+
+    @lru_cache(maxsize=KEPT)
+    def of_numbers(**parameters: Array) -> Parabolas:
+        return build(**parameters).in_numbers()
+
+    @wraps(build)
+    def body(**parameters: Array) -> Parabolas:
+        try:
+            return of_numbers(**parameters)
+        except TypeError:  # arrays cannot be looked up
+            return build(**parameters)
+
+    return body
 
 
 def _slope(bend: Array | None, line: tuple[Array, Array] | None, x: Array) -> Array:
@@ -172,16 +212,14 @@ class _Contact:
     """
 
     def __init__(self, body: Parabolas, a: Array, c: Array) -> None:
-        self.body, self.of, kinks = body, _NUMBERS, body.kinks
-        for value in (a, c, *kinks):
-            if type(value) not in _OF_NUMBERS:
-                self.of = _ARRAYS
-        h = a + c
-        if self.of is _NUMBERS:
-            a, c, kinks = float(a), float(c), tuple(map(float, kinks))
+        if body.plain and type(a) in _OF_NUMBERS and type(c) in _OF_NUMBERS:
+            self.of, a, c = _NUMBERS, float(a), float(c)
             h = a + c if a + c > 0 else math.nan
-        self.a, self.c, self.h, self.kinks = a, c, h, kinks
-        self.inside = [(0.0 * h, h), *[self._drawn_in(kink) for kink in kinks], (h, 0.0 * h)]
+        else:
+            self.of, h = _ARRAYS, a + c
+        self.body, self.kinks = body, body.kinks
+        self.a, self.c, self.h = a, c, h
+        self.inside = [(0.0 * h, h), *map(self._drawn_in, body.kinks), (h, 0.0 * h)]
         self._curved: list[_Part] | None = None
 
     def _drawn_in(self, kink: Array) -> tuple[Array, Array]:
@@ -193,14 +231,14 @@ class _Contact:
 
     def part(self, i: int, bend: Array, with_bow: bool = True) -> _Part | None:
         """What the contact has of a piece; None where that is nothing, and a number."""
-        (A_0, B_0), (A_1, B_1) = self.inside[i : i + 2]
-        h, kinks, of = self.h, self.kinks, self.of
-        length = A_1 if i < len(kinks) else B_0
-        if 0 < i < len(kinks):
+        h, of, last, sqrt = self.h, self.of, len(self.kinks), self.of.sqrt
+        A_0, B_0 = self.inside[i]
+        A_1, B_1 = self.inside[i + 1]
+        length = A_1 if i < last else B_0
+        if 0 < i < last:
             length = of.least(of.least(A_1, B_0), self.body.spans[i - 1])
         if of is _NUMBERS and not length > 0:
             return None
-        sqrt = of.sqrt
         across = sqrt(A_1 * B_0) + sqrt(A_0 * B_1)
         near, far = sqrt(A_0 * A_1), sqrt(B_0 * B_1)
         sine, cosine = length / (across + _NOTHING), (near + far) / h
@@ -211,9 +249,10 @@ class _Contact:
     def curved(self, with_bow: bool = True) -> list[_Part]:
         """The curved parts."""
         if self._curved is None:
-            bends = enumerate(self.body.bends)
-            found = [self.part(i, bend, with_bow) for i, bend in bends if bend is not None]
-            self._curved = [part for part in found if part]
+            self._curved = []
+            for i, bend in enumerate(self.body.bends):
+                if bend is not None and (part := self.part(i, bend, with_bow)):
+                    self._curved.append(part)
         return self._curved
 
     def corners(self) -> Iterator[tuple[Array, Array, Array]]:
@@ -377,25 +416,25 @@ class _Place:
     """
 
     def __init__(self, contact: _Contact, x: Array) -> None:
-        number = contact.of is _NUMBERS and type(x) in _OF_NUMBERS
-        self.of, x = (_NUMBERS, float(x)) if number else (_ARRAYS, x)
-        self.contact = contact
+        self.contact, self.of = contact, _ARRAYS
+        if contact.of is _NUMBERS and type(x) in _OF_NUMBERS:
+            self.of, x = _NUMBERS, float(x)
         x = self.of.least(self.of.most(x, -contact.a), contact.c)
-        self.left, self.right = contact.a + x, contact.c - x
-        self.root = self.of.sqrt(self.left * self.right)
-        self.offsets = [-self.left, *[kink - x for kink in contact.kinks], self.right]
-        self._levels: dict[int, Array] = {0: 0.0, len(self.offsets) - 1: 0.0}
+        left, right = contact.a + x, contact.c - x
+        self.left, self.right, self.root = left, right, self.of.sqrt(left * right)
+        self.offsets = [-left, *[kink - x for kink in contact.kinks], right]
+        self._levels: list[Array] = [0.0, *[None] * len(contact.kinks), 0.0]
 
     def level(self, i: int) -> Array:
         """L(x, s) at the end of a piece; zero for one that is not in the contact."""
-        if i not in self._levels:
-            (A, B), h, offset = self.contact.inside[i], self.contact.h, self.offsets[i]
+        if self._levels[i] is None:
+            (A, B), twice = self.contact.inside[i], 2 / self.contact.h
             if self.of is _NUMBERS and not (A > 0 and B > 0):
                 return 0.0
-            given = self.left * (2 * B / h), self.right * (2 * A / h), offset
+            left, right = self.left * (B * twice), self.right * (A * twice)
             least = 0.0 if i - 1 in self.contact.body.corners else TINY
-            twice = kink_logarithm(*given, least)
-            self._levels[i] = float(twice) / 2 if self.of is _NUMBERS else fmax(twice, 0.0) / 2
+            found = kink_logarithm(left, right, self.offsets[i], least)
+            self._levels[i] = float(found) / 2 if self.of is _NUMBERS else fmax(found, 0.0) / 2
         return self._levels[i]
 
     def arm(self, i: int) -> Array:
@@ -407,14 +446,15 @@ class _Place:
         """int L(x, s) ds over a part: by parts, or where x lies far from it, from afar."""
         i, of, limit = part.piece, self.of, AFAR * part.length
         start, end = self.offsets[i], self.offsets[i + 1]
-        if of is _NUMBERS and not (start > limit or -end > limit):
-            return self._by_parts(part)
-        given = part.length, part.sine, part.cosine, part.extent
+        own = part.length, part.sine, part.cosine, part.extent
         if of is _NUMBERS:
-            nearer, farther = (i, i + 1) if start > 0 else (i + 1, i)
-            A, B = self.contact.inside[nearer]
-            seen = abs(self.offsets[nearer]), math.sqrt(A * B), self.level(farther), self.root
-            return _from_afar(of, *seen, *given)
+            if start > limit:
+                (A, B), distance, level = self.contact.inside[i], start, self.level(i + 1)
+            elif -end > limit:
+                (A, B), distance, level = self.contact.inside[i + 1], -end, self.level(i)
+            else:
+                return self._by_parts(part)
+            return _from_afar(of, distance, math.sqrt(A * B), level, self.root, *own)
         found, afar, before = self._by_parts(part), (start > limit) | (-end > limit), start > 0
         if not some(afar):
             return found
@@ -424,16 +464,17 @@ class _Place:
             np.where(before, near, other),
             np.where(before, self.level(i + 1), self.level(i)),
             self.root,
+            *own,
         )
         if type(found) is not np.ndarray:
-            return np.where(afar, _from_afar(of, *seen, *given), found)
+            return np.where(afar, _from_afar(of, *seen), found)
         found = np.ascontiguousarray(found)
         rows = np.flatnonzero(np.broadcast_to(afar, found.shape))
 
         def of_rows(value: Array) -> Array:
             return np.broadcast_to(value, found.shape).ravel()[rows] if np.ndim(value) else value
 
-        found.reshape(-1)[rows] = _from_afar(of, *map(of_rows, (*seen, *given)))
+        found.reshape(-1)[rows] = _from_afar(of, *map(of_rows, seen))
         return found
 
     def _by_parts(self, part: _Part) -> Array:
@@ -479,14 +520,14 @@ def _bow(extent: Array) -> Array:
     return extent * square * _polynomial(_BOW, square)
 
 
-def _polynomial(coefficients: Sequence[float], z: Array) -> Array:
-    """The sum of coefficients[k] z**k."""
-    total = coefficients[-1] * z + coefficients[-2]
+def _polynomial(coefficients: Sequence[tuple[float, float]], z: Array) -> Array:
+    """A polynomial of z, its coefficients from the highest on, two by two."""
+    total = coefficients[0][0] * z + coefficients[0][1]
     if type(total) is not np.ndarray:
-        for coefficient in coefficients[-3::-1]:
-            total = total * z + coefficient
+        for odd, even in coefficients[1:]:
+            total = (total * z + odd) * z + even
         return total
-    for coefficient in coefficients[-3::-1]:  # in place
+    for coefficient in chain.from_iterable(coefficients[1:]):  # in place
         total *= z
         total += coefficient
     return total

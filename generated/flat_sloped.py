@@ -19,7 +19,7 @@ from ._arrays import (
 )
 from ._law import Law
 from ._march import march_of
-from ._parabolas import Parabolas
+from ._parabolas import Parabolas, looked_up
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -57,6 +57,7 @@ __all__ = [
 ]
 
 
+@looked_up
 def _body(*, b: Array, phi: Array) -> Parabolas:
     """Where the curve is cut, and the lines and parabolas between."""
     return Parabolas(

@@ -10,7 +10,7 @@ import numpy as np
 from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
 from ._law import Law
 from ._march import march_of
-from ._parabolas import Parabolas
+from ._parabolas import Parabolas, looked_up
 from ._shear import shear_change_of, shear_of, slip_range_of
 from ._slip import slip_error_of, slip_zones_of
 from ._solve import contact_at, contact_under, level
@@ -48,6 +48,7 @@ __all__ = [
 ]
 
 
+@looked_up
 def _body(*, b: Array, phi: Array) -> Parabolas:
     """Where the curve is cut, and the lines and parabolas between."""
     return Parabolas(

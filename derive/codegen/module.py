@@ -40,7 +40,7 @@ _HELPERS = {
     "_law": ("Law",),
     "_march": ("march_of",),
     "_mended": ("as_integrand", "mended", "mended_sums"),
-    "_parabolas": ("Parabolas",),
+    "_parabolas": ("Parabolas", "looked_up"),
     "_profile": ("Curve", "Piece", "Profile", "slope_of"),
     "_quadrature": ("pressure_at", "second_of", "state_of"),
     "_shear": ("shear_change_of", "shear_of", "slip_range_of"),

@@ -80,6 +80,7 @@ def body_text(sheet: FormulaSheet) -> str:
     lines.insert(2, f"corners={{{', '.join(f'{i}: {_printed(jump)}' for i, jump in corners)}}},")
     return "\n".join(
         [
+            "@looked_up",
             f"def _body{signature} -> Parabolas:",
             '    """Where the curve is cut, and the lines and parabolas between."""',
             "    return Parabolas(",
