@@ -148,6 +148,7 @@ def test_a_moderate_zone_close_to_the_largest_tilt(right: float) -> None:
     assert_allclose([zone.m, zone.n], [float(m), float(n)], rtol=5e-15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["wedge", "rounded_wedge"])
 def test_results_are_the_same_bits_alone_and_among_others(name: str) -> None:
     module: Any = importlib.import_module(f"generated.{name}")

@@ -149,6 +149,7 @@ def test_a_corner_where_an_exponential_is_e_becomes_code(tmp_path: Path) -> None
         assert curve.curvature == pytest.approx(0.125 * np.e / 0.5, rel=1e-15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("g", "rate"),
     [

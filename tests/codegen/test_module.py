@@ -242,6 +242,7 @@ def test_nothing_of_the_machine_or_the_day_is_in_a_file(path: Path) -> None:
     assert str(ROOT) not in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "title",
     [
@@ -266,6 +267,7 @@ def test_any_title_is_kept_word_by_word(title: str) -> None:
     assert complaints(text) == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "meaning",
     [

@@ -10,6 +10,7 @@ from tests.comparison.table import markdown, row
 EACH = pytest.mark.parametrize("case", EVERY, ids=lambda case: case.name)
 
 
+@pytest.mark.slow
 @EACH
 def test_the_regime_is_that_of_its_name(case: Compared) -> None:
     first, second = case.contacts

@@ -45,6 +45,7 @@ def demands(g: Expr) -> list[str]:
     return [str(demand) for demand in Geometry("body", g=g).slope.demands]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("g", "wanted"),
     [

@@ -160,6 +160,7 @@ def test_the_regime_is_a_whole_number() -> None:
 # ------------------------------------------------------------------ what may be mixed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("body", "name"), marked(EACH, left_out=LONG))
 def test_one_lazy_argument_among_arrays_is_enough(body: str, name: str) -> None:
     function, given = getattr(module(body), name), given_to(body, name)

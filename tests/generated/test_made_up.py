@@ -24,8 +24,8 @@ from tests.derive import integrals
 
 pytestmark = pytest.mark.slow
 
-PROVEN_AT = 12
-"""Points of each proof, half of what a user gets: the library's bodies are proven at all of them,
+PROVEN_AT = 6
+"""Points of each proof, a quarter of what a user gets: the library's bodies are proven at all of them,
 and here the functions are what is asked about."""
 
 DIGITS = 40

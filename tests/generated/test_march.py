@@ -55,6 +55,7 @@ def test_constant_loads_go_back_as_they_came() -> None:
     assert_allclose(cycle.m[UP], cycle.m[DOWN], rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", [1, 2, 3])
 def test_series_come_closer_order_by_order(order: int) -> None:
     given = loads(3.0, 0.002)

@@ -235,6 +235,7 @@ class Loop:
         return self.body.shear(x, self.here, self.Q, self.sigma, **self.case.law, **fall)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CLOSED)
 @pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
 @pytest.mark.parametrize("part", [0.0, 0.5, 1.0])

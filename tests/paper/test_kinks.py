@@ -260,6 +260,7 @@ y = { low = -3, high = 3 }
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "printed",
     [

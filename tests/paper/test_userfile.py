@@ -403,6 +403,7 @@ def latex(text: str) -> str:
     return Latex("here", text, SPELLINGS).understood()
 
 
+@pytest.mark.slow
 @NEEDS_LARK
 @pytest.mark.parametrize(
     ("text", "understood"),

@@ -571,6 +571,7 @@ REACHED = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", ["hertz", "wedge_parabola", "flat_rounded"])
 @pytest.mark.parametrize("loads", REACHED)
 def test_the_live_picture_holds_all_that_the_sliders_reach(body: str, loads: plot.Loads) -> None:
