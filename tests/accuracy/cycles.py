@@ -29,6 +29,7 @@ class Cycle:
     share       of the points asked for
     integrated  whether it is measured for bodies whose formulas are integrals, too
     bodies      those that it is measured for; all if none is named
+    without     those that it is not measured for: one point takes minutes
     """
 
     name: str
@@ -40,10 +41,12 @@ class Cycle:
     share: float = 0.2
     integrated: bool = False
     bodies: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
 
     def takes(self, sheet: FormulaSheet) -> bool:
         """Whether it is measured for a body."""
-        among = not self.bodies or sheet.geometry.name in self.bodies
+        name = sheet.geometry.name
+        among = (not self.bodies or name in self.bodies) and name not in self.without
         return among and (self.integrated or sheet.geometry.slope.is_polynomial)
 
     def of(self, body: str, digits: int) -> Problem:
@@ -143,6 +146,7 @@ def _marched(module: Any, sample: Sample) -> Any:
 _VARIED = loads.moderate_and_varied
 _STUCK, _SLID = Regime.MODERATE, Regime.LARGE
 _CLOSED_EITHER_WAY = ("hertz", "wedge")
+_DEAR = ("power",)
 
 CYCLES = (
     Cycle(
@@ -186,8 +190,9 @@ CYCLES = (
             _series("slip_zones", order),
             series.series(order),
             loads.as_gained(_VARIED),
-            integrated=order == 1,
+            integrated=True,
             share=0.1,
+            without=_DEAR if order == 3 else (),
         )
         for order in (1, 2, 3)
     ),
@@ -199,7 +204,9 @@ CYCLES = (
             series.error(order),
             loads.as_gained(_VARIED),
             starts=_series("slip_zones", order, order + 1),
+            integrated=True,
             share=0.05,
+            without=_DEAR if order == 2 else (),
         )
         for order in (1, 2)
     ),
@@ -230,6 +237,7 @@ CYCLES = (
         loads.risen_and_fallen(loads.placed(loads.moderate)),
         starts=_risen_and_fallen(_STUCK),
         share=0.05,
+        integrated=True,
     ),
     Cycle(
         "shear, large tension",

@@ -80,9 +80,10 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "zone.  Integrated bodies are not tried at extreme widths.  Of large tension, what the",
         "program calls mixed is left out.",
         "",
-        "Digits that the problem keeps are lost in two places.  `slip_error` is a difference of",
-        "two orders, all rounding where slip zones are tiny.  Under large tension pressures inside",
-        "tiny slip zones are told by their places, which are rounded: so are changes of shear.",
+        "Digits that the problem keeps are lost where order 3 of an integrated body is asked for:",
+        "its third coefficient follows from differences of L_N, and is right to eight digits or",
+        "more.  Of power that order is not tried, nor of integrated bodies large tension, slip and",
+        "marches: one point would take minutes.",
         "",
     ]
     grouped = worst_rows(rows)

@@ -25,8 +25,8 @@ from tests.derive import integrals
 pytestmark = pytest.mark.slow
 
 PROVEN_AT = 6
-"""Points of each proof, a quarter of what a user gets: the library's bodies are proven at all of them,
-and here the functions are what is asked about."""
+"""Points of each proof, a quarter of what a user gets: the library's bodies are proven at all of
+them, and here the functions are what is asked about."""
 
 DIGITS = 40
 E_STAR = 1.75
