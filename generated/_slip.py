@@ -286,7 +286,7 @@ class _Series:
         least = LEAST_SLIP * np.maximum(np.maximum(left, right), gained)
         left, right = drawn_in(width, np.maximum(left, least), np.maximum(right, least))
         shortest, idle = np.full(left.shape, np.inf), np.full(left.shape, 0)
-        done = np.full(left.shape, False)
+        done = (left == 0) & (right == 0)  # nothing drives slip
         for _ in range(STEPS):
             to_left, to_right = _step(*self._conditions(coefficients, left, right))
             more = (to_left + to_right) / (width - left - right)

@@ -125,6 +125,13 @@ def test_the_estimate_of_tiny_slip_zones_by_hand(share: float) -> None:
     assert_allclose(second, d**3 / 16, rtol=1e-14 + 8 * d)
 
 
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_without_shear_nothing_slips(order: int) -> None:
+    assert wedge.slip_zones(1.5, 1.0, 0.0, 0.0, **WEDGE, order=order) == (0, 0)
+    if order < 3:
+        assert wedge.slip_error(1.5, 1.0, 0.0, 0.0, **WEDGE, order=order) == (0, 0)
+
+
 def test_where_there_is_no_slip_zone() -> None:
     whole = 2 * F * load(1.5, 1.0)
     for shear, tension in ((whole, 0.0), (-0.1 * whole, 0.0), (np.nan, 0.0), (0.1 * whole, 10.0)):
