@@ -27,6 +27,7 @@ from tests.benchmarks.stages import Seconds, stages
 from tests.benchmarks.timing import (
     AMONG_ITS_LIKE,
     Call,
+    compiled_for,
     interleaved,
     peak_over_result,
     processor,
@@ -267,6 +268,7 @@ def page(found: Found) -> str:
             "better than times do.  Measured with:",
             "",
             f"- processor: {processor()}",
+            f"- {compiled_for()}",
             f"- {versions()}",
             "",
             "![ns an element over the number of elements](performance.svg)",
