@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from ._arrays import Array, Flat
-from ._changes import edges_along
+from ._changes import NODES, edges_along, rule_of_way
 from ._law import Law
 from ._types import Edges
 from ._zones import Pair, drawn_in, moved, pulls
@@ -73,9 +73,6 @@ TURNS = 8
 SETTLED = 1e-12
 """It is known to rounding if the last time it changed by less, in parts of it."""
 
-NODES = 12
-"""Of Gauss's rule, for the mean rates between two orders."""
-
 
 @np.errstate(all="ignore")
 def slip_zones_of(law: Law, /, *args: Array, order: int, **given: Array) -> Edges:
@@ -99,6 +96,10 @@ def demand_order(order: Any, allowed: tuple[int, ...]) -> None:
     if not whole or order not in allowed:
         words = f"{', '.join(map(str, allowed[:-1]))} or {allowed[-1]}"
         raise ValueError(f"order must be {words}; got {order!r:.60}")
+
+
+Sums = tuple[Array, Array, Array]
+"""A sum; its rates with the length of a slip zone and with `stuck`."""
 
 
 class _Series:
@@ -179,12 +180,9 @@ class _Series:
         stuck = self.h - left - right
         own = self._left_over() if order == 1 else (0.0, 0.0)
         off = [v + 0.0 * stuck for v in own]
-        moves = (0.0, 0.0), (self.da, self.dc)
-        for pressures, (da, dc) in zip(coefficients, moves, strict=False):
-            for i, (pressure, d) in enumerate(zip(pressures, (left - da, right - dc), strict=True)):
-                kappa = 2 / len(coefficients) * self._kappa[i]
-                for j, rule in ((i, _near), (1 - i, _far)):
-                    off[j] = off[j] + kappa * rule(pressure, d, stuck, last=True)[0]
+        zones = self._beyond_gain(left, right)
+        for _, j, kappa, (value, _, _) in self._terms(coefficients, *zones, stuck, last=True):
+            off[j] = off[j] + kappa * value
         return off
 
     def _left_over(self) -> Iterator[Array]:
@@ -212,15 +210,16 @@ class _Series:
 
     def _mean_rates(self, coefficients: Any, zones: Pair, gain: Pair) -> list[list[Array]]:
         """Rates of the conditions, their means on the way from one order to the next."""
-        parts, weights = np.polynomial.legendre.leggauss(NODES)
         mean: Any = 0.0
-        for part, weight in zip((1 + parts) / 2, weights / 2, strict=True):
+        for part, weight in zip(*rule_of_way(NODES), strict=True):
             left, right = (v + part * w for v, w in zip(zones, gain, strict=True))
-            _, rates = self._conditions(
-                coefficients, left - self.least_left, right - self.least_right
-            )
+            _, rates = self._conditions(coefficients, *self._beyond_gain(left, right))
             mean = mean + weight * np.array(rates)
         return mean
+
+    def _beyond_gain(self, left: Array, right: Array) -> Pair:
+        """Slip zones without what the contact has gained."""
+        return left - self.least_left, right - self.least_right
 
     @cached_property
     def _K(self) -> list[Edges]:
@@ -240,19 +239,19 @@ class _Series:
     def _coefficients(self, order: int) -> list[tuple[list[Array], list[Array]]]:
         """K, L, ... at the left and the right edge, contact by contact."""
         found = []
-        for (a, c), K, L in zip(self.contacts, self._K, self._L, strict=True):
-            left, right = [K.left, L.left], [K.right, L.right]
-            if order > 2:
-                third = self._third(a, c, K)
-                left.append(third.left)
-                right.append(third.right)
-            found.append((left, right))
+        known = (self._K, self._L, self._third) if order > 2 else (self._K, self._L)
+        for edges in zip(*known, strict=True):
+            found.append(([edge.left for edge in edges], [edge.right for edge in edges]))
         return found
 
-    def _third(self, a: Array, c: Array, K: Edges) -> Edges:
+    @cached_property
+    def _third(self) -> list[Edges]:
         if self.law.third is not None:
-            return Edges(*self.law.third(a, c, **self.constants))
-        return Edges(*(self._by_differences(a, c, K[side], side) for side in (0, 1)))
+            return [Edges(*self.law.third(*edges, **self.constants)) for edges in self.contacts]
+        return [
+            Edges(*(self._by_differences(*edges, K[side], side) for side in (0, 1)))
+            for edges, K in zip(self.contacts, self._K, strict=True)
+        ]
 
     def _by_differences(self, a: Array, c: Array, K: Array, side: int) -> Array:
         h, place = a + c, (-a, c)[side]
@@ -282,7 +281,7 @@ class _Series:
         coefficients, (left, right) = self._coefficients(order), self._first_order
         width = self.h - self.least_left - self.least_right
         gained = np.maximum(np.abs(self.da), np.abs(self.dc))
-        left, right = left - self.least_left, right - self.least_right
+        left, right = self._beyond_gain(left, right)
         least = LEAST_SLIP * np.maximum(np.maximum(left, right), gained)
         left, right = drawn_in(width, np.maximum(left, least), np.maximum(right, least))
         shortest, idle = np.full(left.shape, np.inf), np.full(left.shape, 0)
@@ -318,18 +317,28 @@ class _Series:
         tension = np.pi * self.dsigma / 8
         off = [-pull for pull in pulls(self.dQ, self.dsigma, stuck)]
         rates = [[tension, tension], [-tension, -tension]]
-        share = 2 / len(coefficients)
+        for i, j, kappa, sums in self._terms(coefficients, left, right, stuck):
+            value, by_d, by_stuck = sums
+            off[j] = off[j] + kappa * value
+            rates[j][i] = rates[j][i] + kappa * (by_d - by_stuck)
+            rates[j][1 - i] = rates[j][1 - i] - kappa * by_stuck
+        return off, rates
+
+    def _terms(
+        self, coefficients: Any, left: Array, right: Array, stuck: Array, last: bool = False
+    ) -> Iterator[tuple[int, int, Array, Sums]]:
+        """What each slip zone i of each contact adds to the condition at either end j, over kappa.
+
+        last: of the terms of the last order alone.
+        """
         moves = [(self.least_left, self.least_right)]
         moves.append((self.least_left - self.da, self.least_right - self.dc))
-        for (at_left, at_right), (gap_left, gap_right) in zip(coefficients, moves, strict=False):
-            zones = ((at_left, left + gap_left), (at_right, right + gap_right))
-            for i, (pressure, d) in enumerate(zones):
+        for pressures, gaps in zip(coefficients, moves, strict=False):
+            zones = left + gaps[0], right + gaps[1]
+            for i, (pressure, d) in enumerate(zip(pressures, zones, strict=True)):
+                kappa = 2 / len(coefficients) * self._kappa[i]
                 for j, rule in ((i, _near), (1 - i, _far)):
-                    value, by_d, by_stuck = rule(pressure, d, stuck)
-                    off[j] = off[j] + share * self._kappa[i] * value
-                    rates[j][i] = rates[j][i] + share * self._kappa[i] * (by_d - by_stuck)
-                    rates[j][1 - i] = rates[j][1 - i] - share * self._kappa[i] * by_stuck
-        return off, rates
+                    yield i, j, kappa, rule(pressure, d, stuck, last)
 
 
 def _step(off: Sequence[Array], rates: Any) -> Pair:
@@ -338,10 +347,6 @@ def _step(off: Sequence[Array], rates: Any) -> Pair:
     determinant = left_l * right_r - left_r * right_l
     to_left = (left_r * off[1] - right_r * off[0]) / determinant
     return to_left, (right_l * off[0] - left_l * off[1]) / determinant
-
-
-Sums = tuple[Array, Array, Array]
-"""A sum; its rates with the length of a slip zone and with `stuck`."""
 
 
 def _near(pressure: list[Array], d: Array, stuck: Array, last: bool = False) -> Sums:

@@ -166,13 +166,11 @@ def closing_tension_of(
 ) -> Threshold:
     """The changes of tension at which the moderate solution leaves no slip zone at one edge."""
     cycle, given = _cycle(law, first, second, dQ, 0.0, f, E_star, own)
-    load = (cycle.load[0] + cycle.load[1]) / 2 - cycle.dQ / (2 * cycle.f)
-    tilt = (cycle.tilt[0] + cycle.tilt[1]) / 2
+    load, tilt = cycle.patch_load, cycle.mean_tilt
     found = []
     for edge, sense in ((np.min(cycle.a, axis=0), -1), (np.min(cycle.c, axis=0), 1)):
         width = _width_under(cycle, load, edge, sense)
-        a, c = (width - edge, edge) if sense > 0 else (edge, width - edge)
-        leaning = law.tilt_of(a, c, cycle.constants)
+        leaning = law.tilt_of(*_keeping(edge, width, sense), cycle.constants)
         turned = tilt - leaning
         lost = np.abs(tilt) + np.abs(leaning) > CANCELLED * np.abs(turned)
         rows = np.flatnonzero(lost | (load > CANCELLED * cycle.dQ / (2 * cycle.f)))
@@ -183,12 +181,17 @@ def closing_tension_of(
     return Threshold(given.shaped(lower), given.shaped(upper))
 
 
+def _keeping(edge: Array, width: Array, sense: int) -> Way:
+    """The contact of a width that keeps its edge on the left (-1) or right (+1)."""
+    return (width - edge, edge) if sense > 0 else (edge, width - edge)
+
+
 def _width_under(cycle: "_Cycle", load: Array, edge: Array, sense: int) -> Array:
     """Width of the contact under a load that keeps its edge on the left (-1) or right (+1)."""
 
     def excess(width: Array, rows: Array) -> tuple[Array, Array]:
         held = at_rows(rows, cycle.constants)
-        a, c = (width - edge[rows], edge[rows]) if sense > 0 else (edge[rows], width - edge[rows])
+        a, c = _keeping(edge[rows], width, sense)
         K = cycle.law.K_N(a, c, **held)
         off = np.nan_to_num(cycle.law.load(a, c, **held)) - load[rows]
         return off, np.pi * np.sqrt(width) / 4 * (K.left if sense > 0 else K.right)
@@ -235,11 +238,9 @@ def _turned_by(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Arra
 
 def _doubt_of_difference(cycle: "_Cycle", turned: Array, width: Array, sense: int) -> Array:
     """What a difference of tilts may be off by, times E*: for rounding, and for the width."""
-    edge = (np.min(cycle.c, axis=0), np.min(cycle.a, axis=0))[sense < 0]
-    a, c = (width - edge, edge) if sense > 0 else (edge, width - edge)
-    tilt = (cycle.tilt[0] + cycle.tilt[1]) / 2
-    load = (cycle.load[0] + cycle.load[1]) / 2 - cycle.dQ / (2 * cycle.f)
-    missed = cycle.law.load(a, c, **cycle.constants) - load
+    edge, tilt = np.min(cycle.c if sense > 0 else cycle.a, axis=0), cycle.mean_tilt
+    there = _keeping(edge, width, sense)
+    missed = cycle.law.load(*there, **cycle.constants) - cycle.patch_load
     rounded = NOTHING * cycle.constants["E_star"] * (np.abs(tilt) + np.abs(tilt - turned))
     return rounded + _tilt_of(missed, width)
 
@@ -328,6 +329,16 @@ class _Cycle:
         contact's."""
         load, tilt = self.risen
         return load / 2 - self.dQ / (2 * self.f), tilt / 2 - self.dsigma / (4 * self.f)
+
+    @property
+    def patch_load(self) -> Array:
+        """The load of the moderate zone."""
+        return (self.load[0] + self.load[1]) / 2 - self.dQ / (2 * self.f)
+
+    @property
+    def mean_tilt(self) -> Array:
+        """The mean of the tilts at both ends."""
+        return (self.tilt[0] + self.tilt[1]) / 2
 
     @property
     def limit(self) -> Array:

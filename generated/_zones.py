@@ -401,8 +401,11 @@ def bounded_change(task: Task, m: Array, n: Array, x: Array, level: int) -> Arra
 
     x: a place of each element, or a column of them.
     """
-    left, right = (_drawn(task, side, m, n, x, level).whole for side in (-1, 1))
-    return task.sense * task.f * np.sqrt((x + m) * (n - x)) / np.pi * (left - right)
+    total = 0.0
+    for side, away in ((-1, m + x), (1, n - x)):
+        for y, force in _forces(task, side, m, n, level):
+            total = total - side * np.sum(force / (y + away[..., None, :]), axis=-2)
+    return task.sense * task.f * np.sqrt((x + m) * (n - x)) / np.pi * total
 
 
 def solved_change(task: Task, m: Array, n: Array, x: Array, level: int) -> Array:
@@ -439,16 +442,22 @@ class _Drawn(NamedTuple):
 
 def _drawn(task: Task, side: int, m: Array, n: Array, x: Array, level: int) -> _Drawn:
     """The integrals over the slip zone on the left (side -1) or on the right (+1)."""
-    end, smaller = (n, task.smaller_c) if side > 0 else (m, task.smaller_a)
-    slip, away, stuck = smaller - end, end - side * x, m + n
-    start, length = task.slip_zone(side, slip)
+    away = n - x if side > 0 else m + x
     whole = beyond = far = 0.0
-    for y, weight in parts_of(length, task.cuts(side, slip), level):
-        force = weight * task.sum_of_pressures(side * (start + y)) / np.sqrt(y * (y + stuck))
+    for y, force in _forces(task, side, m, n, level):
         felt = force / (y + away[..., None, :])
         whole, beyond = whole + np.sum(felt, axis=-2), beyond + np.sum(felt * y, axis=-2)
         far = far + np.sum(force * y, axis=-2)
     return _Drawn(away, whole, beyond, far)
+
+
+def _forces(task: Task, side: int, m: Array, n: Array, level: int) -> Iterator[tuple[Array, Array]]:
+    """Distances y from the stick zone, as columns, and (p1 + p2)/|w| dy there, part by part."""
+    slip = task.smaller_c - n if side > 0 else task.smaller_a - m
+    start, length = task.slip_zone(side, slip)
+    for y, weight in parts_of(length, task.cuts(side, slip), level):
+        p = task.sum_of_pressures(side * (start + y))
+        yield y, weight * p / np.sqrt(y * (y + m + n))
 
 
 def force_rates(slip: Array, stuck: Array, h: Array, own: Array, other: Array) -> Pair:

@@ -143,7 +143,7 @@ def _by_rule(
     start: Way, motion: Way, ends: Array, rates: Rates, count: int
 ) -> list[tuple[Array, Array]]:
     """The integrals, and those of the sizes of both edges' shares."""
-    nodes, weights = _rule(count)
+    nodes, weights = rule_of_way(count)
     found: list[tuple[Array, Array]] = []
     moves = (motion[0] != 0) | (motion[1] != 0)
     for low, high in pairwise(ends):
@@ -162,7 +162,7 @@ def _by_rule(
 
 
 @cache
-def _rule(count: int) -> tuple[Array, Array]:
+def rule_of_way(count: int) -> tuple[Array, Array]:
     """Nodes and weights on (0, 1), for which roots at the ends are smooth: over sin(angle)**2."""
     angles, weights = np.polynomial.legendre.leggauss(count)
     angles = np.pi / 4 * (angles + 1)
