@@ -6,6 +6,7 @@ import tracemalloc
 from types import ModuleType
 from typing import Any
 
+import mpmath as mp
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -181,13 +182,40 @@ def test_a_logarithm_of_a_quotient_beyond_float64(count: int) -> None:
     assert type(alone) is np.float64
 
 
+@pytest.mark.parametrize("by_log", [True, False])
+def test_log1p_is_right_to_the_last_digit_both_ways(
+    by_log: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At 1e-17 it is its argument, at 1e17 log(1e17) + 1e-17; of mpmath in between."""
+    monkeypatch.setattr(_arrays, "_LOG1P_BY_LOG", by_log)
+    given = np.concatenate([np.geomspace(1e-17, 1e17, 3001), [0.0, 5e-324, 1.0, 1e308]])
+    with mp.workdps(30):
+        exact = [mp.log1p(mp.mpf(v)) for v in given.tolist()]
+    wanted = np.array(exact, dtype=float)
+    found = _arrays.log1p(given.copy())
+    assert_allclose(found, wanted, rtol=1.5 * 2**-52)
+    with mp.workdps(30):
+        off = [float(abs(mp.mpf(v) - e)) for v, e in zip(found.tolist(), exact, strict=True)]
+    assert np.all(off <= 1.1 * np.spacing(wanted))
+    assert_array_equal(found, [_arrays.log1p(v) for v in given.tolist()])
+
+    beyond = np.append(given, [np.inf, np.nan])
+    assert_array_equal(_arrays.log1p(beyond), [*found, np.inf, np.nan])
+    assert_array_equal(_arrays.log1p(np.float64(np.inf)), np.inf)
+    assert np.isnan(_arrays.log1p(np.float64(np.nan)))
+
+    out, *free = given.copy(), np.empty_like(given), np.empty_like(given)
+    assert _arrays.log1p(out, out, free) is out
+    assert_array_equal(out, found)
+
+
 def test_a_logarithm_of_a_kink_is_zero_outside_and_takes_what_broadcasts() -> None:
     """sqrt(1 4) + min(1, 4) = 3: log(1 + 3/2); the distance stays as it is."""
 
     def found(right: Any, distance: Any) -> Any:
-        left = np.array([1.0, -1.0, 0.0])  # used up
+        left = np.array([1.0, -1.0, 0.0])  # used up, as the right one is
         with np.errstate(all="ignore"):
-            return _arrays.kink_logarithm(left, right, distance)
+            return _arrays.kink_logarithm(left, right.copy(), distance)
 
     row, column = np.full(3, 2.0), np.array([[2.0], [3.0]])
     for right in (np.full(3, 4.0), np.float64(4)):
@@ -221,6 +249,7 @@ def test_hertz_needs_none_of_it() -> None:
 
 FRESH = """
 import resource
+import mpmath as mp
 import numpy as np
 from generated import wedge
 

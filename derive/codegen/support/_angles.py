@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._arrays import Array, weighted
+from ._arrays import Array, log1p, weighted
 from ._profile import TOGETHER, Curve, Part, Window
 
 NODES = 12
@@ -122,7 +122,7 @@ class _Place(NamedTuple):
         """L(x, s) for an s at this angle, so far from x."""
         least = np.minimum(cosine**2 * self.left, sine**2 * self.right)
         both = sine * cosine * self.root
-        return np.log1p(2 * (both + least) / distance) / 2
+        return log1p(2 * (both + least) / distance) / 2
 
     @property
     def root(self) -> Array:
