@@ -10,7 +10,10 @@ from collections.abc import Iterable
 from textwrap import dedent
 
 LABORIOUS = 90
-"""What calls support/ is taken for so many: what is added up part by part holds no more."""
+"""What solves or integrates is taken for so many: what is solved for part by part holds no more."""
+
+BY_PARTS = 60
+"""What is added up part by part is taken for so many, and holds no more."""
 
 _HANDED_ON = ("only_where", "Contact", "Edges")
 """What returns the arrays that it is given."""

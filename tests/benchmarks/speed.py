@@ -41,7 +41,7 @@ PAGE, PICTURE = ROOT / "docs" / "performance.md", ROOT / "docs" / "performance.s
 
 SIZES = tuple(10**n for n in range(8))
 CUT_AT = (
-    *(1, 100, 10**4, 41_000, 60_000, 10**5, 200_000, 290_000, 400_000, 650_000, 930_000, 10**6),
+    *(1, 100, 10**4, 41_000, 62_000, 10**5, 200_000, 290_000, 400_000, 650_000, 930_000, 10**6),
     *(1_300_000, 1_900_000, 10**7),
 )
 """Where the function is compared with itself uncut: behind the lengths at which it is cut, too."""
@@ -319,7 +319,8 @@ def _cut_table(found: Found) -> Iterator[str]:
         "A function is computed in blocks where the arrays that it holds at once, as its decorator",
         f"counts them, are more than {_arrays.RESIDENT:,} numbers, which the process keeps; of",
         f"several results one counts.  Blocks have {_arrays.BLOCK:,} elements, or more where they",
-        f"hold no more than one in {_arrays.SHARE} of the results' numbers.",
+        f"hold no more than one in {_arrays.SHARE} of the results' numbers, or more than",
+        f"{_arrays.FEW} arrays: blocks of these hold as many numbers as are kept.",
         "Time in blocks over the time of the same function without; under 1 is faster.",
         "What is copied from the blocks counts where a formula is cheap and has several results.",
         "",

@@ -110,6 +110,27 @@ def test_an_array_is_cut_where_the_heap_does_not_hold_all(
     assert sum(lengths[1:]) == most + 1
 
 
+@pytest.mark.parametrize(("arrays", "block"), [(12, 7), (13, 10)])
+def test_blocks_hold_all_of_the_heap_where_no_cache_holds_them(
+    monkeypatch: pytest.MonkeyPatch, arrays: int, block: int
+) -> None:
+    """Of 130 numbers, thirteen arrays of ten; of twelve, which a cache may hold, blocks of 7."""
+    monkeypatch.setattr(_arrays, "BLOCK", 7)
+    monkeypatch.setattr(_arrays, "RESIDENT", 130)
+    seen: list[int] = []
+
+    @_arrays.elementwise(arrays=arrays)
+    def twice(a: Any) -> Any:
+        seen.append(a.size)
+        return 2 * a
+
+    for count in (10, 11, 10 * block):
+        a = np.linspace(1, 2, count)
+        assert_array_equal(twice(a), 2 * a)
+    assert seen[0] == 10
+    assert max(seen[1:]) == block
+
+
 def test_of_several_results_one_is_counted(
     monkeypatch: pytest.MonkeyPatch, lengths: list[int]
 ) -> None:

@@ -28,6 +28,9 @@ own cache.
 SHARE = 10
 """Blocks are longer where they hold no more than this part of the results and of RESIDENT."""
 
+FEW = 12
+"""Of more arrays than these a core's cache has no room for blocks: they hold all of RESIDENT."""
+
 TINY = 1e-150
 """What stands for a distance of zero where a quotient must stay finite."""
 
@@ -137,8 +140,8 @@ def _elementwise(function: Function, arrays: int) -> Function:
             shape = _broadcast(given)
         if 0 in shape:
             return quiet(**{name: np.broadcast_to(v, shape) for name, v in given.items()})
-        shared = min(RESIDENT, results * math.prod(shape)) // SHARE
-        return quiet_blocks(function, given, shape, max(BLOCK, shared // arrays))
+        spared = min(RESIDENT, results * math.prod(shape)) // SHARE if arrays <= FEW else RESIDENT
+        return quiet_blocks(function, given, shape, max(BLOCK, spared // arrays))
 
     return call  # type: ignore[return-value]
 
