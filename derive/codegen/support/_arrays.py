@@ -295,12 +295,13 @@ def log1p(value: Any, out: Any = None, free: Sequence[Any] = ()) -> Any:
 
     out: where to put it; free: two more arrays of that shape, to be used up.
     """
-    if not _LOG1P_BY_LOG or type(value) not in (np.ndarray, *_NUMBERS):
-        return np.log1p(value) if out is None else np.log1p(value, out=out)
-    if type(value) is not np.ndarray:
+    kind = type(value)
+    if _LOG1P_BY_LOG and kind in _NUMBERS:
         above = 1.0 + value
         lost = value - (above - 1.0) if value < math.inf else 0.0
         return np.log(above) + lost / above
+    if not _LOG1P_BY_LOG or kind is not np.ndarray:
+        return np.log1p(value) if out is None else np.log1p(value, out=out)
     first, second = free or (None, None)
     above = np.add(value, 1.0, out=first)
     held = np.subtract(above, 1.0, out=second)
