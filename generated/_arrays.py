@@ -29,7 +29,7 @@ own cache.
 SHARE = 10
 """Blocks are longer where they hold no more than this part of the results and of RESIDENT."""
 
-FEW = 12
+FEW = 20
 """Of more arrays than these a core's cache has no room for blocks: they hold all of RESIDENT."""
 
 TINY = 1e-150

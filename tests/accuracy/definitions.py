@@ -17,7 +17,7 @@ import mpmath
 from mpmath import mpf
 from sympy import diff, powsimp
 
-from derive.proof.balls import Ball, ball
+from derive.proof.balls import Ball, ball, number
 from derive.proof.points import Point, numeric_along
 from derive.proof.rule import remembered
 from derive.symbols import x
@@ -50,8 +50,11 @@ def _pressure_along(body: str) -> Callable[..., Callable[[Ball], Ball]]:
 
 
 def pressure_along(body: str, given: Given) -> Callable[[Ball], Ball]:
-    """The pressure of a body with closed formulas, in balls."""
-    return _pressure_along(body)(given)
+    """The pressure of a body at a place, in balls."""
+    if sheet_of(body).geometry.slope.is_polynomial:
+        return _pressure_along(body)(given)
+    slope = _Slope.of(body, given)
+    return lambda s: ball(_pressure(slope, {**given, "x": number(s)}))
 
 
 def kinks_of(body: str, given: Given) -> list[mpf]:

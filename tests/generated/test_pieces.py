@@ -110,13 +110,13 @@ def test_an_array_is_cut_where_the_heap_does_not_hold_all(
     assert sum(lengths[1:]) == most + 1
 
 
-@pytest.mark.parametrize(("arrays", "block"), [(12, 7), (13, 10)])
+@pytest.mark.parametrize(("arrays", "block"), [(20, 7), (21, 10)])
 def test_blocks_hold_all_of_the_heap_where_no_cache_holds_them(
     monkeypatch: pytest.MonkeyPatch, arrays: int, block: int
 ) -> None:
-    """Of 130 numbers, thirteen arrays of ten; of twelve, which a cache may hold, blocks of 7."""
+    """Of 210 numbers, 21 arrays of ten; of twenty, which a cache may hold, blocks of 7."""
     monkeypatch.setattr(_arrays, "BLOCK", 7)
-    monkeypatch.setattr(_arrays, "RESIDENT", 130)
+    monkeypatch.setattr(_arrays, "RESIDENT", 210)
     seen: list[int] = []
 
     @_arrays.elementwise(arrays=arrays)
