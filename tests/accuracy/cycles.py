@@ -161,9 +161,11 @@ CYCLES = (
         "stick_zone, large tension",
         ("m", "n"),
         _zone(_SLID),
-        lambda body: Problem(tensions.between(body), digits=tractions.LARGE_DIGITS),
+        lambda body: Problem(tensions.between(body), digits=tractions.large_digits(body)),
         loads.large,
         share=0.02,
+        integrated=True,
+        without=_DEAR,
     ),
     Cycle(
         "tension_threshold",
@@ -228,6 +230,8 @@ CYCLES = (
         loads.placed(loads.large),
         starts=_zone(_SLID),
         share=0.01,
+        integrated=True,
+        without=_DEAR,
     ),
     Cycle(
         "shear, moderate tension",
@@ -275,5 +279,6 @@ CYCLES = (
         loads.histories,
         starts=_march_starts,
         share=0.03,
+        integrated=True,
     ),
 )

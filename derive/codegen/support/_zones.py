@@ -37,7 +37,7 @@ COARSEST, FINEST = 2, 6
 REACH = 4
 """How far the rule goes: to 1e-37 of a part."""
 
-AGREED = 1e-9
+AGREED = 1e-12
 """Slip zones of two rules that agree to this are exact to rounding by the finer one."""
 
 SMALL = 1e-10
