@@ -2,7 +2,8 @@
 #             nothing is taken from an earlier run, so that every proof and time is of this one
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that take no long
-# make bench  speed against lambdify, numexpr and numba in one run: docs/performance.md, some
+# make bench  speed against lambdify, numexpr and numba in one run: docs/performance.md, or where
+#             there is no AVX-512 docs/performance_without_avx512.md; some
 #             minutes; bench-inverse: of the way from loads to contacts of every body;
 #             bench-slip: of stick zones; bench-mixed: of mixed ones, and how many are not
 #             solved; bench-monte-carlo: time and memory of the Monte Carlo

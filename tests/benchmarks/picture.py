@@ -1,4 +1,4 @@
-"""Draws docs/performance.svg: ns an element over the number of elements."""
+"""Draws the picture of docs/performance.md: ns an element over the number of elements."""
 
 from collections.abc import Mapping
 from pathlib import Path

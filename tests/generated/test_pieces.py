@@ -131,17 +131,62 @@ def test_blocks_hold_all_of_the_heap_where_no_cache_holds_them(
     assert max(seen[1:]) == block
 
 
-def test_of_several_results_one_is_counted(
-    monkeypatch: pytest.MonkeyPatch, lengths: list[int]
+@pytest.mark.parametrize("varying", [1, 2])
+def test_several_results_are_not_counted_and_the_rest_as_the_arguments_vary(
+    monkeypatch: pytest.MonkeyPatch, lengths: list[int], varying: int
 ) -> None:
     """K_N holds four arrays, of which two are results: a + c, what scales, left and right."""
     monkeypatch.setattr(_arrays, "BLOCK", 7)
     monkeypatch.setattr(_arrays, "RESIDENT", 120)
-    for count in (40, 41):
+    most = 120 // varying
+    for count in (most, most + 1):
         a = np.linspace(1, 2, count)
-        wedge.K_N(a, a, E_star=1.0, phi=0.1)
-    assert lengths[0] == 40
-    assert max(lengths[1:]) <= 7
+        wedge.K_N(a, a if varying == 2 else 1.0, E_star=1.0, phi=0.1)
+    assert lengths[0] == most
+    assert max(lengths[1:]) <= 12  # a tenth of RESIDENT for each result, over four
+    assert sum(lengths[1:]) == most + 1
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 0, 2)])
+def test_blocks_follow_the_layout_in_memory(
+    monkeypatch: pytest.MonkeyPatch, order: tuple[int, ...]
+) -> None:
+    """Blocks lie in one piece, and the result is laid out as the argument is, as a whole one is."""
+    x = np.random.default_rng(1).uniform(-1, 1, (6, 5, 4)).transpose(order)
+    law = {"a": 0.8, "c": 0.7, "E_star": 1.0, "phi": 0.1}
+    whole, seen = wedge.pressure(x, **law), []
+
+    def kink_logarithm(left: Any, right: Any, offset: Any) -> Any:
+        seen.append((offset.size, offset.flags.forc))
+        return _arrays.kink_logarithm(left, right, offset)
+
+    monkeypatch.setattr(wedge, "kink_logarithm", kink_logarithm)
+    monkeypatch.setattr(_arrays, "BLOCK", 20)
+    monkeypatch.setattr(_arrays, "RESIDENT", 0)
+    cut = wedge.pressure(x, **law)
+    assert_array_equal(cut, whole)
+    assert cut.strides == whole.strides == x.strides
+    assert seen == [(20, True)] * 6
+    column = np.full((x.shape[1], 1), 0.5)
+    assert wedge.K_N(x**2, column, E_star=1.0, phi=0.1).left.shape == x.shape
+
+
+def test_other_types_become_float64_block_by_block(
+    monkeypatch: pytest.MonkeyPatch, lengths: list[int]
+) -> None:
+    a = np.linspace(1, 2, 50)
+    for kind in (np.float32, np.int64, ">f8", np.float16):
+        given = a.astype(kind)
+        whole = wedge.load(given, given, E_star=1.0, phi=0.1)
+        with monkeypatch.context() as cut:
+            cut.setattr(_arrays, "BLOCK", 7)
+            cut.setattr(_arrays, "RESIDENT", 0)
+            blocks = wedge.load(given, given, E_star=1.0, phi=0.1)
+            none = wedge.load(given[:0], given[:0], E_star=1.0, phi=0.1)
+        assert_array_equal(blocks, whole)
+        assert blocks.dtype == whole.dtype == none.dtype == np.float64
+        assert none.shape == (0,)
+    assert max(lengths[1:10]) <= 7
 
 
 @pytest.mark.parametrize(("count", "longest"), [(1_240_000, 41_333), (10**7, 122_333)])

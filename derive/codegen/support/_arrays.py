@@ -26,7 +26,9 @@ own cache.
 """
 
 SHARE = 10
-"""Blocks are longer where they hold no more than this part of the results and of RESIDENT."""
+"""Blocks are longer where they hold no more than this part of the results, and of RESIDENT for
+each of these.
+"""
 
 FEW = 20
 """Of more arrays than these a core's cache has no room for blocks: they hold all of RESIDENT."""
@@ -51,8 +53,8 @@ _HEAP = 14 << 20
 
 RESIDENT = 2 * _HEAP // 8
 """Numbers that the heap keeps.  A call that holds no more is not cut: it asks the system for no
-pages, and the processor's last cache holds most of its arrays.  Of several results one is counted:
-what cutting saves of the others, their copies cost.
+pages, and the processor's last cache holds most of its arrays.  Several results are not counted,
+since they are copied from the blocks, and the rest as far as the arguments vary.
 """
 
 _ZEROS = np.zeros(RESIDENT // 2)  # the system lends one page for all of it
@@ -89,7 +91,7 @@ def _elementwise(function: Function, arrays: int) -> Function:
     called = signature(function)
     parameters, count = called.parameters, len(called.parameters)
     results = len(getattr(called.return_annotation, "_fields", ("",)))
-    weighed = arrays - results + 1
+    weighed = arrays if results == 1 else max(1, arrays - results)
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
@@ -112,7 +114,7 @@ def _elementwise(function: Function, arrays: int) -> Function:
         if len(given) < count:
             given = defaults | given
         shape: Shape = ()
-        alike, foreign, size, held = True, False, 1, weighed
+        alike, foreign, unread, size, varying, own = True, False, False, 1, 0, 0
         for name, value in given.items():
             kind = type(value)
             if kind is float or kind is Float:
@@ -122,25 +124,31 @@ def _elementwise(function: Function, arrays: int) -> Function:
                     given[name] = Float(value)
                 continue
             if kind is not np.ndarray or value.dtype is not _FLOAT64 or not value.ndim:
-                value = given[name] = _float64(value, name)
+                if name not in constants and _is_of_reals(value):
+                    unread = True
+                else:
+                    value = given[name] = _float64(value, name)
             if name in constants:
                 value = given[name] = _positive(value)
             if type(value) is np.ndarray:
                 alike, shape = alike and shape in ((), value.shape), value.shape
-                size = max(size, value.size)
-                held += name in constants
+                size, varying, own = max(size, value.size), varying + 1, own + (name in constants)
             elif type(value) is not Float:
                 foreign = True
+        held = weighed + own if results == 1 else weighed * varying / len(names)
+        whole = foreign or (alike and size * held <= RESIDENT)
+        if unread and whole:
+            given = {name: _float64(value, name) for name, value in given.items()}
         if foreign and any_lazy(given.values()):
             _broadcast(given)
             return over_chunks(call, given)
-        if foreign or (alike and size * held <= RESIDENT):
+        if whole:
             return quiet(**given)
         if not alike:
             shape = _broadcast(given)
         if 0 in shape:
-            return quiet(**{name: np.broadcast_to(v, shape) for name, v in given.items()})
-        spared = min(RESIDENT, results * math.prod(shape)) // SHARE if arrays <= FEW else RESIDENT
+            return quiet(**{n: np.broadcast_to(_float64(v, n), shape) for n, v in given.items()})
+        spared = results * min(RESIDENT, math.prod(shape)) // SHARE if arrays <= FEW else RESIDENT
         return quiet_blocks(function, given, shape, max(BLOCK, spared // arrays))
 
     return call  # type: ignore[return-value]
@@ -485,6 +493,11 @@ def _positive(value: Any) -> Any:
     return only_where((value > 0) & (value < np.inf), value)
 
 
+def _is_of_reals(value: Any) -> bool:
+    """Whether it is a NumPy array that holds real numbers of any type."""
+    return type(value) is np.ndarray and value.ndim > 0 and value.dtype.kind in "iuf"
+
+
 def _float64(value: Any, label: str) -> Any:
     """A real number as np.float64, anything else as an array; masked elements are NaN.
 
@@ -530,11 +543,17 @@ def _in_blocks(
         for name, v in given.items()
         if v.ndim
     }
+    axes = _axes_in_memory(varying.values(), shape)
+    varying = {name: v.transpose(axes) for name, v in varying.items()}
+    shape = tuple(shape[axis] for axis in axes)
     kind: Any = None
     out: list[Any] = []
     whole_axes = all(v.shape == shape for v in varying.values())
     for index in _blocks(shape, most):
-        parts = {name: v[index] if whole_axes else _part(v, index) for name, v in varying.items()}
+        parts = {
+            name: _float64(v[index] if whole_axes else _part(v, index), name)
+            for name, v in varying.items()
+        }
         result = function(**fixed, **parts)
         found = result if isinstance(result, tuple) else (result,)
         if not out:
@@ -543,7 +562,14 @@ def _in_blocks(
         for whole, part in zip(out, found, strict=True):
             whole[index] = part
         del result, found, part  # not to be held while the next are computed
+    out = [whole.transpose(np.argsort(axes)) for whole in out]
     return kind(*out) if issubclass(kind, tuple) else out[0]
+
+
+def _axes_in_memory(varying: Iterable[Any], shape: Shape) -> tuple[int, ...]:
+    """Axes of the first array that has them all, from the longest stride to the shortest."""
+    strides = next((v.strides for v in varying if v.shape == shape), ())
+    return tuple(sorted(range(len(shape)), key=lambda i: -abs(strides[i]) if strides else i))
 
 
 def _made_for(found: Sequence[Any], shape: Shape) -> list[Any]:
