@@ -83,8 +83,8 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "Digits that the problem keeps are lost where order 3 of an integrated body is asked for:",
         "its third coefficient follows from differences of L_N, and is right to eight digits or",
         "more.  What else is solved or integrated for a cycle stays within some hundreds of times",
-        "the condition.  Of power order 3 is not tried, nor of integrated bodies large tension,",
-        "slip and marches: one point would take minutes.",
+        "the condition.  Of power order 3 and large tension are not tried, nor of integrated",
+        "bodies slip: one point would take minutes.",
         "",
     ]
     grouped = worst_rows(rows)
