@@ -8,6 +8,7 @@ search ends at the next place where it looks at the clock.
 """
 
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -23,6 +24,9 @@ _NO_LIMIT = 1e6
 _AGAIN = 1.0
 """Seconds until it rings once more, if what was at work has swallowed it."""
 
+_SOON = 0.01
+"""The same where Python itself has: in a finaliser or in what the garbage collector calls."""
+
 LookAtClock = Callable[[], None]
 """Raises LimitReached when the time is over."""
 
@@ -33,7 +37,7 @@ class LimitReached(Exception):
 
 @contextmanager
 def within(seconds: float) -> Iterator[LookAtClock]:
-    """Run a block for so many seconds at most.
+    """Run a block for so many seconds at most, and no longer than a block around it may run.
 
     Raises LimitReached.
     """
@@ -48,18 +52,41 @@ def within(seconds: float) -> Iterator[LookAtClock]:
         yield look
         return
 
-    def ring(number: int, frame: FrameType | None) -> None:
-        raise LimitReached
-
-    before = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds, _AGAIN)
-    try:
-        yield look
-    finally:
+    with _unraisable_again():
+        before = signal.signal(signal.SIGALRM, _ring)
+        outer, _ = signal.getitimer(signal.ITIMER_REAL)
+        outer_end = monotonic() + outer if outer else float("inf")
+        signal.setitimer(signal.ITIMER_REAL, min(seconds, outer or seconds), _AGAIN)
         try:
-            signal.setitimer(signal.ITIMER_REAL, 0)
+            yield look
         finally:
-            signal.signal(signal.SIGALRM, before)
+            try:
+                left = max(outer_end - monotonic(), _SOON) if outer else 0.0
+                signal.setitimer(signal.ITIMER_REAL, left, _AGAIN)
+            finally:
+                signal.signal(signal.SIGALRM, before)
+
+
+def _ring(number: int, frame: FrameType | None) -> None:
+    raise LimitReached
+
+
+@contextmanager
+def _unraisable_again() -> Iterator[None]:
+    """Where nothing can be raised, in finalisers and callbacks, the alarm rings soon once more."""
+    before = sys.unraisablehook
+
+    def hook(what: "sys.UnraisableHookArgs") -> None:
+        if issubclass(what.exc_type, LimitReached):
+            signal.setitimer(signal.ITIMER_REAL, _SOON, _AGAIN)
+        else:
+            before(what)
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
 
 
 def _has_alarms() -> bool:

@@ -1,5 +1,6 @@
 """Closed forms of bodies that are integrated: by hand, at limits, mirrored, made up, in time."""
 
+import sys
 import time
 from dataclasses import replace
 from functools import cache
@@ -354,6 +355,49 @@ def test_nothing_rings_behind_the_block() -> None:
         time.sleep(1)
     with within(1e300):
         pass
+
+
+def test_a_block_within_a_block_leaves_the_alarm_of_the_outer_one() -> None:
+    with pytest.raises(LimitReached), within(0.2):
+        with within(100):
+            pass
+        time.sleep(10)
+    with pytest.raises(LimitReached), within(0.05), within(100):
+        time.sleep(10)
+
+
+class Finalised:
+    """What is at work in its finaliser when the alarm rings."""
+
+    def __del__(self) -> None:
+        time.sleep(0.1)
+
+
+def test_an_alarm_that_a_finaliser_swallows_rings_again_without_a_word() -> None:
+    """Python prints what a finaliser raises, and goes on; the tests take that for an error."""
+    with pytest.raises(LimitReached), within(0.05):
+        Finalised()
+        time.sleep(10)
+
+
+def test_what_else_cannot_be_raised_is_told_as_ever() -> None:
+    told: list[object] = []
+    before = sys.unraisablehook
+    sys.unraisablehook = told.append
+    try:
+        with within(10):
+            Unhappy()
+        assert len(told) == 1
+        assert sys.unraisablehook == told.append
+    finally:
+        sys.unraisablehook = before
+
+
+class Unhappy:
+    """Raises in its finaliser."""
+
+    def __del__(self) -> None:
+        raise ValueError("nothing to do with time")
 
 
 # ------------------------------------------------------------------ the sheet, and the code
