@@ -15,7 +15,7 @@ off, both distances are scaled alike; the load grows with them, however large or
 Elements that have converged take no part in the next step: a hard one costs its neighbours nothing.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
@@ -48,6 +48,12 @@ EXACT = 1e-13
 
 ACCEPTED = 1e-9
 """one that is off by more, when every way to it has been tried, is none."""
+
+BESIDE = 0.1
+"""The last step counts if it leads an edge by no larger part of its distance from a kink,"""
+
+ROUNDED = 4
+"""or by no more than so many units in the last place of the edge and of the load explain."""
 
 ROUGHEST = 1e-4
 """Where the rounding of the edges moves the load by more, no contact is given."""
@@ -135,6 +141,43 @@ def _by_shares(goal: Any, now: State, h: Array, mid: Array, need: Array) -> tupl
         for side in (-1, 1)
     )
     return left, right
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Newton's step from a contact [-a, c].
+
+    by_a, by_c: how far the edges move.
+    short: the logarithm by which the load is short; off: how far the second condition is.
+    """
+
+    a: Array
+    c: Array
+    now: State
+    by_a: Array
+    by_c: Array
+    short: Array
+    off: Array
+
+    @classmethod
+    def of(cls, load: Array, goal: Any, a: Array, c: Array, now: State) -> "_Step":
+        """To what carries the load and meets the condition."""
+        h, mid = a + c, (c - a) / 2
+        short = np.log(load / now.load)
+        left, right = _linear(goal, now, h, mid, short)
+        off = goal.off(now, h, mid, load)
+        return cls(a, c, now, left / now.left, right / now.right, short, off)
+
+    def taken(self) -> tuple[Array, Array, Array]:
+        """a, c and the tilt after it."""
+        turned = self.now.left * self.by_a - self.now.right * self.by_c
+        tilt = self.now.tilt + turned / np.sqrt(self.a + self.c)
+        return self.a + self.by_a, self.c + self.by_c, tilt
+
+    def edges(self) -> Iterator[tuple[Array, Array, Array, int]]:
+        """Of each edge: where it is, how far it moves, K_N, and the sign of places on its side."""
+        yield self.a, self.by_a, self.now.left, -1
+        yield self.c, self.by_c, self.now.right, 1
 
 
 @dataclass(frozen=True)
@@ -229,23 +272,17 @@ def _solved(
         return state(a, c, **at_rows(rows, constants))
 
     given = (load > 0) & (load < np.inf) & _within_reach(load, goal.place, size, of)
-    a, c, tilt, off = np.full((4, *load.shape), np.nan)
-    met, told, done = np.full((3, *load.shape), False)
+    best = _Found.none(load.size)
     rows, narrowed = np.flatnonzero(given), NARROWED if cuts else 0.0
     varies = any(map(np.ndim, constants.values()))
     if rows.size > MANY and not varies and not np.ptp(size[rows]) and goal.on(rows).is_one():
-        there, values = _between_rungs(load, goal, size, of, rows, cuts, narrowed)
-        met[there] = done[there] = True
-        a[there], c[there], tilt[there] = values
-        rows = np.flatnonzero(given & ~met)
+        best.put(*_between_rungs(load, goal, size, of, rows, cuts, narrowed))
+        rows = np.flatnonzero(given & ~best.met)
     if rows.size:
         half = size[rows] / 2
         over = _over_a_kink(goal.place, cuts)
-        found = _newton(load, goal, (half, half), of, rows, narrowed, over=over)
-        a[rows], c[rows] = (edge[rows] for edge in found)
-        now = of(a[rows], c[rows], rows)
-        judged = _judged(load[rows], goal.on(rows), a[rows], c[rows], now)
-        tilt[rows], (off[rows], met[rows], told[rows], done[rows]) = now.tilt, judged
+        edge_a, edge_c = _newton(load, goal, (half, half), of, rows, narrowed, over=over)
+        best.put(rows, _judged(load, goal, edge_a[rows], edge_c[rows], of, rows, cuts))
     searched = np.full(load.shape, False)
     ways: list[Callable[..., tuple[Array, Array]]] = [
         *(partial(beside, s) for s in goal.steps),
@@ -253,19 +290,17 @@ def _solved(
         partial(beside, goal.steps[0]),
     ]
     for nearer in ways:
-        rows = np.flatnonzero(given & ~told & (~done | searched))
+        rows = np.flatnonzero(given & ~best.told & (~best.done | searched))
         if not rows.size:
             break
-        lost = load[rows], goal.on(rows)
-        found = nearer(*lost, size[rows], of, rows, [v[rows] for v in cuts], a[rows], c[rows])
-        now = of(*found, rows)
-        its_off, its_met, its_told, its_done = _judged(*lost, *found, now)
-        better = its_met & ~(its_off > off[rows]) | (now.load > 0) & ~met[rows]
-        fresh = (*found, now.tilt, its_off, its_met, its_told, its_done)
-        for whole, value in zip((a, c, tilt, off, met, told, done), fresh, strict=True):
-            whole[rows] = np.where(better, value, whole[rows])
+        behind, start = [v[rows] for v in cuts], (best.a[rows], best.c[rows])
+        found = nearer(load[rows], goal.on(rows), size[rows], of, rows, behind, *start)
+        judged = _judged(load, goal, *found, of, rows, cuts)
+        closer = judged.met & ~(judged.off > best.off[rows])
+        better = closer | judged.carries & ~best.met[rows]
+        best.put(rows[better], judged.on(better))
         searched[rows] = nearer is edges
-    return Solution(*(np.where(met, v, np.nan).reshape(shape)[()] for v in (a, c, tilt)))
+    return Solution(*(np.where(best.met, v, np.nan).reshape(shape)[()] for v in best[:3]))
 
 
 def _over_a_kink(place: Array, cuts: Sequence[Array]) -> Array:
@@ -289,25 +324,73 @@ def _within_reach(load: Array, place: Array, size: Array, state: Callable[..., S
     return within
 
 
-def _judged(
-    load: Array, goal: Any, a: Array, c: Array, now: State
-) -> tuple[Array, Array, Array, Array]:
-    """How far a contact is from carrying what is asked.
+class _Found(NamedTuple):
+    """Contacts, and what is known of each.
 
-    Whether it is one; whether it tells that there is none, where its edges lie so close to a kink
-    that their rounding moves the load by ROUGHEST, or where that of what is asked moves them by
-    UNSURE; and whether it is as near as its edges can be numbers at all.
+    a, c, tilt: one step on from where the state was looked at, which is below rounding there but
+        for edges beside a kink.
+    off: how far it is from carrying what is asked.
+    met: whether it is one.
+    told: whether it tells that there is none, where its edges lie so close to a kink that their
+        rounding moves the load by ROUGHEST, or where that of what is asked moves them by UNSURE.
+    done: whether it is as near as its edges can be numbers at all.
+    carries: whether it carries anything.
     """
-    h, mid = a + c, (c - a) / 2
+
+    a: Array
+    c: Array
+    tilt: Array
+    off: Array
+    met: Array
+    told: Array
+    done: Array
+    carries: Array
+
+    @classmethod
+    def none(cls, count: int) -> "_Found":
+        """Nothing yet of so many."""
+        nothing = [np.full(count, np.nan) for _ in range(4)]
+        return cls(*nothing, *(np.full(count, False) for _ in range(4)))
+
+    def on(self, rows: Any) -> "_Found":
+        """The same for some."""
+        return _Found(*(value[rows] for value in self))
+
+    def put(self, rows: Rows, found: "_Found") -> None:
+        """Take these for the elements `rows`."""
+        for whole, value in zip(self, found, strict=True):
+            whole[rows] = value
+
+
+def _judged(
+    load: Array,
+    goal: Any,
+    a: Array,
+    c: Array,
+    state: Callable[[Array, Array, Rows], State],
+    rows: Rows,
+    cuts: Sequence[Array],
+) -> _Found:
+    """What contacts of the elements `rows` are."""
+    load, goal, now = load[rows], goal.on(rows), state(a, c, rows)
+    step, h = _Step.of(load, goal, a, c, now), a + c
     rounding = np.pi / 4 * _EPS * np.sqrt(h) / now.load
     rounding *= now.left * np.abs(a) + now.right * np.abs(c)
     given = goal.rounding(h, load)
-    short = np.abs(np.log(load / now.load))
-    rest = np.abs(goal.off(now, h, mid, load)) - 16 * np.minimum(given, ROUGHEST)
+    short = np.abs(step.short)
+    rest = np.abs(step.off) - 16 * np.minimum(given, ROUGHEST)
     near = np.maximum(short, rest / 16) < ACCEPTED + 16 * rounding
     clear = (rounding < ROUGHEST) & (given < UNSURE)
     done = (short < EXACT + 2 * rounding) & (rest < EXACT + 8 * rounding)
-    return np.maximum(short, rest), near & clear, near & ~clear, done
+    steps, rests, force = done.copy(), done.copy(), load / np.sqrt(h)
+    for edge, by, K, sign in step.edges():
+        rests &= np.abs(by) <= ROUNDED * (np.spacing(np.abs(edge)) + _EPS * force / K)
+        for cut in cuts:
+            steps &= np.abs(by) < BESIDE * np.abs(edge - sign * cut[rows])
+    off, done = np.maximum(short, rest), steps | rests
+    moved = zip(step.taken(), (a, c, now.tilt), strict=True)
+    a, c, tilt = (np.where(steps, after, before) for after, before in moved)
+    return _Found(a, c, tilt, off, near & clear, near & ~clear, done, now.load > 0)
 
 
 class _Widths(NamedTuple):
@@ -366,16 +449,15 @@ def _between_rungs(
     asked, wanted = load[rows], goal.on(rows)
     start = _from_rungs(asked, wanted, size[rows] / 2, state, narrowed)
     a, c = (v[rows] for v in _newton(load, goal, start, state, rows, narrowed, CLOSE, QUICK))
-    now, h, mid = state(a, c, rows), a + c, (c - a) / 2
-    short = np.log(asked / now.load)
-    left, right = _linear(wanted, now, h, mid, short)
-    plain = (np.abs(short) < ACCEPTED) & (np.abs(wanted.off(now, h, mid, asked)) < ACCEPTED)
-    for cut in cuts:
-        clear = np.minimum(np.abs(a + cut[rows]), np.abs(c - cut[rows]))
-        plain &= clear > CLEAR * h
-    tilt = now.tilt + (left - right) / np.sqrt(h)
-    values = np.stack([a + left / now.left, c + right / now.right, tilt])
-    return rows[plain], values[:, plain]
+    now, kinks = state(a, c, rows), [cut[rows] for cut in cuts]
+    step = _Step.of(asked, wanted, a, c, now)
+    plain = (np.abs(step.short) < ACCEPTED) & (np.abs(step.off) < ACCEPTED)
+    for edge, _, _, sign in step.edges():
+        for kink in kinks:
+            plain &= np.abs(edge - sign * kink) > CLEAR * (a + c)
+    yes = np.full(a.shape, True)
+    found = _Found(*step.taken(), np.zeros(a.size), yes, ~yes, yes, yes)
+    return rows[plain], found.on(plain)
 
 
 def _from_rungs(

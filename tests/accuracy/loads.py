@@ -101,14 +101,14 @@ def without_tension(where: Where) -> Where:
 
 
 def _constant(regions: Regions, tension: tuple[float, float]) -> Placed:
-    for name, given in regions.contacts():
+    for name, given in regions.contacts(wide=False):
         if len(given["a"]):
             yield name, slipping(regions, given, SHEAR, tension)
     yield TINY_ZONES, slipping(regions, _bulk(regions), TINY, tension)
 
 
 def _bulk(regions: Regions) -> Sample:
-    return next(given for name, given in regions.contacts() if name == "bulk")
+    return next(given for name, given in regions.contacts(wide=False) if name == "bulk")
 
 
 def varied(regions: Regions) -> Sample:

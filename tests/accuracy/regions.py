@@ -35,6 +35,9 @@ WIDEST = {"catenary": 1.0, "circular_arc": -0.1}
 """Decades of the widest contact, where a body ends or its load leaves float64."""
 
 
+WIDE = 4.0
+"""Decades of the body's size across which a contact reaches whose edge lies beside a kink."""
+
 UNEVEN_REGION = "uneven parameters"
 
 
@@ -121,16 +124,19 @@ class Regions:
 
     # ------------------------------------------------------------------ contacts
 
-    def contacts(self) -> Iterator[tuple[str, Sample]]:
-        """Contacts in the bulk, of extreme widths, lopsided, level, and with edges at kinks."""
+    def contacts(self, wide: bool = True) -> Iterator[tuple[str, Sample]]:
+        """Contacts in the bulk, of extreme widths, lopsided, level, and with edges at kinks.
+
+        wide: also such with edges at kinks that are up to WIDE decades wider than the body's size.
+        """
         widest = min(WIDEST.get(self.sheet.geometry.name, 12.0), EXPONENTS["loads"])
         yield "bulk", self._of_width((-0.5, min(widest, 1.0)), (-0.45, 0.45))
         yield "extreme widths", self._of_width((-EXPONENTS["loads"], widest), (-0.45, 0.45))
         lean = 0.5 - self.decades(-EXPONENTS["moments"], -0.5)
         yield "lopsided", self._of_width((-2, min(widest, 2.0)), self.signs * lean)
         other = Regions(self.sheet, self.module, self.count, seed=2)  # draws of its own
-        wide = (-EXPONENTS["loads"], widest)
-        yield "extreme widths, lopsided", other._of_width(wide, other.signs * lean)
+        widths = (-EXPONENTS["loads"], widest)
+        yield "extreme widths, lopsided", other._of_width(widths, other.signs * lean)
         if self.may_be_uneven:
             apart = Regions(self.sheet, self.module, self.count, seed=3)
             yield UNEVEN_REGION, apart._of_width((-0.5, min(widest, 1.0)), (-0.45, 0.45), True)
@@ -139,6 +145,10 @@ class Regions:
         for kink in self.sheet.geometry.slope.kinks:
             if not kink.position.is_zero or self._may_leave(kink.position):
                 yield f"edge beside kink {kink.number}", self._edge_at(kink.position)
+                if wide:
+                    other = Regions(self.sheet, self.module, self.count, seed=5)
+                    where = f"edge beside kink {kink.number}, wide contact"
+                    yield where, other._edge_at(kink.position, (1.0, WIDE))
 
     def _may_leave(self, place: Expr) -> bool:
         """Whether contacts exist that do not hold a kink."""
@@ -153,12 +163,12 @@ class Regions:
         given |= {"a": width * (0.5 - middle), "c": width * (0.5 + middle)}
         return self._existing(given)
 
-    def _edge_at(self, place: Expr) -> Sample:
-        """One edge just beyond a kink, or just short of it."""
+    def _edge_at(self, place: Expr, widths: tuple[float, float] = (-0.5, 1.0)) -> Sample:
+        """One edge just beyond a kink, or just short of it; the other so many decades away."""
         given = self.material()
         kink, size = self._values(place, given), self.size(given)
         near = kink + self.signs * size * self.decades(-EXPONENTS["edges"], -1)
-        far = size * self.decades(-0.5, 1)
+        far = size * self.decades(*widths)
         right = self.rng.choice([True, False], self.count)
         given |= {"a": np.where(right, far - near, -near), "c": np.where(right, near, near + far)}
         return self._existing(given)
