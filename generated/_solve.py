@@ -49,11 +49,9 @@ EXACT = 1e-13
 ACCEPTED = 1e-9
 """one that is off by more, when every way to it has been tried, is none."""
 
-BESIDE = 0.1
-"""The last step counts if it leads an edge by no larger part of its distance from a kink,"""
-
 ROUNDED = 4
-"""or by no more than so many units in the last place of the edge and of the load explain."""
+"""The last step counts if its square leaves no more than so many units in the last place of the
+edge and of the load explain; none is due if it is no longer itself."""
 
 ROUGHEST = 1e-4
 """Where the rounding of the edges moves the load by more, no contact is given."""
@@ -384,9 +382,12 @@ def _judged(
     done = (short < EXACT + 2 * rounding) & (rest < EXACT + 8 * rounding)
     steps, rests, force = done.copy(), done.copy(), load / np.sqrt(h)
     for edge, by, K, sign in step.edges():
-        rests &= np.abs(by) <= ROUNDED * (np.spacing(np.abs(edge)) + _EPS * force / K)
+        rounded = ROUNDED * (np.spacing(np.abs(edge)) + _EPS * force / K)
+        rests &= np.abs(by) <= rounded + ROUNDED * given * force / K
+        near_by = h
         for cut in cuts:
-            steps &= np.abs(by) < BESIDE * np.abs(edge - sign * cut[rows])
+            near_by = np.minimum(near_by, np.abs(edge - sign * cut[rows]))
+        steps &= by**2 < rounded * near_by
     off, done = np.maximum(short, rest), steps | rests
     moved = zip(step.taken(), (a, c, now.tilt), strict=True)
     a, c, tilt = (np.where(steps, after, before) for after, before in moved)
