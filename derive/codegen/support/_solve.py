@@ -324,8 +324,7 @@ def _within_reach(load: Array, place: Array, size: Array, state: Callable[..., S
 class _Found(NamedTuple):
     """Contacts, and what is known of each.
 
-    a, c, tilt: one step on from where the state was looked at, which is below rounding there but
-        for edges beside a kink.
+    a, c, tilt: after the last step, where there is one.
     off: how far it is from carrying what is asked.
     met: whether it is one.
     told: whether it tells that there is none, where its edges lie so close to a kink that their
