@@ -54,7 +54,7 @@ def within(seconds: float) -> Iterator[LookAtClock]:
 
     with _unraisable_again():
         before = signal.signal(signal.SIGALRM, _ring)
-        outer, _ = signal.getitimer(signal.ITIMER_REAL)
+        outer, interval = signal.getitimer(signal.ITIMER_REAL)
         outer_end = monotonic() + outer if outer else float("inf")
         signal.setitimer(signal.ITIMER_REAL, min(seconds, outer or seconds), _AGAIN)
         try:
@@ -62,7 +62,7 @@ def within(seconds: float) -> Iterator[LookAtClock]:
         finally:
             try:
                 left = max(outer_end - monotonic(), _SOON) if outer else 0.0
-                signal.setitimer(signal.ITIMER_REAL, left, _AGAIN)
+                signal.setitimer(signal.ITIMER_REAL, left, interval)
             finally:
                 signal.signal(signal.SIGALRM, before)
 

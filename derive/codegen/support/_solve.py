@@ -171,10 +171,19 @@ class _Step:
         tilt = self.now.tilt + turned / np.sqrt(self.a + self.c)
         return self.a + self.by_a, self.c + self.by_c, tilt
 
-    def edges(self) -> Iterator[tuple[Array, Array, Array, int]]:
-        """Of each edge: where it is, how far it moves, K_N, and the sign of places on its side."""
-        yield self.a, self.by_a, self.now.left, -1
-        yield self.c, self.by_c, self.now.right, 1
+    def edges(self, kinks: Sequence[Array]) -> Iterator[tuple[Array, Array, Array, Array]]:
+        """Of each edge: where it is, how far it moves, K_N, and its distance from what is nearest.
+
+        That is a kink or the other edge.
+        """
+        for edge, by, K, side in (
+            (self.a, self.by_a, self.now.left, -1),
+            (self.c, self.by_c, self.now.right, 1),
+        ):
+            nearest = self.a + self.c
+            for kink in kinks:
+                nearest = np.minimum(nearest, np.abs(edge - side * kink))
+            yield edge, by, K, nearest
 
 
 @dataclass(frozen=True)
@@ -379,13 +388,10 @@ def _judged(
     clear = (rounding < ROUGHEST) & (given < UNSURE)
     done = (short < EXACT + 2 * rounding) & (rest < EXACT + 8 * rounding)
     steps, rests, force = done.copy(), done.copy(), load / np.sqrt(h)
-    for edge, by, K, sign in step.edges():
+    for edge, by, K, nearest in step.edges([cut[rows] for cut in cuts]):
         rounded = ROUNDED * (np.spacing(np.abs(edge)) + _EPS * force / K)
         rests &= np.abs(by) <= rounded + ROUNDED * given * force / K
-        near_by = h
-        for cut in cuts:
-            near_by = np.minimum(near_by, np.abs(edge - sign * cut[rows]))
-        steps &= by**2 < rounded * near_by
+        steps &= by**2 < rounded * nearest
     off, done = np.maximum(short, rest), steps | rests
     moved = zip(step.taken(), (a, c, now.tilt), strict=True)
     a, c, tilt = (np.where(steps, after, before) for after, before in moved)
@@ -448,12 +454,10 @@ def _between_rungs(
     asked, wanted = load[rows], goal.on(rows)
     start = _from_rungs(asked, wanted, size[rows] / 2, state, narrowed)
     a, c = (v[rows] for v in _newton(load, goal, start, state, rows, narrowed, CLOSE, QUICK))
-    now, kinks = state(a, c, rows), [cut[rows] for cut in cuts]
-    step = _Step.of(asked, wanted, a, c, now)
+    step = _Step.of(asked, wanted, a, c, state(a, c, rows))
     plain = (np.abs(step.short) < ACCEPTED) & (np.abs(step.off) < ACCEPTED)
-    for edge, _, _, sign in step.edges():
-        for kink in kinks:
-            plain &= np.abs(edge - sign * kink) > CLEAR * (a + c)
+    for _, _, _, nearest in step.edges([cut[rows] for cut in cuts]):
+        plain &= nearest > CLEAR * (a + c)
     yes = np.full(a.shape, True)
     found = _Found(*step.taken(), np.zeros(a.size), yes, ~yes, yes, yes)
     return rows[plain], found.on(plain)
