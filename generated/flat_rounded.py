@@ -152,7 +152,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b:
     a, c, _ = contact_at(P / E_star, alpha, place, R, _state, _breaks(R=R, b=b), R=R, b=b)
     h = a + c  # contact width [m]
     exists = (P > 0) & (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=60)

@@ -185,7 +185,7 @@ def contact_at_tilt(
         & (c > -b)
         & (h < MOST)
     )
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=60)

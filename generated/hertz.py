@@ -116,7 +116,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     c = half - alpha * R
     h = a + c  # contact width [m]
     exists = (P > 0) & (h > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=2)
@@ -253,7 +253,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     h = a + c  # contact width [m]
     scale = (E_star / (2 * R)) * np.sqrt(h)
     exists = (h > LEAST) & (h < MOST)
-    return Edges(*only_where(exists, scale, scale.copy()))
+    return Edges(*only_where(exists, scale, +scale))
 
 
 @elementwise(arrays=3)
@@ -284,7 +284,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     h = a + c  # contact width [m]
     scale = -((E_star / (4 * R)) / np.sqrt(h))
     exists = (h > LEAST) & (h < MOST)
-    return Edges(*only_where(exists, scale, scale.copy()))
+    return Edges(*only_where(exists, scale, +scale))
 
 
 @elementwise(arrays=5)
@@ -399,7 +399,7 @@ def _third(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     h = a + c  # contact width [m]
     scale = -((E_star / (16 * R)) / (h * np.sqrt(h)))
     exists = (h > LEAST) & (h < MOST)
-    return Edges(*only_where(exists, scale, scale.copy()))
+    return Edges(*only_where(exists, scale, +scale))
 
 
 def _breaks(*, R: Array) -> tuple[Array, ...]:

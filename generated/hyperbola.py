@@ -170,7 +170,7 @@ def contact_at_tilt(
     a, c, _ = contact_at(P / E_star, alpha, place, b, _state, _breaks(b=b, phi=phi), b=b, phi=phi)
     h = a + c  # contact width [m]
     exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (h > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=90)

@@ -164,7 +164,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, k:
     a, c, _ = contact_at(P / E_star, alpha, place, L, _state, _breaks(L=L, k=k), L=L, k=k)
     h = a + c  # contact width [m]
     exists = (P > 0) & (k > 1) & (h > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=90)

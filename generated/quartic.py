@@ -141,7 +141,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array) ->
     a, c, _ = contact_at(P / E_star, alpha, place, L, _state, (), L=L)
     h = a + c  # contact width [m]
     exists = (P > 0) & (h > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=4)

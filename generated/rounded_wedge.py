@@ -159,7 +159,7 @@ def contact_at_tilt(
     exists = (
         (P > 0) & (alpha > -phi) & (alpha < phi) & (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
     )
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=60)

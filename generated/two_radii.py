@@ -153,7 +153,7 @@ def contact_at_tilt(
     )
     h = a + c  # contact width [m]
     exists = (P > 0) & (h > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=60)

@@ -150,7 +150,7 @@ def contact_at_tilt(
     c = maximum(-leaning, near)
     h = a + c  # contact width [m]
     exists = (P > 0) & (alpha > -phi_2) & (alpha < phi_1) & (minimum(a, c) > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=4)

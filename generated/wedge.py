@@ -138,7 +138,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     c = maximum(-leaning, near)
     h = a + c  # contact width [m]
     exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (minimum(a, c) > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=4)

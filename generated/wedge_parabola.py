@@ -151,7 +151,7 @@ def contact_at_tilt(
     a, c, _ = contact_at(P / E_star, alpha, place, R, _state, _breaks(R=R, phi=phi), R=R, phi=phi)
     h = a + c  # contact width [m]
     exists = (P > 0) & (alpha < phi) & (h > LEAST) & (c > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha.copy()))
+    return Contact(*only_where(exists, a, c, +alpha))
 
 
 @elementwise(arrays=60)

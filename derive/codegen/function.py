@@ -125,7 +125,7 @@ class FunctionText:
             name: self._in_place(expr, varying, printer) or printer.doprint(expr)
             for name, expr in self.program.outputs.items()
         }
-        values = {name: v + ".copy()" * self._is_held(name) for name, v in values.items()}
+        values = {name: "+" * self._is_held(name) + v for name, v in values.items()}
         if self.function.kind == "Contact":
             yield f"    a = {values['a']}"
             yield f"    c = {values['c']}"

@@ -162,7 +162,7 @@ class SolvedText(CallingText):
                 f"    a, c, _ = contact_at("
                 f"P / E_star, alpha, place, {size}, _state, {breaks}{constants})"
             )
-        held = "alpha" if M in self.function.arguments else "alpha.copy()"
+        held = "alpha" if M in self.function.arguments else "+alpha"
         yield from self._ending({"a": "a", "c": "c", "alpha": held})
 
     @property

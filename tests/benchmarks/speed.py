@@ -41,7 +41,7 @@ from tests.paper_forms import FORMS
 ROOT = Path(__file__).parents[2]
 WITH_AVX512 = ROOT / "docs" / "performance.md"
 WITHOUT_AVX512 = ROOT / "docs" / "performance_without_avx512.md"
-PAGE = WITHOUT_AVX512 if _arrays._LOG1P_BY_LOG else WITH_AVX512
+PAGE = WITHOUT_AVX512 if _arrays.LOG1P_BY_LOG else WITH_AVX512
 """NumPy's log1p is another one on each kind of processor, and so are all ratios."""
 
 SIZES = tuple(10**n for n in range(8))

@@ -14,6 +14,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ._chunks import any_lazy, demand_array, is_lazy, known_shape, over_chunks
+from ._plain import LOG1P_BY_LOG, REFUSALS, in_plain_numbers
+from ._plain import kink_logarithm as _plain_kink_logarithm
+from ._plain import log1p as _plain_log1p
 from ._types import Contact
 
 Array = Any
@@ -97,6 +100,7 @@ def _elementwise(function: Function, arrays: int) -> Function:
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
     Float, INFINITE, plain = np.float64, math.inf, frozenset(_NUMBERS)
     quiet = np.errstate(all="ignore")(function)
+    at_numbers = in_plain_numbers(function)
     quiet_blocks = np.errstate(all="ignore")(_in_blocks)
 
     @wraps(function)
@@ -104,10 +108,17 @@ def _elementwise(function: Function, arrays: int) -> Function:
         if len(args) + len(kwargs) == count and plain.issuperset(
             map(type, chain(args, kwargs.values()))
         ):
-            for name, value in kwargs.items():
-                sound = name not in constants or 0 < value < INFINITE
-                kwargs[name] = Float(value) if sound else _NAN
-            return quiet(*map(Float, args), **kwargs)
+            numbers = {n: float(v) for n, v in kwargs.items()}
+            for name in constants:
+                if not 0 < numbers.get(name, 1.0) < INFINITE:
+                    numbers[name] = math.nan
+            if at_numbers:
+                try:
+                    found = at_numbers(*map(float, args), **numbers)
+                    return Float(found) if results == 1 else found._make(map(Float, found))
+                except REFUSALS:
+                    pass  # NumPy has an answer
+            return quiet(*map(Float, args), **{n: Float(v) for n, v in numbers.items()})
         given = (dict(zip(names, args, strict=False)) | kwargs) if args else kwargs
         if len(given) < len(args) + len(kwargs):
             return function(*args, **kwargs)  # too many, or one twice: Python's own message
@@ -276,11 +287,10 @@ def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> An
     float64 and its logarithm does not.  The arrays `left` and `right` are used up.
     """
     if type(left) in _NUMBERS and type(right) in _NUMBERS and type(offset) in _NUMBERS:
-        distance = max(abs(offset), least)
-        if left > 0 and right > 0 and distance > 0:
-            quotient = (math.sqrt(left * right) + min(left, right)) / distance
-            if quotient < math.inf:
-                return log1p(quotient)
+        try:
+            return np.float64(_plain_kink_logarithm(left, right, offset, least))
+        except REFUSALS:
+            pass  # NumPy has an answer
     if least:
         offset = maximum(np.abs(offset), least)
     held = _between_edges(left, right)
@@ -304,11 +314,9 @@ def log1p(value: Any, out: Any = None, free: Sequence[Any] = ()) -> Any:
     out: where to put it; free: two more arrays of that shape, to be used up.
     """
     kind = type(value)
-    if _LOG1P_BY_LOG and kind in _NUMBERS:
-        above = 1.0 + value
-        lost = value - (above - 1.0) if value < math.inf else 0.0
-        return np.log(above) + lost / above
-    if not _LOG1P_BY_LOG or kind is not np.ndarray:
+    if LOG1P_BY_LOG and kind in _NUMBERS:
+        return np.float64(_plain_log1p(value))
+    if not LOG1P_BY_LOG or kind is not np.ndarray:
         return np.log1p(value) if out is None else np.log1p(value, out=out)
     first, second = free or (None, None)
     above = np.add(value, 1.0, out=first)
@@ -319,23 +327,6 @@ def log1p(value: Any, out: Any = None, free: Sequence[Any] = ()) -> Any:
         lost = np.subtract(value, above - 1.0, out=np.zeros(value.shape), where=value < np.inf)
     lost = np.divide(lost, above, out=second)
     return np.add(np.log(above, out=first), lost, out=out)
-
-
-def _log1p_is_slow() -> bool:
-    """Whether NumPy's log1p takes elements one by one, though it knows better ways elsewhere.
-
-    So it is on Linux without AVX-512, where it takes three times as long as its log.
-    """
-    try:
-        from numpy.lib.introspect import opt_func_info
-    except ImportError:  # NumPy 2.0
-        return False
-    ways = opt_func_info(func_name="^log1p$", signature="float64").get("log1p", {}).get("dd", {})
-    current = ways.get("current", "")
-    return current.startswith("baseline") and ways.get("available", "") != current
-
-
-_LOG1P_BY_LOG = _log1p_is_slow()
 
 
 @np.errstate(invalid="raise")

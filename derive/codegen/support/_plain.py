@@ -1,0 +1,166 @@
+"""One load case in Python's own numbers, whose arithmetic is several times as quick as NumPy's.
+
+Every step gives the bits that NumPy gives.  What Python refuses and NumPy answers, a division by
+zero say, is left to NumPy.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from types import CodeType, FunctionType, SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+Function = Callable[..., Any]
+
+REFUSALS = (ArithmeticError, TypeError, ValueError)
+"""What Python raises where NumPy's numbers go on: dividing by zero, at roots of what is negative,
+where a number leaves float64 or the reals.
+"""
+
+
+def in_plain_numbers(function: Function) -> Function | None:
+    """The same formula for Python's numbers; None if it reads what has no counterpart among them.
+
+    It raises one of REFUSALS where NumPy's numbers go on, and warns of nothing.
+    """
+    code, read = function.__code__, {*_names(function.__code__)}
+    if code.co_freevars or not read <= _KNOWN:
+        return None
+    made = FunctionType(code, function.__globals__ | _COUNTERPARTS, function.__name__)
+    return np.errstate(all="ignore")(made) if _ADDED_UP in read else made
+
+
+def _names(code: CodeType) -> Iterator[str]:
+    """What a function reads that is not its own, and what the functions inside it read."""
+    yield from code.co_names
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from _names(constant)
+
+
+def log1p(value: float) -> float:
+    """log(1 + value) of what is not negative."""
+    if not LOG1P_BY_LOG:
+        return float(np.log1p(value))
+    above = 1.0 + value
+    lost = value - (above - 1.0) if value < math.inf else 0.0
+    return float(np.log(above)) + lost / above
+
+
+def kink_logarithm(left: float, right: float, offset: float, least: float = 0.0) -> float:
+    """log(1 + (sqrt(left right) + min(left, right))/d), d = |offset|, `least` at least.
+
+    Raises one of REFUSALS where the quotient leaves float64 or is no number, and beyond the edges.
+    """
+    quotient = (math.sqrt(left * right) + min(left, right)) / max(abs(offset), least)
+    if not 0 <= quotient < math.inf:
+        raise ValueError("no finite quotient")
+    return log1p(quotient)
+
+
+def _log1p_is_slow() -> bool:
+    """Whether NumPy's log1p takes elements one by one, though it knows better ways elsewhere.
+
+    So it is on Linux without AVX-512, where it takes three times as long as its log.
+    """
+    try:
+        from numpy.lib.introspect import opt_func_info
+    except ImportError:  # NumPy 2.0
+        return False
+    ways = opt_func_info(func_name="^log1p$", signature="float64").get("log1p", {}).get("dd", {})
+    current = ways.get("current", "")
+    return current.startswith("baseline") and ways.get("available", "") != current
+
+
+LOG1P_BY_LOG = _log1p_is_slow()
+"""Whether log1p is computed by log, of numbers and of arrays."""
+
+
+# ------------------------------------------------------------------ what stands for NumPy's
+
+
+def _sign(value: float) -> float:
+    return 1.0 if value > 0 else -1.0 if value < 0 else abs(value)
+
+
+def _minimum(first: float, second: float) -> float:
+    return second if first > second or second != second else first
+
+
+def _maximum(first: float, second: float) -> float:
+    return second if first < second or second != second else first
+
+
+def _fmax(first: float, second: float) -> float:
+    return first if first >= second or second != second else second
+
+
+def _only_where(exists: bool, *values: float) -> Any:
+    found = values if exists else [math.nan] * len(values)
+    return found if len(found) > 1 else found[0]
+
+
+def _select(condition: bool, first: float, second: float) -> float:
+    return first if condition else second
+
+
+def _scaled(held: float, factor: float) -> float:
+    return held * factor
+
+
+def _of_numpy(name: str, of_python: Function) -> Function:
+    """A function of NumPy's, whose last digits no other has; Python's refuses what it warns of."""
+    known = getattr(np, name)
+
+    def found(*values: float) -> float:
+        of_python(*values)
+        return float(known(*values))
+
+    return found
+
+
+_NUMPY = SimpleNamespace(
+    pi=np.pi,
+    inf=np.inf,
+    e=np.e,
+    euler_gamma=np.euler_gamma,
+    abs=abs,
+    sign=_sign,
+    sqrt=math.sqrt,
+    arccos=_of_numpy("arccos", math.acos),
+    arccosh=_of_numpy("arccosh", math.acosh),
+    arcsin=_of_numpy("arcsin", math.asin),
+    arcsinh=_of_numpy("arcsinh", math.asinh),
+    arctan=_of_numpy("arctan", math.atan),
+    arctan2=_of_numpy("arctan2", math.atan2),
+    arctanh=_of_numpy("arctanh", math.atanh),
+    **{
+        name: _of_numpy(name, getattr(math, name))
+        for name in ("cos", "cosh", "exp", "expm1", "log", "log1p", "sin", "sinh", "tan", "tanh")
+    },
+)
+
+_COUNTERPARTS = {
+    "np": _NUMPY,
+    "fmax": _fmax,
+    "kink_logarithm": kink_logarithm,
+    "maximum": _maximum,
+    "minimum": _minimum,
+    "only_where": _only_where,
+    "scaled": _scaled,
+    "select": _select,
+}
+
+_ADDED_UP = "_body"
+"""A body that is added up part by part, in Python's numbers if it is asked with such."""
+
+_KNOWN = frozenset(
+    (
+        *_COUNTERPARTS,
+        *vars(_NUMPY),
+        *("LEAST", "MOST", "TINY", "Contact", "Edges"),
+        *(_ADDED_UP, "load", "moment", "tilt", "edges", "second", "pressure"),
+    )
+)
+"""What a formula may read."""
