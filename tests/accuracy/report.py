@@ -85,10 +85,11 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "",
         "Digits that the problem keeps are lost where order 3 of an integrated body is asked",
         "for, or the error of its order 2: the third coefficient follows from differences of",
-        "L_N, and is right to eight digits or more; and in lopsided cycles of power, some",
-        "thousands of times the condition. What else is solved or integrated for a cycle stays",
-        "within some hundreds of times the condition. Of power order 3 and large tension are",
-        "not tried, nor of integrated bodies slip: one point would take minutes.",
+        "L_N, and is right to eight digits or more; and in very lopsided cycles of power and",
+        "flat_rounded, up to some ten thousands of times the condition. What else is solved or",
+        "integrated for a cycle stays within some hundreds of times the condition. Of power",
+        "order 3 and large tension are not tried, nor of integrated bodies slip: one point would",
+        "take minutes.",
         "",
     ]
     grouped = worst_rows(rows)
