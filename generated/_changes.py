@@ -24,11 +24,11 @@ import numpy as np
 from ._arrays import TINY, Array, at_rows, weighted
 from ._law import Law
 
-NODES, FEWER = 20, 12
-"""Nodes of Gauss's rule along a way between two contacts, and of the one it is held against."""
+NODES, FEWER, FEWEST = 20, 12, 8
+"""Nodes of Gauss's rule along a way between two contacts, and of those it is held against."""
 
-SETTLED = 1e-9
-"""What both may differ by: the finer one is exact to rounding then."""
+SETTLED = 1e-14
+"""A doubt that is rounding."""
 
 Way = tuple[Array, Array]
 """a and c of a contact, or by how much they change."""
@@ -122,13 +122,22 @@ def edges_along(
 def _added_up(
     law: Law, start: Way, motion: Way, constants: dict[str, Array], rates: Rates
 ) -> tuple[list[Array], Array]:
-    """The integrals along the way, and how far both rules differ, in parts of the shares."""
+    """The integrals along the way, and what they may be off by, in parts of the shares.
+
+    How fast the rules come together tells how far the finest is off: r**2 times its distance from
+    the next one, r being by how much that is less than the distance between the coarser two.  Close
+    to a kink r is not small.
+    """
     ends = _ends(law, start, motion, constants)
-    found, rough = (_by_rule(start, motion, ends, rates, count) for count in (NODES, FEWER))
+    rules = (_by_rule(start, motion, ends, rates, count) for count in (NODES, FEWER, FEWEST))
     doubt = np.zeros(start[0].shape)
-    for (value, size), (other, _) in zip(found, rough, strict=True):
-        doubt = np.maximum(doubt, np.abs(value - other) / (size + TINY))
-    return [value for value, _ in found], doubt
+    found = []
+    for (fine, size), (middle, _), (coarse, _) in zip(*rules, strict=True):
+        last, before = np.abs(fine - middle), np.abs(middle - coarse)
+        closer = np.minimum(last / (before + TINY), 1)
+        doubt = np.maximum(doubt, last * closer**2 / (size + TINY))
+        found.append(fine)
+    return found, doubt
 
 
 def _ends(law: Law, start: Way, motion: Way, constants: dict[str, Array]) -> Array:

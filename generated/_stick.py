@@ -32,7 +32,7 @@ from typing import Any
 import numpy as np
 
 from ._arrays import Array, Flat, at_rows, contact_edges
-from ._changes import Way, change_along, change_between, step_for
+from ._changes import SETTLED, Way, change_along, change_between, step_for
 from ._law import Law
 from ._roots import around, increasing_root
 from ._turning import turning_zone
@@ -59,6 +59,9 @@ ROUNDED = 4.0
 
 SHARPENED = 2
 """by so many of Newton's steps."""
+
+ROUNDING = 2.0**-53
+"""What rounding takes of a number, in parts of it."""
 
 CANCELLED = 2.0
 """A difference so many times smaller than what it is taken of has lost digits."""
@@ -271,7 +274,8 @@ def moderate_motion(
     """
     cycle, _ = _cycle(law, first, second, dQ, dsigma, f, E_star, own)
     motion = zone[0] - cycle.a[0], zone[1] - cycle.c[0]
-    return _stepped(cycle, motion, cycle.first)
+    motion, doubt = _stepped(cycle, motion, cycle.first)
+    return motion, doubt <= SETTLED
 
 
 # ---------------------------------------------------------------------- the cycle
@@ -483,7 +487,8 @@ def _sharpened(cycle: _Cycle, m: Array, n: Array, slips: Array) -> tuple[Array, 
     """The moderate zone to its last digits, where load and tilt have not told them.
 
     Close to the largest tilt of a body a tilt is rounded by more than the zone bears.  There the
-    changes of load and tilt from the first contact are added up instead.
+    changes of load and tilt from the first contact are added up instead, where they are known any
+    better.
     """
     K = cycle.law.K_N(m, n, **cycle.constants)
     h, E_star = m + n, cycle.constants["E_star"]
@@ -494,28 +499,32 @@ def _sharpened(cycle: _Cycle, m: Array, n: Array, slips: Array) -> tuple[Array, 
     if not rows.size:
         return m, n
     there, m, n = cycle.on(rows), m.copy(), n.copy()
-    zone, settled = _stepped(there, (m[rows], n[rows]), (0.0, 0.0))
-    m[rows], n[rows] = (np.where(settled, v, w[rows]) for v, w in zip(zone, (m, n), strict=True))
+    zone, doubt = _stepped(there, (m[rows], n[rows]), (0.0, 0.0))
+    load, tilt = there.moderate_gain
+    changed = np.abs(load) * 4 / np.pi + np.abs(tilt) * h[rows]
+    better = doubt * changed <= ROUNDING * rounded[rows]
+    m[rows], n[rows] = (np.where(better, v, w[rows]) for v, w in zip(zone, (m, n), strict=True))
     return m, n
 
 
 def _stepped(cycle: _Cycle, edges: Way, origin: Way) -> tuple[Way, Array]:
-    """Edges of the moderate zone after Newton's steps, and whether they are known to rounding.
+    """Edges of the moderate zone after Newton's steps, and what the changes may be off by.
 
     They are told from the edges of an origin, as places or as motions, and keep the digits of that.
+    The doubt is in parts of the changes from the first contact; infinite where there are no edges.
     """
     (left, right), (a, c) = edges, cycle.first
-    settled = np.full(cycle.dQ.shape, True)
+    doubt = np.zeros(cycle.dQ.shape)
     load, tilt = cycle.moderate_gain
     for _ in range(SHARPENED):
         motion = left + (origin[0] - a), right + (origin[1] - c)
         change = change_along(cycle.law, cycle.first, motion, cycle.constants)
-        settled &= change.settled
+        doubt = np.maximum(doubt, change.doubt)
         here = origin[0] + left, origin[1] + right
         off = load - change.load, tilt - change.tilt
         to_left, to_right = step_for(cycle.law, here, *off, cycle.constants)
         left, right = left + to_left, right + to_right
-    return (left, right), settled & np.isfinite(left) & np.isfinite(right)
+    return (left, right), np.where(np.isfinite(left + right + doubt), doubt, np.inf)
 
 
 def _patch(cycle: _Cycle, loads: Any, tilts: Any, part: Array) -> Contact:

@@ -14,7 +14,7 @@ from numpy.testing import assert_allclose
 
 from derive.proof.points import numeric
 from derive.symbols import E_star, a, c
-from generated import hertz, rounded_wedge, wedge
+from generated import flat_rounded, hertz, rounded_wedge, wedge
 from generated._changes import change_along, change_between, edges_along
 from generated._types import Contact, Regime
 from tests.accuracy.reference import sheet_of
@@ -91,6 +91,57 @@ def test_a_change_of_roots_is_the_difference_of_two_formulas(
     for value, name in zip(roots, ("K_N_left", "K_N_right"), strict=True):
         wanted = exact(body, name, end, constants) - exact(body, name, start, constants)
         assert_allclose(value, float(wanted), rtol=1e-12)
+
+
+ROUNDED = {"E_star": 11.0, "R": 0.125, "b": 0.0625}
+SHARP = {"E_star": 3.0, "phi": 0.25}
+
+BESIDE_KINKS: list[tuple[str, dict[str, float], tuple[float, float], float]] = [
+    ("flat_rounded", ROUNDED, (581160.0, 233.0), -68408.0),
+    ("flat_rounded", ROUNDED, (5.0, 4.0), 0.125),
+    ("wedge", SHARP, (1.0, 1e-3), 0.2e-3),
+    ("wedge", SHARP, (1.0, 1e-3), 1e-5),
+    ("rounded_wedge", SHARP | {"b": 0.5}, (1.0, 0.75), 0.51),
+    ("rounded_wedge", SHARP | {"b": 0.5}, (1.0, 40.0), -0.4),
+]
+"""Bodies, their constants, a contact, and where its right edge draws back to."""
+
+
+@pytest.mark.parametrize(("body", "constants", "start", "end"), BESIDE_KINKS)
+def test_the_doubt_is_what_a_change_is_off_by(
+    body: str, constants: dict[str, float], start: tuple[float, float], end: float
+) -> None:
+    """Where one edge moves, the load changes by its share alone."""
+    law = importlib.import_module(f"generated.{body}")._LAW
+    wanted = exact(body, "load", (start[0], end), constants) - exact(body, "load", start, constants)
+    motion = np.array([0.0]), np.array([end - start[1]])
+    found = change_along(law, tuple(map(np.atleast_1d, start)), motion, constants)
+    off = float(abs(mpf(float(found.load[0])) / wanted - 1))
+    assert off <= 30 * found.doubt[0] + 1e-15
+    assert found.doubt[0] <= 1e3 * off + 1e-15
+
+
+def test_a_moderate_zone_that_no_change_tells_is_told_by_load_and_tilt() -> None:
+    """Its right edge has passed a narrow flat, which the rules along the way do not resolve.
+
+    Wide contacts of a flat of half-width b on flanks of radius R: what slips beyond the flat leaves
+    a zone on the left flank alone, a cylinder around x = -b, whose load is pi E* h**2/(16 R) and
+    whose tilt is (m - n - 2 b)/(2 R).
+    """
+    constants, friction = {"E_star": 10.0, "R": 0.125, "b": 0.0625}, 0.25
+    edges, shear, tension = (581160.0, 233.0), 8e11, -1.6e6
+    here = Contact(*edges, 0.0)
+    zone = flat_rounded.stick_zone(here, here, shear, tension, f=friction, **constants)
+    assert zone.regime == Regime.MODERATE
+    with mpmath.workdps(50):
+        load = exact("flat_rounded", "load", edges, constants) - mpf(shear) / (2 * mpf(friction))
+        lean = exact("flat_rounded", "tilt", edges, constants)
+        lean -= mpf(tension) / (4 * mpf(friction) * 10)
+        width = mpmath.sqrt(16 * mpf(0.125) * load / (mpmath.pi * 10))
+        apart = 2 * mpf(0.125) * lean + 2 * mpf(0.0625)
+        m, n = (width + apart) / 2, (width - apart) / 2
+    assert n < -0.0625
+    assert_allclose([zone.m, zone.n], [float(m), float(n)], rtol=1e-14)
 
 
 def test_what_is_not_known_to_rounding_is_said() -> None:
