@@ -303,7 +303,8 @@ def _solved(
         behind, start = [v[rows] for v in cuts], (best.a[rows], best.c[rows])
         found = nearer(load[rows], goal.on(rows), size[rows], of, rows, behind, *start)
         judged = _judged(load, goal, *found, of, rows, cuts)
-        closer = judged.met & ~(judged.off > best.off[rows])
+        nearer_still = ~(judged.off > best.off[rows]) & (judged.done | ~best.done[rows])
+        closer = judged.met & (nearer_still | judged.done & ~best.done[rows])
         better = closer | judged.carries & ~best.met[rows]
         best.put(rows[better], judged.on(better))
         searched[rows] = nearer is edges

@@ -1,6 +1,7 @@
 """Every generated function is right to the last digits, corners included; a quick variant of the
 table that `make accuracy` writes."""
 
+import importlib
 from functools import cache
 
 import mpmath
@@ -10,6 +11,7 @@ from mpmath import mpf
 
 from derive.library import library
 from tests.accuracy.cycles import CYCLES
+from tests.accuracy.inverses import INVERSES
 from tests.accuracy.measure import (
     CLOSED,
     CYCLE,
@@ -143,6 +145,44 @@ def test_contacts_that_are_solved_keep_their_digits(body: str) -> None:
         for row in worst_of(body, 200, name):
             what = f"{name}.{row.output} in {row.region}"
             assert row.excess <= LIMITS[SOLVED], f"{what}: {row.excess:.1f} at {row.over}"
+
+
+@pytest.mark.parametrize(
+    ("body", "name", "edges", "given"),
+    [
+        (
+            *("flat_rounded", "contact", (1.00000001, 0.99999999)),
+            {"P": 4.714045200839249e-13, "M": 2.357022633417941e-13, "R": 1.0, "b": 1.0},
+        ),
+        (
+            *("flat_rounded", "contact", (0.6257550777514259, 0.625789)),
+            {
+                **{"P": 2.6758106039797285e-08, "M": -8.372418764114475e-09},
+                **{"R": 2.752778475984647, "b": 0.6257550777514257},
+            },
+        ),
+        (
+            *("flat_sloped", "contact", (3.7463530415272723, 3.746353084)),
+            {
+                **{"P": 15552147.336718071 / 176418132736.30026, "b": 3.746353072908171},
+                **{"M": -29131917.64620687 / 176418132736.30026, "phi": 0.6228491194623114},
+            },
+        ),
+        (
+            *("flat_rounded", "contact_at_tilt", (1.00001, 1.00000000000001)),
+            {"P": 1.490713475710831e-08, "alpha": 9.490148265288554e-09, "R": 1.0, "b": 1.0},
+        ),
+    ],
+)
+def test_of_two_contacts_that_meet_the_load_the_settled_one_counts(
+    body: str, name: str, edges: tuple[float, float], given: dict[str, float]
+) -> None:
+    """Edges beside both shoulders of a flat: less off by chance may be far from settled."""
+    given = {"E_star": 1.0, **given}
+    found = getattr(importlib.import_module(f"generated.{body}"), name)(**given)
+    answer = INVERSES[name].problem(body, 60).answer(edges, given)
+    for value, wanted, explained in zip(found, answer.numbers, answer.conditions, strict=False):
+        assert ulps(float(value), wanted) <= LIMITS[SOLVED] * explained
 
 
 def test_the_ulp_of_a_value_and_the_condition_of_a_problem() -> None:
