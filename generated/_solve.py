@@ -51,7 +51,8 @@ ACCEPTED = 1e-9
 
 ROUNDED = 4
 """The last step counts if its square leaves no more than so many units in the last place of the
-edge and of the load explain; none is due if it is no longer itself."""
+edge and of the load explain; none is due if it is no longer itself.  It tells nothing of what lies
+beyond a kink."""
 
 ROUGHEST = 1e-4
 """Where the rounding of the edges moves the load by more, no contact is given."""
@@ -392,8 +393,9 @@ def _judged(
     steps, rests, force = done.copy(), done.copy(), load / np.sqrt(h)
     for edge, by, K, nearest in step.edges([cut[rows] for cut in cuts]):
         rounded = ROUNDED * (np.spacing(np.abs(edge)) + _EPS * force / K)
-        rests &= np.abs(by) <= rounded + ROUNDED * given * force / K
-        steps &= by**2 < rounded * nearest
+        own = 2 * np.abs(by) <= nearest  # on this side of a kink
+        rests &= own & (np.abs(by) <= rounded + ROUNDED * given * force / K)
+        steps &= own & (by**2 < rounded * nearest)
     off, done = np.maximum(short, rest), steps | rests
     moved = zip(step.taken(), (a, c, now.tilt), strict=True)
     a, c, tilt = (np.where(steps, after, before) for after, before in moved)

@@ -91,11 +91,11 @@ def page(rows: list[Worst], count: int, regions: bool = False) -> str:
         "",
         "Of a contact that is solved for the edges are measured. Its tilt under a moment is",
         "right to the rounding of P/(E* (a + c)), and so to fewer digits of its own where the",
-        "contact is nearly level. Not among the regions: contacts that reach over a shoulder of",
-        "a flat by less than 1e-6 of it, of which the other edge is right to 1e-5 of its length",
-        "at worst, or none is found; an edge within 1e-5 of a circular arc's end, some thousands",
-        "of times the condition; and the apex of power beyond an edge by 1e-11 of the contact or",
-        "less, exponents below 1.5, where no contact is found.",
+        "contact is nearly level. Not among the regions: contacts at a tilt that reach over one",
+        "shoulder of a flat by less than 1e-8 of it, of which the other edge is right to 1e-5 of",
+        "its length at worst, or none is found; an edge within 1e-5 of a circular arc's end, some",
+        "thousands of times the condition; and the apex of power beyond an edge by 1e-11 of the",
+        "contact or less, exponents below 1.5, where no contact is found.",
         "",
     ]
     grouped = worst_rows(rows)
