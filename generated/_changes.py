@@ -27,7 +27,7 @@ from ._law import Law
 NODES, FEWER, FEWEST = 20, 12, 8
 """Nodes of Gauss's rule along a way between two contacts, and of those it is held against."""
 
-SETTLED = 1e-14
+SETTLED = 3e-14
 """A doubt that is rounding."""
 
 Way = tuple[Array, Array]

@@ -60,8 +60,8 @@ ROUNDED = 4.0
 SHARPENED = 2
 """by so many of Newton's steps."""
 
-ROUNDING = 2.0**-53
-"""What rounding takes of a number, in parts of it."""
+ROUNDING = 8 * 2.0**-53
+"""What rounding takes of load and tilt, some steps after one another, in parts of them."""
 
 CANCELLED = 2.0
 """A difference so many times smaller than what it is taken of has lost digits."""
