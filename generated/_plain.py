@@ -40,7 +40,22 @@ def _names(code: CodeType) -> Iterator[str]:
             yield from _names(constant)
 
 
-def log1p(value: float) -> float:
+def plain_minimum(first: float, second: float) -> float:
+    """np.minimum of two numbers."""
+    return second if first > second or second != second else first
+
+
+def plain_maximum(first: float, second: float) -> float:
+    """np.maximum of two numbers."""
+    return second if first < second or second != second else first
+
+
+def plain_fmax(first: float, second: float) -> float:
+    """np.fmax of two numbers."""
+    return first if first >= second or second != second else second
+
+
+def plain_log1p(value: float) -> float:
     """log(1 + value) of what is not negative."""
     if not LOG1P_BY_LOG:
         return float(np.log1p(value))
@@ -49,7 +64,7 @@ def log1p(value: float) -> float:
     return float(np.log(above)) + lost / above
 
 
-def kink_logarithm(left: float, right: float, offset: float, least: float = 0.0) -> float:
+def plain_kink_logarithm(left: float, right: float, offset: float, least: float = 0.0) -> float:
     """log(1 + (sqrt(left right) + min(left, right))/d), d = |offset|, `least` at least.
 
     Raises one of REFUSALS where the quotient leaves float64 or is no number, and beyond the edges.
@@ -57,7 +72,7 @@ def kink_logarithm(left: float, right: float, offset: float, least: float = 0.0)
     quotient = (math.sqrt(left * right) + min(left, right)) / max(abs(offset), least)
     if not 0 <= quotient < math.inf:
         raise ValueError("no finite quotient")
-    return log1p(quotient)
+    return plain_log1p(quotient)
 
 
 def _log1p_is_slow() -> bool:
@@ -83,18 +98,6 @@ LOG1P_BY_LOG = _log1p_is_slow()
 
 def _sign(value: float) -> float:
     return 1.0 if value > 0 else -1.0 if value < 0 else abs(value)
-
-
-def _minimum(first: float, second: float) -> float:
-    return second if first > second or second != second else first
-
-
-def _maximum(first: float, second: float) -> float:
-    return second if first < second or second != second else first
-
-
-def _fmax(first: float, second: float) -> float:
-    return first if first >= second or second != second else second
 
 
 def _only_where(exists: bool, *values: float) -> Any:
@@ -129,25 +132,21 @@ _NUMPY = SimpleNamespace(
     abs=abs,
     sign=_sign,
     sqrt=math.sqrt,
-    arccos=_of_numpy("arccos", math.acos),
-    arccosh=_of_numpy("arccosh", math.acosh),
-    arcsin=_of_numpy("arcsin", math.asin),
-    arcsinh=_of_numpy("arcsinh", math.asinh),
-    arctan=_of_numpy("arctan", math.atan),
-    arctan2=_of_numpy("arctan2", math.atan2),
-    arctanh=_of_numpy("arctanh", math.atanh),
     **{
-        name: _of_numpy(name, getattr(math, name))
-        for name in ("cos", "cosh", "exp", "expm1", "log", "log1p", "sin", "sinh", "tan", "tanh")
+        name: _of_numpy(name, getattr(math, name.replace("arc", "a")))
+        for name in (
+            *("arccos", "arccosh", "arcsin", "arcsinh", "arctan", "arctan2", "arctanh"),
+            *("cos", "cosh", "exp", "expm1", "log", "log1p", "sin", "sinh", "tan", "tanh"),
+        )
     },
 )
 
 _COUNTERPARTS = {
     "np": _NUMPY,
-    "fmax": _fmax,
-    "kink_logarithm": kink_logarithm,
-    "maximum": _maximum,
-    "minimum": _minimum,
+    "fmax": plain_fmax,
+    "kink_logarithm": plain_kink_logarithm,
+    "maximum": plain_maximum,
+    "minimum": plain_minimum,
     "only_where": _only_where,
     "scaled": _scaled,
     "select": _select,

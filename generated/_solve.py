@@ -304,8 +304,8 @@ def _solved(
         behind, start = [v[rows] for v in cuts], (best.a[rows], best.c[rows])
         found = nearer(load[rows], goal.on(rows), size[rows], of, rows, behind, *start)
         judged = _judged(load, goal, *found, of, rows, cuts)
-        nearer_still = ~(judged.off > best.off[rows]) & (judged.done | ~best.done[rows])
-        closer = judged.met & (nearer_still | judged.done & ~best.done[rows])
+        nearer_still, alike = ~(judged.off > best.off[rows]), judged.done == best.done[rows]
+        closer = judged.met & np.where(alike, nearer_still, judged.done)
         better = closer | judged.carries & ~best.met[rows]
         best.put(rows[better], judged.on(better))
         searched[rows] = nearer is edges

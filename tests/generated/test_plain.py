@@ -117,9 +117,10 @@ def test_numbers_of_both_kinds_give_numpy_s(function: Function) -> None:
 @pytest.mark.parametrize("name", ["fmax", "maximum", "minimum"])
 def test_the_larger_and_the_smaller(name: str) -> None:
     for first, second in product(SPECIAL, repeat=2):
-        ours = _plain._COUNTERPARTS[name](first, second)
-        arrays = getattr(_arrays, name)(np.float64(first), second)
-        assert float(ours).hex() == float(arrays).hex()
+        ours = getattr(_arrays, name)(np.float64(first), second)
+        arrays = getattr(np, name)([first], [second])
+        assert type(ours) is np.float64
+        assert float(ours) == arrays[0] or (np.isnan(ours) and np.isnan(arrays[0]))
 
 
 @pytest.mark.parametrize("name", [n for n, v in vars(_plain._NUMPY).items() if callable(v)])

@@ -14,9 +14,16 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ._chunks import any_lazy, demand_array, is_lazy, known_shape, over_chunks
-from ._plain import LOG1P_BY_LOG, REFUSALS, in_plain_numbers
-from ._plain import kink_logarithm as _plain_kink_logarithm
-from ._plain import log1p as _plain_log1p
+from ._plain import (
+    LOG1P_BY_LOG,
+    REFUSALS,
+    in_plain_numbers,
+    plain_fmax,
+    plain_kink_logarithm,
+    plain_log1p,
+    plain_maximum,
+    plain_minimum,
+)
 from ._types import Contact
 
 Array = Any
@@ -255,21 +262,21 @@ def maximum(first: Any, second: Any) -> Any:
     NumPy compares two arrays many elements at once, but an array and a number one by one.
     """
     if type(first) is np.float64 and type(second) in _NUMBERS:
-        return np.float64(second) if first < second or second != second else first
+        return np.float64(plain_maximum(first, second))
     return np.maximum(*_alike(first, second))
 
 
 def minimum(first: Any, second: Any) -> Any:
     """np.minimum, several times faster between an array and a number, and between two numbers."""
     if type(first) is np.float64 and type(second) in _NUMBERS:
-        return np.float64(second) if first > second or second != second else first
+        return np.float64(plain_minimum(first, second))
     return np.minimum(*_alike(first, second))
 
 
 def fmax(first: Any, second: Any) -> Any:
     """np.fmax, the other one where one is not a number; as fast as `maximum`."""
     if type(first) is np.float64 and type(second) in _NUMBERS:
-        return first if first >= second or second != second else np.float64(second)
+        return np.float64(plain_fmax(first, second))
     return np.fmax(*_alike(first, second))
 
 
@@ -288,7 +295,7 @@ def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> An
     """
     if type(left) in _NUMBERS and type(right) in _NUMBERS and type(offset) in _NUMBERS:
         try:
-            return np.float64(_plain_kink_logarithm(left, right, offset, least))
+            return np.float64(plain_kink_logarithm(left, right, offset, least))
         except REFUSALS:
             pass  # NumPy has an answer
     if least:
@@ -315,7 +322,7 @@ def log1p(value: Any, out: Any = None, free: Sequence[Any] = ()) -> Any:
     """
     kind = type(value)
     if LOG1P_BY_LOG and kind in _NUMBERS:
-        return np.float64(_plain_log1p(value))
+        return np.float64(plain_log1p(value))
     if not LOG1P_BY_LOG or kind is not np.ndarray:
         return np.log1p(value) if out is None else np.log1p(value, out=out)
     first, second = free or (None, None)
