@@ -95,7 +95,7 @@ def _slope(x: Array, *, R: Array, b: Array) -> tuple[Array, Array]:
     return slope_of(_BODY, x, R=R, b=b)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -130,7 +130,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -165,7 +165,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b:
     return Contact(*only_where(exists, a, c, +alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -192,7 +192,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     return only_where(exists, now.tilt)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -221,7 +221,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * now.load)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -251,7 +251,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * now.moment)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -284,7 +284,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     return only_where(exists, E_star * p)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -319,7 +319,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

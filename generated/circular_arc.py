@@ -108,7 +108,7 @@ def _slope(x: Array, *, R: Array) -> tuple[Array, Array]:
     return slope, curvature
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -141,7 +141,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -175,7 +175,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     return Contact(*only_where(exists, a, c, +alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -201,7 +201,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     return only_where(exists, now.tilt)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -230,7 +230,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, E_star * now.load)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -259,7 +259,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, E_star * now.moment)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -292,7 +292,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     return only_where(exists, E_star * p)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -326,7 +326,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

@@ -85,7 +85,7 @@ def _slope(x: Array, *, R: Array, b: Array) -> tuple[Array, Array]:
     return _body(R=R, b=b).slope(x)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -120,7 +120,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -155,7 +155,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b:
     return Contact(*only_where(exists, a, c, +alpha))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -188,7 +188,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     return only_where(exists, _body(R=R, b=b).tilt(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -221,7 +221,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * _body(R=R, b=b).load(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -256,7 +256,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     return only_where(exists, E_star * _body(R=R, b=b).moment(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=40)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -295,7 +295,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     return only_where(exists, E_star * _body(R=R, b=b).pressure(x, a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -331,7 +331,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).edges(a, c))))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

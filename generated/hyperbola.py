@@ -99,7 +99,7 @@ def _slope(x: Array, *, b: Array, phi: Array) -> tuple[Array, Array]:
     return slope_of(_BODY, x, b=b, phi=phi)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -136,7 +136,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) ->
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, b: Array, phi: Array
 ) -> Contact:
@@ -173,7 +173,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, +alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -200,7 +200,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     return only_where(exists, now.tilt)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -230,7 +230,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * now.load)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -260,7 +260,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * now.moment)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -294,7 +294,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     return only_where(exists, E_star * p)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -329,7 +329,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

@@ -97,7 +97,7 @@ def _slope(x: Array, *, L: Array, k: Array) -> tuple[Array, Array]:
     return slope_of(_BODY, x, L=L, k=k)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -132,7 +132,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> C
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, k: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -167,7 +167,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array, k:
     return Contact(*only_where(exists, a, c, +alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -196,7 +196,7 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     return only_where(exists, now.tilt)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -227,7 +227,7 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     return only_where(exists, E_star * now.load)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -259,7 +259,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     return only_where(exists, E_star * now.moment)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -298,7 +298,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
     return only_where(exists, E_star * p)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -335,7 +335,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

@@ -76,7 +76,7 @@ def _slope(x: Array, *, L: Array) -> tuple[Array, Array]:
     return slope, curvature
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -110,7 +110,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, L: Array) -> Contact:
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, L: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 

@@ -86,7 +86,7 @@ def _slope(x: Array, *, b: Array, phi: Array) -> tuple[Array, Array]:
     return _body(b=b, phi=phi).slope(x)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -123,7 +123,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, b: Array, phi: Array) ->
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, b: Array, phi: Array
 ) -> Contact:
@@ -162,7 +162,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, +alpha))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -195,7 +195,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     return only_where(exists, _body(b=b, phi=phi).tilt(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -229,7 +229,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(b=b, phi=phi).load(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -265,7 +265,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(b=b, phi=phi).moment(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=40)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -304,7 +304,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     return only_where(exists, E_star * _body(b=b, phi=phi).pressure(x, a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -342,7 +342,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(b=b, phi=phi).edges(a, c))))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

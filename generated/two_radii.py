@@ -80,7 +80,7 @@ def _slope(x: Array, *, R_1: Array, R_2: Array) -> tuple[Array, Array]:
     return _body(R_1=R_1, R_2=R_2).slope(x)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -117,7 +117,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array) 
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, R_1: Array, R_2: Array
 ) -> Contact:
@@ -156,7 +156,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, +alpha))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -187,7 +187,7 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     return only_where(exists, _body(R_1=R_1, R_2=R_2).tilt(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -218,7 +218,7 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).load(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -250,7 +250,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).moment(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=40)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -285,7 +285,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).pressure(x, a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -321,7 +321,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     )
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

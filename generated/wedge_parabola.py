@@ -80,7 +80,7 @@ def _slope(x: Array, *, R: Array, phi: Array) -> tuple[Array, Array]:
     return _body(R=R, phi=phi).slope(x)
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -117,7 +117,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, phi: Array) ->
     return Contact(*only_where(exists, a, c, alpha))
 
 
-@elementwise(arrays=90)
+@elementwise(arrays=45)
 def contact_at_tilt(
     P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, phi: Array
 ) -> Contact:
@@ -154,7 +154,7 @@ def contact_at_tilt(
     return Contact(*only_where(exists, a, c, +alpha))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -184,7 +184,7 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     return only_where(exists, _body(R=R, phi=phi).tilt(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -214,7 +214,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(R=R, phi=phi).load(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -246,7 +246,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     return only_where(exists, E_star * _body(R=R, phi=phi).moment(a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=40)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -280,7 +280,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     return only_where(exists, E_star * _body(R=R, phi=phi).pressure(x, a, c))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -312,7 +312,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, phi=phi).edges(a, c))))
 
 
-@elementwise(arrays=60)
+@elementwise(arrays=26)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 

@@ -12,7 +12,7 @@ from sympy import Expr, simplify
 
 from derive.codegen.function import CallingText, own_parameters
 from derive.codegen.integrated import degree_of_curvature, is_mended
-from derive.codegen.memory import BY_PARTS
+from derive.codegen.memory import BY_PARTS, PRESSURE_BY_PARTS
 from derive.codegen.printer import NumPyPrinter
 from derive.piece import Piece
 from derive.sheet import FormulaSheet
@@ -37,7 +37,9 @@ def is_parabolic(sheet: FormulaSheet) -> bool:
 class ParabolicText(CallingText):
     """The text of one function that is added up from its parts."""
 
-    _arrays = BY_PARTS
+    @property
+    def _arrays(self) -> int:
+        return PRESSURE_BY_PARTS if self.function.name == "pressure" else BY_PARTS
 
     @property
     def _code(self) -> Iterator[str]:

@@ -46,7 +46,7 @@ PAGE = WITHOUT_AVX512 if _arrays.LOG1P_BY_LOG else WITH_AVX512
 
 SIZES = tuple(10**n for n in range(8))
 CUT_AT = (
-    *(1, 100, 10**4, 41_000, 62_000, 10**5, 200_000, 290_000, 400_000, 650_000, 930_000, 10**6),
+    *(1, 100, 10**4, 41_000, 92_000, 10**5, 200_000, 290_000, 400_000, 650_000, 930_000, 10**6),
     *(1_300_000, 1_900_000, 10**7),
 )
 """Where the function is compared with itself uncut: behind the lengths at which it is cut, too."""
@@ -345,11 +345,11 @@ def _cut_table(found: Found) -> Iterator[str]:
         "",
         "A function is computed in blocks where the arrays that it holds at once, as its",
         f"decorator counts them, are more than {_arrays.RESIDENT:,} numbers, which the process",
-        "keeps.  Several results do not count, since copying them costs what cutting saves, and",
-        f"what is left counts as far as the arguments vary.  Blocks have {_arrays.BLOCK:,}",
-        f"elements, or more where they hold no more than one in {_arrays.SHARE} of",
-        f"the results' numbers, or more than {_arrays.FEW} arrays: blocks of these hold as many",
-        "numbers as are kept.",
+        "keeps.  Several results do not count, since copying them costs what cutting saves; the",
+        f"rest of these, and more than {_arrays.FEW} arrays, count as far as the arguments vary.",
+        f"Blocks have {_arrays.BLOCK:,} elements, or more where they hold no more than one in",
+        f"{_arrays.SHARE} of the results' numbers; of more than {_arrays.FEW} arrays they hold",
+        "half as many numbers as are kept.",
         "Time in blocks over the time of the same function without; under 1 is faster.",
         "",
     )

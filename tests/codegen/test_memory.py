@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derive.codegen.memory import BY_PARTS, LABORIOUS, arrays_held
+from derive.codegen.memory import BY_PARTS, LABORIOUS, PRESSURE_BY_PARTS, arrays_held
 from generated import _arrays
 from tests.benchmarks.speed import SCALARS, uncut
 
@@ -37,7 +37,7 @@ COUNT = 50_000
         (2, "return maximum(a, R)"),
         (3, "u = a + 1\nv = c + 1\nreturn kink_logarithm(u, v, a)"),
         (4, "return select(a > 0, a * c, a / c)"),
-        (2, "h = a + c\nreturn h.copy()"),
+        (2, "h = a + c\nreturn +h"),
         (1, "# [m]\nh = -(a + c)  # width\nreturn h"),
     ],
 )
@@ -99,18 +99,20 @@ def test_a_formula_holds_what_is_counted(body: str, name: str) -> None:
 
 @pytest.mark.parametrize("body", ["flat_rounded", "rounded_wedge", "two_radii"])
 @pytest.mark.parametrize(
-    ("name", "most"),
+    ("name", "many"),
     [
         *((name, LABORIOUS) for name in ("contact", "contact_at_tilt")),
-        *((name, BY_PARTS) for name in ("tilt", "load", "moment", "pressure", "K_N", "L_N")),
+        *((name, BY_PARTS) for name in ("tilt", "load", "moment", "K_N", "L_N")),
+        ("pressure", PRESSURE_BY_PARTS),
     ],
 )
-def test_what_is_laborious_holds_no_more_than_it_is_taken_for(
-    body: str, name: str, most: int
-) -> None:
-    assert _told(body, name) == most
-    assert 0.1 * LABORIOUS < _peak(body, name) < most
+def test_a_block_of_what_is_laborious_stays_in_the_heap(body: str, name: str, many: int) -> None:
+    """Blocks hold half of what the heap keeps, by what the function is taken for."""
+    assert _told(body, name) == many
+    assert 0.5 * many < _peak(body, name) < 2 * many
 
 
-def test_a_block_of_what_is_laborious_stays_in_the_heap() -> None:
-    assert LABORIOUS * _arrays.BLOCK < _arrays.RESIDENT
+@pytest.mark.parametrize("many", [LABORIOUS, BY_PARTS, PRESSURE_BY_PARTS])
+def test_blocks_of_what_is_laborious_are_the_longer_ones(many: int) -> None:
+    assert many > _arrays.FEW
+    assert many * _arrays.BLOCK < _arrays.RESIDENT // 2

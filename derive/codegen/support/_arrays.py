@@ -41,7 +41,9 @@ each of these.
 """
 
 FEW = 20
-"""Of more arrays than these a core's cache has no room for blocks: they hold all of RESIDENT."""
+"""Of more arrays than these a core's cache has no room for blocks: they hold half of RESIDENT, or
+for a moment all of it.
+"""
 
 TINY = 1e-150
 """What stands for a distance of zero where a quotient must stay finite."""
@@ -64,7 +66,8 @@ _HEAP = 14 << 20
 RESIDENT = 2 * _HEAP // 8
 """Numbers that the heap keeps.  A call that holds no more is not cut: it asks the system for no
 pages, and the processor's last cache holds most of its arrays.  Several results are not counted,
-since they are copied from the blocks, and the rest as far as the arguments vary.
+since they are copied from the blocks; the rest of these, and more than FEW arrays, as far as the
+arguments vary.
 """
 
 _ZEROS = np.zeros(RESIDENT // 2)  # the system lends one page for all of it
@@ -102,6 +105,7 @@ def _elementwise(function: Function, arrays: int) -> Function:
     parameters, count = called.parameters, len(called.parameters)
     results = len(getattr(called.return_annotation, "_fields", ("",)))
     weighed = arrays if results == 1 else max(1, arrays - results)
+    few = arrays <= FEW
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
@@ -153,7 +157,7 @@ def _elementwise(function: Function, arrays: int) -> Function:
                 size, varying, own = max(size, value.size), varying + 1, own + (name in constants)
             elif type(value) is not Float:
                 foreign = True
-        held = weighed + own if results == 1 else weighed * varying / len(names)
+        held = weighed + own if few and results == 1 else weighed * varying / len(names)
         whole = foreign or (alike and size * held <= RESIDENT)
         if unread and whole:
             given = {name: _float64(value, name) for name, value in given.items()}
@@ -166,7 +170,7 @@ def _elementwise(function: Function, arrays: int) -> Function:
             shape = _broadcast(given)
         if 0 in shape:
             return quiet(**{n: np.broadcast_to(_float64(v, n), shape) for n, v in given.items()})
-        spared = results * min(RESIDENT, math.prod(shape)) // SHARE if arrays <= FEW else RESIDENT
+        spared = results * min(RESIDENT, math.prod(shape)) // SHARE if few else RESIDENT // 2
         return quiet_blocks(function, given, shape, max(BLOCK, spared // arrays))
 
     return call  # type: ignore[return-value]
