@@ -120,10 +120,10 @@ def _elementwise(function: Function, arrays: int) -> Function:
         if len(args) + len(kwargs) == count and plain.issuperset(
             map(type, chain(args, kwargs.values()))
         ):
-            numbers = {n: float(v) for n, v in kwargs.items()}
-            for name in constants:
-                if not 0 < numbers.get(name, 1.0) < INFINITE:
-                    numbers[name] = math.nan
+            numbers = {}
+            for name, value in kwargs.items():
+                sound = name not in constants or 0 < value < INFINITE
+                numbers[name] = float(value) if sound else math.nan
             if at_numbers:
                 try:
                     found = at_numbers(*map(float, args), **numbers)
@@ -236,7 +236,7 @@ def chunkwise_in_time(function: Function) -> Function:
 def only_where(exists: Any, *values: Any) -> Any:
     """The values where `exists`, NaN elsewhere, all of one shape."""
     if type(exists) is np.bool_:
-        found = [v if exists else v * _NAN for v in values]
+        found = [np.float64(v) if exists else v * _NAN for v in values]
     elif type(exists) is np.ndarray and exists.size and exists.item(exists.argmin()):
         found = [v if v.shape == exists.shape else np.where(exists, v, _NAN) for v in values]
     else:
@@ -301,8 +301,13 @@ def kink_logarithm(left: Any, right: Any, offset: Any, least: float = 0.0) -> An
     if type(left) in _NUMBERS and type(right) in _NUMBERS and type(offset) in _NUMBERS:
         try:
             return np.float64(plain_kink_logarithm(left, right, offset, least))
-        except REFUSALS:
-            pass  # NumPy has an answer
+        except REFUSALS:  # NumPy has an answer
+            with np.errstate(all="ignore"):
+                return _kink_logarithm(left, right, offset, least)
+    return _kink_logarithm(left, right, offset, least)
+
+
+def _kink_logarithm(left: Any, right: Any, offset: Any, least: float) -> Any:
     if least:
         offset = maximum(np.abs(offset), least)
     held = _between_edges(left, right)

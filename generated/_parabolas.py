@@ -205,7 +205,8 @@ _ARRAYS = _Arithmetic(np.sqrt, minimum, maximum, np.where, np.arctan)
 class _Contact:
     """The contact [-a, c] of a body.
 
-    Where edges and kinks are numbers, it is computed with Python's, whose arithmetic is quicker.
+    Where edges and kinks are numbers, it is computed with Python's, whose arithmetic is quicker,
+    and what it carries is such a number.
 
     inside: how far the kinks, drawn in to the contact, lie inside the left and the right edge; the
         edges before and behind them.
@@ -269,7 +270,7 @@ class _Contact:
             force = force + self._force(part)
         for jump, A, B in self.corners():
             force = force + jump * self.of.sqrt(A * B)
-        return _told(force / 2)
+        return force / 2
 
     def moment(self) -> Array:
         """-(1/2) int g'' w (s + mid)/2 ds."""
@@ -283,7 +284,7 @@ class _Contact:
         for jump, A, B in self.corners():
             share = jump * self.of.sqrt(A * B)
             force, arm = force + share, arm + share * (A - B)
-        return _told((self.a - self.c) * force / 4 - arm / 8)
+        return (self.a - self.c) * force / 4 - arm / 8
 
     def _force(self, part: _Part) -> Array:
         """int g'' w ds over a part."""
@@ -303,7 +304,7 @@ class _Contact:
         for i, line in enumerate(self.body.slopes):
             if line and self.body.bends[i] is None and (flank := self.part(i, 0.0, False)):
                 lean = lean + 2 * flank.extent * line[1]
-        return _told(-lean / _PI)
+        return -lean / _PI
 
     def edges(self) -> tuple[Array, Array]:
         """(1/(pi sqrt(h))) int g'' w/A ds and the same over B."""
@@ -316,7 +317,7 @@ class _Contact:
             share = jump * self.of.sqrt(A * B)
             left, right = left + share / (A + _NOTHING), right + share / (B + _NOTHING)
         root = _PI * self.of.sqrt(self.h)
-        return _told(left / root), _told(right / root)
+        return left / root, right / root
 
     def second(self) -> tuple[Array, Array]:
         """(1/pi) times the finite parts of int g'' r (3 + 2 r**2) ds/(6 h**(3/2)).
@@ -375,7 +376,7 @@ class _Contact:
             root = of.sqrt(A * B)
             left = left + jump * of_corner(root / (A + _NOTHING))
             right = right + jump * of_corner(root / (B + _NOTHING))
-        return _told(left / (scale + _NOTHING)), _told(right / (scale + _NOTHING))
+        return left / (scale + _NOTHING), right / (scale + _NOTHING)
 
     def _rise(self, part: _Part, over: Array, under: Array) -> Array:
         """int (sin(t)**2 + 2 tan(t)**2) dt over a part for the right edge, r being tan(t)."""
@@ -400,12 +401,12 @@ class _Contact:
         place = _Place(self, x)
         total = 0.0 * place.root
         if place.of is _NUMBERS and place.root == 0:
-            return _told(total)
+            return total
         for part in self.curved(with_bow=False):
             total = total + part.bend * place.share(part)
         for i, jump in self.body.corners.items():
             total = total + jump * place.level(i + 1)
-        return _told(total / _PI)
+        return total / _PI
 
 
 class _Place:
@@ -536,11 +537,6 @@ def _polynomial(coefficients: Sequence[tuple[float, float]], z: Array) -> Array:
 def _may_be(value: Array) -> bool:
     """Whether it is not known to be zero."""
     return type(value) not in _OF_NUMBERS or value != 0
-
-
-def _told(value: Array) -> Array:
-    """A result as it is returned."""
-    return np.float64(value) if type(value) is float else value
 
 
 _OF_NUMBERS = (np.float64, float, int)

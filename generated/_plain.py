@@ -28,8 +28,7 @@ def in_plain_numbers(function: Function) -> Function | None:
     code, read = function.__code__, {*_names(function.__code__)}
     if code.co_freevars or not read <= _KNOWN:
         return None
-    made = FunctionType(code, function.__globals__ | _COUNTERPARTS, function.__name__)
-    return np.errstate(all="ignore")(made) if _ADDED_UP in read else made
+    return FunctionType(code, function.__globals__ | _COUNTERPARTS, function.__name__)
 
 
 def _names(code: CodeType) -> Iterator[str]:
@@ -152,15 +151,15 @@ _COUNTERPARTS = {
     "select": _select,
 }
 
-_ADDED_UP = "_body"
-"""A body that is added up part by part, in Python's numbers if it is asked with such."""
+_BY_PARTS = ("_body", "load", "moment", "tilt", "edges", "second", "pressure")
+"""A body that is added up part by part, and its sums: of Python's numbers they are such."""
 
 _KNOWN = frozenset(
     (
         *_COUNTERPARTS,
         *vars(_NUMPY),
         *("LEAST", "MOST", "TINY", "Contact", "Edges"),
-        *(_ADDED_UP, "load", "moment", "tilt", "edges", "second", "pressure"),
+        *_BY_PARTS,
     )
 )
 """What a formula may read."""

@@ -297,7 +297,9 @@ class BareText(FunctionText):
 class CallingText(FunctionText):
     """The text of a function that hands its arguments to support/: no formula of it is printed."""
 
-    _arrays = LABORIOUS
+    @property
+    def _arrays(self) -> int:
+        return LABORIOUS
 
     def _made(self) -> Program:
         return Program({})

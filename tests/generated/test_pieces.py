@@ -111,12 +111,12 @@ def test_an_array_is_cut_where_the_heap_does_not_hold_all(
 
 
 @pytest.mark.parametrize(("arrays", "block"), [(20, 7), (21, 10)])
-def test_blocks_hold_all_of_the_heap_where_no_cache_holds_them(
+def test_blocks_hold_half_of_the_heap_where_no_cache_holds_them(
     monkeypatch: pytest.MonkeyPatch, arrays: int, block: int
 ) -> None:
-    """Of 210 numbers, 21 arrays of ten; of twenty, which a cache may hold, blocks of 7."""
+    """Of 420 numbers, 21 arrays of ten; of twenty, which a cache may hold, blocks of 7."""
     monkeypatch.setattr(_arrays, "BLOCK", 7)
-    monkeypatch.setattr(_arrays, "RESIDENT", 210)
+    monkeypatch.setattr(_arrays, "RESIDENT", 420)
     seen: list[int] = []
 
     @_arrays.elementwise(arrays=arrays)
@@ -124,11 +124,34 @@ def test_blocks_hold_all_of_the_heap_where_no_cache_holds_them(
         seen.append(a.size)
         return 2 * a
 
-    for count in (10, 11, 10 * block):
+    for count in (20, 22, 10 * block):
         a = np.linspace(1, 2, count)
         assert_array_equal(twice(a), 2 * a)
-    assert seen[0] == 10
+    assert seen[0] == 20
     assert max(seen[1:]) == block
+
+
+@pytest.mark.parametrize(("arrays", "whole"), [(20, (21, 21)), (21, (40, 20))])
+def test_many_arrays_count_as_the_arguments_vary(
+    monkeypatch: pytest.MonkeyPatch, arrays: int, whole: tuple[int, int]
+) -> None:
+    """Of 420 numbers 21 arrays of 40, if one of two arguments varies; 20 arrays in any case."""
+    monkeypatch.setattr(_arrays, "BLOCK", 7)
+    monkeypatch.setattr(_arrays, "RESIDENT", 420)
+    seen: list[int] = []
+
+    @_arrays.elementwise(arrays=arrays)
+    def product(a: Any, c: Any) -> Any:
+        seen.append(a.size)
+        return a * c
+
+    for varying, count in enumerate(whole, start=1):
+        for longer in (0, 1):
+            a = np.linspace(1, 2, count + longer)
+            c = a if varying == 2 else 2.0
+            seen.clear()
+            assert_array_equal(product(a, c), a * c)
+            assert (len(seen) == 1) == (not longer)
 
 
 @pytest.mark.parametrize("varying", [1, 2])
