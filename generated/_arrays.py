@@ -42,8 +42,8 @@ each of these.
 """
 
 FEW = 20
-"""Of more arrays than these a core's cache has no room for blocks: they hold half of RESIDENT, or
-for a moment all of it.
+"""Of more arrays than these a core's cache has no room for blocks: they hold half of RESIDENT, as
+arrays are counted.
 """
 
 TINY = 1e-150
@@ -236,12 +236,17 @@ def chunkwise_in_time(function: Function) -> Function:
 def only_where(exists: Any, *values: Any) -> Any:
     """The values where `exists`, NaN elsewhere, all of one shape."""
     if type(exists) is np.bool_:
-        found = [np.float64(v) if exists else v * _NAN for v in values]
+        found = [_number(v) if exists else v * _NAN for v in values]
     elif type(exists) is np.ndarray and exists.size and exists.item(exists.argmin()):
         found = [v if v.shape == exists.shape else np.where(exists, v, _NAN) for v in values]
     else:
         found = [np.where(exists, v, _NAN) for v in values]
     return found if len(found) > 1 else found[0]
+
+
+def _number(value: Any) -> Any:
+    """Python's number as NumPy's, anything else as it is."""
+    return np.float64(value) if type(value) is float else value
 
 
 def some(flags: Any) -> Any:

@@ -14,7 +14,7 @@ LABORIOUS = 45
 
 PRESSURE_BY_PARTS, BY_PARTS = 40, 26
 """and so is what is added up part by part: cut and whole, it takes as long where so many leave the
-heap.  None holds twice as many.
+heap.  At its peak it holds up to twice as many, where it is integrated three times.
 """
 
 _HANDED_ON = ("only_where", "Contact", "Edges")

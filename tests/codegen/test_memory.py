@@ -112,6 +112,12 @@ def test_a_block_of_what_is_laborious_stays_in_the_heap(body: str, name: str, ma
     assert 0.5 * many < _peak(body, name) < 2 * many
 
 
+@pytest.mark.parametrize("name", ["contact", "contact_at_tilt"])
+def test_what_is_integrated_holds_three_times_as_many_at_most(name: str) -> None:
+    assert _told("hyperbola", name) == LABORIOUS
+    assert _peak("hyperbola", name) < 3 * LABORIOUS
+
+
 @pytest.mark.parametrize("many", [LABORIOUS, BY_PARTS, PRESSURE_BY_PARTS])
 def test_blocks_of_what_is_laborious_are_the_longer_ones(many: int) -> None:
     assert many > _arrays.FEW

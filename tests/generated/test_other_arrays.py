@@ -131,6 +131,20 @@ def test_a_kink_beside_an_edge_and_a_part_far_away_stay_there_too(name: str) -> 
         assert_array_equal(one.held, other)
 
 
+@pytest.mark.parametrize("body", ["flat_rounded", "hertz", "wedge"])
+@pytest.mark.parametrize("name", [n for n in FORWARD if n != "pressure"])
+def test_an_array_beside_edges_that_are_numbers_stays_on_the_device(body: str, name: str) -> None:
+    function, given = call(body, name)
+    given |= {k: 3.0 for k in "ac"}
+    modulus = np.array([1.0, 2.0])
+    for other in set(given) - {"a", "c"}:
+        found = function(**given | {other: OnDevice(modulus)})
+        for one, own in zip(
+            fields(found), fields(function(**given | {other: modulus})), strict=True
+        ):
+            assert_array_equal(held(one), own)
+
+
 @pytest.mark.parametrize("dtype", [np.int8, np.float32])
 def test_numbers_become_float64_first(dtype: Any) -> None:
     a = np.array([100, 120], dtype)

@@ -13,7 +13,7 @@ import pytest
 
 from derive.codegen.contract import CONTRACT
 from derive.library import library
-from generated import _arrays, _plain, flat_rounded, hertz, wedge
+from generated import _arrays, _plain, flat_rounded, hertz, rounded_wedge, wedge
 
 SPECIAL = (0.0, -0.0, 1.0, -1.0, 0.5, 1e-300, 1e300, 5e-324, math.inf, -math.inf, math.nan)
 SOLVED_OR_INTEGRATED = {"_BODY", "_state", "contact_at", "contact_under"}
@@ -171,3 +171,20 @@ def test_a_power_that_is_not_real_is_no_number() -> None:
 
     assert np.isnan(power(-2.0, 0.5))
     assert power(4.0, 0.5) == 2
+
+
+@pytest.mark.parametrize("b", [1e-310, 1e-200, 1e-20])
+@pytest.mark.parametrize("name", ["tilt", "load", "moment", "K_N", "L_N"])
+def test_nothing_is_told_of_denormal_numbers(name: str, b: float) -> None:
+    function = getattr(rounded_wedge, name)
+    given = {"a": 1.0, "c": 1.0, "E_star": 1.0, "b": b, "phi": 1.0}
+    with warnings.catch_warnings(), np.errstate(all="warn"):
+        warnings.simplefilter("error")
+        number = function(**{n: given[n] for n in signature(function).parameters})
+    array = function(**{n: np.array([given[n]]) for n in signature(function).parameters})
+    assert np.array_equal(np.ravel(number), np.ravel(array), equal_nan=True)
+
+
+def test_the_angle_of_a_small_tangent_is_it() -> None:
+    for tangent in np.geomspace(1e-300, 1e-9, 2001).tolist():
+        assert float(np.arctan(tangent)) == tangent

@@ -56,6 +56,9 @@ _EXCESS = (
 )
 """(artanh z - z)/z**3 as a polynomial of z**2, exact to rounding up to artanh z = artanh(y)/2."""
 
+_STRAIGHT = 1e-9
+"""Below this a tangent is its angle, to rounding."""
+
 _NOTHING = 1e-300
 """What stands for zero under a line."""
 
@@ -197,7 +200,12 @@ def _either(condition: bool, value: Array, other: Array) -> Array:
     return value if condition else other
 
 
-_NUMBERS = _Arithmetic(math.sqrt, min, max, _either, lambda tangent: float(np.arctan(tangent)))
+def _arctan(tangent: float) -> float:
+    """Of one number; NumPy would tell of the denormal ones."""
+    return tangent if tangent < _STRAIGHT else float(np.arctan(tangent))
+
+
+_NUMBERS = _Arithmetic(math.sqrt, min, max, _either, _arctan)
 _ARRAYS = _Arithmetic(np.sqrt, minimum, maximum, np.where, np.arctan)
 
 

@@ -111,12 +111,17 @@ def _scaled(held: float, factor: float) -> float:
     return held * factor
 
 
+_NORMAL = 2.0**-1022
+"""Below this NumPy may tell of underflow."""
+
+
 def _of_numpy(name: str, of_python: Function) -> Function:
     """A function of NumPy's, whose last digits no other has; Python's refuses what it warns of."""
     known = getattr(np, name)
 
     def found(*values: float) -> float:
-        of_python(*values)
+        if 0 < abs(of_python(*values)) < _NORMAL:
+            raise ArithmeticError("a denormal number")
         return float(known(*values))
 
     return found
