@@ -4,6 +4,7 @@ import importlib
 import math
 import warnings
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from inspect import signature
 from itertools import product
 from typing import Any
@@ -118,6 +119,7 @@ def test_numbers_of_both_kinds_give_numpy_s(function: Function) -> None:
 def test_the_larger_and_the_smaller(name: str) -> None:
     for first, second in product(SPECIAL, repeat=2):
         ours = getattr(_arrays, name)(np.float64(first), second)
+        assert float(ours).hex() == float(_plain._COUNTERPARTS[name](first, second)).hex()
         arrays = getattr(np, name)([first], [second])
         assert type(ours) is np.float64
         assert float(ours) == arrays[0] or (np.isnan(ours) and np.isnan(arrays[0]))
@@ -183,6 +185,26 @@ def test_nothing_is_told_of_denormal_numbers(name: str, b: float) -> None:
         number = function(**{n: given[n] for n in signature(function).parameters})
     array = function(**{n: np.array([given[n]]) for n in signature(function).parameters})
     assert np.array_equal(np.ravel(number), np.ravel(array), equal_nan=True)
+
+
+@pytest.mark.parametrize("name", [n for n, v in vars(_plain._NUMPY).items() if callable(v)])
+def test_no_function_tells_of_a_denormal_number(name: str) -> None:
+    """It refuses, or knows the answer."""
+    others = (1.0,) if name == "arctan2" else ()
+    with warnings.catch_warnings(), np.errstate(all="warn"):
+        warnings.simplefilter("error")
+        for value in (5e-324, 1e-310, -1e-310):
+            with suppress(*_plain.REFUSALS):
+                getattr(_plain._NUMPY, name)(value, *others)
+
+
+def test_the_logarithm_of_one_and_a_denormal_number_is_that(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(_plain, "LOG1P_BY_LOG", False)
+    with warnings.catch_warnings(), np.errstate(all="warn"):
+        warnings.simplefilter("error")
+        assert [_plain.plain_log1p(v) for v in (5e-324, 1e-310)] == [5e-324, 1e-310]
 
 
 def test_the_angle_of_a_small_tangent_is_it() -> None:

@@ -19,6 +19,10 @@ where a number leaves float64 or the reals.
 """
 
 
+NORMAL = 2.0**-1022
+"""Below this NumPy may tell of underflow."""
+
+
 def in_plain_numbers(function: Function) -> Function | None:
     """The same formula for Python's numbers; None if it reads what has no counterpart among them.
 
@@ -56,7 +60,7 @@ def plain_fmax(first: float, second: float) -> float:
 def plain_log1p(value: float) -> float:
     """log(1 + value) of what is not negative."""
     if not LOG1P_BY_LOG:
-        return float(np.log1p(value))
+        return value if value < NORMAL else float(np.log1p(value))
     above = 1.0 + value
     lost = value - (above - 1.0) if value < math.inf else 0.0
     return float(np.log(above)) + lost / above
@@ -111,16 +115,12 @@ def _scaled(held: float, factor: float) -> float:
     return held * factor
 
 
-_NORMAL = 2.0**-1022
-"""Below this NumPy may tell of underflow."""
-
-
 def _of_numpy(name: str, of_python: Function) -> Function:
     """A function of NumPy's, whose last digits no other has; Python's refuses what it warns of."""
     known = getattr(np, name)
 
     def found(*values: float) -> float:
-        if 0 < abs(of_python(*values)) < _NORMAL:
+        if 0 < abs(of_python(*values)) < NORMAL:
             raise ArithmeticError("a denormal number")
         return float(known(*values))
 
