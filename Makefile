@@ -2,6 +2,7 @@
 #             nothing is taken from an earlier run, so that every proof and time is of this one
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that take no long
+# make thorough  all tests: more bodies, cases and points than make test takes
 # make bench  speed against lambdify, numexpr and numba in one run: docs/performance.md, or where
 #             there is no AVX-512 docs/performance_without_avx512.md; some
 #             minutes; bench-inverse: of the way from loads to contacts of every body;
@@ -22,7 +23,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: all test quick bench bench-inverse bench-slip bench-mixed bench-monte-carlo series solver comparison accuracy notebooks \
+.PHONY: all test quick thorough bench bench-inverse bench-slip bench-mixed bench-monte-carlo series solver comparison accuracy notebooks \
 	lab picture clean
 
 all: $(STAMP)
@@ -36,7 +37,10 @@ test: $(STAMP)
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal
 
 quick: $(STAMP)
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -m "not slow"
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not thorough"
+
+thorough: $(STAMP)
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -m "thorough or not thorough"
 
 bench: $(STAMP)
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[benchmarks]'

@@ -2,6 +2,7 @@
 
 import gc
 import os
+from fnmatch import fnmatchcase
 from itertools import count
 from pathlib import Path
 
@@ -30,14 +31,18 @@ SLOW_EXAMPLES = {"derive.proof.prove.prove_sheet"}
 """Examples in docstrings cannot be marked where they stand."""
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """The longest test first, then the slow ones; short ones fill up both workers at the end.
 
     Behind the longest, and so by one worker, those that share what takes long to make.
     """
+    if not any("::" in path for path in config.args):  # else not all cases are here
+        _demand_a_case_of_each_name(items)
     for item in items:
         if item.name in SLOW_EXAMPLES:
             item.add_marker("slow")
+        if _is_one_more(item) or SHARED in getattr(item, "fixturenames", ()):
+            item.add_marker("thorough")
     items.sort(
         key=lambda item: (
             item.name != LONGEST,
@@ -45,6 +50,27 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.get_closest_marker("slow") is None,
         )
     )
+
+
+def _is_one_more(item: pytest.Item) -> bool:
+    """Whether it is a case beyond those that are enough for `make test`."""
+    enough, case = item.get_closest_marker("enough"), getattr(item, "callspec", None)
+    if enough is None or case is None:
+        return False
+    return not any(fnmatchcase(case.id, name) for name in enough.args)
+
+
+def _demand_a_case_of_each_name(items: list[pytest.Item]) -> None:
+    """Raises UsageError for a name in a mark `enough` that no case has any more."""
+    names: dict[tuple[str, str], list[str]] = {}
+    for item in items:
+        if enough := item.get_closest_marker("enough"):
+            for name in enough.args:
+                test = item.nodeid.partition("[")[0]
+                names.setdefault((test, name), []).append(item.callspec.id)  # type: ignore[attr-defined]
+    for (test, name), cases in names.items():
+        if not any(fnmatchcase(case, name) for case in cases):
+            raise pytest.UsageError(f"{test}: enough({name!r}) is none of {', '.join(cases):.200}")
 
 
 @pytest.fixture(autouse=True)

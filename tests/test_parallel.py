@@ -13,6 +13,8 @@ from derive.errors import BadUnit, LostProcess, NotProven, UnknownGeometry
 from derive.parallel import cores, in_processes
 from tests.tasks import ERRORS, fails, late, meeting, process
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[1]
 
 

@@ -78,6 +78,7 @@ OWN = {
 """Bodies that nobody here thought of, from a file of one's own to a proven module."""
 
 
+@pytest.mark.enough("a cubic that is switched on")
 @pytest.mark.slow
 @pytest.mark.parametrize("words", OWN)
 def test_a_body_of_one_s_own_is_proven_and_tried(words: str, tmp_path: Path) -> None:

@@ -28,6 +28,8 @@ from tests.accuracy.measure import (
 from tests.accuracy.reference import Problem, condition, exact, sheet_of
 from tests.accuracy.report import page, tasks
 
+pytestmark = pytest.mark.slow
+
 POINTS = 8
 """Random points a region; `make accuracy` takes more."""
 
@@ -53,9 +55,6 @@ BOUNDS = {
 }
 """Largest error of hertz and wedge over the condition."""
 
-DEAR = {name for name in BOUNDS if name.startswith(("slip_range", "shear, l", "shear_change, l"))}
-NAMED = [pytest.param(n, marks=pytest.mark.slow if n in DEAR else ()) for n in BOUNDS]
-
 
 @cache
 def rows_of(body: str) -> tuple[Worst, ...]:
@@ -63,10 +62,7 @@ def rows_of(body: str) -> tuple[Worst, ...]:
     return tuple(row for name in cheap for row in worst_of(body, POINTS, name))
 
 
-QUICK = ("hertz", "wedge", "flat_sloped", "quartic", "power")
-QUICK_AND_SLOW = pytest.mark.parametrize(
-    "body", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in library()]
-)
+EACH_BODY = pytest.mark.parametrize("body", library())
 
 EXPLICIT = ("hertz", "wedge")
 """Bodies that are closed both ways, and whose formulas do not cancel."""
@@ -80,7 +76,7 @@ CANCELLING = {
 """Sums and differences of given numbers: what rounding does to these shows in any form."""
 
 
-@QUICK_AND_SLOW
+@EACH_BODY
 def test_closed_formulas_lose_nothing_that_the_problem_keeps(body: str) -> None:
     rows = [row for row in rows_of(body) if row.kind == CLOSED]
     assert rows
@@ -92,7 +88,7 @@ def test_closed_formulas_lose_nothing_that_the_problem_keeps(body: str) -> None:
             assert row.ulp <= LIMITS[CLOSED], f"{what}: {row.ulp:.1f} ulp at {row.point}"
 
 
-@QUICK_AND_SLOW
+@EACH_BODY
 def test_sums_over_parts_lose_nothing_either(body: str) -> None:
     for row in (row for row in rows_of(body) if row.kind == PARTS):
         what = f"{row.function}.{row.output} in {row.region}"
@@ -100,14 +96,22 @@ def test_sums_over_parts_lose_nothing_either(body: str) -> None:
         assert row.lost == 0
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("body", ["catenary", "circular_arc", "hyperbola"])
 def test_a_cut_beside_an_edge_costs_no_digit_of_the_second_coefficient(body: str) -> None:
     for row in worst_of(body, 200, "L_N"):
         assert row.excess <= 4, f"{row.output} in {row.region}: {row.excess:.1f} at {row.over}"
 
 
-@pytest.mark.parametrize("name", NAMED)
+@pytest.mark.enough(
+    "hertz-*, moderate tension",
+    "hertz-shear_change, large tension",
+    "*-march",
+    "*-stick_zone*",
+    "*-slip_[ez]*",
+    "*-closing_tension",
+    "*_threshold",
+)
+@pytest.mark.parametrize("name", BOUNDS)
 @pytest.mark.parametrize("body", CYCLED)
 def test_cycles_keep_their_digits(body: str, name: str) -> None:
     rows = [*worst_of(body, 10, name)]
@@ -121,16 +125,17 @@ def test_every_cycle_has_a_bound() -> None:
     assert {cycle.name for cycle in CYCLES} == set(BOUNDS)
 
 
+@pytest.mark.enough("hyperbola-march", "flat_rounded-*")
 @pytest.mark.parametrize(
     ("body", "name"),
     [
         ("catenary", "stick_zone, moderate tension"),
         ("hyperbola", "slip_zones, order 1"),
         ("flat_rounded", "stick_zone, large tension"),
-        pytest.param("catenary", "stick_zone, large tension", marks=pytest.mark.slow),
-        pytest.param("hyperbola", "march", marks=pytest.mark.slow),
-        pytest.param("power", "stick_zone, moderate tension", marks=pytest.mark.slow),
-        pytest.param("power", "pressure", marks=pytest.mark.slow),
+        ("catenary", "stick_zone, large tension"),
+        ("hyperbola", "march"),
+        ("power", "stick_zone, moderate tension"),
+        ("power", "pressure"),
     ],
 )
 def test_integrated_bodies_and_kinks_keep_theirs(body: str, name: str) -> None:
@@ -222,7 +227,6 @@ def test_a_solution_and_its_condition() -> None:
     assert told.answer((1.4, 2.1), {"p": 2.0, "q": 3.0}).conditions == pytest.approx([3.5])
 
 
-@pytest.mark.slow
 def test_every_kind_is_measured() -> None:
     kinds = {kind_of(body, name) for body in library() for name in functions(body)}
     assert kinds == {CLOSED, PARTS, INTEGRATED, SOLVED, CYCLE}

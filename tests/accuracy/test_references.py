@@ -14,6 +14,8 @@ from tests.accuracy.quadrature import integrals
 from tests.accuracy.reference import Problem, sheet_of
 from tests.derive.partial_slip import Cycle
 
+pytestmark = pytest.mark.slow
+
 HERTZ = {"E_star": 1.25, "R": 1.5, "f": 0.5}
 WEDGE = {"E_star": 1.25, "phi": 0.25, "f": 0.5}
 EDGES = {"a": 1.5, "c": 1.25}

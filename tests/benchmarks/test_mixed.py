@@ -20,6 +20,7 @@ def test_a_share_is_of_something() -> None:
     assert share(0, 0) == "-"
 
 
+@pytest.mark.thorough
 @pytest.mark.slow
 def test_mixed_cycles_of_moderate_shear_are_solved() -> None:
     found = turning("wedge", 120)

@@ -9,6 +9,8 @@ from derive.library import library, load_geometry
 from derive.profile import Slope
 from derive.symbols import a, c
 
+pytestmark = pytest.mark.slow
+
 b = parameter("b", "place", unit="m")
 h_0 = parameter("h_0", "distance", unit="m")
 L = parameter("L", "length", unit="m")

@@ -78,6 +78,7 @@ BODIES: dict[str, tuple[Expr, Callable[[mpf, mpf], list[list[mpf]]]]] = {
 }
 
 
+@pytest.mark.enough("beside a root")
 @pytest.mark.slow
 @pytest.mark.parametrize("name", BODIES)
 def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(
@@ -107,6 +108,7 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(
                     assert abs(abs(mpf(float(value[i]))) - abs(total)) <= 1e-13 * size, t
 
 
+@pytest.mark.enough("9/4", "7/3")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "exponent",
@@ -226,6 +228,7 @@ SMOOTH: dict[str, tuple[Expr, Callable[[mpf], mpf], list[tuple[float, float]]]] 
 }  # fmt: skip
 
 
+@pytest.mark.enough("flanks*", "a quartic apex as*")
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SMOOTH)
 def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(
@@ -240,6 +243,7 @@ def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(
             assert abs(mpf(float(of(a, c).load)) / wanted - 1) < 1e-13
 
 
+@pytest.mark.enough("1e-09", "1e-12")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "beyond", [pytest.param(1e-16, marks=pytest.mark.slow), 1e-12, 1e-9, 1e-7, 1e-4]

@@ -52,6 +52,8 @@ from tests.codegen.test_program import at_most
 from tests.derive import integrals
 from tests.derive.bodies import BODIES, VALUES, assumed, sheet
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[2]
 SEEDS = ("0", "2024")
 FILES = sorted(GENERATED.glob("*.py"))
@@ -129,7 +131,6 @@ def test_a_rewritten_form_that_is_false_stops_the_module(monkeypatch: pytest.Mon
 BUILT = "import sys; from derive.pipeline import build; sys.stdout.write(build('wedge').text)"
 
 
-@pytest.mark.slow
 def test_the_text_does_not_depend_on_the_hash_seed() -> None:
     """From g(x) to the text in fresh interpreters; each orders its sets in its own way."""
     runs = [
@@ -204,7 +205,7 @@ def test_a_generated_file_stands_alone(path: Path) -> None:
     assert found <= allowed
 
 
-@pytest.mark.slow
+@pytest.mark.enough("flat_rounded")
 @pytest.mark.parametrize("body", OTHERS)
 def test_a_module_of_another_body_is_clean_and_stands_alone(body: str) -> None:
     assert complaints(text(body)) == ""
@@ -242,7 +243,6 @@ def test_nothing_of_the_machine_or_the_day_is_in_a_file(path: Path) -> None:
     assert str(ROOT) not in text
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "title",
     [
@@ -267,7 +267,6 @@ def test_any_title_is_kept_word_by_word(title: str) -> None:
     assert complaints(text) == ""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "meaning",
     [
@@ -327,7 +326,7 @@ def may_be_a_parameter(name: str) -> bool:
     return True
 
 
-@pytest.mark.slow
+@pytest.mark.enough("hertz")
 @pytest.mark.parametrize(
     ("body", "argument"), [("hertz", "R"), ("wedge", "phi")], ids=["hertz", "wedge"]
 )
@@ -362,7 +361,7 @@ def test_parameters_may_bear_the_names_of_local_variables(
         assert np.allclose(got, wanted, rtol=1e-14, atol=0), function
 
 
-@pytest.mark.slow
+@pytest.mark.enough("root-*", "half-*")
 @pytest.mark.parametrize(
     ("name", "unit"),
     [("half", "m"), ("scale", "m"), ("base", "rad"), ("root", "rad"), ("scale", "rad")],
@@ -391,7 +390,6 @@ def state(body: str, left: float, right: float) -> dict[str, float]:
     }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("body", OTHERS)
 def test_a_module_of_another_body_computes_what_quadrature_says(
     body: str, imported: Callable
@@ -414,12 +412,12 @@ def test_a_module_of_another_body_computes_what_quadrature_says(
         del own["E_star"]
 
 
+@pytest.mark.enough("exp*", "GoldenRatio")
 @pytest.mark.parametrize(
     "constant",
     [E, exp(Rational(-7, 10)), sqrt(2), log(2), GoldenRatio, EulerGamma, Catalan],
     ids=str,
 )
-@pytest.mark.slow
 def test_a_constant_of_mathematics_is_a_number_in_the_module(
     constant: Expr, imported: Callable
 ) -> None:
@@ -449,7 +447,6 @@ def test_an_example_is_found_wherever_the_kinks_are(places: tuple[Expr, ...]) ->
     }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("flat", [1, 3])
 def test_an_example_lies_between_a_kink_and_the_end_of_the_body(flat: Expr) -> None:
     """A flat base, its edges rounded by quarters of a circle."""
@@ -471,7 +468,6 @@ def test_a_tilt_far_above_one_is_held_to_its_own_size() -> None:
 STEEP = "float64 cannot be tried with the others: write a g(x) that rises less steeply"
 
 
-@pytest.mark.slow
 def test_contacts_that_carry_more_than_float64_holds_are_no_trial() -> None:
     """b exp(exp(x/b)) carries 1e572 N/m on a contact of some ten b; most are narrower."""
     b = parameter("b", "a length", unit="m")
@@ -487,7 +483,6 @@ def test_a_body_that_float64_does_not_hold_is_told_so() -> None:
     assert str(caught.value).endswith(STEEP)
 
 
-@pytest.mark.slow
 def test_a_body_convex_for_some_parameters_gives_nothing_for_the_others(imported: Callable) -> None:
     """g'' = 12 x^2/L^3 - 6 x/(10 L^2) + 2/R is nowhere negative where 3 R <= 800 L."""
     L, R = parameter("L", "a length", unit="m"), parameter("R", "a radius", unit="m")
@@ -504,7 +499,6 @@ def test_a_body_convex_for_some_parameters_gives_nothing_for_the_others(imported
             assert np.all(np.isnan(result) != exists)
 
 
-@pytest.mark.slow
 def test_an_inverse_without_a_closed_formula_is_solved_for() -> None:
     """Two radii: the contact does not follow from the load in closed form."""
     tree = ast.parse(text("two_radii"))
@@ -544,7 +538,7 @@ NAMED = [
 """Profiles whose parameters are called as the local variables of the code."""
 
 
-@pytest.mark.slow
+@pytest.mark.enough("g0")
 @pytest.mark.parametrize("g", NAMED)
 def test_local_variables_give_way_to_parameters(g: Expr) -> None:
     text = module_text(assumed(derive_sheet(Geometry("named", g))), "named.py")
@@ -564,7 +558,7 @@ def test_symbols_of_the_theory_stay_reserved() -> None:
 # ------------------------------------------------------------------ bodies that stand only leaning
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 def test_a_corner_both_of_whose_flanks_rise_to_one_side(imported: Callable) -> None:
     """Flanks of slopes psi and psi + phi: it closes at tilts from -psi - phi to -psi alone.
 

@@ -18,11 +18,12 @@ from derive.symbols import a, c, x
 from generated import hertz, wedge
 from tests.accuracy.reference import sheet_of
 
+pytestmark = pytest.mark.slow
+
 EXPANDED = ("hertz", "wedge", "unequal_wedge", "quartic", "parabola_quartic")
 SUMMED = ("flat_rounded", "flat_sloped", "rounded_wedge", "two_radii", "wedge_parabola")
 
 
-@pytest.mark.slow
 def test_which_bodies_have_one() -> None:
     assert {body for body in library() if has_third(sheet_of(body))} == {*EXPANDED, *SUMMED}
 

@@ -10,6 +10,7 @@ from tests.comparison.table import markdown, row
 EACH = pytest.mark.parametrize("case", EVERY, ids=lambda case: case.name)
 
 
+@pytest.mark.enough("[!c]*", "cylinder*")
 @pytest.mark.slow
 @EACH
 def test_the_regime_is_that_of_its_name(case: Compared) -> None:
@@ -21,6 +22,13 @@ def test_the_regime_is_that_of_its_name(case: Compared) -> None:
     assert np.isnan(zone.m) == ("turns round" in case.name)
 
 
+@pytest.mark.enough(
+    "5.*",
+    "quartic*",
+    "two radii, slip turns round",
+    "cylinder, tilted, slip turns round",
+    "hyperbola*",
+)
 @pytest.mark.slow
 @EACH
 def test_solver_and_exact_conditions_agree(case: Compared) -> None:

@@ -74,7 +74,7 @@ LINES = lines()
 EACH = pytest.mark.parametrize(
     "line",
     [
-        pytest.param(line, marks=() if i % 10 == 0 else pytest.mark.slow)
+        pytest.param(line, marks=() if i % 6 == 0 else pytest.mark.thorough)
         for i, line in enumerate(LINES)
     ],
     ids=lambda line: "-".join(map(str, line.point)),

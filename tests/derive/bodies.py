@@ -120,22 +120,19 @@ BODIES = {
 CORNERED = ("wedge", "unequal_wedge", "shifted_wedge", "wedge_on_parabola", "three_corners")
 """Bodies whose pressure is infinite at a corner."""
 
-DEAR = {
-    *("wedge_on_the_left", "flat_cornered", "skew", "spline", "wedge_on_parabola"),
-    *("half_parabola", "three_corners"),
-}
-"""Long formulas: they wait for the slow run."""
+QUICK = {"hertz", "wedge", "shifted_wedge", "flat_rounded", "quartic", "two_radii"}
+"""One of every kind; the others are slow."""
 
 CASES = [
     pytest.param(
         *(name, a, c),
-        marks=pytest.mark.slow if name in DEAR else (),
+        marks=() if name in QUICK else pytest.mark.slow if i < 2 else pytest.mark.thorough,
         id=f"{name}[{-a:g},{c:g}]",
     )
     for name, body in BODIES.items()
-    for a, c in body.contacts
+    for i, (a, c) in enumerate(body.contacts)
 ]
-EACH = [pytest.param(name, marks=pytest.mark.slow if name in DEAR else ()) for name in BODIES]
+EACH = [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in BODIES]
 """What tests are parametrized with: contacts of every body, and every body."""
 
 

@@ -27,6 +27,8 @@ from derive.symbols import E_star, a, c, x
 from derive.theory.frame import Frame
 from tests.codegen.test_module import assumed
 
+pytestmark = pytest.mark.slow
+
 R = parameter("R", "radius")
 L = parameter("L", "length")
 b = parameter("b", "length")
@@ -59,7 +61,7 @@ QUICK = (
     *("power_of_three_halves", "exponential", "root_of_a_line"),
     *("simple_pole", "double_pole", *LIBRARY),
 )
-"""One of every kind of term; the others wait for the slow test."""
+"""One of every kind of term."""
 CLOSED = tuple(f"{name}_closed" for name in ("tilt", "load", "moment")) + tuple(
     f"{name}_{side}_closed" for name in ("K_N", "L_N") for side in ("left", "right")
 )
@@ -177,12 +179,13 @@ def test_at_its_limit_a_body_is_a_cylinder_of_radius_one(body: str, own: dict[st
 # ------------------------------------------------------------------ mirrored
 
 
+@pytest.mark.enough("skew_hyperbola_on_a_wedge", "exponential")
 @pytest.mark.parametrize(
     "name",
     [
         "exponential",
-        pytest.param("power_from_a_kink_on", marks=pytest.mark.slow),
-        pytest.param("skew_hyperbola_on_a_wedge", marks=pytest.mark.slow),
+        "power_from_a_kink_on",
+        "skew_hyperbola_on_a_wedge",
     ],
 )
 def test_a_mirrored_body_carries_the_mirror_image(name: str) -> None:
@@ -228,7 +231,14 @@ def test_the_forms_agree_with_the_defining_integrals(name: str) -> None:
             assert min(agreement(sheet(name), point).values()) >= DIGITS
 
 
-@pytest.mark.slow
+@pytest.mark.enough(
+    "power",
+    "hyperbola",
+    "circular_arc",
+    "exponential",
+    "double_pole",
+    "catenary",
+)
 @pytest.mark.parametrize("name", [*MADE_UP, *LIBRARY])
 def test_every_form_is_proven(name: str) -> None:
     demand_all(sheet(name))
@@ -277,13 +287,7 @@ NO_RULE = {
 }
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=pytest.mark.slow if name == "two kinds in one term" else ())
-        for name in NO_RULE
-    ],
-)
+@pytest.mark.parametrize("name", NO_RULE)
 def test_a_term_without_a_rule_leaves_the_integrals(name: str) -> None:
     profile, told = NO_RULE[name]
     given = derive_sheet(Geometry("body", g=profile))
@@ -412,7 +416,6 @@ def test_the_sheet_says_which_is_evaluated() -> None:
     assert sheet("hyperbola").is_closed("load_closed")
 
 
-@pytest.mark.slow
 def test_the_code_does_not_depend_on_what_was_found() -> None:
     """Nor, with it, on the time that there was."""
     from derive.codegen.module import module_text

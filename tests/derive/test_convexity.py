@@ -32,6 +32,8 @@ from derive.limit import within
 from derive.proof.points import contacts, holds
 from derive.sheet import load_conditions, tilt_conditions
 
+pytestmark = pytest.mark.slow
+
 R = parameter("R", "radius", unit="m")
 R1 = parameter("R1", "another radius", unit="m")
 L = parameter("L", "length", unit="m")
@@ -45,7 +47,6 @@ def demands(g: Expr) -> list[str]:
     return [str(demand) for demand in Geometry("body", g=g).slope.demands]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("g", "wanted"),
     [
@@ -86,7 +87,6 @@ def test_what_the_least_curvature_demands(g: Expr, wanted: list[str]) -> None:
     assert demands(g) == wanted
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "g",
     [
@@ -141,24 +141,21 @@ def test_a_body_convex_for_no_parameters_is_refused_as_such(g: Expr) -> None:
 
 # Three places a decade miss each: g'' b is least near x = 5.7 b, 7 b, 7 b and 3 b.
 NARROW = [
-    pytest.param(
-        lambda size: x**2 / b + size * 3 * b * tanh(x / b - 5), id="tanh", marks=pytest.mark.slow
-    ),
+    pytest.param(lambda size: x**2 / b + size * 3 * b * tanh(x / b - 5), id="tanh"),
     pytest.param(lambda size: x**2 / b + size * b * atan(30 * (x / b - 7)) / 50, id="atan"),
     pytest.param(
         lambda size: x**2 / b + size * b * tanh(1000 * (x / b - 7)) / 370370,
         id="steep tanh",
-        marks=pytest.mark.slow,
     ),
     pytest.param(
         lambda size: x**2 / b + size * b * exp(-((100 * (x / b - 3)) ** 2)) / 50,
         id="steep bell",
-        marks=pytest.mark.slow,
     ),
 ]
 """With g'' below zero at a narrow place only for size = 1, and nowhere for size = 1/400."""
 
 
+@pytest.mark.enough("steep tanh", "atan")
 @pytest.mark.parametrize("g", NARROW)
 def test_a_curvature_that_is_negative_at_a_narrow_place_only_is_found(
     g: Callable[[Rational], Expr],
@@ -169,7 +166,6 @@ def test_a_curvature_that_is_negative_at_a_narrow_place_only_is_found(
     assert demands(g(Rational(1, 400))) == []
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "g",
     [
@@ -197,7 +193,7 @@ def _least(curvature: Expr, lower: Expr, upper: Expr) -> Expr:
     return min(poly.eval(place) for place in places)
 
 
-@pytest.mark.slow
+@pytest.mark.enough("(R*", "x*")
 @pytest.mark.parametrize(
     "g",
     [
@@ -230,7 +226,6 @@ def test_demands_hold_exactly_where_the_curvature_is_nowhere_negative(g: Expr) -
     assert min(seen.values()) >= 3
 
 
-@pytest.mark.slow
 def test_the_sheet_says_what_is_demanded_and_draws_contacts_that_meet_it() -> None:
     """Here L >= 3750 R: 600^2 R <= 96 L."""
     body = Geometry("steep", g=x**4 / L**3 - 100 * x**3 / L**2 + x**2 / R)

@@ -17,6 +17,8 @@ from derive.symbols import E_star, a, c
 from tests.derive import bodies
 from tests.derive.bodies import BODIES, VALUES, close, evaluated, mirrored, sheet, value
 
+pytestmark = pytest.mark.slow
+
 FORWARD = ("tilt", "load", "moment", "pressure", "edge_ratio", "load_rate", "punch")
 EDGES = ("K_N_left", "K_N_right", "L_N_left", "L_N_right")
 RATES = tuple(f"{of}_by_{edge}" for edge in "ac" for of in ("load", "moment", "tilt"))
@@ -127,8 +129,6 @@ FEW = settings(max_examples=25)
 number = st.floats(0.125, 8, allow_nan=False, width=32)
 _at = st.floats(0.03125, 0.96875, width=32)
 SIDED = ("unequal_wedge", "shifted_wedge", "two_radii", "half_parabola", "spline", "skew")
-LONG = ("two_radii", "spline", "skew")
-"""Seconds of derivation, mirrored or shifted: bodies for the slow tests."""
 
 
 def contact(name: str, left: float, right: float) -> dict[str, mpf]:
@@ -143,9 +143,8 @@ def inside(edges: dict[str, mpf], share: float) -> mpf:
     return place + mpf("1e-7") if any(place == k for k in (0, 0.5, -0.5)) else place
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=pytest.mark.slow if n in LONG else ()) for n in SIDED]
-)
+@pytest.mark.enough("unequal_wedge", "shifted_wedge", "half_parabola", "skew")
+@pytest.mark.parametrize("name", SIDED)
 @FEW
 @given(number, number, _at)
 def test_a_mirrored_body_has_mirrored_formulas(
@@ -298,7 +297,7 @@ def shifted(name: str) -> FormulaSheet:
     return derive_sheet(Geometry(f"{name}_shifted", g=BODIES[name].g.subs(x, x - bodies.b)))
 
 
-@pytest.mark.parametrize("name", ["hertz", "quartic", pytest.param("skew", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", ["hertz", "quartic", "skew"])
 @FEW
 @given(number, number, number, _at)
 def test_a_shifted_body_has_a_shifted_contact(

@@ -14,6 +14,8 @@ from derive.symbols import QUANTITIES, E_star, P, alpha, dQ, dsigma
 from derive.view import formulas
 from tests.derive.bodies import VALUES, close, sheet
 
+pytestmark = pytest.mark.slow
+
 p, q, r = symbols("p q r", positive=True)
 NUMBERS = {"p": 1.5, "q": 1.25, "r": 0.875}
 

@@ -238,6 +238,7 @@ def test_a_branch_that_changes_nothing_makes_no_kink() -> None:
     assert read(Max(x**2, -(x**2)) / R) == (2 * x / radius, [])
 
 
+@pytest.mark.enough("[!p]*")
 @pytest.mark.parametrize(
     ("g", "modulus"),
     [
@@ -452,6 +453,7 @@ def test_an_exponent_must_lie_above_one() -> None:
     assert found.limits == (-oo, oo)
 
 
+@pytest.mark.enough("beside*")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "beside",

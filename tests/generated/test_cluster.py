@@ -52,6 +52,7 @@ def client(packages: Path) -> Iterator[Client]:
         yield client
 
 
+@pytest.mark.enough("wedge-*", "hyperbola-*")
 @pytest.mark.parametrize("name", ["contact", "pressure", "stick_zone", "slip_zones", "march"])
 @pytest.mark.parametrize("body", ["wedge", "flat_rounded", "hyperbola"])
 def test_processes_give_what_numpy_gives(client: Client, body: str, name: str) -> None:
@@ -230,6 +231,7 @@ def test_the_monte_carlo_runs_on_a_cluster_that_is_there(tmp_path: Path) -> None
     assert there.stdout.splitlines()[1:] == here.stdout.splitlines()[1:]
 
 
+@pytest.mark.enough("arguments0-*", "arguments6-*", "arguments7-*")
 @pytest.mark.parametrize(
     ("arguments", "status", "words"),
     [

@@ -118,6 +118,7 @@ def parts() -> Iterator[slice]:
 # ------------------------------------------------------------------ the same numbers
 
 
+@pytest.mark.enough("wedge-*", "rounded_wedge-*", "power-*")
 @pytest.mark.parametrize(("body", "name"), marked(EVERY))
 def test_every_function_gives_what_numpy_gives_chunk_by_chunk(body: str, name: str) -> None:
     """To the last bit, of the same kind, shape and dtype, in the chunks that were given."""
@@ -160,6 +161,7 @@ def test_the_regime_is_a_whole_number() -> None:
 # ------------------------------------------------------------------ what may be mixed
 
 
+@pytest.mark.enough("wedge-*", "flat_rounded-*")
 @pytest.mark.slow
 @pytest.mark.parametrize(("body", "name"), marked(EACH, left_out=LONG))
 def test_one_lazy_argument_among_arrays_is_enough(body: str, name: str) -> None:

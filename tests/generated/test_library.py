@@ -15,6 +15,8 @@ from derive.units import parse_unit
 from generated import two_radii
 from tests.benchmarks.inverse import PARAMETERS, SYMMETRIC, states
 
+pytestmark = pytest.mark.slow
+
 OWN: dict[str, dict[str, float]] = PARAMETERS | {
     "hertz": {"R": 1.5},
     "wedge": {"phi": 0.25},
@@ -42,7 +44,6 @@ def test_the_tests_know_every_body() -> None:
     assert sorted(OWN) == sorted(library())
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(PARAMETERS))
 def test_contact_inverts_load_and_moment_over_24_decades(name: str) -> None:
     """None lost; what is off is what the rounding of the edges moves."""
@@ -184,7 +185,6 @@ def test_one_hopeless_load_is_given_up_early(
     assert len(asked) <= 400
 
 
-@pytest.mark.slow
 def test_an_arc_pressed_in_almost_to_its_ends() -> None:
     """One edge or both 1e-1 to 1e-6 of the radius from an end; none lost, none slow."""
     gap = 10.0 ** -np.linspace(1, 6, 41)
@@ -241,7 +241,6 @@ def test_a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> None:
     assert abs(off) <= 1e-9 + 16 * rounding(body, found.a[1], found.c[1], **given)
 
 
-@pytest.mark.slow
 def test_a_hyperbola_under_a_far_load() -> None:
     """Its centre 1e5 to 1e9 m from a bend of half a metre, which the right edge has just left."""
     own, a, c = {"b": 0.625, "phi": 0.125}, np.array([1e5, 1e8, 9.5e9]), np.array([-0.5, -2, -6])

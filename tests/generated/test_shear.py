@@ -74,6 +74,7 @@ def test_it_carries_the_shear_load(name: str, tension: float) -> None:
     assert_allclose(case.integral(case.change), case.dQ, rtol=1e-7)
 
 
+@pytest.mark.enough("0.0-*")
 @pytest.mark.parametrize("name", CLOSED)
 @pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
 @pytest.mark.parametrize("moved", [0.0, pytest.param(0.01, marks=pytest.mark.slow)])

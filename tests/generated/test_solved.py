@@ -63,6 +63,7 @@ def states(name: str, module: ModuleType) -> tuple[Any, Any, Any]:
     return (half - mid)[touching], (half + mid)[touching], load[touching]
 
 
+@pytest.mark.enough("flat_rounded", "quartic", "half_parabola")
 @EVERY
 def test_no_load_case_is_lost_and_each_is_met(name: str, body: ModuleType) -> None:
     own = {"E_star": E_STAR, **constants(name)}

@@ -16,6 +16,8 @@ from tests.reference.conditions import HalfCycle, Patch
 from tests.reference.loads import State
 from tests.reference.mixed import turning
 
+pytestmark = pytest.mark.slow
+
 E_STAR, F = 1.25, 0.5
 OWN: dict[str, dict[str, float]] = {
     "hertz": {"R": 1.5},
@@ -44,7 +46,7 @@ def zone_of(name: str, a: Any, c: Any, dQ: Any, tension: Any, mixed: bool = True
     return module(name).stick_zone(here, here, shear, change, **given, mixed=mixed)
 
 
-@pytest.mark.slow
+@pytest.mark.enough("wedge-1.5-1.25-*", "quartic-*", "hertz-1.5-*")
 @pytest.mark.parametrize(
     ("name", "a", "c", "dQ", "tension"),
     [
@@ -74,13 +76,8 @@ def test_another_solution_finds_the_same(
     assert_allclose((zone.m, zone.n), other, atol=2e-6 * (a + c))
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "hertz",
-        *(pytest.param(n, marks=pytest.mark.slow) for n in ("wedge", "two_radii", "quartic")),
-    ],
-)
+@pytest.mark.enough("hertz", "wedge")
+@pytest.mark.parametrize("name", ["hertz", "wedge", "two_radii", "quartic"])
 def test_the_zone_goes_over_into_those_of_both_neighbours(name: str) -> None:
     """a + n(moderate) = 8 dQ/(pi dsigma) at the lower border, m + n(large) at the upper one."""
     tension = np.linspace(0.95, 1.45, 251)
@@ -123,7 +120,7 @@ def test_it_scales_with_lengths_and_loads() -> None:
     assert_allclose((1e3 * small.m, 1e3 * small.n), (zone.m, zone.n), rtol=1e-8)
 
 
-@pytest.mark.slow
+@pytest.mark.enough("wedge", "flat_rounded")
 @pytest.mark.parametrize("name", OWN)
 def test_nearly_all_random_cycles_are_solved(name: str) -> None:
     """Up to 0.6 of the shear that slides, and tension to twice the threshold: what is left is NaN,
@@ -139,7 +136,7 @@ def test_nearly_all_random_cycles_are_solved(name: str) -> None:
     assert np.all((zone.m <= a)[solved] & (zone.n <= c)[solved] & (zone.m + zone.n > 0)[solved])
 
 
-@pytest.mark.slow
+@pytest.mark.enough("hertz")
 @pytest.mark.parametrize("name", ["wedge", "hertz", "two_radii"])
 def test_there_is_no_hole_beside_the_moderate_regime(name: str) -> None:
     """Past a + n(moderate) = 8 dQ/(pi dsigma), by d in parts of the contact, the zone parts from

@@ -67,6 +67,7 @@ def drawn_alone(figure: Any) -> None:
 SLOW = pytest.mark.slow
 
 
+@pytest.mark.enough("stuck", "light")
 @SLOW
 @pytest.mark.parametrize(
     ("rows", "f"),

@@ -21,6 +21,8 @@ from derive.paper.report import corrected, evidence
 from derive.paper.userfile import read_claims
 from derive.paper.verdict import Finding, check, is_carried
 
+pytestmark = pytest.mark.slow
+
 HEAD = """
 [variables]
 a = "a length"
@@ -85,7 +87,7 @@ def test_a_pole_inside_is_named_and_decides_nothing(tmp_path: Path, under: str) 
     assert "pole at s = " in evidence(finding)
 
 
-@pytest.mark.slow
+@pytest.mark.thorough
 @pytest.mark.parametrize("right", ["l", "1.3*l"])
 def test_the_load_of_a_body_with_kinks_of_its_own(tmp_path: Path, right: str) -> None:
     """flat_rounded: g'' jumps at both ends of the flat part."""
@@ -105,7 +107,7 @@ def test_the_load_of_a_body_with_kinks_of_its_own(tmp_path: Path, right: str) ->
     assert judged(tmp_path, "I = P + E_star*l/10**9", head).verdict == Verdict.FAILS
 
 
-@pytest.mark.slow
+@pytest.mark.enough("wedge", "hertz")
 @pytest.mark.parametrize("body", ["hertz", "wedge", "unequal_wedge"])
 def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, body: str) -> None:
     head = f"""
@@ -127,7 +129,7 @@ def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, body: str) ->
 # ------------------------------------------------------------------ constants, decades, spikes
 
 
-@pytest.mark.slow
+@pytest.mark.enough("tanh(40*", "[!t]*")
 @pytest.mark.parametrize(
     "printed",
     [
@@ -167,7 +169,7 @@ def test_how_far_was_looked_is_told(tmp_path: Path) -> None:
     assert high > 1e2
 
 
-@pytest.mark.slow
+@pytest.mark.enough("a = a*")
 @pytest.mark.parametrize(
     "printed",
     [
@@ -260,7 +262,6 @@ y = { low = -3, high = 3 }
 """
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "printed",
     [
@@ -313,7 +314,6 @@ def test_a_correction_has_two_sides(tmp_path: Path) -> None:
     assert corrected(judged(tmp_path, "sqrt(x) = sqrt(abs(x))")) == "Abs(sqrt(x)) = sqrt(Abs(x))"
 
 
-@pytest.mark.slow
 def test_what_is_true_to_working_digits_is_no_correction(tmp_path: Path) -> None:
     """1 + tanh(10**6*(w - 1.6)) is below exp(-10**6) where w < 0.9, which is not zero."""
     finding = judged(tmp_path, "w + (1 + tanh(10**6*(w - 1.6)))/2 = w", "seconds = 2\n" + HEAD)
@@ -341,7 +341,6 @@ def test_a_verdict_that_takes_too_long_is_none(tmp_path: Path) -> None:
     assert monotonic() - began < 5
 
 
-@pytest.mark.slow
 def test_a_search_that_takes_too_long_leaves_the_verdict(tmp_path: Path) -> None:
     began = monotonic()
     printed = "integral(sign(sin(5*s)), s, 0, 3) = 18*pi/5 - 3 - 12*pi/5 - pi"

@@ -297,6 +297,7 @@ A = "a"
 """
 
 
+@pytest.mark.enough("load*")
 @pytest.mark.parametrize(
     ("printed", "expected"),
     [

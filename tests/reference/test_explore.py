@@ -24,6 +24,7 @@ def slow(*values: object) -> object:
     return pytest.param(*values, marks=pytest.mark.slow)
 
 
+@pytest.mark.enough("0.02-3.0")
 @pytest.mark.slow
 @pytest.mark.parametrize(("span", "part"), [(0.02, 3.0), (0.05, 2.0), (0.2, 3.0)])
 def test_where_the_premise_holds_the_conditions_do(span: float, part: float) -> None:
@@ -32,6 +33,7 @@ def test_where_the_premise_holds_the_conditions_do(span: float, part: float) -> 
     assert point.off(point.large.zone) <= point.estimate < 1e-3
 
 
+@pytest.mark.enough("M0-*")
 @pytest.mark.parametrize(
     ("M", "part", "why"),
     [
@@ -48,6 +50,7 @@ def test_where_the_premise_fails_the_conditions_do(
     assert point.off(point.large.zone) > 2 * point.estimate
 
 
+@pytest.mark.thorough
 @pytest.mark.slow
 def test_where_only_one_half_cycle_turns_round_its_smallest_zone_is_exact() -> None:
     point = explored(cycle(3 * threshold(), (0.0, 0.2)), (16, 32, 64), (8, 16, 16))
@@ -70,6 +73,7 @@ def test_zones_that_grow_are_not_enough() -> None:
     assert zone.n - many.n > 2e-4
 
 
+@pytest.mark.enough("1.08-*", "0.931-*")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("part", "regime"),
@@ -83,6 +87,7 @@ def test_the_regime_at_constant_loads(part: float, regime: str) -> None:
     assert np.all(np.abs(np.subtract(found.zone, zone)) <= found.error)
 
 
+@pytest.mark.enough("point1-*")
 @pytest.mark.parametrize(
     ("point", "kind"),
     [

@@ -12,14 +12,11 @@ from tests.reference.mesh import graded
 from tests.reference.mixed import NotInWindow, turning
 from tests.reference.solver import level, reference
 
-
-def slow(part: float) -> object:
-    """A cycle that `make quick` leaves out."""
-    return pytest.param(part, marks=pytest.mark.slow)
+pytestmark = pytest.mark.slow
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("part", [slow(0.95), 1.0, slow(1.05), slow(1.085)])
+@pytest.mark.enough("1.0")
+@pytest.mark.parametrize("part", [0.95, 1.0, 1.05, 1.085])
 def test_wedge(part: float) -> None:
     known = cycle(part * threshold())
     found, exact = reference(known.case, (16, 32, 64), (8, 16, 32)), turning(known.half_cycle)
@@ -27,7 +24,6 @@ def test_wedge(part: float) -> None:
     assert max(found.error) < 3e-4
 
 
-@pytest.mark.slow
 def test_hertz() -> None:
     # the paper's threshold, 4 f E*/R (b - sqrt(b^2 - 2 R dQ/(pi E* f))), with b = R = E* = 1
     dQ, f = 0.15 * HERTZ_LOAD, 0.5
@@ -69,7 +65,6 @@ def test_the_window_closes_where_the_large_zone_is_wide_enough() -> None:
         turning(cycle(1.092 * threshold()).half_cycle)
 
 
-@pytest.mark.slow
 def test_finer_pieces_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     half = cycle(threshold()).half_cycle
     fine = turning(half)
@@ -77,7 +72,6 @@ def test_finer_pieces_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert turning(half).zone == pytest.approx(fine.zone, abs=1e-8)
 
 
-@pytest.mark.slow
 def test_the_solver_ends_the_half_cycle_as_phase_three_does() -> None:
     # q = f p right of n_end, and less between n and n_end, which stuck again
     known = cycle(threshold())

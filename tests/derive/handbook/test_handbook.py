@@ -28,6 +28,8 @@ from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet
 from tests.derive.bodies import assumed
 
+pytestmark = pytest.mark.slow
+
 GENERATED = Path(__file__).parents[3] / "generated"
 NAMES = ("hertz", "flat_rounded", "hyperbola")
 """Closed both ways; with kinks; integrated."""
@@ -123,7 +125,6 @@ def test_the_same_body_gives_the_same_bytes() -> None:
     assert page(*made("hertz")) == page(*made("hertz"))
 
 
-@pytest.mark.slow
 def test_words_of_a_user_are_escaped() -> None:
     R = parameter("R", 'radius <b>bold</b> & "quoted"', unit="m")
     sheet = derive_sheet(Geometry("nasty", g=Abs(x) * x**2 / R**2))
@@ -219,7 +220,8 @@ def twice(name: str, folder: Path) -> list[str]:
     return texts
 
 
-@pytest.mark.parametrize("name", ["hertz", pytest.param("hyperbola", marks=pytest.mark.slow)])
+@pytest.mark.enough("hertz")
+@pytest.mark.parametrize("name", ["hertz", "hyperbola"])
 def test_what_is_kept_gives_the_same_page(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
@@ -240,7 +242,6 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     return [folder / f"quartic-{number}.html" for number in range(2)]
 
 
-@pytest.mark.slow
 def test_the_command_writes_a_page(written: list[Path]) -> None:
     first, second = (path.read_text() for path in written)
     assert first == second
@@ -276,14 +277,12 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
     driver.quit()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("width", [400, 1200])
 @pytest.mark.parametrize("name", [*NAMES, "index"])
 def test_a_browser_draws_it(browser: Any, pages: Path, name: str, width: int) -> None:
     drawn(browser, pages / f"{name}.html", width)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("again", [0, 1], ids=["new", "kept"])
 def test_a_browser_draws_what_the_command_wrote(
     browser: Any, written: list[Path], again: int

@@ -72,6 +72,7 @@ def test_points_hang_on_the_name_and_on_nothing_else() -> None:
     assert list(draws("one", draw)) != list(draws("two", draw))
 
 
+@pytest.mark.enough("hertz", "unequal_wedge", "flat_rounded", "spline")
 @EVERY
 @pytest.mark.slow
 def test_contacts_meet_every_assumption(name: str) -> None:
@@ -191,6 +192,7 @@ for body in ("hertz", "wedge"):
 """
 
 
+@pytest.mark.thorough
 @pytest.mark.slow
 def test_formulas_and_points_are_the_same_whatever_the_hash_seed() -> None:
     printed = [

@@ -9,6 +9,8 @@ from derive.symbols import E_star, a, c, h, s, x
 from derive.theory.edges import Edge, K_N_from_contact_law, pressure_series
 from tests.derive.bodies import CASES, close, number, sheet, value
 
+pytestmark = pytest.mark.slow
+
 ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 A, C = Symbol("A", positive=True), Symbol("B", positive=True)
 CONTACTS = [{a: 2, c: 1}, {a: Rational(3, 4), c: 3}]
@@ -90,7 +92,7 @@ def test_the_route_of_the_contact_law_gives_left_and_right(name: str) -> None:
 @pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
 @pytest.mark.parametrize(
     "name",
-    ["hertz", "shifted_wedge", pytest.param("two_radii", marks=pytest.mark.slow), "skew"],
+    ["hertz", "shifted_wedge", "two_radii", "skew"],
 )
 def test_four_terms_leave_an_error_of_the_fifth(name: str, edge: Edge) -> None:
     """p - (four terms) ~ s^(9/2): a tenth of s leaves 10^-4.5 of it."""

@@ -13,6 +13,8 @@ from derive.theory.frame import Frame
 from tests.derive.bodies import close, number, sheet
 from tests.derive.integrals import over_contact, principal_value, root
 
+pytestmark = pytest.mark.slow
+
 KINKED = ("wedge", "shifted_wedge", "wedge_on_the_left", "two_radii", "flat_rounded")
 KINKED += ("three_corners",)
 SPANNED = ("wedge", "unequal_wedge", "shifted_wedge", "wedge_on_the_left")

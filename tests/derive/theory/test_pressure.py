@@ -70,6 +70,7 @@ def test_sympy_finds_the_pressure_zero_at_both_edges(name: str) -> None:
 SLOW = pytest.param("three_corners", marks=pytest.mark.slow)
 
 
+@pytest.mark.enough("wedge", "shifted_wedge", "unequal_wedge", "wedge_on_parabola")
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [*(n for n in CORNERED if n != "three_corners"), SLOW])
 def test_the_pressure_at_a_corner_is_infinite_from_both_sides(name: str) -> None:

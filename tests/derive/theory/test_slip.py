@@ -56,6 +56,7 @@ def test_the_table_of_the_generated_code_is_that_of_the_theory() -> None:
                 assert float(found / stuck**power / mpmath.pi) == pytest.approx(number, rel=1e-15)
 
 
+@pytest.mark.enough("1")
 @pytest.mark.parametrize("order", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_terms_put_back_leave_nothing_up_to_their_order(order: int) -> None:
     size, width = symbols("epsilon h", positive=True)

@@ -13,6 +13,8 @@ from derive.theory.frame import RootFrame
 from derive.theory.special import Exponential, Power, Root, Special, X
 from tests.derive.integrals import over_contact
 
+pytestmark = pytest.mark.slow
+
 p = Symbol("p", positive=True)
 VALUES = {"p": "1.37"}
 CONTACTS = [("1", "0.3"), ("0.4", "2"), ("-0.2", "1.5"), ("1.5", "-0.2")]
@@ -148,10 +150,10 @@ def test_exponentials(order: int, kind: type, left: str, right: str) -> None:
     assert agree(number(sum_of(special, polynomial, weight, order), **edges), wanted)
 
 
+@pytest.mark.enough("0-*")
 @pytest.mark.parametrize(("left", "right"), CONTACTS)
 @pytest.mark.parametrize("quadratic", QUADRATICS.values(), ids=QUADRATICS)
-@pytest.mark.parametrize("order", [0, 1, pytest.param(2, marks=pytest.mark.slow)])
-@pytest.mark.slow
+@pytest.mark.parametrize("order", [0, 1, 2])
 def test_roots_of_quadratics(order: int, quadratic: Expr, left: str, right: str) -> None:
     edges = {"a": mpf(left), "c": mpf(right)}
     frame = RootFrame(quadratic.expand(), 1)
