@@ -184,7 +184,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     '0.367875'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > LEAST) & (b > LEAST)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return only_where(exists, _body(R=R, b=b).tilt(a, c))
 
 
@@ -217,7 +217,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     '2.53246'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > LEAST) & (b > LEAST)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return only_where(exists, E_star * _body(R=R, b=b).load(a, c))
 
 
@@ -252,7 +252,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     '1.82431'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > LEAST) & (b > LEAST)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return only_where(exists, E_star * _body(R=R, b=b).moment(a, c))
 
 
@@ -291,7 +291,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     '0.392783'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > LEAST) & (b > LEAST) & (x == x)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST) & (x == x)
     return only_where(exists, E_star * _body(R=R, b=b).pressure(x, a, c))
 
 
@@ -327,7 +327,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['0.88135', '0.753378']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > LEAST) & (b > LEAST)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).edges(a, c))))
 
 
@@ -367,7 +367,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['-0.148383', '-0.196186']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > LEAST) & (b > LEAST)
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).second(a, c))))
 
 

@@ -183,7 +183,7 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     '0.25'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST) & (R_1 > LEAST) & (R_2 > LEAST)
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
     return only_where(exists, _body(R_1=R_1, R_2=R_2).tilt(a, c))
 
 
@@ -214,7 +214,7 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     '1.22718'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST) & (R_1 > LEAST) & (R_2 > LEAST)
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).load(a, c))
 
 
@@ -246,7 +246,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
     '0.306796'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST) & (R_1 > LEAST) & (R_2 > LEAST)
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).moment(a, c))
 
 
@@ -281,7 +281,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     '0.5'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST) & (R_1 > LEAST) & (R_2 > LEAST) & (x == x)
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0) & (x == x)
     return only_where(exists, E_star * _body(R_1=R_1, R_2=R_2).pressure(x, a, c))
 
 
@@ -315,7 +315,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     ['0.790569', '0.790569']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST) & (R_1 > LEAST) & (R_2 > LEAST)
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
     return Edges(
         *only_where(exists, *(E_star * edge for edge in _body(R_1=R_1, R_2=R_2).edges(a, c)))
     )
@@ -355,7 +355,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     ['-0.158114', '-0.158114']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST) & (R_1 > LEAST) & (R_2 > LEAST)
+    exists = (h > LEAST) & (h < MOST) & (R_1 > 0) & (R_2 > 0)
     return Edges(
         *only_where(exists, *(E_star * edge for edge in _body(R_1=R_1, R_2=R_2).second(a, c)))
     )

