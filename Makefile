@@ -1,7 +1,7 @@
 # make        derives and proves every geometry, regenerates generated/, checks the paper;
 #             nothing is taken from an earlier run, so that every proof and time is of this one
 # make test   lint, types, tests: the drift check of generated/ included
-# make quick  the tests that take no long
+# make quick  the tests that do not take long
 # make thorough  all tests: more bodies, cases and points than make test takes
 # make bench  speed against lambdify, numexpr and numba in one run: docs/performance.md, or where
 #             there is no AVX-512 docs/performance_without_avx512.md; some
@@ -22,6 +22,7 @@ PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
+PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal
 
 .PHONY: all test quick thorough bench bench-inverse bench-slip bench-mixed bench-monte-carlo series solver comparison accuracy notebooks \
 	lab picture clean
@@ -34,13 +35,13 @@ test: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal
+	$(PYTEST)
 
 quick: $(STAMP)
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -m "not slow and not thorough"
+	$(PYTEST) -m "not slow and not thorough"
 
 thorough: $(STAMP)
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal -m "thorough or not thorough"
+	$(PYTEST) -m ''
 
 bench: $(STAMP)
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[benchmarks]'

@@ -36,12 +36,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
     Behind the longest, and so by one worker, those that share what takes long to make.
     """
-    if not any("::" in path for path in config.args):  # else not all cases are here
+    whole = not config.getoption("lf", False) and not any("::" in path for path in config.args)
+    if whole:  # else not all cases of a test are here
         _demand_a_case_of_each_name(items)
     for item in items:
         if item.name in SLOW_EXAMPLES:
             item.add_marker("slow")
-        if _is_one_more(item) or SHARED in getattr(item, "fixturenames", ()):
+        if _is_one_more(item):
             item.add_marker("thorough")
     items.sort(
         key=lambda item: (
@@ -54,23 +55,28 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 def _is_one_more(item: pytest.Item) -> bool:
     """Whether it is a case beyond those that are enough for `make test`."""
-    enough, case = item.get_closest_marker("enough"), getattr(item, "callspec", None)
-    if enough is None or case is None:
-        return False
-    return not any(fnmatchcase(case.id, name) for name in enough.args)
+    enough = item.get_closest_marker("enough")
+    return enough is not None and not any(fnmatchcase(_case(item), name) for name in enough.args)
+
+
+def _case(item: pytest.Item) -> str:
+    """What stands in the brackets of a test; nothing for one without."""
+    case = getattr(item, "callspec", None)
+    return case.id if case else ""
 
 
 def _demand_a_case_of_each_name(items: list[pytest.Item]) -> None:
-    """Raises UsageError for a name in a mark `enough` that no case has any more."""
-    names: dict[tuple[str, str], list[str]] = {}
+    """Raises LookupError, which processes of xdist hand on, for a name in a mark `enough` that no
+    case bears any more."""
+    cases: dict[tuple[str, str], list[str]] = {}
     for item in items:
         if enough := item.get_closest_marker("enough"):
             for name in enough.args:
                 test = item.nodeid.partition("[")[0]
-                names.setdefault((test, name), []).append(item.callspec.id)  # type: ignore[attr-defined]
-    for (test, name), cases in names.items():
-        if not any(fnmatchcase(case, name) for case in cases):
-            raise pytest.UsageError(f"{test}: enough({name!r}) is none of {', '.join(cases):.200}")
+                cases.setdefault((test, name), []).append(_case(item))
+    for (test, name), found in cases.items():
+        if not any(fnmatchcase(case, name) for case in found):
+            raise LookupError(f"{test}: enough({name!r}) is none of {', '.join(found):.200}")
 
 
 @pytest.fixture(autouse=True)

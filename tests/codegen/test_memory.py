@@ -13,8 +13,6 @@ from derive.codegen.memory import BY_PARTS, LABORIOUS, PRESSURE_BY_PARTS, arrays
 from generated import _arrays
 from tests.benchmarks.speed import SCALARS, uncut
 
-pytestmark = pytest.mark.slow
-
 COUNT = 50_000
 """Long enough for NumPy to compute in the memory of what nothing else refers to."""
 
@@ -115,6 +113,7 @@ def test_a_block_of_what_is_laborious_stays_in_the_heap(body: str, name: str, ma
     assert 0.5 * many < _peak(body, name) < 2 * many
 
 
+@pytest.mark.slow
 @pytest.mark.enough("contact")
 @pytest.mark.parametrize("name", ["contact", "contact_at_tilt"])
 def test_what_is_integrated_holds_three_times_as_many_at_most(name: str) -> None:

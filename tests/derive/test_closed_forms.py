@@ -57,7 +57,7 @@ MADE_UP = {
     + phi * Abs(x),
 }
 LIBRARY = ("catenary", "circular_arc", "hyperbola", "power")
-QUICK = (
+KINDS = (
     *("power_of_three_halves", "exponential", "root_of_a_line"),
     *("simple_pole", "double_pole", *LIBRARY),
 )
@@ -222,7 +222,7 @@ def agreement(of: FormulaSheet, point: Point) -> dict[str, int]:
     return found
 
 
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize("name", KINDS)
 def test_the_forms_agree_with_the_defining_integrals(name: str) -> None:
     """At two contacts here, a > c and a < c; at all in the slow test."""
     demand_all(sheet(name))

@@ -1,7 +1,7 @@
 """The findings of the whole paper, made once a process.
 
-Tests of all of them are thorough: notebook 08, which every run of the tests executes, makes them
-too, and stops where a verdict is not the expected one.
+Tests of all of them are thorough: notebook 08, which `make test` executes, makes them too, and
+stops where a verdict is not the expected one.
 """
 
 import pytest

@@ -123,6 +123,7 @@ def test_the_source_s_text_is_what_is_judged() -> None:
         assert simplify(right - claim.right) == 0, claim.label
 
 
+@pytest.mark.thorough
 def test_every_verdict_is_the_expected_one_and_has_evidence(
     findings: dict[str, Finding],
 ) -> None:
@@ -138,6 +139,7 @@ def test_every_verdict_is_the_expected_one_and_has_evidence(
             assert strict or min(p.digits for p in finding.judged.pairs) >= DIGITS
 
 
+@pytest.mark.thorough
 def test_what_is_wrong_is_what_a_person_found(findings: dict[str, Finding]) -> None:
     for label, part in WRONG.items():
         finding = findings[label]
@@ -147,12 +149,14 @@ def test_what_is_wrong_is_what_a_person_found(findings: dict[str, Finding]) -> N
         assert part in told, f"{label}: {told}"
 
 
+@pytest.mark.thorough
 def test_the_larger_shear_is_that_of_the_traction_called_first(
     findings: dict[str, Finding],
 ) -> None:
     assert corrected(findings["eq:CJshear/sense"]) == "q_1 - q_2 = Delta_Q"
 
 
+@pytest.mark.thorough
 def test_the_error_falls_only_relatively_and_where_a_zone_has_just_opened(
     findings: dict[str, Finding],
 ) -> None:
@@ -175,6 +179,7 @@ def test_the_direction_of_a_bound_is_judged(label: str) -> None:
     assert check(replace(claim, relation=claim.relation.turned)).verdict == Verdict.FAILS
 
 
+@pytest.mark.thorough
 def test_a_computed_number_is_counted_once(findings: dict[str, Finding]) -> None:
     for label, found in findings.items():
         if "/accuracy/" in label or "5.3/overestimated" in label:
@@ -187,6 +192,7 @@ def test_what_sympy_would_write_otherwise_is_shown_as_printed() -> None:
     assert "gamma_t" in printed(paper()["m and gamma_2/strain"])
 
 
+@pytest.mark.thorough
 def test_every_corrected_equation_is_proven(findings: dict[str, Finding]) -> None:
     wrong = errata(findings.values())
     mended = [finding for finding in wrong if finding.repair]
@@ -195,6 +201,7 @@ def test_every_corrected_equation_is_proven(findings: dict[str, Finding]) -> Non
     assert without == {"section 4.1/alpha_0(M_0, P_0)", "section 5.3/validity"}
 
 
+@pytest.mark.thorough
 def test_a_convention_holds_under_its_map_and_names_the_place(
     findings: dict[str, Finding],
 ) -> None:
@@ -208,12 +215,14 @@ def test_a_convention_holds_under_its_map_and_names_the_place(
             )
 
 
+@pytest.mark.thorough
 def test_the_consequence_of_every_error_is_told(findings: dict[str, Finding]) -> None:
     for finding in errata(findings.values()):
         if finding.claim.label != "eqn:FIE/cylinder":
             assert consequence(finding), finding.claim.label
 
 
+@pytest.mark.thorough
 def test_documents_hold_every_error(findings: dict[str, Finding]) -> None:
     found = list(findings.values())
     for text in (as_markdown(paper(), found), as_latex(paper(), found)):
@@ -223,6 +232,7 @@ def test_documents_hold_every_error(findings: dict[str, Finding]) -> None:
     assert r"\begin{document}" in as_latex(paper(), found)
 
 
+@pytest.mark.thorough
 def test_the_signs_of_the_sections_are_compared(findings: dict[str, Finding]) -> None:
     told = {line.partition(":")[0]: line for line in signs(paper(), findings.values())}
     assert told.keys() == {"moment", "tilt", "tension", "shear"}
