@@ -80,10 +80,12 @@ _ZEROS.flags.writeable = False
 np.empty(_HEAP, np.uint8)
 
 
-def elementwise(*, arrays: int) -> Callable[[Function], Function]:
+def elementwise(*, arrays: int, bare: tuple[str, ...] = ()) -> Callable[[Function], Function]:
     """Let a formula take anything that broadcasts, and compute large arrays in blocks.
 
     arrays: how many it holds at once, if its constants are numbers.
+    bare: arguments each of which, where it alone is an array, makes it hold nothing but its
+        results: blocks would save nothing then, and be copied.
 
     Numbers and arrays of any real type become float64; Dask arrays stay lazy, and are computed
     chunk by chunk; arrays of other libraries that follow NumPy's protocols are computed by these.
@@ -96,12 +98,12 @@ def elementwise(*, arrays: int) -> Callable[[Function], Function]:
     """
 
     def decorated(function: Function) -> Function:
-        return _elementwise(function, arrays)
+        return _elementwise(function, arrays, frozenset(bare))
 
     return decorated
 
 
-def _elementwise(function: Function, arrays: int) -> Function:
+def _elementwise(function: Function, arrays: int, bare: frozenset[str]) -> Function:
     called = signature(function)
     parameters, count = called.parameters, len(called.parameters)
     results = len(getattr(called.return_annotation, "_fields", ("",)))
@@ -137,7 +139,7 @@ def _elementwise(function: Function, arrays: int) -> Function:
         if len(given) < count:
             given = defaults | given
         shape: Shape = ()
-        alike, foreign, unread, size, varying, own = True, False, False, 1, 0, 0
+        alike, foreign, unread, size, varying, own, last = True, False, False, 1, 0, 0, ""
         for name, value in given.items():
             kind = type(value)
             if kind is float or kind is Float:
@@ -156,10 +158,12 @@ def _elementwise(function: Function, arrays: int) -> Function:
             if type(value) is np.ndarray:
                 alike, shape = alike and shape in ((), value.shape), value.shape
                 size, varying, own = max(size, value.size), varying + 1, own + (name in constants)
+                last = name
             elif type(value) is not Float:
                 foreign = True
         held = weighed + own if few and results == 1 else weighed * varying / len(names)
-        whole = foreign or (alike and size * held <= RESIDENT)
+        spares = varying > 1 or last not in bare
+        whole = foreign or (alike and not (spares and size * held > RESIDENT))
         if unread and whole:
             given = {name: _float64(value, name) for name, value in given.items()}
         if foreign and any_lazy(given.values()):

@@ -371,7 +371,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).second(a, c))))
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -404,7 +404,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 

@@ -287,7 +287,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     return Edges(*only_where(exists, scale, +scale))
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -320,7 +320,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 

@@ -368,7 +368,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, E_star * left, E_star * right))
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -401,7 +401,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 

@@ -340,7 +340,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -373,7 +373,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 

@@ -315,7 +315,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
 
@@ -348,7 +348,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     )
 
 
-@elementwise(arrays=5)
+@elementwise(arrays=5, bare=("dQ",))
 def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
 

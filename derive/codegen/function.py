@@ -85,12 +85,21 @@ class FunctionText:
 
     @property
     def _decorators(self) -> Iterator[str]:
-        yield f"@elementwise(arrays={self._arrays})"
+        bare = f", bare={self._bare}" if self._bare else ""
+        yield f"@elementwise(arrays={self._arrays}{bare})".replace("'", '"')
 
     @property
     def _arrays(self) -> int:
         """How many arrays it holds at once, all arguments by position being arrays."""
         return arrays_held(self._code, map(str, self.function.arguments))
+
+    @property
+    def _bare(self) -> tuple[str, ...]:
+        """Arguments each of which alone makes it hold nothing but its several results."""
+        results, names = len(self.function.fields), map(str, self.function.arguments)
+        if results == 1:
+            return ()
+        return tuple(name for name in names if arrays_held(self._code, [name]) <= results)
 
     @property
     def _signature(self) -> str:
@@ -300,6 +309,10 @@ class CallingText(FunctionText):
     @property
     def _arrays(self) -> int:
         return LABORIOUS
+
+    @property
+    def _bare(self) -> tuple[str, ...]:
+        return ()
 
     def _made(self) -> Program:
         return Program({})

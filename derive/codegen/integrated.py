@@ -94,7 +94,7 @@ _FIELDS = {
 class MendedText(FunctionText):
     """The text of a closed function that is integrated where it would lose digits."""
 
-    _arrays = LABORIOUS
+    _arrays, _bare = LABORIOUS, ()
 
     def _result(self, _: dict[str, str]) -> Iterator[str]:
         """The terms of every formula, one by one, so that their cancelling shows."""

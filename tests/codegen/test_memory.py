@@ -63,14 +63,16 @@ FORMULAS = [
 ]
 
 
-def _peak(body: str, name: str) -> float:
-    """Arrays that a generated function holds at most, its arguments by position being arrays."""
+def _peak(body: str, name: str, *varying: str) -> float:
+    """Arrays that a generated function holds at most.
+
+    varying: the arguments that are arrays; without any, those by position.
+    """
     function = getattr(importlib.import_module(f"generated.{body}"), name)
     near = np.random.default_rng(5).uniform(0.9, 1.1, COUNT)
-    given: dict[str, Any] = {
-        name: SCALARS[name] * (1 if p.kind is Parameter.KEYWORD_ONLY else near)
-        for name, p in signature(function).parameters.items()
-    }
+    parameters = signature(function).parameters.items()
+    varying = varying or tuple(n for n, p in parameters if p.kind is not Parameter.KEYWORD_ONLY)
+    given: dict[str, Any] = {n: SCALARS[n] * (near if n in varying else 1) for n, _ in parameters}
     with uncut():
         function(**given)
         tracemalloc.start()
@@ -87,15 +89,40 @@ def _peak(body: str, name: str) -> float:
 def _told(body: str, name: str) -> int:
     """What the function's decorator says."""
     function = getattr(importlib.import_module(f"generated.{body}"), name)
-    found = re.match(r"@elementwise\(arrays=(\d+)\)", getsource(function))
+    found = re.match(r"@elementwise\(arrays=(\d+)[,)]", getsource(function))
     assert found
     return int(found[1])
+
+
+def _told_bare(body: str, name: str) -> list[str]:
+    """Arguments which alone leave it nothing to hold but its results, as its decorator says."""
+    line, _, _ = getsource(getattr(importlib.import_module(f"generated.{body}"), name)).partition(
+        "\n"
+    )
+    return re.findall(r"\"(\w+)\"", line)
 
 
 @pytest.mark.parametrize(("body", "name"), FORMULAS)
 def test_a_formula_holds_what_is_counted(body: str, name: str) -> None:
     """Flags, an eighth of an array each, are held besides."""
     assert _told(body, name) <= _peak(body, name) < _told(body, name) + 0.9
+
+
+@pytest.mark.parametrize("body", ["wedge", "two_radii", "hyperbola"])
+@pytest.mark.parametrize("name", ["K_T", "L_T"])
+def test_shear_alone_leaves_nothing_to_hold_but_both_results(body: str, name: str) -> None:
+    """dQ/pi is one of them; what the tension gives is subtracted from it, not it from that."""
+    assert _told_bare(body, name) == ["dQ"]
+    assert _peak(body, name, "dQ") < 2.1
+    assert min(_peak(body, name, other) for other in ("a", "c", "dsigma")) > 2.9
+
+
+@pytest.mark.parametrize(
+    ("body", "name"),
+    [("wedge", "K_N"), ("hertz", "contact"), ("hertz", "load"), ("quartic", "K_N")],
+)
+def test_elsewhere_blocks_save_something(body: str, name: str) -> None:
+    assert _told_bare(body, name) == []
 
 
 @pytest.mark.parametrize("body", ["flat_rounded", "rounded_wedge", "two_radii"])

@@ -12,7 +12,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from generated import _arrays, _plain, flat_rounded, hertz, wedge
-from generated._types import Contact
+from generated._types import Contact, Edges
 
 LAW = {"f": 0.5, "E_star": 1.0, "phi": 0.125}
 
@@ -108,6 +108,31 @@ def test_an_array_is_cut_where_the_heap_does_not_hold_all(
     assert lengths[0] == most
     assert max(lengths[1:]) <= 7
     assert sum(lengths[1:]) == most + 1
+
+
+def test_nothing_is_cut_where_an_argument_alone_leaves_only_results(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(_arrays, "BLOCK", 7)
+    monkeypatch.setattr(_arrays, "RESIDENT", 10)
+    seen: list[int] = []
+
+    @_arrays.elementwise(arrays=4, bare=("dQ",))
+    def both(a: Any, dQ: Any, *, b: Any) -> Edges:
+        found = Edges(dQ * a, dQ * b)
+        seen.append(max(np.size(v) for v in found))
+        return found
+
+    array = np.linspace(1, 2, 50)
+    for a, dQ, b, cut in (
+        *((1.0, array, 2.0, False), (array, 1.0, 2.0, True), (1.0, 1.0, array, True)),
+        *((array, array, 2.0, True), (1.0, array, array, True), (array[:, None], array, 2.0, True)),
+        (1.0, array.reshape(5, 10), 2.0, False),
+    ):
+        seen.clear()
+        found = both(a, dQ, b=b)
+        assert_array_equal(found.left, np.broadcast_to(dQ * a, found.left.shape))
+        assert (max(seen) < array.size) == cut
 
 
 @pytest.mark.parametrize(("arrays", "block"), [(20, 7), (21, 10)])
