@@ -112,27 +112,27 @@ def _elementwise(function: Function, arrays: int, bare: frozenset[str]) -> Funct
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
-    Float, INFINITE, plain = np.float64, math.inf, frozenset(_NUMBERS)
+    Float, INFINITE, numbers = np.float64, math.inf, frozenset(_NUMBERS)
     quiet = np.errstate(all="ignore")(function)
     at_numbers = in_plain_numbers(function)
     quiet_blocks = np.errstate(all="ignore")(_in_blocks)
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
-        if len(args) + len(kwargs) == count and plain.issuperset(
-            map(type, chain(args, kwargs.values()))
-        ):
-            numbers = {}
-            for name, value in kwargs.items():
-                sound = name not in constants or 0 < value < INFINITE
-                numbers[name] = float(value) if sound else math.nan
+        kinds = {*map(type, args), *map(type, kwargs.values())}
+        if kinds <= numbers and len(args) + len(kwargs) == count:
+            if Float in kinds:
+                args, kwargs = (*map(float, args),), {n: float(v) for n, v in kwargs.items()}
+            for name in constants & kwargs.keys():
+                if not 0 < kwargs[name] < INFINITE:
+                    kwargs[name] = math.nan
             if at_numbers:
                 try:
-                    found = at_numbers(*map(float, args), **numbers)
+                    found = at_numbers(*args, **kwargs)
                     return Float(found) if results == 1 else found._make(map(Float, found))
                 except REFUSALS:
                     pass  # NumPy has an answer
-            return quiet(*map(Float, args), **{n: Float(v) for n, v in numbers.items()})
+            return quiet(*map(Float, args), **{n: Float(v) for n, v in kwargs.items()})
         given = (dict(zip(names, args, strict=False)) | kwargs) if args else kwargs
         if len(given) < len(args) + len(kwargs):
             return function(*args, **kwargs)  # too many, or one twice: Python's own message
