@@ -270,7 +270,11 @@ def parts(bodies: tuple[str, ...]) -> int:
 
 _WITH = (
     "Of a processor with AVX-512, on which NumPy computes logarithms, log1p among them, ten times",
-    "as fast as elsewhere: [a run without](performance_without_avx512.md).",
+    "as fast as elsewhere; runs on others: [without it](performance_without_avx512.md),",
+    "[an AMD EPYC](performance_amd_epyc.md).  As long as all lies in a core's own cache,",
+    "wedge.pressure and lambdify's form with common subexpressions do the same work, one root and",
+    "one logarithm among a dozen operations.  What blocks save beyond is what memory takes: the",
+    "larger and quicker the processor's last cache, the less.",
 )
 
 _WITHOUT = (
@@ -278,7 +282,7 @@ _WITHOUT = (
     "times faster there.  Here the generated functions take log(1 + q) and a correction, as exact,",
     "with five cheap operations more.  One np.log takes a third of the time of lambdify's",
     "wedge.pressure: with a root and a dozen cheap operations beside it, half of that time is out",
-    "of NumPy's reach.  With AVX-512 it is [2.1 times as fast](performance.md).",
+    "of NumPy's reach.  With AVX-512 it is about [twice as fast](performance.md).",
 )
 
 
