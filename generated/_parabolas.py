@@ -21,7 +21,7 @@ however close its ends lie to the edges.
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache, wraps
 from itertools import chain
 from typing import Any, NamedTuple
@@ -231,22 +231,24 @@ class _Contact:
     __slots__ = ("_curved", "a", "body", "c", "h", "inside", "kinks", "of")
 
     def __init__(self, body: Parabolas, a: Array, c: Array) -> None:
-        if body.plain and type(a) in _OF_NUMBERS and type(c) in _OF_NUMBERS:
-            self.of, a, c = _NUMBERS, float(a), float(c)
+        numbers = body.plain and type(a) in _OF_NUMBERS and type(c) in _OF_NUMBERS
+        if numbers:
+            a, c = float(a), float(c)
             h = a + c if a + c > 0 else math.nan
         else:
-            self.of, h = _ARRAYS, a + c
-        self.body, self.kinks = body, body.kinks
-        self.a, self.c, self.h = a, c, h
-        self.inside = [(0.0 * h, h)]
+            h = a + c
+        inside = [(0.0 * h, h)]
         for kink in body.kinks:
             left, right = a + kink, c - kink
-            if self.of is _NUMBERS:
+            if numbers:
                 within = (0.0, h) if left <= 0 else (h, 0.0) if right <= 0 else (left, right)
             else:
                 within = minimum(maximum(left, 0.0), h), minimum(maximum(right, 0.0), h)
-            self.inside.append(within)
-        self.inside.append((h, 0.0 * h))
+            inside.append(within)
+        inside.append((h, 0.0 * h))
+        self.of = _NUMBERS if numbers else _ARRAYS
+        self.body, self.kinks, self.inside = body, body.kinks, inside
+        self.a, self.c, self.h = a, c, h
         self._curved: list[_Part] | None = None
 
     def part(self, i: int, bend: Array, with_bow: bool = True) -> _Part | None:
@@ -276,10 +278,10 @@ class _Contact:
                     found.append(part)
         return self._curved
 
-    def corners(self) -> Iterator[tuple[Array, Array, Array]]:
+    def corners(self) -> Sequence[tuple[Array, Array, Array]]:
         """Jumps of g', and how far they lie inside the left and the right edge."""
-        for i, jump in self.body.corners.items():
-            yield jump, *self.inside[i + 1]
+        jumps = self.body.corners
+        return [(jump, *self.inside[i + 1]) for i, jump in jumps.items()] if jumps else ()
 
     # ------------------------------------------------------------------ what it carries
 
@@ -372,26 +374,29 @@ class _Contact:
         rise: half the integral over a part, over h.
         of_corner: the integrand over g''.
         """
-        h, of = self.h, self.of
-        bends = [0.0 if bend is None else bend for bend in self.body.bends]
+        h, of, inside, arrays = self.h, self.of, self.inside, self.of is _ARRAYS
+        bends: list[Array] = [0.0 if bend is None else bend for bend in self.body.bends]
         first, last = bends[0], bends[-1]
         for i in range(1, len(bends)):  # kinks at an edge or beyond it divide nothing
-            first = of.where(self.inside[i][0] > 0, first, bends[i])
-            last = of.where(self.inside[-1 - i][1] > 0, last, bends[-1 - i])
+            inner_left, inner_right = inside[i][0] > 0, inside[-1 - i][1] > 0
+            if arrays or not inner_left:
+                first = of.where(inner_left, first, bends[i])
+            if arrays or not inner_right:
+                last = of.where(inner_right, last, bends[-1 - i])
         left, right = (-whole * _PI) * h * first, (-whole * _PI) * h * last
         for i, bend in enumerate(bends):
-            inner_left, inner_right = self.inside[i][0] > 0, self.inside[i + 1][1] > 0
+            inner_left, inner_right = inside[i][0] > 0, inside[i + 1][1] > 0
             off_left, off_right = bend - first, bend - last
-            to_left = of is _ARRAYS or (inner_left and off_left != 0)
-            to_right = of is _ARRAYS or (inner_right and off_right != 0)
+            to_left = arrays or (inner_left and off_left != 0)
+            to_right = arrays or (inner_right and off_right != 0)
             if not (to_left or to_right) or (part := self.part(i, bend)) is None:
                 continue
             if to_left:
                 share = 2 * h * off_left * rise(part, part.far, part.near)
-                left = left + of.where(inner_left, share, 0.0)
+                left = left + (np.where(inner_left, share, 0.0) if arrays else share)
             if to_right:
                 share = 2 * h * off_right * rise(part, part.near, part.far)
-                right = right + of.where(inner_right, share, 0.0)
+                right = right + (np.where(inner_right, share, 0.0) if arrays else share)
         for jump, A, B in self.corners():
             root = of.sqrt(A * B)
             left = left + jump * of_corner(root / (A + _NOTHING))
@@ -439,17 +444,19 @@ class _Place:
     __slots__ = ("_levels", "contact", "left", "of", "offsets", "right", "root")
 
     def __init__(self, contact: _Contact, x: Array) -> None:
-        self.contact, self.of = contact, _ARRAYS
+        a, c, of = contact.a, contact.c, _ARRAYS
         if contact.of is _NUMBERS and type(x) in _OF_NUMBERS:
-            self.of, x = _NUMBERS, float(x)
-        x = self.of.least(self.of.most(x, -contact.a), contact.c)
-        left, right = contact.a + x, contact.c - x
-        self.left, self.right, self.root = left, right, self.of.sqrt(left * right)
-        self.offsets: list[Array] = [-left]
+            of, x = _NUMBERS, float(x)
+        x = of.least(of.most(x, -a), c)
+        left, right = a + x, c - x
+        offsets: list[Array] = [-left]
         for kink in contact.kinks:
-            self.offsets.append(kink - x)
-        self.offsets.append(right)
-        self._levels: list[Array] = [0.0, *[None] * len(contact.kinks), 0.0]
+            offsets.append(kink - x)
+        offsets.append(right)
+        self.contact, self.of, self.offsets = contact, of, offsets
+        self.left, self.right, self.root = left, right, of.sqrt(left * right)
+        self._levels: list[Array] = [None] * len(offsets)
+        self._levels[0] = self._levels[-1] = 0.0
 
     def level(self, i: int) -> Array:
         """L(x, s) at the end of a piece; zero for one that is not in the contact."""
@@ -476,10 +483,10 @@ class _Place:
         if of is _NUMBERS:
             if start > limit:
                 A, B = self.contact.inside[i]
-                return _from_afar(of, start, math.sqrt(A * B), self.level(i + 1), self.root, *own)
+                return _from_afar(of, start, math.sqrt(A * B), self.level(i + 1), self.root, own)
             if -end > limit:
                 A, B = self.contact.inside[i + 1]
-                return _from_afar(of, -end, math.sqrt(A * B), self.level(i), self.root, *own)
+                return _from_afar(of, -end, math.sqrt(A * B), self.level(i), self.root, own)
             return self._by_parts(part)
         found, afar, before = self._by_parts(part), (start > limit) | (-end > limit), start > 0
         if not some(afar):
@@ -490,17 +497,18 @@ class _Place:
             np.where(before, near, other),
             np.where(before, self.level(i + 1), self.level(i)),
             self.root,
-            *own,
         )
         if type(found) is not np.ndarray:
-            return np.where(afar, _from_afar(of, *seen), found)
+            return np.where(afar, _from_afar(of, *seen, own), found)
         found = np.ascontiguousarray(found)
         rows = np.flatnonzero(np.broadcast_to(afar, found.shape))
 
         def of_rows(value: Array) -> Array:
             return np.broadcast_to(value, found.shape).ravel()[rows] if np.ndim(value) else value
 
-        found.reshape(-1)[rows] = _from_afar(of, *map(of_rows, seen))
+        distance, near, level, root = map(of_rows, seen)
+        own = tuple(map(of_rows, own))
+        found.reshape(-1)[rows] = _from_afar(of, distance, near, level, root, own)
         return found
 
     def _by_parts(self, part: _Part) -> Array:
@@ -519,10 +527,7 @@ def _from_afar(
     near: Array,
     level: Array,
     root: Array,
-    length: Array,
-    sine: Array,
-    cosine: Array,
-    extent: Array,
+    own: Sequence[Array],
 ) -> Array:
     """int L(x, s) ds over a part whose nearer end lies d > (3/4) l away from x, l long itself,
 
@@ -530,7 +535,10 @@ def _from_afar(
         y = w(x) tan(e)/(d + w tan e) < sqrt(4/7),
 
     w = `near` at that end, and L = `level` at the other one.
+
+    own: l, sin e, cos e and e.
     """
+    length, sine, cosine, extent = own
     tangent = sine / cosine
     reach = distance + near * tangent
     y = root * tangent / reach

@@ -110,6 +110,7 @@ def _elementwise(function: Function, arrays: int, bare: frozenset[str]) -> Funct
     few = arrays <= FEW
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
     names = tuple(n for n in parameters if n not in constants)
+    own_names = tuple(n for n in parameters if n in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
     Float, INFINITE, numbers = np.float64, math.inf, frozenset(_NUMBERS)
     quiet = np.errstate(all="ignore")(function)
@@ -122,8 +123,8 @@ def _elementwise(function: Function, arrays: int, bare: frozenset[str]) -> Funct
         if kinds <= numbers and len(args) + len(kwargs) == count:
             if Float in kinds:
                 args, kwargs = (*map(float, args),), {n: float(v) for n, v in kwargs.items()}
-            for name in constants & kwargs.keys():
-                if not 0 < kwargs[name] < INFINITE:
+            for name in own_names:
+                if not 0 < kwargs.get(name, 1.0) < INFINITE:
                     kwargs[name] = math.nan
             if at_numbers:
                 try:
