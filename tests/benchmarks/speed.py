@@ -351,6 +351,7 @@ def _cut_table(found: Found) -> Iterator[str]:
         f"decorator counts them, are more than {_arrays.RESIDENT:,} numbers, which the process",
         "keeps.  Several results do not count, since copying them costs what cutting saves; the",
         f"rest of these, and more than {_arrays.FEW} arrays, count as far as the arguments vary.",
+        "Where there is no rest nothing is cut.",
         f"Blocks have {_arrays.BLOCK:,} elements, or more where they hold no more than one in",
         f"{_arrays.SHARE} of the results' numbers; of more than {_arrays.FEW} arrays they hold",
         "half as many numbers as are kept.",

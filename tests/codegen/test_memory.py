@@ -96,10 +96,8 @@ def _told(body: str, name: str) -> int:
 
 def _told_bare(body: str, name: str) -> list[str]:
     """Arguments which alone leave it nothing to hold but its results, as its decorator says."""
-    line, _, _ = getsource(getattr(importlib.import_module(f"generated.{body}"), name)).partition(
-        "\n"
-    )
-    return re.findall(r"\"(\w+)\"", line)
+    source = getsource(getattr(importlib.import_module(f"generated.{body}"), name))
+    return re.findall(r"\"(\w+)\"", source.splitlines()[0])
 
 
 @pytest.mark.parametrize(("body", "name"), FORMULAS)

@@ -127,7 +127,7 @@ def test_nothing_is_cut_where_an_argument_alone_leaves_only_results(
     for a, dQ, b, cut in (
         *((1.0, array, 2.0, False), (array, 1.0, 2.0, True), (1.0, 1.0, array, True)),
         *((array, array, 2.0, True), (1.0, array, array, True), (array[:, None], array, 2.0, True)),
-        (1.0, array.reshape(5, 10), 2.0, False),
+        *((1.0, array.reshape(5, 10), 2.0, False), (1.0, array.astype(np.float32), 2.0, True)),
     ):
         seen.clear()
         found = both(a, dQ, b=b)

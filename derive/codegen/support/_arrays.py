@@ -67,7 +67,7 @@ RESIDENT = 2 * _HEAP // 8
 """Numbers that the heap keeps.  A call that holds no more is not cut: it asks the system for no
 pages, and the processor's last cache holds most of its arrays.  Several results are not counted,
 since they are copied from the blocks; the rest of these, and more than FEW arrays, as far as the
-arguments vary.
+arguments vary.  Nothing is cut where there is no rest.
 """
 
 _ZEROS = np.zeros(RESIDENT // 2)  # the system lends one page for all of it
@@ -83,14 +83,14 @@ def elementwise(*, arrays: int, bare: tuple[str, ...] = ()) -> Callable[[Functio
     """Let a formula take anything that broadcasts, and compute large arrays in blocks.
 
     arrays: how many it holds at once, if its constants are numbers.
-    bare: arguments each of which, where it alone is an array, makes it hold nothing but its
-        results: blocks would save nothing then, and be copied.
+    bare: arguments each of which, where it alone is an array of float64 and the contact exists,
+        makes it hold nothing but its results: blocks would save nothing then, and be copied.
 
     Numbers and arrays of any real type become float64; Dask arrays stay lazy, and are computed
     chunk by chunk; arrays of other libraries that follow NumPy's protocols are computed by these.
     Keyword-only arguments are material and geometry: NaN unless positive and finite.  No
-    floating-point warning leaves the call: what does not exist is NaN.  Large results of several
-    fields share one piece of memory.
+    floating-point warning leaves the call: what does not exist is NaN.  Results of several fields
+    that are computed in blocks share one piece of memory.
 
     The function raises TypeError for what is no real number, ValueError for shapes that do not
     broadcast.
@@ -162,7 +162,7 @@ def _elementwise(function: Function, arrays: int, bare: frozenset[str]) -> Funct
             elif type(value) is not Float:
                 foreign = True
         held = weighed + own if few and results == 1 else weighed * varying / len(names)
-        spares = varying > 1 or last not in bare
+        spares = unread or varying > 1 or last not in bare
         whole = foreign or (alike and not (spares and size * held > RESIDENT))
         if unread and whole:
             given = {name: _float64(value, name) for name, value in given.items()}

@@ -555,7 +555,7 @@ def _bow(extent: Array) -> Array:
 
 
 def _polynomial(coefficients: Sequence[Sequence[float]], z: Array) -> Array:
-    """A polynomial of z, its coefficients from the highest on, five by five, a first zero for none.
+    """A polynomial of z, its coefficients from the highest on, five by five, zeros in front.
 
     Of a number five steps in one line are quicker than one in each of five.
     """
