@@ -107,6 +107,7 @@ def _elementwise(function: Function, arrays: int, bare: frozenset[str]) -> Funct
     called = signature(function)
     parameters, count = called.parameters, len(called.parameters)
     results = len(getattr(called.return_annotation, "_fields", ("",)))
+    whole_of = _computed(function) if "scaled" in function.__code__.co_names else function
     weighed = arrays if results == 1 else max(1, arrays - results)
     few = arrays <= FEW
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
@@ -114,7 +115,7 @@ def _elementwise(function: Function, arrays: int, bare: frozenset[str]) -> Funct
     own_names = tuple(n for n in parameters if n in constants)
     defaults = {n: p.default for n, p in parameters.items() if p.default is not Parameter.empty}
     Float, INFINITE, numbers = np.float64, math.inf, frozenset(_NUMBERS)
-    quiet = np.errstate(all="ignore")(function)
+    quiet = np.errstate(all="ignore")(whole_of)
     at_numbers = in_plain_numbers(function)
     quiet_blocks = np.errstate(all="ignore")(_in_blocks)
 
@@ -240,13 +241,56 @@ def chunkwise_in_time(function: Function) -> Function:
 
 def only_where(exists: Any, *values: Any) -> Any:
     """The values where `exists`, NaN elsewhere, all of one shape."""
-    if type(exists) is np.bool_:
-        found = [_number(v) if exists else v * _NAN for v in values]
-    elif type(exists) is np.ndarray and exists.size and exists.item(exists.argmin()):
+    one = type(exists) is np.bool_
+    everywhere = bool(exists) if one else _all_of(exists)
+    if type(values[0]) is _Scaled:
+        if everywhere and (one or values[0].held.shape == exists.shape):
+            return values[0]
+        values = (values[0].into(values[0].held),)
+    if one:
+        found = [_number(v) if everywhere else v * _NAN for v in values]
+    elif everywhere:
         found = [v if v.shape == exists.shape else np.where(exists, v, _NAN) for v in values]
     else:
         found = [np.where(exists, v, _NAN) for v in values]
     return found if len(found) > 1 else found[0]
+
+
+def _all_of(flags: Any) -> bool:
+    """Whether they are a NumPy array of nothing but True, quicker than np.all."""
+    return type(flags) is np.ndarray and flags.size > 0 and flags.item(flags.argmin())
+
+
+class _Scaled:
+    """An array times a number, computed where it is to lie; the array is used up.
+
+    So a block of a result is written once, not computed beside it and copied.
+    """
+
+    __slots__ = ("factor", "held")
+
+    def __init__(self, held: Any, factor: Any) -> None:
+        self.held, self.factor = held, factor
+
+    @property
+    def dtype(self) -> Any:
+        """As of an array."""
+        return self.held.dtype
+
+    def into(self, out: Any) -> Any:
+        """Computed in an array that it fits or broadcasts to."""
+        return np.multiply(self.held, self.factor, out=out)
+
+
+def _computed(function: Function) -> Function:
+    """The same function, what it leaves to be scaled computed in its own memory."""
+
+    @wraps(function)
+    def call(*args: Any, **kwargs: Any) -> Any:
+        found = function(*args, **kwargs)
+        return found.into(found.held) if type(found) is _Scaled else found
+
+    return call  # type: ignore[return-value]
 
 
 def _number(value: Any) -> Any:
@@ -296,9 +340,12 @@ def fmax(first: Any, second: Any) -> Any:
 
 
 def scaled(held: Any, factor: Any) -> Any:
-    """held times factor, in the memory of `held`, which is used up, where that can be."""
+    """held times factor, the one result of a formula; the array `held` is used up.
+
+    Computed at last, in the memory of the whole result or in that of `held`, where that can be.
+    """
     if type(held) is np.ndarray and type(factor) is np.float64:
-        return np.multiply(held, factor, out=held)
+        return _Scaled(held, factor)
     return held * factor
 
 
@@ -578,7 +625,10 @@ def _in_blocks(
             kind = type(result)
             out = _made_for(found, shape)
         for whole, part in zip(out, found, strict=True):
-            whole[index] = part
+            if type(part) is _Scaled:
+                part.into(whole[index])
+            else:
+                whole[index] = part
         del result, found, part  # not to be held while the next are computed
     out = [whole.transpose(np.argsort(axes)) for whole in out]
     return kind(*out) if issubclass(kind, tuple) else out[0]

@@ -80,6 +80,22 @@ def test_blocks_make_the_whole(small: None, monkeypatch: pytest.MonkeyPatch, cou
     assert_allclose(blocks, flat_rounded.pressure(x - 2, a, c, **law), rtol=1e-14)
 
 
+@pytest.mark.parametrize("count", [1, 13, 14, 15, 50])
+def test_what_is_scaled_at_last_is_the_same_in_blocks(
+    monkeypatch: pytest.MonkeyPatch, count: int
+) -> None:
+    """Where all contacts exist and where some or none do; of numbers, rows and both."""
+    monkeypatch.setattr(_arrays, "BLOCK", 7)
+    monkeypatch.setattr(_arrays, "RESIDENT", 20)
+    x, a = np.random.default_rng(count).uniform(-1.0, 1.0, (2, count))
+    for given in ((x, 1.5, 1.0), (x, -1.5, 1.0), (x, a, 1.0), (x, 2 + a, 1.0), (x[:, None], a, 1)):
+        found = wedge.pressure(*given, E_star=1.0, phi=0.125)
+        alone = [wedge.pressure(*one, E_star=1.0, phi=0.125) for one in np.broadcast(*given)]
+        assert found.shape == np.broadcast(*given).shape
+        assert_array_equal(found.ravel(), alone)
+        assert np.isnan(found).any() == (np.min(given[1]) <= 0)
+
+
 @pytest.fixture
 def lengths(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """How many elements formulas of a wedge have computed at once, call by call."""
