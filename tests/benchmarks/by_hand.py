@@ -29,7 +29,7 @@ NUDGE = 1e-7
 """Of the unknowns, for differences in the place of derivatives."""
 
 
-# ------------------------------------------------------------------ explicit formulas, as printed
+# ------------------------------------------------------------------ explicit formulas
 
 
 def wedge_pressure(x: Any, a: float, c: float, E_star: float, phi: float) -> Any:
@@ -40,6 +40,17 @@ def wedge_pressure(x: Any, a: float, c: float, E_star: float, phi: float) -> Any
     for i in range(x.size):
         second = math.sqrt((gamma * a - x[i]) / (x[i] + a))
         p[i] = E_star * phi / math.pi * math.log(abs((first + second) / (first - second)))
+    return p
+
+
+def wedge_pressure_at_edges(x: Any, a: float, c: float, E_star: float, phi: float) -> Any:
+    """The same pressure in the form that is generated, number by number."""
+    p = np.empty_like(x)
+    left, right = 2 * c / (a + c), 2 * a / (a + c)
+    for i in range(x.size):
+        u, v = (a + x[i]) * left, (c - x[i]) * right
+        quotient = (math.sqrt(u * v) + min(u, v)) / abs(x[i])
+        p[i] = E_star * phi / math.pi * math.log1p(quotient)
     return p
 
 

@@ -1,27 +1,27 @@
 """What is compared: five functions, each with its contenders on the same arrays.
 
 Every contender gives the same numbers in the bulk; tests/benchmarks/test_speed.py holds them to it.
+Each imports what it needs when it is built, so that a process with one of them holds no other.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 from sympy import Expr, lambdify, pi, sqrt, symbols
 
-from generated import flat_rounded, hertz, wedge
-from generated._types import Contact
 from tests.benchmarks import by_hand
 from tests.benchmarks.timing import Call
 from tests.paper_forms import FORMS
 
-GENERATED, PLAIN, CSE, NUMEXPR, NUMBA, FSOLVE, FLOOR = (
-    *("generated", "lambdify", "lambdify, cse", "numexpr", "numba"),
+GENERATED, PLAIN, CSE, NUMEXPR, NUMBA, OURS, FSOLVE, FLOOR = (
+    *("generated", "lambdify", "lambdify, cse", "numexpr", "numba", "numba, our form"),
     *("fsolve loop", "one np.log"),
 )
-CONTENDERS = (GENERATED, PLAIN, CSE, NUMEXPR, NUMBA, FSOLVE, FLOOR)
+CONTENDERS = (GENERATED, PLAIN, CSE, NUMEXPR, NUMBA, OURS, FSOLVE, FLOOR)
 
 WEDGE = {"E_star": 75e9, "phi": 0.05}
 """A titanium-like blade root: SI units."""
@@ -30,30 +30,37 @@ CYLINDER = {"E_star": 75e9, "R": 0.05}
 EDGES = {"a": 1e-3, "c": 1.5e-3}
 FRICTION = 0.5
 
-Calls = dict[str, Call]
+Data = Mapping[str, Any]
+"""Arrays and numbers by name."""
+
+Builder = Callable[[Data], Call]
+"""A contender: of the data, the call that is timed."""
 
 
 @dataclass(frozen=True)
 class Case:
     """One function.
 
-    calls    the contenders' calls at a size
-    words    what the contenders are, for the page
+    data        its arguments at a size
+    contenders  by name
+    words       what they are, for the page
+    limits      the largest size of those that would take too long
     """
 
     name: str
-    calls: Callable[[int], Calls]
+    data: Callable[[int], Data]
+    contenders: Mapping[str, Builder]
     words: str
-    limits: Mapping[str, int]
+    limits: Mapping[str, int] = field(default_factory=dict)
 
-    def at(self, size: int) -> Calls:
+    def names(self, size: int = 1) -> list[str]:
         """The contenders that take part at a size; those whose package is missing do not."""
-        there = {name: call for name, call in self.calls(size).items() if _is_there(name)}
-        return {n: call for n, call in there.items() if size <= self.limits.get(n, size)}
+        return [n for n in self.contenders if _is_there(n) and size <= self.limits.get(n, size)]
 
 
 def _is_there(name: str) -> bool:
-    return name not in (NUMEXPR, NUMBA) or find_spec(name) is not None
+    package = name.partition(",")[0]
+    return package not in (NUMEXPR, NUMBA) or find_spec(package) is not None
 
 
 def _random(size: int, **ranges: tuple[float, float]) -> dict[str, Any]:
@@ -61,30 +68,59 @@ def _random(size: int, **ranges: tuple[float, float]) -> dict[str, Any]:
     return {name: rng.uniform(*bounds, size) for name, bounds in ranges.items()}
 
 
-def _floor(array: Any) -> Calls:
-    positive = np.abs(array) + 1.0
-    return {FLOOR: lambda: np.log(positive)}
+# ------------------------------------------------------------------ contenders
 
 
-def _printed(forms: Mapping[str, Expr], given: Mapping[str, Any]) -> Calls:
+def _generated(body: str, function: str, **options: Any) -> Builder:
+    """The generated function, of the data by name."""
+
+    def built(data: Data) -> Call:
+        found = getattr(import_module(f"generated.{body}"), function)
+        return lambda: found(**data, **options)
+
+    return built
+
+
+def _floor(name: str) -> Builder:
+    """One logarithm of an array."""
+
+    def built(data: Data) -> Call:
+        positive = np.abs(data[name]) + 1.0
+        return lambda: np.log(positive)
+
+    return built
+
+
+def _compiled(loop: Callable[..., Any], *names: str) -> Builder:
+    """A loop of by_hand.py, compiled by numba."""
+
+    def built(data: Data) -> Call:
+        found, given = by_hand.compiled(loop), [data[name] for name in names]
+        return lambda: found(*given)
+
+    return built
+
+
+def _printed(forms: Mapping[str, Expr]) -> dict[str, Builder]:
     """lambdify of the printed forms, with and without common subexpressions, and numexpr."""
-    held = sorted(set().union(*(f.free_symbols for f in forms.values())), key=str)
-    values = [given[str(s)] for s in held]
+    held = sorted(map(str, set().union(*(f.free_symbols for f in forms.values()))))
     several = list(forms.values()) if len(forms) > 1 else next(iter(forms.values()))
-    plain, cse = (lambdify(held, several, modules="numpy", cse=flag) for flag in (False, True))
+
+    def lambdified(data: Data, cse: bool) -> Call:
+        found = lambdify(symbols(held), several, modules="numpy", cse=cse)
+        given = [data[name] for name in held]
+        return lambda: found(*given)
+
     return {
-        PLAIN: lambda: plain(*values),
-        CSE: lambda: cse(*values),
-        NUMEXPR: _by_numexpr(list(forms.values()), {str(s): given[str(s)] for s in held}),
+        PLAIN: lambda data: lambdified(data, False),
+        CSE: lambda data: lambdified(data, True),
+        NUMEXPR: lambda data: _by_numexpr(list(forms.values()), {n: data[n] for n in held}),
     }
 
 
-def _by_numexpr(forms: list[Expr], given: Mapping[str, Any]) -> Call:
+def _by_numexpr(forms: list[Expr], given: Data) -> Call:
     """Each form compiled by numexpr, on one thread."""
-    if find_spec("numexpr") is None:
-        return lambda: None
-    import numexpr
-
+    numexpr = import_module("numexpr")
     numexpr.set_num_threads(1)
     names = {"asin": "arcsin", "Abs": "abs", "pi": repr(float(np.pi))}
     kinds = [(name, np.float64) for name in sorted(given)]
@@ -101,111 +137,135 @@ def _by_numexpr(forms: list[Expr], given: Mapping[str, Any]) -> Call:
 # ------------------------------------------------------------------ the five
 
 
-def _pressure(size: int) -> Calls:
-    x = _random(size, x=(-0.9e-3, 1.4e-3))["x"]
-    a, c, E_star, phi = EDGES["a"], EDGES["c"], *WEDGE.values()
-    return {
-        GENERATED: lambda: wedge.pressure(x, **EDGES, **WEDGE),
-        **_printed(FORMS["wedge"]["pressure"], {"x": x, **EDGES, **WEDGE}),
-        NUMBA: lambda: by_hand.compiled(by_hand.wedge_pressure)(x, a, c, E_star, phi),
-        **_floor(x),
-    }
+def _positions(size: int) -> Data:
+    return {**_random(size, x=(-0.9e-3, 1.4e-3)), **EDGES, **WEDGE}
 
 
-def _state(size: int) -> Calls:
-    given = _random(size, P=(1e5, 1e7), M=(-1e3, 1e3))
-    P, M = given.values()
-    return {
-        GENERATED: lambda: wedge.contact(P, M, **WEDGE),
-        **_printed(FORMS["wedge"]["contact"], {**given, **WEDGE}),
-        NUMBA: lambda: by_hand.compiled(by_hand.wedge_contact)(P, M, *WEDGE.values()),
-        **_floor(P),
-    }
+def _loads(size: int) -> Data:
+    return {**_random(size, P=(1e5, 1e7), M=(-1e3, 1e3)), **WEDGE}
 
 
-def _inverse(size: int) -> Calls:
+def _punched(size: int) -> Data:
     """Contacts two to five times as wide as the flat, off its middle by up to 0.3 b."""
-    b = PUNCH["b"]
+    b, punch = PUNCH["b"], import_module("generated.flat_rounded")
     contacts = _random(size, half=(2 * b, 5 * b), middle=(-0.3 * b, 0.3 * b))
     a = contacts["half"] - contacts["middle"]
     c = contacts["half"] + contacts["middle"]
-    P, M = flat_rounded.load(a, c, **PUNCH), flat_rounded.moment(a, c, **PUNCH)
-    start = np.log(np.full(size, 3 * b))
-    off, law = by_hand.punch_off, tuple(PUNCH.values())
-    return {
-        GENERATED: lambda: flat_rounded.contact(P, M, **PUNCH),
-        NUMBA: lambda: np.exp(by_hand.compiled_newton(off)(start, start, (P, M), *law)),
-        FSOLVE: lambda: np.exp(by_hand.by_fsolve(off, start, start, (P, M), *law)),
-        **_floor(P),
-    }
+    return {"P": punch.load(a, c, **PUNCH), "M": punch.moment(a, c, **PUNCH), **PUNCH}
+
+
+def _punch_by_hand(data: Data) -> tuple[Any, ...]:
+    """Starts in the logarithms of both edges, a middling contact; loads; the law."""
+    start = np.log(np.full(data["P"].size, 3 * PUNCH["b"]))
+    return start, start, (data["P"], data["M"]), *PUNCH.values()
+
+
+def _punch_by_numba(data: Data) -> Call:
+    found, given = by_hand.compiled_newton(by_hand.punch_off), _punch_by_hand(data)
+    return lambda: np.exp(found(*given))
+
+
+def _punch_by_fsolve(data: Data) -> Call:
+    given = _punch_by_hand(data)
+    return lambda: np.exp(by_hand.by_fsolve(by_hand.punch_off, *given))
 
 
 HALF = 1e-3
+LAW = {"f": FRICTION, **CYLINDER}
 
 
-def _large(size: int) -> Calls:
+def _cylinder(half: float) -> Any:
+    """The level contact of the cylinder."""
+    return import_module("generated.hertz").Contact(
+        np.float64(half), np.float64(half), np.float64(0.0)
+    )
+
+
+def _large(size: int) -> Data:
     """Shear of 0.1 to 0.5 f P; tension of 1.2 to 3 times that which closes a slip zone."""
-    here = Contact(np.float64(HALF), np.float64(HALF), np.float64(0.0))
-    full = FRICTION * hertz.load(HALF, HALF, **CYLINDER)
+    hertz, here = import_module("generated.hertz"), _cylinder(HALF)
     given = _random(size, part=(0.1, 0.5), over=(1.2, 3.0))
-    law = {"f": FRICTION, **CYLINDER}
-    dQ = given["part"] * full
-    dsigma = given["over"] * hertz.closing_tension(here, here, dQ, **law).upper
-    zones = hertz.slip_zones(HALF, HALF, dQ, dsigma, order=2, **law)
+    dQ = given["part"] * (FRICTION * hertz.load(HALF, HALF, **CYLINDER))
+    dsigma = given["over"] * hertz.closing_tension(here, here, dQ, **LAW).upper
+    zones = hertz.slip_zones(HALF, HALF, dQ, dsigma, order=2, **LAW)
     m, n = HALF - np.fmin(zones.left, 0.7 * HALF), HALF - np.fmin(zones.right, 0.7 * HALF)
-    off, own = by_hand.hertz_off, (FRICTION, *CYLINDER.values())
-    return {
-        GENERATED: lambda: hertz.stick_zone(here, here, dQ, dsigma, **law),
-        NUMBA: lambda: by_hand.compiled_newton(off)(m, n, (dQ, dsigma), HALF, *own),
-        FSOLVE: lambda: by_hand.by_fsolve(off, m, n, (dQ, dsigma), HALF, *own),
-        **_floor(dQ),
-    }
+    return {"m": m, "n": n, "dQ": dQ, "dsigma": dsigma}
+
+
+def _large_generated(data: Data) -> Call:
+    found, here = import_module("generated.hertz").stick_zone, _cylinder(HALF)
+    dQ, dsigma = data["dQ"], data["dsigma"]
+    return lambda: found(here, here, dQ, dsigma, **LAW)
+
+
+def _large_by_hand(data: Data) -> tuple[Any, ...]:
+    return data["m"], data["n"], (data["dQ"], data["dsigma"]), HALF, *LAW.values()
+
+
+def _large_by_numba(data: Data) -> Call:
+    found, given = by_hand.compiled_newton(by_hand.hertz_off), _large_by_hand(data)
+    return lambda: found(*given)
+
+
+def _large_by_fsolve(data: Data) -> Call:
+    given = _large_by_hand(data)
+    return lambda: by_hand.by_fsolve(by_hand.hertz_off, *given)
 
 
 _a, _c, _dQ, _dsigma, _f = symbols("a c dQ dsigma f")
 
 
-def _slip(size: int) -> Calls:
-    h = EDGES["a"] + EDGES["c"]
-    full = FRICTION * wedge.load(**EDGES, **WEDGE)
-    given = _random(size, dQ=(0.01 * full, 0.3 * full))
-    dQ = given["dQ"]
-    dsigma = 12 / np.pi * dQ / h
-    of = {"f": FRICTION, **WEDGE}
+def _slipping(size: int) -> Data:
+    a, c, E_star, phi = *EDGES.values(), *WEDGE.values()
+    full = FRICTION * E_star * phi * np.sqrt(a * c)
+    dQ = _random(size, dQ=(0.01 * full, 0.3 * full))["dQ"]
+    dsigma = 12 / np.pi * dQ / (a + c)
+    return {**EDGES, "dQ": dQ, "dsigma": dsigma, "f": FRICTION, **WEDGE}
+
+
+def _slip_forms() -> dict[str, Expr]:
     width, normal = _a + _c, FORMS["wedge"]["K_N"]
-    forms = {
+    return {
         side: abs(_dQ / pi + sign * _dsigma * width / 8) / sqrt(width) / (_f * normal[side])
         for side, sign in (("left", 1), ("right", -1))
-    }
-    values = {"dQ": dQ, "dsigma": dsigma, **EDGES, **of}
-    a, c = EDGES.values()
-    return {
-        GENERATED: lambda: wedge.slip_zones(a, c, dQ, dsigma, **of),
-        f"{GENERATED}, order 3": lambda: wedge.slip_zones(a, c, dQ, dsigma, order=3, **of),
-        **_printed(forms, values),
-        NUMBA: lambda: by_hand.compiled(by_hand.wedge_slip)(a, c, dQ, dsigma, *of.values()),
-        **_floor(dQ),
     }
 
 
 CASES = (
     Case(
         "wedge.pressure",
-        _pressure,
+        _positions,
+        {
+            GENERATED: _generated("wedge", "pressure"),
+            **_printed(FORMS["wedge"]["pressure"]),
+            NUMBA: _compiled(by_hand.wedge_pressure, "x", "a", "c", "E_star", "phi"),
+            OURS: _compiled(by_hand.wedge_pressure_at_edges, "x", "a", "c", "E_star", "phi"),
+            FLOOR: _floor("x"),
+        },
         "x varies along the array.  Lambdify and numexpr have the printed formula, numba a loop "
-        "over it.",
-        {},
+        "over it; and a loop over what is generated, which keeps its digits at edges and apex.",
     ),
     Case(
         "wedge.contact",
-        _state,
+        _loads,
+        {
+            GENERATED: _generated("wedge", "contact"),
+            **_printed(FORMS["wedge"]["contact"]),
+            NUMBA: _compiled(by_hand.wedge_contact, "P", "M", "E_star", "phi"),
+            FLOOR: _floor("P"),
+        },
         "P and M vary; a, c and the tilt come out.  The others compute eqs. (alpha), (gamma) and "
         "(ca); numexpr has no common subexpressions.",
-        {},
     ),
     Case(
         "flat_rounded.contact",
-        _inverse,
+        _punched,
+        {
+            GENERATED: _generated("flat_rounded", "contact"),
+            NUMBA: _punch_by_numba,
+            FSOLVE: _punch_by_fsolve,
+            FLOOR: _floor("P"),
+        },
         "P and M vary; two equations are solved.  numba: Newton's method in a loop, in the "
         "logarithms of both edges, derivatives by differences, started from a middling contact; "
         "fsolve: the same equations, load case by load case.  Lambdify and numexpr solve nothing.",
@@ -214,6 +274,12 @@ CASES = (
     Case(
         "hertz.stick_zone, large tension",
         _large,
+        {
+            GENERATED: _large_generated,
+            NUMBA: _large_by_numba,
+            FSOLVE: _large_by_fsolve,
+            FLOOR: _floor("dQ"),
+        },
         "dQ and the tension vary; two equations of integrals are solved.  numba and fsolve: the "
         f"same, their integrals by {by_hand.NODES} Gauss points in each slip zone, started from "
         "the series; they test neither regime nor premise, which stick_zone does.",
@@ -221,7 +287,14 @@ CASES = (
     ),
     Case(
         "wedge.slip_zones",
-        _slip,
+        _slipping,
+        {
+            GENERATED: _generated("wedge", "slip_zones"),
+            f"{GENERATED}, order 3": _generated("wedge", "slip_zones", order=3),
+            **_printed(_slip_forms()),
+            NUMBA: _compiled(by_hand.wedge_slip, "a", "c", "dQ", "dsigma", "f", "E_star", "phi"),
+            FLOOR: _floor("dQ"),
+        },
         "dQ and the tension vary; order 1, which the paper prints.  The others compute the two "
         "quotients and no more; slip_zones also tells sliding and slip zones that meet.",
         {f"{GENERATED}, order 3": 100_000},

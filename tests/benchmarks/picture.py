@@ -10,6 +10,7 @@ COLOURS = {
     "lambdify, cse": "#56b4e9",
     "numexpr": "#009e73",
     "numba": "#cc79a7",
+    "numba, our form": "#f0e442",
     "fsolve loop": "#666666",
     "one np.log": "#bbbbbb",
 }

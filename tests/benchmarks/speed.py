@@ -2,8 +2,9 @@
 
 Without AVX-512 it is docs/performance_without_avx512.md.
 
-In each round all contenders are timed in turn; figures are medians over the rounds.  Read the
-ratios: they hold from machine to machine better than times do.
+In each round all contenders are timed in turn, those of a case each in a process of its own;
+figures are medians over the rounds.  Read the ratios: they hold from machine to machine better than
+times do.
 """
 
 import importlib
@@ -23,15 +24,29 @@ from derive.codegen.contract import CONTRACT
 from derive.library import library
 from derive.sheet import FormulaSheet
 from generated import _arrays, flat_rounded, hertz, wedge
-from tests.benchmarks.cases import CASES, CONTENDERS, CYLINDER, EDGES, GENERATED, PUNCH, WEDGE, Case
-from tests.benchmarks.picture import draw
+from tests.benchmarks.alone import contenders, given
+from tests.benchmarks.cases import (
+    CASES,
+    CONTENDERS,
+    CYLINDER,
+    EDGES,
+    FLOOR,
+    GENERATED,
+    NUMBA,
+    NUMEXPR,
+    OURS,
+    PUNCH,
+    WEDGE,
+    Case,
+)
+from tests.benchmarks.picture import Curves, draw
 from tests.benchmarks.stages import Seconds, stages
 from tests.benchmarks.timing import (
     AMONG_ITS_LIKE,
     Call,
     compiled_for,
+    in_turn,
     interleaved,
-    peak_over_result,
     processor,
     timed,
     versions,
@@ -50,8 +65,10 @@ CUT_AT = (
     *(1_300_000, 1_900_000, 10**7),
 )
 """Where the function is compared with itself uncut: behind the lengths at which it is cut, too."""
-MEMORY_AT = (10**6, 10**5, 100)
-"""Memory is measured at the first of these that a contender takes part in."""
+MEMORY_AT = (100, 10**5, 10**6)
+"""Memory is measured at the last of these that a contender takes part in."""
+COMPILED = (NUMBA, OURS, NUMEXPR, FLOOR)
+"""What keeps its arrays to itself, and what is nothing but its result."""
 
 VARYING = {
     "contact": {"P": (1e5, 1e7), "M": (-1e3, 1e3)},
@@ -75,24 +92,25 @@ SCALARS = {
 # ------------------------------------------------------------------ what is measured
 
 
-def curves(case: Case, sizes: tuple[int, ...], seconds: float) -> dict[str, dict[int, float]]:
-    """Seconds a call, by contender and size."""
-    found: dict[str, dict[int, float]] = {}
-    for size in sizes:
-        for name, time in interleaved(case.at(size), seconds).items():
-            found.setdefault(name, {})[size] = time
-    return found
+def curves(case: Case, sizes: tuple[int, ...], seconds: float) -> tuple[Curves, dict[str, float]]:
+    """Seconds a call, by contender and size; memory held over that of the result, of most.
 
-
-def memory(case: Case, largest: int) -> dict[str, float]:
-    """Most memory during a call over the size of its result, of what tracemalloc can see."""
-    found: dict[str, float] = {}
-    for size in MEMORY_AT:
-        if size <= largest:
-            for name, call in case.at(size).items():
-                if name not in found and name not in ("numba", "numexpr", "one np.log"):
-                    found[name] = peak_over_result(call)
-    return found
+    Memory is that of NumPy's arrays, at the largest of MEMORY_AT that a contender takes part in.
+    """
+    times: dict[str, dict[int, float]] = {name: {} for name in case.names()}
+    memory: dict[str, float] = {}
+    with contenders(case) as alone:
+        for size in sizes:
+            there = {name: alone[name] for name in case.names(size)}
+            with given(case, size) as file:
+                for contender in there.values():
+                    contender.load(file)
+            clocks = {name: contender.timed for name, contender in there.items()}
+            for name, time in in_turn(clocks, seconds).items():
+                times[name][size] = time
+                if size in MEMORY_AT and name not in COMPILED:
+                    memory[name] = there[name].peak()
+    return times, memory
 
 
 class Printed(NamedTuple):
@@ -251,8 +269,7 @@ def measured(
     lines, peaks = {}, {}
     for case in CASES:
         told(case.name)
-        lines[case.name] = curves(case, sizes, seconds)
-        peaks[case.name] = memory(case, largest)
+        lines[case.name], peaks[case.name] = curves(case, sizes, seconds)
     told("printed formulas")
     forms = [*printed(min(1_000, largest), seconds / 4), *printed(min(10**6, largest), seconds)]
     told("with and without blocks")
@@ -293,8 +310,8 @@ def page(found: Found) -> str:
             "# Speed" if PAGE == WITH_AVX512 else "# Speed without AVX-512",
             "",
             "Made by `make bench`, all in one run; contenders are timed in turn, round by round,",
-            "and figures are medians.  One thread each.  Ratios hold from machine to machine",
-            "better than times do.  Measured with:",
+            "each in a process of its own, and figures are medians.  One thread each.  Ratios hold",
+            "from machine to machine better than times do.  Measured with:",
             "",
             f"- processor: {processor()}",
             f"- {compiled_for()}",
@@ -316,9 +333,15 @@ def page(found: Found) -> str:
 def _case_tables(found: Found) -> Iterator[str]:
     yield from (
         "What takes too long is left out.  The last column is the most memory held during a call,",
-        f"its result included, over the size of the result, at {MEMORY_AT[0]:,} elements or as",
+        f"its result included, over the size of the result, at {MEMORY_AT[-1]:,} elements or as",
         "many as are timed: 1 is the result and nothing else.  tracemalloc sees NumPy's arrays and",
         "not those of compiled code.  The floor is one logarithm of the same array, `one np.log`.",
+        "",
+        "In a process of its own a contender finds the memory that it has left itself.  On Linux",
+        "the allocator gives large arrays that are freed back to the system, and the next call",
+        "asks for each page anew.  `generated` has it keep them, for all in the process, so that",
+        "lambdify's functions are quicker beside it: ratios of one process stand",
+        "[below](#every-formula-that-the-paper-prints).",
         "",
     )
     for case in CASES:
@@ -370,9 +393,9 @@ def _printed_table(found: Found) -> Iterator[str]:
     yield from (
         "## Every formula that the paper prints",
         "",
-        "Against `sympy.lambdify` of the printed form.  By now this process has let go of larger",
-        "arrays, and the system's allocator keeps what is freed from then on: the temporaries of",
-        "lambdify's functions cost no page faults any more, which they do in the tables above.",
+        "Against `sympy.lambdify` of the printed form, in one process: the allocator keeps what is",
+        "freed, and the temporaries of lambdify's functions cost no page faults, which they do in",
+        "the tables above.",
         "",
         "| function | elements | ns an element | times faster than lambdify | than with cse |",
         "| --- | ---: | ---: | ---: | ---: |",

@@ -1,5 +1,7 @@
 """The benchmark runs, and compares functions that compute the same thing."""
 
+import subprocess
+import sys
 from itertools import pairwise
 from pathlib import Path
 
@@ -8,7 +10,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from generated import _arrays, wedge
-from tests.benchmarks.cases import CASES, FLOOR, GENERATED, Case
+from tests.benchmarks.alone import Alone
+from tests.benchmarks.cases import CASES, CSE, FLOOR, GENERATED, PLAIN, Case
 from tests.benchmarks.picture import draw
 from tests.benchmarks.speed import curves, cut_or_not, measured, page, parts, printed_calls, uncut
 from tests.benchmarks.timing import interleaved, peak_over_result, size_of
@@ -33,13 +36,14 @@ def test_the_three_agree(body: str, function: str) -> None:
 def test_contenders_agree(case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
     """Those written by hand run uncompiled, so that nothing needs numba."""
     monkeypatch.setattr("tests.benchmarks.by_hand.compiler", lambda: lambda function: function)
-    found = {name: call() for name, call in case.calls(12).items()}
+    data = case.data(12)
+    found = {name: case.contenders[name](data)() for name in case.names()}
     ours = found.pop(GENERATED)
     ours = ours[:2] if isinstance(ours, tuple) else (ours,)
     assert all(np.all(np.isfinite(v)) for v in ours)
     found.pop(FLOOR)
     for name, theirs in found.items():
-        if theirs is None or "order" in name:  # numexpr is not there; the series is another
+        if "order" in name:  # the series is another
             continue
         theirs = theirs if isinstance(theirs, list | tuple) or np.ndim(theirs) > 1 else (theirs,)
         for mine, other in zip(ours, theirs, strict=False):
@@ -73,6 +77,31 @@ def test_blocks_are_switched_off_and_on_again() -> None:
     assert all(min(pair) > 0 for row in cut_or_not((10,), 0.001).values() for pair in row.values())
 
 
+def test_a_contender_is_alone_in_its_process() -> None:
+    """Neither the generated functions nor numba are in that of lambdify."""
+    text = "import sys, tests.benchmarks.alone; print(*sys.modules)"
+    ran = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
+    held = {name.partition(".")[0] for name in ran.stdout.split()}
+    assert {"numpy", "sympy", "tests"} <= held
+    assert not {"generated", "derive", "numba", "numexpr"} & held
+
+
+@pytest.mark.slow
+def test_contenders_are_timed_in_processes_of_their_own() -> None:
+    times, memory = curves(CASES[0], (10, 100), 0.001)
+    assert times.keys() >= {GENERATED, PLAIN, CSE, FLOOR}
+    assert all([*row] == [10, 100] and min(row.values()) > 0 for row in times.values())
+    assert memory.keys() == {GENERATED, PLAIN, CSE}
+    assert min(memory.values()) >= 1
+
+
+@pytest.mark.slow
+def test_a_contender_that_fails_is_told() -> None:
+    """Its own message is on the standard error of both."""
+    with Alone("wedge.pressure", GENERATED) as contender, pytest.raises(RuntimeError, match="load"):
+        contender.load(Path("nowhere.npz"))
+
+
 def test_calls_are_timed_in_turn() -> None:
     order: list[str] = []
     times = interleaved({"a": lambda: order.append("a"), "b": lambda: order.append("b")}, 1e-6)
@@ -92,7 +121,6 @@ def test_the_page_holds_every_function() -> None:
         assert found.curves[case.name].keys() >= {GENERATED, FLOOR}
     assert all(row.plain > 0 for row in found.printed)
     assert [*found.stages] == ["hertz"]
-    assert set(curves(CASES[0], (10,), 0.001)[GENERATED]) == {10}
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 import platform
 import tracemalloc
 from collections.abc import Callable, Mapping
+from functools import partial
 from importlib import metadata
 from pathlib import Path
 from statistics import median
@@ -12,6 +13,9 @@ from typing import Any
 import numpy as np
 
 Call = Callable[[], Any]
+
+Clock = Callable[[int], float]
+"""Of how many calls, the seconds of one."""
 
 LEAST = 2e-3
 """Seconds of one measurement at least: quicker calls are repeated."""
@@ -29,20 +33,25 @@ PACKAGES = ("numpy", "scipy", "sympy", "numexpr", "numba")
 def interleaved(
     calls: Mapping[str, Call], seconds: float, least: float = LEAST
 ) -> dict[str, float]:
+    """Seconds of one call of each, all in this process: medians of `in_turn`."""
+    return in_turn({name: partial(timed, call) for name, call in calls.items()}, seconds, least)
+
+
+def in_turn(clocks: Mapping[str, Clock], seconds: float, least: float = LEAST) -> dict[str, float]:
     """Seconds of one call of each: medians over rounds, for about so many seconds.
 
     Each round times all in turn, so that a change of the machine's pace meets all of them; one
     measurement takes `least` seconds or one call.
     """
-    once = {name: timed(call, 1) for name, call in calls.items()}
-    once = {name: min(t, timed(calls[name], 1)) for name, t in once.items()}  # it is warm now
+    once = {name: clock(1) for name, clock in clocks.items()}
+    once = {name: min(t, clocks[name](1)) for name, t in once.items()}  # it is warm now
     repeats = {name: max(1, int(least / t)) for name, t in once.items()}
     a_round = sum(repeats[name] * t for name, t in once.items())
     rounds = max(FEWEST_ROUNDS, min(MOST_ROUNDS, int(seconds / a_round)))
-    times: dict[str, list[float]] = {name: [] for name in calls}
+    times: dict[str, list[float]] = {name: [] for name in clocks}
     for _ in range(rounds):
-        for name, call in calls.items():
-            times[name].append(timed(call, repeats[name]))
+        for name, clock in clocks.items():
+            times[name].append(clock(repeats[name]))
     return {name: median(column) for name, column in times.items()}
 
 
