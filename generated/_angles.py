@@ -23,7 +23,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._arrays import Array, log1p, weighted
+from ._arrays import Array, weighted
+from ._logarithm import log1p
 from ._profile import TOGETHER, Curve, Part, Window
 
 NODES = 12

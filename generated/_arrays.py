@@ -15,13 +15,12 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ._chunks import any_lazy, demand_array, is_lazy, known_shape, over_chunks
+from ._logarithm import log1p
 from ._plain import (
-    LOG1P_BY_LOG,
     REFUSALS,
     in_plain_numbers,
     plain_fmax,
     plain_kink_logarithm,
-    plain_log1p,
     plain_maximum,
     plain_minimum,
 )
@@ -378,35 +377,7 @@ def _kink_logarithm(left: Any, right: Any, offset: Any, least: float) -> Any:
         return np.where(np.isinf(found), np.log(held) - np.log(offset), found)[()]
     if out is None:
         return log1p(np.abs(found))
-    used_up = (held, right) if right.shape == held.shape else ()
-    return log1p(np.abs(found, out=found), found, used_up)
-
-
-def log1p(value: Any, out: Any = None, free: Sequence[Any] = ()) -> Any:
-    """log(1 + value) of what is not negative, one by one or in arrays the same to the bit.
-
-    out: where to put it; free: two more arrays of that shape, to be used up.
-    """
-    kind = type(value)
-    if LOG1P_BY_LOG and kind in _NUMBERS:
-        return np.float64(plain_log1p(value))
-    if not LOG1P_BY_LOG or kind is not np.ndarray:
-        return np.log1p(value) if out is None else np.log1p(value, out=out)
-    first, second = free or (None, None)
-    above = np.add(value, 1.0, out=first)
-    held = np.subtract(above, 1.0, out=second)
-    try:
-        lost = _difference(value, held, second)
-    except FloatingPointError:
-        lost = np.subtract(value, above - 1.0, out=np.zeros(value.shape), where=value < np.inf)
-    lost = np.divide(lost, above, out=second)
-    return np.add(np.log(above, out=first), lost, out=out)
-
-
-@np.errstate(invalid="raise")
-def _difference(first: Any, second: Any, out: Any) -> Any:
-    """first - second.  Raises FloatingPointError where both are infinite."""
-    return np.subtract(first, second, out=out)
+    return log1p(np.abs(found, out=found), found, held)
 
 
 @np.errstate(over="raise")
@@ -428,6 +399,8 @@ def _between_edges(left: Any, right: Any) -> Any:
     held = left * right
     np.sqrt(held, out=held)
     held += np.minimum(left, right, out=left)
+    if held.size and held.item(held.argmin()) >= 0:
+        return held
     return np.fmax(held, _zeros(held.shape), out=held)
 
 

@@ -240,7 +240,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
     return only_where(exists, (E_star * (phi_1 + phi_2) / 8) * (a - c) * np.sqrt(a * c))
 
 
-@elementwise(arrays=4)
+@elementwise(arrays=5)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 

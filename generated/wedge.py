@@ -221,7 +221,7 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     return only_where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c))
 
 
-@elementwise(arrays=4)
+@elementwise(arrays=5)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 

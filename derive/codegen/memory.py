@@ -107,7 +107,7 @@ class _Walk:
         elif name == "select":
             new = 2  # the mask, and where both differ
         elif name == "kink_logarithm":
-            return max(most, kept + 1), kept  # it ends in the memory of its first argument
+            return max(most, kept + 2), kept  # it ends in the memory of its first argument
         elif name == "scaled":
             new = int(self.varies(given[1]))
             return max(most, kept + new), new or kept

@@ -35,7 +35,7 @@ COUNT = 50_000
         (2, "h = a + c\nreturn scaled(h, a)"),
         (1, "return maximum(a, 0.0)"),
         (2, "return maximum(a, R)"),
-        (3, "u = a + 1\nv = c + 1\nreturn kink_logarithm(u, v, a)"),
+        (4, "u = a + 1\nv = c + 1\nreturn kink_logarithm(u, v, a)"),
         (4, "return select(a > 0, a * c, a / c)"),
         (2, "h = a + c\nreturn h.copy()"),
         (2, "h = a + c\nreturn +h"),

@@ -13,7 +13,7 @@ import pytest
 from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.testing import assert_array_equal
 
-from generated import _arrays, flat_rounded, hyperbola, wedge
+from generated import _logarithm, flat_rounded, hyperbola, wedge
 from generated._types import Contact
 from tests.generated.test_dask import OWN, fields, functions, given_to, module
 
@@ -97,7 +97,7 @@ def test_explicit_formulas_stay_on_the_device(
     body: str, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """To the bit, if NumPy's own log1p is taken here as it is there."""
-    monkeypatch.setattr(_arrays, "LOG1P_BY_LOG", False)
+    monkeypatch.setattr(_logarithm, "BY_TABLE", False)
     function, given = call(body, name)
     found = function(**{k: on_device(v) for k, v in given.items()})
     for one, other in zip(fields(found), fields(function(**given)), strict=True):

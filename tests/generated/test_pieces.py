@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from generated import _arrays, _plain, flat_rounded, hertz, wedge
+from generated import _arrays, _logarithm, flat_rounded, hertz, wedge
 from generated._types import Contact, Edges
 
 LAW = {"f": 0.5, "E_star": 1.0, "phi": 0.125}
@@ -312,32 +312,60 @@ def test_a_logarithm_of_a_quotient_beyond_float64(count: int) -> None:
     assert type(alone) is np.float64
 
 
-@pytest.mark.parametrize("by_log", [True, False])
-def test_log1p_is_right_to_the_last_digit_both_ways(
-    by_log: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """At 1e-17 it is its argument, at 1e17 log(1e17) + 1e-17; of mpmath in between."""
-    for module in (_arrays, _plain):
-        monkeypatch.setattr(module, "LOG1P_BY_LOG", by_log)
-    given = np.concatenate([np.geomspace(1e-17, 1e17, 3001), [0.0, 5e-324, 1.0, 1e308]])
+@pytest.fixture(params=[True, False], ids=["table", "NumPy"])
+def table(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> bool:
+    """Whether log1p takes the table, as without AVX-512, or NumPy's own."""
+    monkeypatch.setattr(_logarithm, "BY_TABLE", request.param)
+    return bool(request.param)
+
+
+def test_log1p_is_right_to_the_last_digit_both_ways(table: bool) -> None:
+    """At 1e-17 it is its argument, at 1e17 log(1e17) + 1e-17; of mpmath in between.
+
+    1.2 units: half of one in the table, half in the last sum.
+    """
+    rng = np.random.default_rng(3)
+    wide, near = np.linspace(-1074, 1023, 4000), np.linspace(-12, 12, 8000)
+    given = rng.permutation(np.exp2(np.append(wide, near)))
+    given[:4] = 0.0, 5e-324, 1.0, 1.7e308
     with mp.workdps(30):
         exact = [mp.log1p(mp.mpf(v)) for v in given.tolist()]
-    wanted = np.array(exact, dtype=float)
-    found = _arrays.log1p(given.copy())
-    assert_allclose(found, wanted, rtol=1.5 * 2**-52)
-    with mp.workdps(30):
+        found = _logarithm.log1p(given.copy())
         off = [float(abs(mp.mpf(v) - e)) for v, e in zip(found.tolist(), exact, strict=True)]
-    assert np.all(off <= 1.1 * np.spacing(wanted))
-    assert_array_equal(found, [_arrays.log1p(v) for v in given.tolist()])
+    assert np.all(off <= 1.2 * np.spacing(np.array(exact, dtype=float)))
+    assert found[0] == 0
 
-    beyond = np.append(given, [np.inf, np.nan])
-    assert_array_equal(_arrays.log1p(beyond), [*found, np.inf, np.nan])
-    assert_array_equal(_arrays.log1p(np.float64(np.inf)), np.inf)
-    assert np.isnan(_arrays.log1p(np.float64(np.nan)))
 
-    out, *free = given.copy(), np.empty_like(given), np.empty_like(given)
-    assert _arrays.log1p(out, out, free) is out
+def test_log1p_gives_the_same_bits_alone_and_among_others(table: bool) -> None:
+    """Beside numbers that stand in no table, too."""
+    given = np.exp2(np.random.default_rng(4).uniform(-1074, 63.9, 600))
+    given[:4] = 0.0, 5e-324, 2.0**-1022, 1.0
+    found = _logarithm.log1p(given.copy())
+    assert_array_equal(found, [_logarithm.log1p(v) for v in given.tolist()])
+    assert_array_equal(found, [_logarithm.log1p(given[i : i + 1])[0] for i in range(600)])
+    for odd in (np.inf, np.nan, -np.nan, -0.0, 2.0**64, 1e308):
+        assert_array_equal(_logarithm.log1p(np.append(given, odd))[:-1], found)
+
+
+@pytest.mark.parametrize("odd", [np.inf, np.nan, -np.nan, -0.0, 2.0**64, 1e308])
+def test_what_stands_in_no_table_has_its_logarithm_all_the_same(table: bool, odd: float) -> None:
+    wanted = odd if odd == 0 else np.log(odd)  # one is lost beside 2**64
+    for found in (_logarithm.log1p(np.float64(odd)), _logarithm.log1p(np.array([1.0, odd]))[1]):
+        assert type(found) is np.float64
+        assert_allclose(found, wanted, rtol=2**-52)
+
+
+def test_log1p_uses_up_what_it_is_given_and_nothing_else(table: bool) -> None:
+    given = np.geomspace(1e-9, 1e9, 180)
+    found = _logarithm.log1p(given)
+    assert_array_equal(given, np.geomspace(1e-9, 1e9, 180))
+    out, free = given.copy(), np.empty_like(given)
+    assert _logarithm.log1p(out, out, free) is out
     assert_array_equal(out, found)
+    square = given.reshape(10, 18)
+    assert_array_equal(_logarithm.log1p(square), found.reshape(10, 18))
+    assert_array_equal(_logarithm.log1p(square.T), found.reshape(10, 18).T)
+    assert_array_equal(_logarithm.log1p(given[::-2]), found[::-2])
 
 
 def test_a_logarithm_of_a_kink_is_zero_outside_and_takes_what_broadcasts() -> None:

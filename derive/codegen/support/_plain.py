@@ -11,16 +11,14 @@ from typing import Any
 
 import numpy as np
 
+from ._logarithm import NORMAL, plain_log1p
+
 Function = Callable[..., Any]
 
 REFUSALS = (ArithmeticError, TypeError, ValueError)
 """What Python raises where NumPy's numbers go on: dividing by zero, at roots of what is negative,
 where a number leaves float64 or the reals.
 """
-
-
-NORMAL = 2.0**-1022
-"""Below this NumPy may tell of underflow."""
 
 
 def in_plain_numbers(function: Function) -> Function | None:
@@ -57,15 +55,6 @@ def plain_fmax(first: float, second: float) -> float:
     return first if first >= second or second != second else second
 
 
-def plain_log1p(value: float) -> float:
-    """log(1 + value) of what is not negative."""
-    if not LOG1P_BY_LOG:
-        return value if value < NORMAL else float(np.log1p(value))
-    above = 1.0 + value
-    lost = value - (above - 1.0) if value < math.inf else 0.0
-    return float(np.log(above)) + lost / above
-
-
 def plain_kink_logarithm(left: float, right: float, offset: float, least: float = 0.0) -> float:
     """log(1 + (sqrt(left right) + min(left, right))/d), d = |offset|, `least` at least.
 
@@ -75,24 +64,6 @@ def plain_kink_logarithm(left: float, right: float, offset: float, least: float 
     if not 0 <= quotient < math.inf:
         raise ValueError("no finite quotient")
     return plain_log1p(quotient)
-
-
-def _log1p_is_slow() -> bool:
-    """Whether NumPy's log1p takes elements one by one, though it knows better ways elsewhere.
-
-    So it is on Linux without AVX-512, where it takes three times as long as its log.
-    """
-    try:
-        from numpy.lib.introspect import opt_func_info
-    except ImportError:  # NumPy 2.0
-        return False
-    ways = opt_func_info(func_name="^log1p$", signature="float64").get("log1p", {}).get("dd", {})
-    current = ways.get("current", "")
-    return current.startswith("baseline") and ways.get("available", "") != current
-
-
-LOG1P_BY_LOG = _log1p_is_slow()
-"""Whether log1p is computed by log, of numbers and of arrays."""
 
 
 # ------------------------------------------------------------------ what stands for NumPy's

@@ -1,0 +1,118 @@
+"""log(1 + q) of what is not negative, however small: in steps that NumPy takes many at once.
+
+NumPy computes log1p many elements at once where there is AVX-512, and one by one elsewhere, three
+times as slowly as its log.  There a table is quicker.  With q_0 = q cut to a few binary digits,
+
+    log(1 + q) = log(1 + q_0) + 2 artanh(s),    s = (q - q_0)/(2 + q + q_0),
+
+log(1 + q_0) stands in the table, and s < 2**-(DIGITS + 2).  Numbers, short and long arrays get the
+same bits.
+"""
+
+from functools import cache
+from math import frexp, ldexp
+from typing import Any
+
+import numpy as np
+
+DIGITS = 10
+"""Binary digits that are kept behind the leading one: the table has 2**DIGITS numbers an octave."""
+
+BEYOND = 64
+"""2**BEYOND and what is larger stands in no table: adding one is lost in rounding."""
+
+NORMAL = 2.0**-1022
+"""Below this NumPy may tell of underflow."""
+
+_FIRST, _THIRD = 1.999999999999993, 0.6666667858759775
+"""2 artanh(s) = s (_FIRST + _THIRD s**2), to 1e-18 of 2**-DIGITS."""
+
+_FAR = 2.0**BEYOND
+_KEPT = 2.0 ** (DIGITS + 1)
+"""Cut numbers are whole ones below this, times powers of two."""
+
+_BIAS = 1021
+"""Where the table has them: octave by octave, these so many after the smallest."""
+
+# Between an array and these NumPy has nothing to convert, which short arrays would feel.
+_CUT, _ONE, _ONCE, _CUBED = map(np.array, (np.uint64(52 - DIGITS), 1.0, _FIRST, _THIRD))
+
+
+def _log1p_is_slow() -> bool:
+    """Whether NumPy's log1p takes elements one by one, though it knows better ways elsewhere.
+
+    So it is on Linux without AVX-512.
+    """
+    try:
+        from numpy.lib.introspect import opt_func_info
+    except ImportError:  # NumPy 2.0
+        return False
+    ways = opt_func_info(func_name="^log1p$", signature="float64").get("log1p", {}).get("dd", {})
+    current = ways.get("current", "")
+    return current.startswith("baseline") and ways.get("available", "") != current
+
+
+BY_TABLE = _log1p_is_slow()
+"""Whether log1p is computed by the table, of numbers and of NumPy's arrays."""
+
+
+def log1p(value: Any, out: Any = None, free: Any = None) -> Any:
+    """log(1 + value), in arrays and of a number.
+
+    out, free: two arrays of that shape, to be used up; the result lies in `out` where it can.
+    """
+    if type(value) is not np.ndarray or not value.ndim:
+        return np.float64(plain_log1p(value)) if isinstance(value, float) else np.log1p(value)
+    if not BY_TABLE:
+        return np.log1p(value, out=out)
+    try:
+        return _by_table(value, out, free)
+    except IndexError:  # too large, or no number that is positive
+        odd = ~((value >= 0) & (value < _FAR))
+        logarithms = np.log(value, out=np.zeros(value.shape), where=odd)
+        found = _by_table(np.where(odd, 0.0, np.abs(value)), out, free)
+        return np.where(odd, logarithms, found)
+
+
+def plain_log1p(value: float) -> float:
+    """log(1 + value) of a number, as one of Python's."""
+    if not BY_TABLE:
+        return value if value < NORMAL else float(np.log1p(value))
+    if not NORMAL <= value < _FAR:
+        return float(log1p(np.array([value]))[0]) if value else 0.0
+    fraction, exponent = frexp(value)
+    kept = int(fraction * _KEPT)
+    cut = ldexp(kept, exponent - DIGITS - 1)
+    s = value - cut
+    s /= (cut + 1.0) * 2 + s
+    found: float = _table().item((exponent + _BIAS << DIGITS) + kept)
+    return (s * s * _THIRD + _FIRST) * s + found
+
+
+def _by_table(value: Any, out: Any, free: Any) -> Any:
+    """log(1 + value); positive float64 are in the order of their bits, read as whole numbers.
+
+    Raises IndexError, and leaves `value` as it is, where one of them stands in no table.
+    """
+    whole = None if free is None else free.view(np.uint64)
+    place = np.right_shift(value.view(np.uint64), _CUT, out=whole)
+    found = _table().take(place.view(np.int64))
+    cut = np.left_shift(place, _CUT, out=place).view(np.float64)
+    s = np.subtract(value, cut, out=out)
+    cut += _ONE
+    cut += cut
+    cut += s
+    s /= cut
+    square = np.multiply(s, s, out=cut)
+    square *= _CUBED
+    square += _ONCE
+    square *= s
+    return np.add(square, found, out=s)
+
+
+@cache
+def _table() -> Any:
+    """log(1 + q_0) of every q_0 from zero on."""
+    count = (1023 + BEYOND) << DIGITS
+    with np.errstate(all="ignore"):
+        return np.log1p((np.arange(count, dtype=np.uint64) << _CUT).view(np.float64))
