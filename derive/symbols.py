@@ -96,6 +96,7 @@ _USED_BESIDES = (
         "elementwise",
         "only_where",
         "scaled",
+        "scaled_at_last",
         "select",
     ),
     *("maximum", "minimum", "fmax", "kink_logarithm"),

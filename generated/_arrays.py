@@ -30,7 +30,7 @@ Array = Any
 Function = TypeVar("Function", bound=Callable[..., Any])
 Shape = tuple[int, ...]
 
-BLOCK = 21_000
+BLOCK = 24_000
 """Elements evaluated at once, of arrays that are cut: a few arrays of this length stay in a core's
 own cache.
 """
@@ -106,7 +106,7 @@ def _elementwise(function: Function, arrays: int, bare: frozenset[str]) -> Funct
     called = signature(function)
     parameters, count = called.parameters, len(called.parameters)
     results = len(getattr(called.return_annotation, "_fields", ("",)))
-    whole_of = _computed(function) if "scaled" in function.__code__.co_names else function
+    whole_of = _computed(function) if "scaled_at_last" in function.__code__.co_names else function
     weighed = arrays if results == 1 else max(1, arrays - results)
     few = arrays <= FEW
     constants = {n for n, p in parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
@@ -242,7 +242,7 @@ def only_where(exists: Any, *values: Any) -> Any:
     """The values where `exists`, NaN elsewhere, all of one shape."""
     one = type(exists) is np.bool_
     everywhere = bool(exists) if one else _all_of(exists)
-    if type(values[0]) is _Scaled:
+    if type(values[0]) is _Unscaled:
         if everywhere and (one or values[0].held.shape == exists.shape):
             return values[0]
         values = (values[0].into(values[0].held),)
@@ -260,7 +260,7 @@ def _all_of(flags: Any) -> bool:
     return type(flags) is np.ndarray and flags.size > 0 and flags.item(flags.argmin())
 
 
-class _Scaled:
+class _Unscaled:
     """An array times a number, computed where it is to lie; the array is used up.
 
     So a block of a result is written once, not computed beside it and copied.
@@ -287,7 +287,7 @@ def _computed(function: Function) -> Function:
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
         found = function(*args, **kwargs)
-        return found.into(found.held) if type(found) is _Scaled else found
+        return found.into(found.held) if type(found) is _Unscaled else found
 
     return call  # type: ignore[return-value]
 
@@ -339,12 +339,19 @@ def fmax(first: Any, second: Any) -> Any:
 
 
 def scaled(held: Any, factor: Any) -> Any:
+    """held times factor, in the memory of `held`, which is used up, where that can be."""
+    if type(held) is np.ndarray and type(factor) is np.float64:
+        return np.multiply(held, factor, out=held)
+    return held * factor
+
+
+def scaled_at_last(held: Any, factor: Any) -> Any:
     """held times factor, the one result of a formula; the array `held` is used up.
 
     Computed at last, in the memory of the whole result or in that of `held`, where that can be.
     """
     if type(held) is np.ndarray and type(factor) is np.float64:
-        return _Scaled(held, factor)
+        return _Unscaled(held, factor)
     return held * factor
 
 
@@ -377,7 +384,8 @@ def _kink_logarithm(left: Any, right: Any, offset: Any, least: float) -> Any:
         return np.where(np.isinf(found), np.log(held) - np.log(offset), found)[()]
     if out is None:
         return log1p(np.abs(found))
-    return log1p(np.abs(found, out=found), found, held)
+    free = right if right.shape == held.shape else None
+    return log1p(np.abs(found, out=found), held, free)
 
 
 @np.errstate(over="raise")
@@ -399,9 +407,9 @@ def _between_edges(left: Any, right: Any) -> Any:
     held = left * right
     np.sqrt(held, out=held)
     held += np.minimum(left, right, out=left)
-    if held.size and held.item(held.argmin()) >= 0:
-        return held
-    return np.fmax(held, _zeros(held.shape), out=held)
+    if held.size and not held.item(held.argmin()) >= 0:  # or no number
+        np.fmax(held, _zeros(held.shape), out=held)
+    return held
 
 
 def _alike(first: Any, second: Any) -> tuple[Any, Any]:
@@ -598,7 +606,7 @@ def _in_blocks(
             kind = type(result)
             out = _made_for(found, shape)
         for whole, part in zip(out, found, strict=True):
-            if type(part) is _Scaled:
+            if type(part) is _Unscaled:
                 part.into(whole[index])
             else:
                 whole[index] = part

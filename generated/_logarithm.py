@@ -36,7 +36,7 @@ _BIAS = 1021
 """Where the table has them: octave by octave, these so many after the smallest."""
 
 # Between an array and these NumPy has nothing to convert, which short arrays would feel.
-_CUT, _ONE, _ONCE, _CUBED = map(np.array, (np.uint64(52 - DIGITS), 1.0, _FIRST, _THIRD))
+_CUT, _TWO, _ONCE, _CUBED = map(np.array, (np.uint64(52 - DIGITS), 2.0, _FIRST, _THIRD))
 
 
 def _log1p_is_slow() -> bool:
@@ -60,19 +60,11 @@ BY_TABLE = _log1p_is_slow()
 def log1p(value: Any, out: Any = None, free: Any = None) -> Any:
     """log(1 + value), in arrays and of a number.
 
-    out, free: two arrays of that shape, to be used up; the result lies in `out` where it can.
+    out, free: two arrays of the same shape, to be used up; the result lies in `out`.
     """
     if type(value) is not np.ndarray or not value.ndim:
         return np.float64(plain_log1p(value)) if isinstance(value, float) else np.log1p(value)
-    if not BY_TABLE:
-        return np.log1p(value, out=out)
-    try:
-        return _by_table(value, out, free)
-    except IndexError:  # too large, or no number that is positive
-        odd = ~((value >= 0) & (value < _FAR))
-        logarithms = np.log(value, out=np.zeros(value.shape), where=odd)
-        found = _by_table(np.where(odd, 0.0, np.abs(value)), out, free)
-        return np.where(odd, logarithms, found)
+    return _by_table(value, out, free) if BY_TABLE else np.log1p(value, out=out)
 
 
 def plain_log1p(value: float) -> float:
@@ -84,31 +76,34 @@ def plain_log1p(value: float) -> float:
     fraction, exponent = frexp(value)
     kept = int(fraction * _KEPT)
     cut = ldexp(kept, exponent - DIGITS - 1)
-    s = value - cut
-    s /= (cut + 1.0) * 2 + s
+    s = (value - cut) / (cut + 2.0 + value)
     found: float = _table().item((exponent + _BIAS << DIGITS) + kept)
     return (s * s * _THIRD + _FIRST) * s + found
 
 
 def _by_table(value: Any, out: Any, free: Any) -> Any:
-    """log(1 + value); positive float64 are in the order of their bits, read as whole numbers.
-
-    Raises IndexError, and leaves `value` as it is, where one of them stands in no table.
-    """
+    """log(1 + value); positive float64 are in the order of their bits, read as whole numbers."""
     whole = None if free is None else free.view(np.uint64)
     place = np.right_shift(value.view(np.uint64), _CUT, out=whole)
-    found = _table().take(place.view(np.int64))
+    odd, table = None, _table()
+    try:
+        found = table.take(place.view(np.int64))
+    except IndexError:  # none stands there that is negative, no number, or too large
+        odd = place >= table.size
+        found = table.take(place.view(np.int64), mode="clip")
     cut = np.left_shift(place, _CUT, out=place).view(np.float64)
     s = np.subtract(value, cut, out=out)
-    cut += _ONE
-    cut += cut
-    cut += s
+    cut += _TWO
+    cut += value
     s /= cut
     square = np.multiply(s, s, out=cut)
     square *= _CUBED
     square += _ONCE
     square *= s
-    return np.add(square, found, out=s)
+    found = np.add(square, found, out=s)
+    if odd is not None:
+        found[odd] = np.log(value[odd] + (value[odd] == 0))  # one is lost beside 2**BEYOND
+    return found
 
 
 @cache

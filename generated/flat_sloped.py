@@ -16,6 +16,7 @@ from ._arrays import (
     kink_logarithm,
     maximum,
     only_where,
+    scaled,
 )
 from ._law import Law
 from ._march import march_of
@@ -338,12 +339,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     '0.0637272'
     """
     h = a + c  # contact width [m]
-    left_1 = (a + x) * (2 * maximum(b + c, 0.0) / h)  # vanishes at the left edge [m]
-    right_1 = (c - x) * (2 * maximum(a - b, 0.0) / h)  # vanishes at the right edge [m]
+    left_1 = scaled(a + x, 2 * maximum(b + c, 0.0) / h)  # vanishes at the left edge [m]
+    right_1 = scaled(c - x, 2 * maximum(a - b, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = -b [-]
     logarithm_1 = fmax(kink_logarithm(left_1, right_1, b + x), 0.0)
-    left_2 = (a + x) * (2 * maximum(c - b, 0.0) / h)  # vanishes at the left edge [m]
-    right_2 = (c - x) * (2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
+    left_2 = scaled(a + x, 2 * maximum(c - b, 0.0) / h)  # vanishes at the left edge [m]
+    right_2 = scaled(c - x, 2 * maximum(a + b, 0.0) / h)  # vanishes at the right edge [m]
     # twice the logarithm of the kink x = b [-]
     logarithm_2 = fmax(kink_logarithm(left_2, right_2, x - b), 0.0)
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)

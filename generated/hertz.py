@@ -14,7 +14,7 @@ from ._arrays import (
     elementwise,
     maximum,
     only_where,
-    scaled,
+    scaled_at_last,
 )
 from ._law import Law
 from ._march import march_of
@@ -224,7 +224,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     w = np.sqrt(maximum((a + x) * (c - x), 0.0))  # root at x [m]
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
-    return only_where(exists, scaled(w, E_star / (2 * R)))
+    return only_where(exists, scaled_at_last(w, E_star / (2 * R)))
 
 
 @elementwise(arrays=3)

@@ -17,6 +17,7 @@ from ._arrays import (
     minimum,
     only_where,
     scaled,
+    scaled_at_last,
     select,
 )
 from ._law import Law
@@ -248,11 +249,11 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     '0.0567155'
     """
     h = a + c  # contact width [m]
-    left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
-    right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
+    left_1 = scaled(a + x, 2 * c / h)  # vanishes at the left edge [m]
+    right_1 = scaled(c - x, 2 * a / h)  # vanishes at the right edge [m]
     logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
     exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, scaled(logarithm_1, E_star * phi / np.pi))
+    return only_where(exists, scaled_at_last(logarithm_1, E_star * phi / np.pi))
 
 
 @elementwise(arrays=4)

@@ -129,7 +129,8 @@ class FunctionText:
             yield "    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]"
         for step in self.program.steps:
             note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
-            yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
+            value = self._of_sum(step.expr, varying, printer) or printer.doprint(step.expr)
+            yield from _noted(f"    {step.symbol} = {value}", note)
         values = {
             name: self._in_place(expr, varying, printer) or printer.doprint(expr)
             for name, expr in self.program.outputs.items()
@@ -148,6 +149,13 @@ class FunctionText:
         uses = sum(kept in side.free_symbols for side in right)
         own = any(step.symbol == kept and not step.expr.is_Symbol for step in self.program.steps)
         if x not in self.function.arguments or factor == 1 or not own or uses > 1:
+            return None
+        return f"scaled_at_last({printer.doprint(kept)}, {printer.doprint(factor)})"
+
+    def _of_sum(self, expr: Expr, varying: set[Symbol], printer: NumPyPrinter) -> str | None:
+        """A number times a sum that varies along x, computed in the memory of that sum."""
+        factor, kept = expr.as_independent(*varying, as_Add=False)
+        if x not in self.function.arguments or factor == 1 or not kept.is_Add:
             return None
         return f"scaled({printer.doprint(kept)}, {printer.doprint(factor)})"
 

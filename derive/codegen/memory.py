@@ -108,7 +108,7 @@ class _Walk:
             new = 2  # the mask, and where both differ
         elif name == "kink_logarithm":
             return max(most, kept + 2), kept  # it ends in the memory of its first argument
-        elif name == "scaled":
+        elif name in ("scaled", "scaled_at_last"):
             new = int(self.varies(given[1]))
             return max(most, kept + new), new or kept
         elif name.startswith("np."):

@@ -35,7 +35,7 @@ _HELPERS = {
     "_arrays": (
         *("LEAST", "MOST", "TINY"),
         *("chunkwise", "chunkwise_in_time", "elementwise", "fmax", "kink_logarithm"),
-        *("maximum", "minimum", "only_where", "scaled", "select"),
+        *("maximum", "minimum", "only_where", "scaled", "scaled_at_last", "select"),
     ),
     "_law": ("Law",),
     "_march": ("march_of",),

@@ -102,7 +102,7 @@ def curves(case: Case, sizes: tuple[int, ...], seconds: float) -> tuple[Curves, 
     for size in sizes:
         with contenders(case, size) as alone:
             clocks = {name: contender.timed for name, contender in alone.items()}
-            for name, time in in_turn(clocks, seconds).items():
+            for name, time in in_turn(clocks, seconds, AMONG_ITS_LIKE).items():
                 times[name][size] = time
                 if size in MEMORY_AT and name not in COMPILED:
                     memory[name] = alone[name].peak()

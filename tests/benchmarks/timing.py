@@ -20,7 +20,7 @@ Clock = Callable[[int], float]
 LEAST = 2e-3
 """Seconds of one measurement at least: quicker calls are repeated."""
 
-AMONG_ITS_LIKE = 2e-2
+AMONG_ITS_LIKE = 5e-2
 """The same where one call is to follow another of its kind: the first after a call that left heap
 and caches in another state is one of many then.
 """

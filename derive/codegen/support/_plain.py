@@ -123,6 +123,7 @@ _COUNTERPARTS = {
     "minimum": plain_minimum,
     "only_where": _only_where,
     "scaled": _scaled,
+    "scaled_at_last": _scaled,
     "select": _select,
 }
 
