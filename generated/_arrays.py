@@ -30,7 +30,7 @@ Array = Any
 Function = TypeVar("Function", bound=Callable[..., Any])
 Shape = tuple[int, ...]
 
-BLOCK = 24_000
+BLOCK = 23_000
 """Elements evaluated at once, of arrays that are cut: a few arrays of this length stay in a core's
 own cache.
 """
