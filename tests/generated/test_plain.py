@@ -198,13 +198,28 @@ def test_no_function_tells_of_a_denormal_number(name: str) -> None:
                 getattr(_plain._NUMPY, name)(value, *others)
 
 
-def test_the_logarithm_of_one_and_a_denormal_number_is_that(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize("by_table", [True, False])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_no_logarithm_tells_of_numbers_that_are_tiny_or_huge(
+    by_table: bool, sign: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(_logarithm, "BY_TABLE", False)
+    """log(1 + q) is q, or log(q); so is the pressure of a wedge next to its apex."""
+    monkeypatch.setattr(_logarithm, "BY_TABLE", by_table)
+    known = {0.0: 0.0, 5e-324: 5e-324, 1e-310: 1e-310} | {q: math.log(q) for q in (1e20, 1.7e308)}
     with warnings.catch_warnings(), np.errstate(all="warn"):
         warnings.simplefilter("error")
-        assert [_logarithm.plain_log1p(v) for v in (5e-324, 1e-310)] == [5e-324, 1e-310]
+        for given, wanted in known.items():
+            assert abs(_logarithm.plain_log1p(given) - wanted) <= math.ulp(wanted)
+        for width in (1.0, 5e7):  # E* phi/pi log(2 a/|x|)
+            found = wedge.pressure(sign * 1.2e-308, width, width, E_star=math.pi, phi=0.125)
+            logarithm = math.log(2 * width) - math.log(1.2e-308)
+            assert found == pytest.approx(0.125 * logarithm, rel=1e-14)
+
+
+def test_a_logarithm_of_zero_has_no_sign(monkeypatch: pytest.MonkeyPatch) -> None:
+    for by_table in (True, False):
+        monkeypatch.setattr(_logarithm, "BY_TABLE", by_table)
+        assert bits(_plain.plain_kink_logarithm(-0.0, 1.0, 1.0)) == bits(0.0)
 
 
 def test_the_angle_of_a_small_tangent_is_it() -> None:

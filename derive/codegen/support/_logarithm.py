@@ -5,8 +5,8 @@ times as slowly as its log.  There a table is quicker.  With q_0 = q cut to a fe
 
     log(1 + q) = log(1 + q_0) + 2 artanh(s),    s = (q - q_0)/(2 + q + q_0),
 
-log(1 + q_0) stands in the table, and s < 2**-(DIGITS + 2).  Numbers, short and long arrays get the
-same bits.
+log(1 + q_0) stands in the table, and s < 2**-(DIGITS + 1).  Numbers, short and long arrays get the
+same bits, within 1.1 units in the last place: half of one in the table, half in the last sum.
 """
 
 from functools import cache
@@ -14,6 +14,7 @@ from math import frexp, ldexp
 from typing import Any
 
 import numpy as np
+from numpy.lib.introspect import opt_func_info
 
 DIGITS = 10
 """Binary digits that are kept behind the leading one: the table has 2**DIGITS numbers an octave."""
@@ -25,9 +26,11 @@ NORMAL = 2.0**-1022
 """Below this NumPy may tell of underflow."""
 
 _FIRST, _THIRD = 1.999999999999993, 0.6666667858759775
-"""2 artanh(s) = s (_FIRST + _THIRD s**2), to 1e-18 of 2**-DIGITS."""
+"""2 artanh(s) = s (_FIRST + _THIRD s**2), to 1e-18 where s < 2**-(DIGITS + 1)."""
 
-_FAR = 2.0**BEYOND
+_FAR, _NEAR = 2.0**BEYOND, 2.0**-54
+"""Between these log(1 + q) is neither log(q) nor q to the last digit."""
+
 _KEPT = 2.0 ** (DIGITS + 1)
 """Cut numbers are whole ones below this, times powers of two."""
 
@@ -43,10 +46,6 @@ def _log1p_is_slow() -> bool:
 
     So it is on Linux without AVX-512.
     """
-    try:
-        from numpy.lib.introspect import opt_func_info
-    except ImportError:  # NumPy 2.0
-        return False
     ways = opt_func_info(func_name="^log1p$", signature="float64").get("log1p", {}).get("dd", {})
     current = ways.get("current", "")
     return current.startswith("baseline") and ways.get("available", "") != current
@@ -69,9 +68,10 @@ def log1p(value: Any, out: Any = None, free: Any = None) -> Any:
 def plain_log1p(value: float) -> float:
     """log(1 + value) of a number, as one of Python's."""
     if not BY_TABLE:
-        return value if value < NORMAL else float(np.log1p(value))
+        return abs(value) if value < NORMAL else float(np.log1p(value))
     if not NORMAL <= value < _FAR:
-        return float(log1p(np.array([value]))[0]) if value else 0.0
+        with np.errstate(all="ignore"):
+            return float(_by_table(np.array([value]), None, None)[0]) if value else 0.0
     fraction, exponent = frexp(value)
     kept = int(fraction * _KEPT)
     cut = ldexp(kept, exponent - DIGITS - 1)
@@ -107,7 +107,10 @@ def _by_table(value: Any, out: Any, free: Any) -> Any:
 
 @cache
 def _table() -> Any:
-    """log(1 + q_0) of every q_0 from zero on."""
-    count = (1023 + BEYOND) << DIGITS
+    """log(1 + q_0) of every q_0 from zero on, rounded once where long double has more digits."""
+    places = np.arange((1023 + BEYOND) << DIGITS, dtype=np.uint64)
+    table = np.left_shift(places, _CUT, out=places).view(np.float64)
+    near = table.searchsorted(_NEAR)
     with np.errstate(all="ignore"):
-        return np.log1p((np.arange(count, dtype=np.uint64) << _CUT).view(np.float64))
+        table[near:] = np.log1p(table[near:].astype(np.longdouble))
+    return table
