@@ -1,4 +1,4 @@
-"""What an able user would write by hand, to compare with; nothing of the program is in it.
+"""What an able user would write by hand, to compare with; nothing of the program is imported.
 
 Loops for numba's compiler, and functions of one load case for scipy.optimize.fsolve.  They compute
 the state in the bulk and test nothing: no edge, no kink, no state that does not exist.
@@ -44,7 +44,7 @@ def wedge_pressure(x: Any, a: float, c: float, E_star: float, phi: float) -> Any
 
 
 def wedge_pressure_at_edges(x: Any, a: float, c: float, E_star: float, phi: float) -> Any:
-    """The same pressure in the form that is generated, number by number."""
+    """The same pressure in the form that is generated, copied by hand, number by number."""
     p = np.empty_like(x)
     left, right = 2 * c / (a + c), 2 * a / (a + c)
     for i in range(x.size):

@@ -1,7 +1,8 @@
 """What is compared: five functions, each with its contenders on the same arrays.
 
 Every contender gives the same numbers in the bulk; tests/benchmarks/test_speed.py holds them to it.
-Each imports what it needs when it is built, so that a process with one of them holds no other.
+Each imports what it needs when it is built, so that a process with one of them holds no other; the
+data are made in another one.
 """
 
 from collections.abc import Callable, Mapping
@@ -28,10 +29,12 @@ WEDGE = {"E_star": 75e9, "phi": 0.05}
 PUNCH = {"E_star": 75e9, "R": 0.05, "b": 1e-3}
 CYLINDER = {"E_star": 75e9, "R": 0.05}
 EDGES = {"a": 1e-3, "c": 1.5e-3}
+POSITIONS = {"x": (-0.9e-3, 1.4e-3)}
+LOADS = {"P": (1e5, 1e7), "M": (-1e3, 1e3)}
 FRICTION = 0.5
 
 Data = Mapping[str, Any]
-"""Arrays and numbers by name."""
+"""Arrays of float64 and numbers by name."""
 
 Builder = Callable[[Data], Call]
 """A contender: of the data, the call that is timed."""
@@ -41,7 +44,7 @@ Builder = Callable[[Data], Call]
 class Case:
     """One function.
 
-    data        its arguments at a size
+    data        its arguments at a size; the program may have been used to make them
     contenders  by name
     words       what they are, for the page
     limits      the largest size of those that would take too long
@@ -82,10 +85,10 @@ def _generated(body: str, function: str, **options: Any) -> Builder:
 
 
 def _floor(name: str) -> Builder:
-    """One logarithm of an array."""
+    """One logarithm of the magnitudes of an array."""
 
     def built(data: Data) -> Call:
-        positive = np.abs(data[name]) + 1.0
+        positive = np.abs(data[name])
         return lambda: np.log(positive)
 
     return built
@@ -137,12 +140,14 @@ def _by_numexpr(forms: list[Expr], given: Data) -> Call:
 # ------------------------------------------------------------------ the five
 
 
-def _positions(size: int) -> Data:
-    return {**_random(size, x=(-0.9e-3, 1.4e-3)), **EDGES, **WEDGE}
+def positions(size: int) -> Data:
+    """Within a contact of the wedge."""
+    return {**_random(size, **POSITIONS), **EDGES, **WEDGE}
 
 
-def _loads(size: int) -> Data:
-    return {**_random(size, P=(1e5, 1e7), M=(-1e3, 1e3)), **WEDGE}
+def loads(size: int) -> Data:
+    """Of the wedge."""
+    return {**_random(size, **LOADS), **WEDGE}
 
 
 def _punched(size: int) -> Data:
@@ -234,7 +239,7 @@ def _slip_forms() -> dict[str, Expr]:
 CASES = (
     Case(
         "wedge.pressure",
-        _positions,
+        positions,
         {
             GENERATED: _generated("wedge", "pressure"),
             **_printed(FORMS["wedge"]["pressure"]),
@@ -247,7 +252,7 @@ CASES = (
     ),
     Case(
         "wedge.contact",
-        _loads,
+        loads,
         {
             GENERATED: _generated("wedge", "contact"),
             **_printed(FORMS["wedge"]["contact"]),

@@ -2,9 +2,9 @@
 
 Without AVX-512 it is docs/performance_without_avx512.md.
 
-In each round all contenders are timed in turn, those of a case each in a process of its own;
-figures are medians over the rounds.  Read the ratios: they hold from machine to machine better than
-times do.
+In each round all contenders are timed in turn, those of a case each in a process of its own, on one
+core; figures are medians over the rounds.  Read the ratios: they hold from machine to machine
+better than times do.
 """
 
 import importlib
@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import click
 import numpy as np
@@ -32,12 +32,15 @@ from tests.benchmarks.cases import (
     EDGES,
     FLOOR,
     GENERATED,
+    LOADS,
     NUMBA,
     NUMEXPR,
     OURS,
+    POSITIONS,
     PUNCH,
-    WEDGE,
     Case,
+    loads,
+    positions,
 )
 from tests.benchmarks.picture import Curves, draw
 from tests.benchmarks.stages import Seconds, stages
@@ -61,19 +64,21 @@ PAGE = WITHOUT_AVX512 if _logarithm.BY_TABLE else WITH_AVX512
 
 SIZES = tuple(10**n for n in range(8))
 CUT_AT = (
-    *(1, 100, 10**4, 41_000, 92_000, 10**5, 200_000, 290_000, 400_000, 650_000, 930_000, 10**6),
-    *(1_300_000, 1_900_000, 10**7),
+    *(1, 10, 100, 1_000, 10**4, 41_000, 92_000, 10**5, 200_000, 290_000, 400_000, 650_000),
+    *(930_000, 10**6, 1_300_000, 1_900_000, 10**7),
 )
 """Where the function is compared with itself uncut: behind the lengths at which it is cut, too."""
-MEMORY_AT = (100, 10**5, 10**6)
-"""Memory is measured at the last of these that a contender takes part in."""
+MEMORY_AT = (10**5, 10**6)
+"""Where memory is measured: of a pressure the first is not cut, and the other is."""
+BESIDE_AT = 10**6
+"""Where contenders are timed beside `generated`, too, or the most that it takes part in."""
 COMPILED = (NUMBA, OURS, NUMEXPR, FLOOR)
 """What keeps its arrays to itself, and what is nothing but its result."""
 
 VARYING = {
-    "contact": {"P": (1e5, 1e7), "M": (-1e3, 1e3)},
-    "contact_at_tilt": {"P": (1e5, 1e7), "alpha": (-0.02, 0.02)},
-    "pressure": {"x": (-0.9e-3, 1.4e-3)},
+    "contact": LOADS,
+    "contact_at_tilt": {"P": LOADS["P"], "alpha": (-0.02, 0.02)},
+    "pressure": POSITIONS,
 }
 """Arguments that are arrays, and their range; a function of (a, c) alone varies both."""
 
@@ -92,21 +97,36 @@ SCALARS = {
 # ------------------------------------------------------------------ what is measured
 
 
-def curves(case: Case, sizes: tuple[int, ...], seconds: float) -> tuple[Curves, dict[str, float]]:
-    """Seconds a call, by contender and size; memory held over that of the result, of most.
+def curves(case: Case, sizes: tuple[int, ...], seconds: float) -> tuple[Curves, Curves]:
+    """Seconds a call, by contender and size; memory held over that of the result, at MEMORY_AT.
 
-    Memory is that of NumPy's arrays, at the largest of MEMORY_AT that a contender takes part in.
+    Memory is that of NumPy's arrays, where a contender has them.
     """
     times: dict[str, dict[int, float]] = {name: {} for name in case.names()}
-    memory: dict[str, float] = {}
+    memory: dict[str, dict[int, float]] = {name: {} for name in case.names()}
     for size in sizes:
         with contenders(case, size) as alone:
             clocks = {name: contender.timed for name, contender in alone.items()}
             for name, time in in_turn(clocks, seconds, AMONG_ITS_LIKE).items():
                 times[name][size] = time
                 if size in MEMORY_AT and name not in COMPILED:
-                    memory[name] = alone[name].peak()
+                    memory[name][size] = alone[name].peak()
     return times, memory
+
+
+class Beside(NamedTuple):
+    """Seconds a call in a process that has imported `generated`, by contender."""
+
+    size: int
+    times: Mapping[str, float]
+
+
+def beside(case: Case, largest: int, seconds: float) -> Beside:
+    """All contenders that take part where the generated function does."""
+    size = min(BESIDE_AT, largest, case.limits.get(GENERATED, largest))
+    with contenders(case, size, "generated._arrays") as those:
+        clocks = {name: contender.timed for name, contender in those.items()}
+        return Beside(size, in_turn(clocks, seconds, AMONG_ITS_LIKE))
 
 
 class Printed(NamedTuple):
@@ -159,41 +179,28 @@ def cut_or_not(sizes: tuple[int, ...], seconds: float) -> dict[str, dict[int, tu
     for name, call_at in _CUT.items():
         for size in sizes:
             call = call_at(size)
-
-            def whole(call: Call = call) -> Any:
-                with uncut():
-                    return call()
-
-            times = interleaved({"cut": call, "whole": whole}, seconds, AMONG_ITS_LIKE)
-            if size <= 1000:  # the same code runs; what switches it is not counted
-                times["whole"] -= timed(_nothing, 1000)
+            clocks = {"cut": partial(timed, call), "whole": partial(_timed_uncut, call)}
+            times = in_turn(clocks, seconds, AMONG_ITS_LIKE)
             found.setdefault(name, {})[size] = times["cut"], times["whole"]
     return found
 
 
-def _nothing() -> None:
+def _timed_uncut(call: Call, repeat: int) -> float:
     with uncut():
-        pass
+        return timed(call, repeat)
 
 
 def _cut_pressure(size: int) -> Call:
-    x = np.random.default_rng(7).uniform(-0.9e-3, 1.4e-3, size)
-    return lambda: wedge.pressure(x, **EDGES, **WEDGE)
+    return partial(wedge.pressure, **positions(size))
 
 
 def _cut_contact(size: int) -> Call:
-    P, M = _loads(size)
-    return lambda: wedge.contact(P, M, **WEDGE)
+    return partial(wedge.contact, **loads(size))
 
 
 def _cut_cylinder(size: int) -> Call:
-    P, M = _loads(size)
-    return lambda: hertz.contact(P, M, **CYLINDER)
-
-
-def _loads(size: int) -> tuple[Any, Any]:
-    rng = np.random.default_rng(7)
-    return rng.uniform(1e5, 1e7, size), rng.uniform(-1e3, 1e3, size)
+    given = {name: loads(size)[name] for name in LOADS}
+    return partial(hertz.contact, **given, **CYLINDER)
 
 
 def _cut_edges(size: int) -> Call:
@@ -249,8 +256,9 @@ def scalars(bodies: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
 class Found(NamedTuple):
     """All figures of one run."""
 
-    curves: Mapping[str, Mapping[str, Mapping[int, float]]]
-    memory: Mapping[str, Mapping[str, float]]
+    curves: Mapping[str, Curves]
+    memory: Mapping[str, Curves]
+    beside: Mapping[str, Beside]
     printed: list[Printed]
     cut: Mapping[str, Mapping[int, tuple[float, float]]]
     scalars: Mapping[str, Mapping[str, float]]
@@ -262,10 +270,11 @@ def measured(
 ) -> Found:
     """Measure everything; `told` hears what comes next."""
     sizes = tuple(n for n in SIZES if n <= largest)
-    lines, peaks = {}, {}
+    lines, peaks, near = {}, {}, {}
     for case in CASES:
         told(case.name)
         lines[case.name], peaks[case.name] = curves(case, sizes, seconds)
+        near[case.name] = beside(case, largest, seconds)
     told("printed formulas")
     forms = [*printed(min(1_000, largest), seconds / 4), *printed(min(10**6, largest), seconds)]
     told("with and without blocks")
@@ -273,7 +282,7 @@ def measured(
     told("scalar calls")
     numbers = scalars(bodies)
     built = stages(bodies, lambda body: told(f"deriving {body}"))
-    return Found(lines, peaks, forms, both, numbers, built)
+    return Found(lines, peaks, near, forms, both, numbers, built)
 
 
 def parts(bodies: tuple[str, ...]) -> int:
@@ -282,8 +291,8 @@ def parts(bodies: tuple[str, ...]) -> int:
 
 
 _WITH = (
-    "Of a processor with AVX-512, on which NumPy computes logarithms, log1p among them, ten times",
-    "as fast as elsewhere; runs on others: [without it](performance_without_avx512.md),",
+    "Of a processor with AVX-512, on which NumPy computes logarithms, log1p among them, several",
+    "times as fast as elsewhere; runs on others: [without it](performance_without_avx512.md),",
     "[an AMD EPYC](performance_amd_epyc.md).  As long as all lies in a core's own cache,",
     "wedge.pressure and lambdify's form with common subexpressions do the same work, one root and",
     "one logarithm among a dozen operations.  What blocks save beyond is what memory takes: the",
@@ -291,11 +300,15 @@ _WITH = (
 )
 
 _WITHOUT = (
-    "NumPy computes logarithms many elements at once on processors with AVX-512 alone.  Here the",
-    "generated functions take log(1 + q) from a table, in a dozen steps that go many at once, as",
-    "exact and in two thirds of the time.  The steps beside it, one root among them, take nearly",
-    "as long as numba's loop over the printed formula, which loses half of its digits at the",
-    "edges.  With AVX-512 all of it is about [twice as fast](performance.md).",
+    "NumPy computes log1p many elements at once on processors with AVX-512 alone.  Here generated",
+    "functions take log(1 + q) from a table, in a dozen steps that go many at once: long arrays",
+    "in a third of the time, shorter ones than about 3,000 elements in up to 1.4 times as much.",
+    "They are right to 1.1 units in the last place.  The table, 9 MB, is made at the first call,",
+    "some 20 ms, and stays.  [With AVX-512](performance.md) there is none.",
+    "",
+    "A loop that numba compiles takes what lies in the caches faster than NumPy's two dozen steps",
+    "where it is over the printed formula, which loses half of its digits at the edges and all of",
+    "them at the apex; over the form that keeps them (`numba, our form`) it does not.",
 )
 
 
@@ -306,8 +319,8 @@ def page(found: Found) -> str:
             "# Speed" if PAGE == WITH_AVX512 else "# Speed without AVX-512",
             "",
             "Made by `make bench`, all in one run; contenders are timed in turn, round by round,",
-            "each in a process of its own, and figures are medians.  One thread each.  Ratios hold",
-            "from machine to machine better than times do.  Measured with:",
+            "each in a process of its own on the same core, and figures are medians.  One thread",
+            "each.  Ratios hold from machine to machine better than times do.  Measured with:",
             "",
             f"- processor: {processor()}",
             f"- {compiled_for()}",
@@ -318,6 +331,7 @@ def page(found: Found) -> str:
             *(_WITH if PAGE == WITH_AVX512 else _WITHOUT),
             "",
             *_case_tables(found),
+            *_beside_table(found),
             *_cut_table(found),
             *_printed_table(found),
             *_scalar_table(found),
@@ -328,16 +342,16 @@ def page(found: Found) -> str:
 
 def _case_tables(found: Found) -> Iterator[str]:
     yield from (
-        "What takes too long is left out.  The last column is the most memory held during a call,",
-        f"its result included, over the size of the result, at {MEMORY_AT[-1]:,} elements or as",
-        "many as are timed: 1 is the result and nothing else.  tracemalloc sees NumPy's arrays and",
-        "not those of compiled code.  The floor is one logarithm of the same array, `one np.log`.",
+        "What takes too long is left out.  The last columns are the most memory held during a",
+        f"call, its result included, over the size of the result, at {MEMORY_AT[0]:,} and",
+        f"{MEMORY_AT[1]:,} elements: 1 is the result and nothing else.  tracemalloc sees NumPy's",
+        "arrays and not those of compiled code.  The floor is one logarithm of the same array,",
+        "`one np.log`.",
         "",
         "In a process of its own a contender finds the memory that it has left itself.  On Linux",
         "the allocator gives large arrays that are freed back to the system, and the next call",
         "asks for each page anew.  `generated` has it keep them, for all in the process, so that",
-        "lambdify's functions are quicker beside it: ratios of one process stand",
-        "[below](#every-formula-that-the-paper-prints).",
+        "others are quicker [beside it](#beside-generated).",
         "",
     )
     for case in CASES:
@@ -345,12 +359,14 @@ def _case_tables(found: Found) -> Iterator[str]:
         ours = lines[GENERATED]
         sizes = sorted({n for times in lines.values() for n in times})
         yield from (f"## {case.name}", "", case.words, "")
-        yield f"| ns an element | {' | '.join(f'{n:,}' for n in sizes)} | memory |"
-        yield "| --- |" + " ---: |" * (len(sizes) + 1)
+        columns = [*(f"{n:,}" for n in sizes), *(f"memory at {n:,}" for n in MEMORY_AT)]
+        yield f"| ns an element | {' | '.join(columns)} |"
+        yield "| --- |" + " ---: |" * len(columns)
         for name, times in lines.items():
+            peaks = found.memory[case.name][name]
             each = [_three(1e9 * times[n] / n) if n in times else "" for n in sizes]
-            peak = found.memory[case.name].get(name)
-            yield f"| {name} | {' | '.join(each)} | {'' if peak is None else f'{peak:.2f}'} |"
+            each += [f"{peaks[n]:.3f}" if n in peaks else "" for n in MEMORY_AT]
+            yield f"| {name} | {' | '.join(each)} |"
         yield from ("", f"| times faster than | {' | '.join(f'{n:,}' for n in sizes)} |")
         yield "| --- |" + " ---: |" * len(sizes)
         for name, times in lines.items():
@@ -360,6 +376,23 @@ def _case_tables(found: Found) -> Iterator[str]:
                 ]
                 yield f"| {name} | {' | '.join(both)} |"
         yield ""
+
+
+def _beside_table(found: Found) -> Iterator[str]:
+    others = [name for name in CONTENDERS if name != GENERATED]
+    yield from (
+        "## Beside `generated`",
+        "",
+        "The same in processes that have imported it: how many times faster it is.",
+        "",
+        f"| times faster than | elements | {' | '.join(others)} |",
+        "| --- |" + " ---: |" * (len(others) + 1),
+    )
+    for name, (size, times) in found.beside.items():
+        ours = times[GENERATED]
+        each = [_three(times[other] / ours) if other in times else "" for other in others]
+        yield f"| {name} | {size:,} | {' | '.join(each)} |"
+    yield ""
 
 
 def _cut_table(found: Found) -> Iterator[str]:
@@ -389,9 +422,7 @@ def _printed_table(found: Found) -> Iterator[str]:
     yield from (
         "## Every formula that the paper prints",
         "",
-        "Against `sympy.lambdify` of the printed form, in one process: the allocator keeps what is",
-        "freed, and the temporaries of lambdify's functions cost no page faults, which they do in",
-        "the tables above.",
+        "Against `sympy.lambdify` of the printed form, in one process.",
         "",
         "| function | elements | ns an element | times faster than lambdify | than with cse |",
         "| --- | ---: | ---: | ---: | ---: |",

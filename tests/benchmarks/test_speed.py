@@ -4,6 +4,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
@@ -16,7 +17,17 @@ from generated import _arrays, wedge
 from tests.benchmarks.alone import Alone
 from tests.benchmarks.cases import CASES, CSE, FLOOR, GENERATED, PLAIN, Case
 from tests.benchmarks.picture import draw
-from tests.benchmarks.speed import curves, cut_or_not, measured, page, parts, printed_calls, uncut
+from tests.benchmarks.speed import (
+    COMPILED,
+    beside,
+    curves,
+    cut_or_not,
+    measured,
+    page,
+    parts,
+    printed_calls,
+    uncut,
+)
 from tests.benchmarks.timing import Call, interleaved, peak_over_result, size_of, timed
 from tests.paper_forms import FORMS
 
@@ -80,9 +91,24 @@ def test_blocks_are_switched_off_and_on_again() -> None:
     assert all(min(pair) > 0 for row in cut_or_not((10,), 0.001).values() for pair in row.values())
 
 
-def test_a_contender_is_alone_in_its_process() -> None:
-    """Neither the generated functions nor numba are in that of lambdify."""
-    text = "import sys, tests.benchmarks.alone; print(*sys.modules)"
+def test_a_contender_is_alone_in_its_process(tmp_path: Path) -> None:
+    """Neither the generated functions nor any that it is compared with."""
+    files = [tmp_path / f"{case.name}.npz" for case in CASES]
+    for case, file in zip(CASES, files, strict=True):
+        np.savez(file, **case.data(3))
+    others = {
+        case.name: [n for n in case.names() if GENERATED not in n and n not in COMPILED]
+        for case in CASES
+    }
+    text = f"""
+import sys
+from pathlib import Path
+from tests.benchmarks.alone import built
+for file, (case, others) in zip({[*map(str, files)]}, {others}.items()):
+    for other in [*others, {FLOOR!r}]:
+        built(case, other, Path(file))
+print(*sys.modules)
+"""
     ran = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     held = {name.partition(".")[0] for name in ran.stdout.split()}
     assert {"numpy", "sympy", "tests"} <= held
@@ -90,19 +116,36 @@ def test_a_contender_is_alone_in_its_process() -> None:
 
 
 @pytest.mark.slow
-def test_contenders_are_timed_in_processes_of_their_own() -> None:
+def test_contenders_are_timed_in_processes_of_their_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tests.benchmarks.speed.MEMORY_AT", (100,))
     times, memory = curves(CASES[0], (100,), 0.001)
     assert times.keys() >= {GENERATED, PLAIN, CSE, FLOOR}
     assert all([*row] == [100] and row[100] > 0 for row in times.values())
-    assert memory.keys() == {GENERATED, PLAIN, CSE}
-    assert min(memory.values()) >= 1
+    assert {name for name, row in memory.items() if row} == {GENERATED, PLAIN, CSE}
+    assert min(memory[name][100] for name in (GENERATED, PLAIN, CSE)) >= 1
 
 
 @pytest.mark.slow
-def test_a_contender_that_fails_is_told() -> None:
+def test_contenders_are_timed_beside_the_generated_functions() -> None:
+    few = replace(CASES[0], contenders={n: CASES[0].contenders[n] for n in (GENERATED, FLOOR)})
+    found = beside(few, 100, 0.001)
+    assert found.size == 100
+    assert found.times.keys() == {GENERATED, FLOOR}
+    assert min(found.times.values()) > 0
+
+
+@pytest.mark.slow
+def test_a_contender_that_fails_is_told(tmp_path: Path) -> None:
     """Its own message is on the standard error of both."""
     with pytest.raises(RuntimeError, match=r"generated of wedge\.pressure failed at its data"):
-        Alone("wedge.pressure", GENERATED, -1).__enter__()
+        Alone("wedge.pressure", GENERATED, tmp_path / "none").__enter__()
+    file = tmp_path / "data.npz"
+    np.savez(file, **CASES[0].data(3))
+    with Alone("wedge.pressure", FLOOR, file) as floor:
+        floor._process.kill()
+        floor._process.wait()
+        with pytest.raises(RuntimeError, match=r"one np\.log of wedge\.pressure failed at peak"):
+            floor.peak()
 
 
 def test_calls_are_timed_in_turn() -> None:
@@ -121,7 +164,7 @@ class Here:
 
 
 @contextmanager
-def all_here(case: Case, size: int) -> Iterator[dict[str, Here]]:
+def all_here(case: Case, size: int, beside: str = "") -> Iterator[dict[str, Here]]:
     data = case.data(size)
     yield {name: Here(case.contenders[name](data)) for name in case.names(size)}
 
@@ -138,6 +181,7 @@ def test_the_page_holds_every_function(monkeypatch: pytest.MonkeyPatch) -> None:
     for case in CASES:
         assert f"## {case.name}" in text
         assert found.curves[case.name].keys() >= {GENERATED, FLOOR}
+        assert f"| {case.name} | 10 |" in text  # beside generated
     assert all(row.plain > 0 for row in found.printed)
     assert [*found.stages] == ["hertz"]
 

@@ -8,10 +8,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from sympy import Expr, Symbol, sqrt
 
+from derive.codegen.contract import CONTRACT
+from derive.codegen.function import FunctionText
 from derive.codegen.memory import BY_PARTS, LABORIOUS, PRESSURE_BY_PARTS, arrays_held
+from derive.codegen.program import Program, Step
+from derive.symbols import E_star, a, c, x
 from generated import _arrays
 from tests.benchmarks.speed import SCALARS, uncut
+from tests.derive.bodies import sheet
 
 COUNT = 50_000
 """Long enough for NumPy to compute in the memory of what nothing else refers to."""
@@ -150,3 +156,28 @@ def test_what_is_integrated_holds_three_times_as_many_at_most(name: str) -> None
 def test_blocks_of_what_is_laborious_are_the_longer_ones(many: int) -> None:
     assert many > _arrays.FEW
     assert many * _arrays.BLOCK < _arrays.RESIDENT // 2
+
+
+# ------------------------------------------------------------------ whose memory is used up
+
+t = Symbol("t")
+ROOT_OF_X = Step(t, sqrt(x**2 + c**2), "")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("value", "step", "line"),
+    [
+        (E_star * t, ROOT_OF_X, "return only_where(exists, scaled_at_last(t, E_star))"),
+        (E_star * t, Step(t, x, ""), "return only_where(exists, t * E_star)"),  # the caller's
+        (t, ROOT_OF_X, "return only_where(exists, t)"),
+        (sqrt(t), Step(t, E_star * (a + x), ""), "t = scaled(a + x, E_star)"),
+        (sqrt(t), Step(t, a + x, ""), "t = a + x"),
+        (sqrt(t), Step(t, E_star * sqrt(x), ""), "t = E_star * np.sqrt(x)"),
+    ],
+)
+def test_only_what_a_formula_has_made_itself_is_used_up(value: Expr, step: Step, line: str) -> None:
+    pressure = next(function for function in CONTRACT if function.name == "pressure")
+    made = FunctionText(sheet("wedge"), pressure, "")
+    made.program = Program({"": value}, (step,))
+    assert f"    {line}" in made.text.splitlines()

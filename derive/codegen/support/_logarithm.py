@@ -1,7 +1,8 @@
 """log(1 + q) of what is not negative, however small: in steps that NumPy takes many at once.
 
-NumPy computes log1p many elements at once where there is AVX-512, and one by one elsewhere, three
-times as slowly as its log.  There a table is quicker.  With q_0 = q cut to a few binary digits,
+NumPy computes log1p many elements at once where there is AVX-512, and one by one elsewhere, two to
+three times as slowly as its log.  Of long arrays a table is quicker there, three times; of some
+hundred elements it is not.  With q_0 = q cut to a few binary digits,
 
     log(1 + q) = log(1 + q_0) + 2 artanh(s),    s = (q - q_0)/(2 + q + q_0),
 
