@@ -302,13 +302,14 @@ _WITH = (
 _WITHOUT = (
     "NumPy computes log1p many elements at once on processors with AVX-512 alone.  Here generated",
     "functions take log(1 + q) from a table, in a dozen steps that go many at once: long arrays",
-    "in a third of the time, shorter ones than about 3,000 elements in up to 1.4 times as much.",
-    "They are right to 1.1 units in the last place.  The table, 9 MB, is made at the first call,",
-    "some 20 ms, and stays.  [With AVX-512](performance.md) there is none.",
+    "in a third of the time, while arrays of less than some 1,500 elements lose up to ten",
+    "microseconds a call.  They are right to 1.1 units in the last place.  The table, 9 MB, is",
+    "made at the first call, some 20 ms, and stays.  [With AVX-512](performance.md) there is none.",
     "",
-    "A loop that numba compiles takes what lies in the caches faster than NumPy's two dozen steps",
-    "where it is over the printed formula, which loses half of its digits at the edges and all of",
-    "them at the apex; over the form that keeps them (`numba, our form`) it does not.",
+    "To a short array NumPy's two dozen steps are two dozen calls.  Of a long one that lies in the",
+    "caches they take longer than a loop that numba compiles over the printed formula, which loses",
+    "half of its digits at the edges and all of them at the apex, and less than one over the form",
+    "that keeps them (`numba, our form`).",
 )
 
 
@@ -407,7 +408,9 @@ def _cut_table(found: Found) -> Iterator[str]:
         f"Blocks have {_arrays.BLOCK:,} elements, or more where they hold no more than one in",
         f"{_arrays.SHARE} of the results' numbers; of more than {_arrays.FEW} arrays they hold",
         "half as many numbers as are kept.",
-        "Time in blocks over the time of the same function without; under 1 is faster.",
+        "Time in blocks over the time of the same function without; under 1 is faster.  Up to",
+        "41,000 elements nothing is cut, and what differs from 1 tells how well this can be",
+        "measured.",
         "",
     )
     sizes = [*next(iter(found.cut.values()))]
