@@ -179,7 +179,7 @@ def test_at_its_limit_a_body_is_a_cylinder_of_radius_one(body: str, own: dict[st
 # ------------------------------------------------------------------ mirrored
 
 
-@pytest.mark.enough("skew_hyperbola_on_a_wedge", "exponential")
+@pytest.mark.enough("exponential")
 @pytest.mark.parametrize(
     "name",
     [

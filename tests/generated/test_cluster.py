@@ -211,6 +211,7 @@ SERVED = """
 """
 
 
+@pytest.mark.thorough
 def test_the_monte_carlo_runs_on_a_cluster_that_is_there(tmp_path: Path) -> None:
     """One that was started elsewhere, and is sent the package."""
     script = tmp_path / "served.py"

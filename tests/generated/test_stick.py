@@ -204,10 +204,12 @@ def random_cycles(count: int, seed: int) -> tuple[Any, ...]:
     return a, c, shear, tension * 8 * shear / (np.pi * (a + c)), tension
 
 
-def test_regimes_of_constant_loads_follow_the_signs_of_K_T() -> None:
-    """1e5 cycles: moderate if both K_T are positive; large if the right one, of the zone that is
+@pytest.mark.enough("20000")
+@pytest.mark.parametrize("count", [20_000, 100_000])
+def test_regimes_of_constant_loads_follow_the_signs_of_K_T(count: int) -> None:
+    """Random cycles: moderate if both K_T are positive; large if the right one, of the zone that is
     still stuck in the end, has the opposite sign; mixed between; and all of them solved."""
-    a, c, shear, tension, ratio = random_cycles(100_000, 1)
+    a, c, shear, tension, ratio = random_cycles(count, 1)
     m, n, regime = steady(wedge, a, c, shear, tension, phi=0.25)
     K_T = wedge.K_T(a, c, shear, tension)
     forward = (K_T.left >= 0) & (K_T.right >= 0)
@@ -306,7 +308,7 @@ def one_cycle(
     return shear, pull * 8 * shear / (np.pi * (a + c))
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(a=size, c=size, share=part, pull=tension, da=nudge, dc=nudge)
 def test_the_mirror_swaps_the_edges(
     a: float, c: float, share: float, pull: float, da: float, dc: float
