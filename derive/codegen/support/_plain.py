@@ -1,7 +1,7 @@
 """One load case in Python's own numbers, whose arithmetic is several times as quick as NumPy's.
 
-Every step gives the bits that NumPy gives, powers but for the last.  What Python refuses and NumPy
-answers, a division by zero say, is left to NumPy.
+Every step gives the bits that NumPy gives; powers alone may differ in the last one.  What Python
+refuses and NumPy answers, a division by zero say, is left to NumPy.
 """
 
 import math
