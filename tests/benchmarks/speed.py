@@ -199,8 +199,8 @@ def _cut_contact(size: int) -> Call:
 
 
 def _cut_cylinder(size: int) -> Call:
-    given = {name: loads(size)[name] for name in LOADS}
-    return partial(hertz.contact, **given, **CYLINDER)
+    given = loads(size)
+    return partial(hertz.contact, given["P"], given["M"], **CYLINDER)
 
 
 def _cut_edges(size: int) -> Call:

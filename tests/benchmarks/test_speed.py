@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose
 
 from generated import _arrays, wedge
 from tests.benchmarks.alone import Alone
-from tests.benchmarks.cases import CASES, FLOOR, GENERATED, PLAIN, Case
+from tests.benchmarks.cases import CASES, CSE, FLOOR, GENERATED, PLAIN, Case
 from tests.benchmarks.picture import draw
 from tests.benchmarks.speed import (
     COMPILED,
@@ -126,12 +126,12 @@ def test_contenders_are_timed_in_processes_of_their_own(
     brief: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("tests.benchmarks.speed.MEMORY_AT", (100,))
-    three = {name: CASES[0].contenders[name] for name in (GENERATED, PLAIN, FLOOR)}
-    times, memory = curves(replace(CASES[0], contenders=three), (100,), 0.001)
-    assert times.keys() == {GENERATED, PLAIN, FLOOR}
+    four = {name: CASES[0].contenders[name] for name in (GENERATED, PLAIN, CSE, FLOOR)}
+    times, memory = curves(replace(CASES[0], contenders=four), (100,), 0.001)
+    assert times.keys() == {GENERATED, PLAIN, CSE, FLOOR}
     assert all([*row] == [100] and row[100] > 0 for row in times.values())
-    assert {name for name, row in memory.items() if row} == {GENERATED, PLAIN}
-    assert min(memory[name][100] for name in (GENERATED, PLAIN)) >= 1
+    assert {name for name, row in memory.items() if row} == {GENERATED, PLAIN, CSE}
+    assert min(memory[name][100] for name in (GENERATED, PLAIN, CSE)) >= 1
 
 
 @pytest.mark.slow

@@ -209,7 +209,9 @@ def test_no_logarithm_tells_of_numbers_that_are_tiny_or_huge(
     with warnings.catch_warnings(), np.errstate(all="warn"):
         warnings.simplefilter("error")
         for given, wanted in known.items():
-            assert abs(_logarithm.plain_log1p(given) - wanted) <= math.ulp(wanted)
+            found = _logarithm.plain_log1p(given)
+            assert abs(found - wanted) <= math.ulp(wanted)
+            assert found == wanted or by_table or given > 1
         for width in (1.0, 5e7):  # E* phi/pi log(2 a/|x|)
             found = wedge.pressure(sign * 1.2e-308, width, width, E_star=math.pi, phi=0.125)
             logarithm = math.log(2 * width) - math.log(1.2e-308)
