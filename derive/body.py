@@ -22,6 +22,7 @@ class Body:
 
     name       the body's name, and its module's
     text       the module
+    stuck      the module that belongs to no body, the same of all
     seconds    from reading g(x) to the text
     closed     parts of its contact law that are closed formulas
     numerical  parts that are not
@@ -33,6 +34,7 @@ class Body:
 
     name: str
     text: str
+    stuck: str
     seconds: float = field(compare=False)
     closed: tuple[str, ...]
     numerical: tuple[str, ...]

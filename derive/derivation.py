@@ -28,6 +28,8 @@ from derive.theory.closed_forms import NoRule, closed_forms
 from derive.theory.edges import Edge, edge_ratio, load_rate, pressure_series
 from derive.theory.frame import Frame
 from derive.theory.pressure import pressure
+from derive.theory.segments import Parts, has_parts
+from derive.units import NUMBER, check, dimension_of
 
 Stage = Callable[[FormulaSheet], Iterator[Formula]]
 """Formulas that follow from those already on a sheet."""
@@ -44,7 +46,7 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
     >>> sheet.flat("load")
     E_star*phi*sqrt(a*c)
     """
-    return _derived(geometry, _CLOSED if geometry.slope.is_polynomial else _SUPERPOSED)
+    return _by_parts(_derived(geometry, _CLOSED if geometry.slope.is_polynomial else _SUPERPOSED))
 
 
 def derive_law(geometry: Geometry) -> FormulaSheet:
@@ -151,6 +153,21 @@ def _derived(geometry: Geometry, stages: Iterable[Stage]) -> FormulaSheet:
         for formula in stage(sheet):
             sheet = sheet.plus(formula)
     return sheet
+
+
+def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
+    """The sheet with sums over the parts of a contact beside formulas that lose digits at kinks."""
+    if not has_parts(sheet.frame):
+        return sheet
+    parts, known = Parts(sheet.frame), dict(sheet.dimensions)
+    for d in parts.definitions:
+        known[d.symbol] = dimension_of(d.expr, known) or NUMBER
+    formulas = dict(sheet.formulas)
+    for name in formulas.keys() & parts.formulas.keys():
+        formula, computed = formulas[name], parts.formulas[name]
+        check(computed, formula.unit, f"{name} of {sheet.geometry.name!r}, by parts", known)
+        formulas[name] = replace(formula, computed=computed)
+    return replace(sheet, formulas=formulas)
 
 
 def _superposed(sheet: FormulaSheet) -> Iterator[Formula]:

@@ -17,10 +17,15 @@ _OWN = {
     "dq": r"\Delta q",
     "a_prime": "a'",
     "P_prime": "P'",
+    "k_left": r"k_{\mathrm{left}}",
+    "k_right": r"k_{\mathrm{right}}",
 }
 
 _AT_EDGE = re.compile(r"q_(left|right)_(\d+)")
 """The root of a quadratic at an edge."""
+
+_OF_HALF = re.compile(r"(sin|cos|tan|cot)_(\w+)")
+"""Sine, cosine or tangent of half the angle of a place."""
 
 
 def text_of(expr: Basic) -> str:
@@ -34,6 +39,8 @@ def latex_of(expr: Basic) -> str:
     for s in expr.atoms(Symbol):
         if found := _AT_EDGE.fullmatch(s.name):
             symbols[s] = rf"q_{{\mathrm{{{found[1]}}},{found[2]}}}"
+        elif found := _OF_HALF.fullmatch(s.name):
+            symbols[s] = rf"\{found[1]}_{{{found[2]}}}"
     return str(latex(gathered(expr), symbol_names=symbols, ln_notation=True))
 
 

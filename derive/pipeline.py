@@ -28,6 +28,7 @@ from time import perf_counter
 from derive.body import Body, by_form
 from derive.cache import key_of, program_as_loaded, program_digest, users_cache
 from derive.codegen.publish import (
+    FULL_STICK,
     Difference,
     demand_replaceable,
     differences,
@@ -63,7 +64,7 @@ def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body
 
     Raises UserError for what is wrong with the source, NotProven for a proof that falls short.
     """
-    from derive.codegen.module import module_text
+    from derive.codegen.module import full_stick_text, module_text
     from derive.codegen.printer import CannotPrint
     from derive.codegen.trial import demand_right
     from derive.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
@@ -80,9 +81,9 @@ def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body
     sheet = prove_sheet(sheet)
     report(source, STAGES[4])
     try:
-        text = module_text(sheet, _origin(source))
+        text, stuck = module_text(sheet, _origin(source)), full_stick_text(sheet)
         report(source, STAGES[5])
-        demand_right(sheet, text)
+        demand_right(sheet, text, stuck)
     except CannotPrint as error:
         remedy = "write it with numbers and functions that NumPy has"
         raise BadProfile(geometry.name, f"cannot become code ({error})", remedy) from error
@@ -91,7 +92,7 @@ def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body
     proofs = tuple((name, str(f.proof)) for name, f in sheet.items() if f.proof)
     struck = sheet.remark if sheet.remark.startswith(NONE_IN_TIME) else ""
     seconds = perf_counter() - began
-    return Body(geometry.name, text, seconds, closed, numerical, verdicts, proofs, struck)
+    return Body(geometry.name, text, stuck, seconds, closed, numerical, verdicts, proofs, struck)
 
 
 def build_all(
@@ -200,7 +201,7 @@ class Order:
         for body in bodies:
             if body.name in made:
                 raise TwoOfOneName(body.name)
-            made[body.name] = body.text
+            made |= {body.name: body.text, FULL_STICK: body.stuck}
         kept = modules_in(GENERATED) if self.folder is None and self.sources else {}
         return package_files(kept | made)
 

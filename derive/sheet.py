@@ -18,6 +18,7 @@ from derive.notation import latex_of, text_of
 from derive.proof.verdict import Proof
 from derive.symbols import QUANTITIES, P, Quantity, a, alpha, c, h
 from derive.theory.frame import Frame
+from derive.theory.segments import Parts
 from derive.units import NUMBER, Dimension, check, dimension_of, parse_unit
 
 
@@ -33,6 +34,7 @@ class Formula:
     conditions  assumptions under which it holds
     proof       None until proven
     closes      the formula, an integral, that it is the closed form of; "" for all others
+    computed    the form that is computed, if it is another one: a sum over the parts of a contact
     """
 
     name: str
@@ -45,6 +47,7 @@ class Formula:
     conditions: tuple[Boolean, ...]
     proof: Proof | None = None
     closes: str = ""
+    computed: Expr | None = None
 
     @property
     def head(self) -> str:
@@ -162,10 +165,12 @@ class FormulaSheet(Mapping[str, Formula]):
     def latex(self) -> str:
         """All formulas as one LaTeX display."""
         rows = [rf"g(x) &= {latex_of(self.geometry.g)}"]
-        rows += [rf"{f.left} &= {latex_of(self.shown(name))}" for name, f in self.items()]
+        for name, f in self.items():
+            computed = "" if f.computed is None else f" = {latex_of(f.computed)}"
+            rows.append(rf"{f.left} &= {latex_of(self.shown(name))}{computed}")
         rows += [
             rf"{latex_of(s)} &= {latex_of(definition)}"
-            for s, definition in self.definitions.items()
+            for s, definition in (self.definitions | self.computed_definitions).items()
         ]
         body = " \\\\\n".join(rows)
         return f"\\begin{{aligned}}\n{body}\n\\end{{aligned}}"
@@ -176,6 +181,17 @@ class FormulaSheet(Mapping[str, Formula]):
     def equation(self, name: str) -> str:
         """One formula as a line of text."""
         return f"{self[name].head} = {text_of(self.shown(name))}"
+
+    def computed_as(self, name: str) -> str:
+        """The form that is computed as a line of text; "" where it is the formula itself."""
+        formula = self[name]
+        return "" if formula.computed is None else f"{formula.head} = {text_of(formula.computed)}"
+
+    @cached_property
+    def computed_definitions(self) -> dict[Expr, Expr]:
+        """The symbols that the computed forms hold, and the functions that they call."""
+        forms = [f.computed for f in self.values() if f.computed is not None]
+        return Parts(self.frame).defined_in(forms) if forms else {}
 
     @property
     def title(self) -> str:
@@ -189,12 +205,14 @@ class FormulaSheet(Mapping[str, Formula]):
             lines += [
                 f"{name}: {formula.meaning} [{formula.unit}]",
                 f"    {self.equation(name)}",
+                *([f"    computed as {computed}"] if (computed := self.computed_as(name)) else []),
                 f"    if {formula.assumptions}",
                 f"    {formula.proof or 'not proven yet'}",
                 f"    source: {formula.source}",
             ]
         lines += ["where"]
-        lines += [f"    {s} = {text_of(definition)}" for s, definition in self.definitions.items()]
+        defined = self.definitions | self.computed_definitions
+        lines += [f"    {s} = {text_of(definition)}" for s, definition in defined.items()]
         lines += [f"    {q.name}: {q.meaning} [{q.unit}]" for q in self.quantities]
         return "\n".join(lines)
 

@@ -79,12 +79,13 @@ def formulas(sheet: "FormulaSheet") -> Group:
             Text(name, style="bold cyan"),
             Text.assemble(
                 (f"{sheet.equation(name)}\n", "bold"),
+                *([f"computed as {computed}\n"] if (computed := sheet.computed_as(name)) else []),
                 f"{formula.meaning} [{formula.unit}], if {formula.assumptions}\n",
                 (f"{formula.proof or 'not proven yet'}\n", "green"),
                 (formula.source, "dim"),
             ),
         )
-    for symbol, definition in sheet.definitions.items():
+    for symbol, definition in (sheet.definitions | sheet.computed_definitions).items():
         table.add_row(Text(str(symbol), style="cyan"), f"{symbol} = {text_of(definition)}")
     for q in sheet.quantities:
         table.add_row(Text(q.name, style="cyan"), Text(f"{q.meaning} [{q.unit}]"))

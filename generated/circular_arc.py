@@ -4,19 +4,18 @@
 g(x) = R - sqrt(R**2 - x**2), from derive/geometries/circular_arc.py.
 """
 
+from typing import Any
+
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
-from ._law import Law
-from ._march import march_of
-from ._profile import Curve, Piece, Profile, slope_of
-from ._quadrature import pressure_at, second_of, state_of
-from ._shear import shear_change_of, shear_of, slip_range_of
-from ._slip import slip_error_of, slip_zones_of
-from ._solve import contact_at, contact_under, level
-from ._state import State
-from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
-from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
+from .runtime import cycle, pieces
+from .full_stick import K_T, L_T, stick_margin
+from .runtime.body import Asked, Body, Parameter
+from .runtime.cycle import integrated
+from .runtime.elementary import where
+from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
+from .runtime.pieces import BESIDE_BREAK, curve_of
+from .runtime.types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
     "K_N",
@@ -48,134 +47,6 @@ __all__ = [
 ]
 
 
-def _breaks(*, R: Array) -> tuple[Array, ...]:
-    """Where the curve is cut."""
-    return (0,)
-
-
-def _corners(*, R: Array) -> tuple[Array, ...]:
-    """By how much g' rises at the breaks."""
-    return (0,)
-
-
-def _piece_0_from_right(t: Array, *, R: Array) -> Curve:
-    """g', g'' and t g''' at t on the left of a break."""
-    s_0 = R**2
-    s_1 = t**2
-    s_2 = s_0 - s_1
-    r_0 = np.sqrt(s_2)
-    return Curve(
-        -(t / r_0),
-        s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-        lambda: -(3 * s_0 * s_1 / (r_0 * s_2**2)),
-    )
-
-
-def _piece_1_from_left(t: Array, *, R: Array) -> Curve:
-    """g', g'' and t g''' at t on the right of a break."""
-    s_0 = R**2
-    s_1 = t**2
-    s_2 = s_0 - s_1
-    r_0 = np.sqrt(s_2)
-    return Curve(
-        t / r_0,
-        s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
-        lambda: 3 * s_0 * s_1 / (r_0 * s_2**2),
-    )
-
-
-_BODY = Profile(
-    _breaks,
-    _corners,
-    (
-        Piece(None, _piece_0_from_right),
-        Piece(_piece_1_from_left, None),
-    ),
-    smooth=(0,),
-)
-
-
-def _state(a: Array, c: Array, *, R: Array) -> State:
-    """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
-    return state_of(_BODY, a, c, R=R)
-
-
-def _slope(x: Array, *, R: Array) -> tuple[Array, Array]:
-    """g'(x) and g''(x)."""
-    slope, curvature = slope_of(_BODY, x, R=R)
-    slope = np.where(x <= -R, -np.inf, slope)
-    slope = np.where(x >= R, np.inf, slope)
-    return slope, curvature
-
-
-@elementwise(arrays=45)
-def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
-    """Contact and tilt under the load P and the moment M.
-
-        P = load(a, c), M = moment(a, c); solved for a and c by Newton's method
-        alpha = tilt(a, c)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-
-    Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m, nor where
-    the rounding of its edges moves the load by 1e-4, far from the origin.  None is found with an
-    edge closer to an end of the body than 1e-6 of its distance from the origin.
-
-    The derivatives follow from K_N: a contact grows by flat punches.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> a, c, alpha = contact(1.0, 0.25, E_star=1.0, R=1.0)
-    >>> f"{load(a, c, E_star=1.0, R=1.0):.6g}"
-    '1'
-    >>> f"{moment(a, c, E_star=1.0, R=1.0):.6g}"
-    '0.25'
-    """
-    a, c, alpha = contact_under(P / E_star, M / E_star, R, _state, _breaks(R=R), R=R)
-    h = a + c  # contact width [m]
-    exists = (P > 0) & (h > LEAST) & (a < R) & (c < R) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha))
-
-
-@elementwise(arrays=45)
-def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
-    """Contact under the load P at the tilt alpha.
-
-        P = load(a, c), alpha = tilt(a, c); solved for a and c by Newton's method
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        P       normal load per unit depth [N/m]
-        alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-
-    Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m, nor where
-    the rounding of its edges moves the load by 1e-4, far from the origin, nor where that of alpha
-    moves an edge by a hundredth of the width.  None is found with an edge closer to an end of the
-    body than 1e-6 of its distance from the origin.
-
-    The derivatives follow from K_N: a contact grows by flat punches.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> a, c, alpha = contact_at_tilt(1.0, 0.03125, E_star=1.0, R=1.0)
-    >>> f"{load(a, c, E_star=1.0, R=1.0):.6g}"
-    '1'
-    >>> f"{tilt(a, c, R=1.0):.6g}"
-    '0.03125'
-    """
-    place = level(_slope, alpha, R, (), R=R)
-    a, c, _ = contact_at(P / E_star, alpha, place, R, _state, _breaks(R=R), R=R)
-    h = a + c  # contact width [m]
-    exists = (P > 0) & (h > LEAST) & (a < R) & (c < R) & (h < MOST)
-    return Contact(*only_where(exists, a, c, +alpha))
-
-
-@elementwise(arrays=45)
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -195,13 +66,10 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     >>> f"{tilt(0.75, 0.5, R=1.0):.6g}"
     '0.18925'
     """
-    now = state_of(_BODY, a, c, R=R)
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a < R) & (c < R) & (h < MOST) & (now.load < np.inf)
-    return only_where(exists, now.tilt)
+    asked = Asked(_BODY, tilt, dict(R=R))
+    return integrated(asked, a=a, c=c)
 
 
-@elementwise(arrays=45)
 def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -224,13 +92,10 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     >>> f"{load(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.386889'
     """
-    now = state_of(_BODY, a, c, R=R)
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a < R) & (c < R) & (h < MOST) & (now.load < np.inf)
-    return only_where(exists, E_star * now.load)
+    asked = Asked(_BODY, load, dict(R=R))
+    return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@elementwise(arrays=45)
 def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -253,13 +118,10 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     >>> f"{moment(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.0597185'
     """
-    now = state_of(_BODY, a, c, R=R)
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a < R) & (c < R) & (h < MOST) & (now.load < np.inf)
-    return only_where(exists, E_star * now.moment)
+    asked = Asked(_BODY, moment, dict(R=R))
+    return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@elementwise(arrays=45)
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -286,13 +148,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     >>> f"{pressure(0.5, 0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0'
     """
-    p = pressure_at(_BODY, x, a, c, R=R)
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a < R) & (c < R) & (h < MOST) & (x == x)
-    return only_where(exists, E_star * p)
+    asked = Asked(_BODY, pressure, dict(R=R))
+    return integrated(asked, x=x, a=a, c=c, E_star=E_star)
 
 
-@elementwise(arrays=45)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -320,13 +179,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     >>> [f"{v:.6g}" for v in K_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['1.09433', '0.711794']
     """
-    now = state_of(_BODY, a, c, R=R)
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a < R) & (c < R) & (h < MOST) & (now.load < np.inf)
-    return Edges(*only_where(exists, E_star * now.left, E_star * now.right))
+    asked = Asked(_BODY, K_N, dict(R=R))
+    return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@elementwise(arrays=45)
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -358,487 +214,109 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     >>> [f"{v:.6g}" for v in L_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['-2.63694', '-0.70202']
     """
-    left, right = second_of(_BODY, a, c, R=R)
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (a < R) & (c < R) & (h < MOST)
-    return Edges(*only_where(exists, E_star * left, E_star * right))
+    asked = Asked(_BODY, L_N, dict(R=R))
+    return integrated(asked, a=a, c=c, E_star=E_star)
 
 
-@elementwise(arrays=5, bare=("dQ",))
-def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
-    """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
-
-        K_T_left = (dQ/pi + dsigma*(a + c)/8)/sqrt(a + c)
-        K_T_right = (dQ/pi - dsigma*(a + c)/8)/sqrt(a + c)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-
-    Returns Edges(left [Pa*sqrt(m)], right [Pa*sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_T_left proved: limit of the full-stick change at the edge.
-    K_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> [f"{v:.6g}" for v in K_T(1.5, 1.0, 0.25, 0.125)]
-    ['0.0750345', '0.0256239']
-    """
-    h = a + c  # contact width [m]
-    root = np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
-            exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root
+@kernel(BESIDE_BREAK)
+def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
+    """g', g'' and t g''' beside a break."""
+    R = own[0]
+    if piece == 0 and side == -1:
+        s_0 = R**2
+        s_1 = t**2
+        s_2 = s_0 - s_1
+        r_0 = np.sqrt(s_2)
+        return (
+            -(t / r_0),
+            s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
+            -(3 * s_0 * s_1 / (r_0 * s_2**2)),
         )
-    )
-
-
-@elementwise(arrays=5, bare=("dQ",))
-def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
-    """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
-
-        L_T_left = (dQ/pi - 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
-        L_T_right = (dQ/pi + 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_T_left proved: limit of the full-stick change at the edge.
-    L_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> [f"{v:.6g}" for v in L_T(1.5, 1.0, 0.25, 0.125)]
-    ['-0.00475733', '0.024889']
-    """
-    h = a + c  # contact width [m]
-    root = 2 * h * np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
-            exists,
-            (dQ / np.pi - 3 * dsigma * h / 8) / root,
-            (dQ / np.pi + 3 * dsigma * h / 8) / root,
+    if piece == 1 and side == 1:
+        s_0 = R**2
+        s_1 = t**2
+        s_2 = s_0 - s_1
+        r_0 = np.sqrt(s_2)
+        return (
+            t / r_0,
+            s_0 / ((R + t) * (R - t) * np.sqrt((R + t) * (R - t))),
+            3 * s_0 * s_1 / (r_0 * s_2**2),
         )
-    )
+    return np.nan, np.nan, np.nan
 
 
-@elementwise(arrays=5)
-def stick_margin(
-    a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
-) -> Edges:
-    """Friction left at the edges as all loads begin to change: no slip starts where it is >= 0.
-
-        S_left = f*Abs((4*dM - dP*(a - 3*c))/(a + c)) - Abs(dQ + pi*dsigma*(a + c)/8)
-        S_right = f*Abs((4*dM - dP*(3*a - c))/(a + c)) - Abs(dQ - pi*dsigma*(a + c)/8)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dP      change of the normal load over the same half-cycle [N/m]
-        dM      change of the moment over the same half-cycle [N]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-
-    Returns Edges(left [N/m], right [N/m]).
-    NaN unless a + c > 0 and f > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    S_left proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    S_right proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> [f"{v:.6g}" for v in stick_margin(1.5, 1.0, 0.5, 0.25, 0.25, 0.125, f=0.5)]
-    ['-0.0227185', '0.0227185']
-    """
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
-            exists,
-            f * np.abs(4 * dM - dP * (a - 3 * c)) / h - np.abs(dQ + (np.pi / 8) * dsigma * h),
-            f * np.abs(4 * dM - dP * (3 * a - c)) / h - np.abs(dQ - (np.pi / 8) * dsigma * h),
-        )
-    )
+@kernel(BREAKS)
+def _breaks(own: Array) -> Any:
+    """Where the curve is cut."""
+    R = own[0]
+    return np.array([0.0])
 
 
-_LAW = Law(
-    contact, contact_at_tilt, tilt, load, moment, pressure, pressure, K_N, L_N, _breaks, smooth=(0,)
+@kernel(BREAKS)
+def _corners(own: Array) -> Any:
+    """By how much g' rises there."""
+    R = own[0]
+    return np.array([0.0])
+
+
+@kernel(PRESSURE)
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+    """The pressure at x for E* = 1."""
+    curve = curve_of(_curve, _breaks, _corners)
+    return pieces.pressure(curve, x, a, c, own)
+
+
+@kernel(STATE)
+def _state(a: Array, c: Array, own: Array) -> Any:
+    """Load, moment, tilt and K_N for E* = 1."""
+    curve = curve_of(_curve, _breaks, _corners)
+    return pieces.state(curve, a, c, own)
+
+
+@kernel(SLOPE)
+def _slope(x: Array, own: Array) -> Any:
+    """g'(x) and g''(x); infinite beyond the body's ends."""
+    R = own[0]
+    if x <= -R:
+        return -np.inf, np.inf
+    if x >= R:
+        return np.inf, np.inf
+    curve = curve_of(_curve, _breaks, _corners)
+    return pieces.slope(curve, x, own)
+
+
+@kernel(SERIES)
+def _series(a: Array, c: Array, own: Array) -> Any:
+    """L_N for E* = 1."""
+    curve = curve_of(_curve, _breaks, _corners)
+    return pieces.series(curve, a, c, own)
+
+
+_BODY = Body(
+    dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
+    (Parameter("R", "radius of the arc", "m"),),
+    "derive/geometries/circular_arc.py",
+    dict(
+        law="E_star=1.0, R=1.0",
+        edges="0.75, 0.5",
+        load="0.386889",
+        moment="0.0597185",
+        alpha="0.18925",
+        dQ="0.048",
+        reduced="0.338889",
+        threshold="0.0977848",
+        slip="['0.0249756', '0.0383983']",
+    ),
 )
 
-
-@chunkwise
-def stick_zone(
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    mixed: bool = False,
-) -> StickZone:
-    """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
-
-        moderate tension: load(m, n) = (P1 + P2)/2 - dQ/(2 f), tilt(m, n) = (alpha1 + alpha2)/2
-            - dsigma/(4 f E*)
-        large tension: int r sqrt((xi + m)/(xi - n)) dxi = dQ - pi dsigma (m + n)/8, int r
-            sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones, r = +/-
-            f (p1 + p2), the upper sign on the left if dsigma > 0
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-        mixed   whether to solve cycles in which slip turns round, too, to 1e-7 of the width; takes
-                far longer
-
-    Returns StickZone(m [m], n [m], regime as a code of Regime).
-    NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
-    MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
-    or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> here = Contact(0.75, 0.5, 0.0)
-    >>> zone = stick_zone(here, here, 0.048, 0.0, f=0.5, **law)
-    >>> Regime(zone.regime).name
-    'MODERATE'
-    >>> f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
-    '0.338889'
-    """
-    return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, mixed=mixed)
-
-
-@chunkwise
-def tension_threshold(
-    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array
-) -> Threshold:
-    """Changes of bulk tension between which tension is moderate, so that its solution is exact.
-
-        constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-
-    Returns Threshold(lower [Pa], upper [Pa]).
-    NaN unless there is such a range; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> here = Contact(0.75, 0.5, 0.0)
-    >>> lower, upper = tension_threshold(here, here, 0.048, f=0.5, **law)
-    >>> f"{upper:.6g}"
-    '0.0977848'
-    """
-    return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R)
-
-
-@chunkwise
-def closing_tension(
-    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array
-) -> Threshold:
-    """Changes of bulk tension at which the moderate solution closes one slip zone.
-
-        upper: load(m, c) = (P1 + P2)/2 - dQ/(2 f), dsigma = 4 f E* ((alpha1 + alpha2)/2 -
-            tilt(m, c)), c that of the smaller contact
-        lower: the same with a kept
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-
-    Returns Threshold(lower [Pa], upper [Pa]); slip reverses before it closes, see
-    tension_threshold.
-    NaN unless the reduced load is positive; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> here = Contact(0.75, 0.5, 0.0)
-    >>> lower, upper = closing_tension(here, here, 0.048, f=0.5, **law)
-    >>> bool(lower < 0 < upper)
-    True
-    """
-    return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R)
-
-
-@chunkwise
-def slip_zones(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    da: Array = 0.0,
-    dc: Array = 0.0,
-    order: int = 1,
-) -> Edges:
-    """Slip zones by series in their length: order 1, 2 or 3.
-
-        order 1: d = |K_T|/(f K_N) + da/2, and dc/2 at the right edge
-        orders 2 and 3: the conditions of stick_zone for the pressure's first two or three terms
-            at each edge of both contacts, cut behind that power of d, solved as they stand
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-        da      how much further the left edge reaches than at the other end of the half-cycle [m]
-        dc      how much further the right edge reaches [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; to order 3, unless each edge
-    lies off every kink by 1e-7 of its own x; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> d = slip_zones(0.75, 0.5, 0.048, 0.0, f=0.5, **law)
-    >>> [f"{v:.6g}" for v in d]
-    ['0.0249756', '0.0383983']
-    """
-    return slip_zones_of(_LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, da=da, dc=dc, order=order)
-
-
-@chunkwise
-def slip_error(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    da: Array = 0.0,
-    dc: Array = 0.0,
-    order: int = 1,
-) -> Edges:
-    """By how much one more term would change the slip zones: an estimate of the series' error.
-
-        |d(order + 1) - d(order)|
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-        da      how much further the left edge reaches than at the other end of the half-cycle [m]
-        dc      how much further the right edge reaches [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns Edges(left [m], right [m]).
-    NaN unless both orders give slip zones; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> error = slip_error(0.75, 0.5, 0.048, 0.0, f=0.5, **law)
-    >>> bool(error.left > 0)
-    True
-    """
-    return slip_error_of(_LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, da=da, dc=dc, order=order)
-
-
-@chunkwise
-def shear_change(
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-) -> Array:
-    """Change of the shear traction at x over the half-cycle; zero outside the contacts.
-
-        dq = kappa f (p1 + p2) where it slips
-        moderate tension: dq = f (p1 + p2) - 2 f p(x; m, n)
-        large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi where it sticks, w =
-            sqrt((xi + m)(xi - n)), negative on the left
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x       position along the interface, right positive [m]
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
-    regime of the whole half-cycle is MODERATE or LARGE.
-    NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> here = Contact(0.75, 0.5, 0.0)
-    >>> float(shear_change(here.c + 1.0, here, here, 0.048, 0.0, f=0.5, **law))
-    0.0
-    """
-    return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R)
-
-
-@chunkwise
-def shear(
-    x: Array,
-    contact: Contact,
-    Q: Array,
-    sigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    dQ: Array = 0.0,
-    dsigma: Array = 0.0,
-) -> Array:
-    """Shear traction at x in a cycle at constant normal loads; zero outside the contact.
-
-        q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq as by shear_change
-        first the shear load rises from nothing to Q and the tension to sigma, in proportion;
-            since then they have fallen by dQ and dsigma, in proportion again: by nothing at the
-            upper end of a cycle, by all of the half-cycle's change at the lower end, from which
-            q rises by shear_change
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x        position along the interface, right positive [m]
-        contact  Contact under normal loads that stay
-        Q        shear load that is reached first [N/m]
-        sigma    differential bulk tension that comes with it [Pa]
-        f        coefficient of friction [-]
-        E_star   composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R        radius of the arc [m]
-        dQ       what the shear load has fallen by since then [N/m]
-        dsigma   what the tension has fallen by since then [Pa]
-
-    Returns q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
-    NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it
-    slips back only where it slipped and drives none of that on, and dQ <= 2 Q; so reverse all
-    signs, those of q too, where the lower end has the larger shear load; nor where Q < 0, dQ < 0,
-    or Q >= f P, which is sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> here = Contact(0.75, 0.5, 0.0)
-    >>> law |= dict(f=0.5)
-    >>> upper, lower = (shear(0.1, here, 0.048, 0.0, dQ=fall, **law)
-    ...                 for fall in (0.0, 2 * 0.048))
-    >>> bool(upper == -lower)  # a cycle between Q and -Q
-    True
-    """
-    return shear_of(_LAW, x, contact, Q, sigma, f=f, E_star=E_star, R=R, dQ=dQ, dsigma=dsigma)
-
-
-@chunkwise
-def slip_range(
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-) -> Array:
-    """How far the surfaces slip at x over the half-cycle; zero where they stick.
-
-        (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4; moderate tension and
-            constant loads: 2 f times the gap beside the patch [-m, n]
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x       position along the interface, right positive [m]
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-
-    Returns slip [m], positive.
-    NaN unless x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK; nor where dQ
-    < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> here = Contact(0.75, 0.5, 0.0)
-    >>> zone = stick_zone(here, here, 0.048, 0.0, f=0.5, **law)
-    >>> float(slip_range(zone.n, here, here, 0.048, 0.0, f=0.5, **law))
-    0.0
-    """
-    return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R)
-
-
-@chunkwise_in_time
-def march(
-    P: Array, M: Array, Q: Array, sigma: Array, *, f: Array, E_star: Array, R: Array, order: int = 0
-) -> March:
-    """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
-
-        since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
-            where the whole half-cycle is MIXED it has not, and only its end may be known
-
-    Arguments broadcast; the instants of a cycle lie along the last axis.
-    Of a Dask array, that axis must be one chunk.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        Q       shear load at every instant [N/m]
-        sigma   differential bulk tension at every instant [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns March(a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime).
-    NaN unless all loads are as far on their way between both states, to 1e-6 of their change; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/circular_arc.py.
-
-    >>> law = dict(E_star=1.0, R=1.0)
-    >>> P, M = (of(0.75, 0.5, **law) for of in (load, moment))
-    >>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * 0.048 / 2
-    >>> cycle = march(P, M, Q, 0.0, f=0.5, **law)
-    >>> cycle.left.tolist()
-    [1, 1, -1, -1]
-    """
-    return march_of(_LAW, P, M, Q, sigma, f=f, E_star=E_star, R=R, order=order)
+contact = _BODY.bound(cycle.contact)
+contact_at_tilt = _BODY.bound(cycle.contact_at_tilt)
+stick_zone = _BODY.bound(cycle.stick_zone)
+tension_threshold = _BODY.bound(cycle.tension_threshold)
+closing_tension = _BODY.bound(cycle.closing_tension)
+slip_zones = _BODY.bound(cycle.slip_zones)
+slip_error = _BODY.bound(cycle.slip_error)
+shear_change = _BODY.bound(cycle.shear_change)
+shear = _BODY.bound(cycle.shear)
+slip_range = _BODY.bound(cycle.slip_range)
+march = _BODY.bound(cycle.march)

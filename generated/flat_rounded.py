@@ -4,18 +4,18 @@
 g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 """
 
+from typing import Any
+
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
-from ._law import Law
-from ._march import march_of
-from ._parabolas import Parabolas, looked_up
-from ._shear import shear_change_of, shear_of, slip_range_of
-from ._slip import slip_error_of, slip_zones_of
-from ._solve import contact_at, contact_under, level
-from ._state import State
-from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
-from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
+from .runtime import cycle
+from .full_stick import K_T, L_T, stick_margin
+from .runtime.arrays import elementwise
+from .runtime.body import Body, Parameter
+from .runtime.elementary import LEAST, MOST, where
+from .runtime.segments import segment, involute, second_term, third_term, end_pressure
+from .runtime.shared import by_position
+from .runtime.types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
     "K_N",
@@ -47,124 +47,16 @@ __all__ = [
 ]
 
 
-@looked_up
-def _body(*, R: Array, b: Array) -> Parabolas:
-    """Where the curve is cut, and the lines and parabolas between."""
-    return Parabolas(
-        kinks=(
-            -b,
-            b,
-        ),
-        spans=(2 * b,),
-        corners={},
-        bends=(
-            1 / R,
-            None,
-            1 / R,
-        ),
-        slopes=(
-            (-b, 0),
-            None,
-            (b, 0),
-        ),
-    )
-
-
-def _breaks(*, R: Array, b: Array) -> tuple[Array, ...]:
-    """Where the curve is cut."""
-    return _body(R=R, b=b).kinks
-
-
-def _state(a: Array, c: Array, *, R: Array, b: Array) -> State:
-    """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
-    return _body(R=R, b=b).state(a, c)
-
-
-def _slope(x: Array, *, R: Array, b: Array) -> tuple[Array, Array]:
-    """g'(x) and g''(x)."""
-    return _body(R=R, b=b).slope(x)
-
-
-@elementwise(arrays=45)
-def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
-    """Contact and tilt under the load P and the moment M.
-
-        P = load(a, c), M = moment(a, c); solved for a and c by Newton's method
-        alpha = tilt(a, c)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-
-    Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and R > 0 and b > 0; nor where lengths leave 1e-75 to 1e75 m,
-    nor where the rounding of its edges moves the load by 1e-4, beside a kink or far from the
-    origin.  There is a contact for every load and moment: among those of one width, one has its
-    load's centre at -M/P, and the load grows with the width without limit.
-
-    The derivatives follow from K_N: a contact grows by flat punches.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> a, c, alpha = contact(2.0, 0.5, E_star=1.0, R=1.0, b=1.0)
-    >>> f"{load(a, c, E_star=1.0, R=1.0, b=1.0):.6g}"
-    '2'
-    >>> f"{moment(a, c, E_star=1.0, R=1.0, b=1.0):.6g}"
-    '0.5'
-    """
-    a, c, alpha = contact_under(P / E_star, M / E_star, R, _state, _breaks(R=R, b=b), R=R, b=b)
-    h = a + c  # contact width [m]
-    exists = (P > 0) & (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha))
-
-
-@elementwise(arrays=45)
-def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, b: Array) -> Contact:
-    """Contact under the load P at the tilt alpha.
-
-        P = load(a, c), alpha = tilt(a, c); solved for a and c by Newton's method
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        P       normal load per unit depth [N/m]
-        alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-
-    Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and E_star > 0 and R > 0 and b > 0; nor where lengths leave 1e-75 to 1e75 m,
-    nor where the rounding of its edges moves the load by 1e-4, beside a kink or far from the
-    origin, nor where that of alpha moves an edge by a hundredth of the width.  At every such tilt
-    the load grows with the width, from nothing and without limit.
-
-    The derivatives follow from K_N: a contact grows by flat punches.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> a, c, alpha = contact_at_tilt(2.0, 0.03125, E_star=1.0, R=1.0, b=1.0)
-    >>> f"{load(a, c, E_star=1.0, R=1.0, b=1.0):.6g}"
-    '2'
-    >>> f"{tilt(a, c, R=1.0, b=1.0):.6g}"
-    '0.03125'
-    """
-    place = level(_slope, alpha, R, (), R=R, b=b)
-    a, c, _ = contact_at(P / E_star, alpha, place, R, _state, _breaks(R=R, b=b), R=R, b=b)
-    h = a + c  # contact width [m]
-    exists = (P > 0) & (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return Contact(*only_where(exists, a, c, +alpha))
-
-
-@elementwise(arrays=26)
+@elementwise
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = theta_1*(a - 2*b - c)/(2*pi*R) + theta_2*(a + 2*b - c)/(2*pi*R) + w_1/(pi*R) -
-            w_2/(pi*R)
-        theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
-        theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
+        alpha = (h*involute(t_1)/(2*R) - h*involute(t_3)/(2*R) + t_1*Max(0, -b - c)/R -
+            t_3*Max(0, -a - b)/R)/pi
+        h = a + c
+        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
+        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
+        involute(t) = -t*cos(t) + sin(t)
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a  left edge of the contact at x = -a [m]
@@ -174,7 +66,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
 
     Returns alpha [rad].
     NaN unless a + c > 0 and (a > b) | (c > b) and R > 0 and b > 0; nor where lengths leave 1e-75 to
-    1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -184,20 +76,33 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     '0.367875'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
-    return only_where(exists, _body(R=R, b=b).tilt(a, c))
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    # angle of part 3 [-]
+    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
+    return where(
+        exists,
+        (
+            h * involute(t_1) / (2 * R)
+            + t_1 * np.maximum(-b - c, 0.0) / R
+            - h * involute(t_3) / (2 * R)
+            - t_3 * np.maximum(-a - b, 0.0) / R
+        )
+        / np.pi,
+        np.nan,
+    )
 
 
-@elementwise(arrays=26)
+@elementwise
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*theta_1*(a + c)**2/(16*R) + E_star*theta_2*(a + c)**2/(16*R) + E_star*w_1*(a
-            - 2*b - c)/(8*R) - E_star*w_2*(a + 2*b - c)/(8*R)
-        theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
-        theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
+        P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
+        h = a + c
+        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
+        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
+        segment(t) = t - sin(t)*cos(t)
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a       left edge of the contact at x = -a [m]
@@ -208,7 +113,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    leave 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/flat_rounded.py.
@@ -217,21 +122,24 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     '2.53246'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
-    return only_where(exists, E_star * _body(R=R, b=b).load(a, c))
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    # angle of part 3 [-]
+    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
+    return where(exists, (E_star / (16 * R)) * h**2 * (segment(t_1) + segment(t_3)), np.nan)
 
 
-@elementwise(arrays=26)
+@elementwise
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = E_star*theta_1*(a - c)*(a + c)**2/(32*R) + E_star*theta_2*(a - c)*(a + c)**2/(32*R)
-            + E_star*w_1*(3*a**2 - 2*a*b - 2*a*c - 4*b**2 + 2*b*c + 3*c**2)/(48*R) -
-            E_star*w_2*(3*a**2 + 2*a*b - 2*a*c - 4*b**2 - 2*b*c + 3*c**2)/(48*R)
-        theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
-        theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
+        M = E_star*h**2*(-h*(-sin(t_1)**3 + sin(t_3)**3)/(3*R) + (a - c)*(segment(t_1) +
+            segment(t_3))/R)/32
+        h = a + c
+        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
+        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
+        segment(t) = t - sin(t)*cos(t)
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a       left edge of the contact at x = -a [m]
@@ -242,7 +150,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 
     Returns M [N].
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    leave 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
         at 24 points.
@@ -252,24 +160,35 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     '1.82431'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
-    return only_where(exists, E_star * _body(R=R, b=b).moment(a, c))
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    # angle of part 3 [-]
+    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
+    return where(
+        exists,
+        (E_star / 32)
+        * h**2
+        * (
+            (a - c) * (segment(t_1) + segment(t_3)) / R
+            - h * (np.sin(t_3) ** 3 - np.sin(t_1) ** 3) / (3 * R)
+        ),
+        np.nan,
+    )
 
 
-@elementwise(arrays=40)
+@elementwise
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*(-L_1*(b + x)/R + L_2*(-b + x)/R)/pi + E_star*sqrt((a + x)*(c - x))*(theta_1
-            + theta_2)/(2*pi*R)
-        theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        L_1 = log((sqrt(u_1) + sqrt(v_1))/Abs(sqrt(u_1) - sqrt(v_1)))/2
-        u_1 = (a + x)*Max(0, b + c)
-        v_1 = (c - x)*Max(0, a - b)
-        theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        L_2 = log((sqrt(u_2) + sqrt(v_2))/Abs(sqrt(u_2) - sqrt(v_2)))/2
-        u_2 = (a + x)*Max(0, -b + c)
-        v_2 = (c - x)*Max(0, a + b)
+        p = E_star*h*(end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x))/(pi*R)
+        h = a + c
+        cos_x = sqrt(Max(0, c - x)/h)
+        sin_x = sqrt(Max(0, a + x)/h)
+        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
+        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
+        end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 +
+            v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) + v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
 
     Arguments broadcast; results are float64 of the broadcast shape.
         x       position along the interface, right positive [m]
@@ -281,7 +200,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
 
     Returns p [Pa].
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    leave 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -290,23 +209,33 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.392783'
     """
+    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST) & (x == x)
-    return only_where(exists, E_star * _body(R=R, b=b).pressure(x, a, c))
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    # angle of part 3 [-]
+    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
+    return where(
+        exists,
+        (E_star * h / (np.pi * R))
+        * (end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x)),
+        np.nan,
+    )
 
 
-@elementwise(arrays=26)
+@elementwise
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*theta_1*sqrt(a + c)/(2*pi*R) + E_star*theta_2*sqrt(a + c)/(2*pi*R) +
-            E_star*w_1/(pi*R*sqrt(a + c)) - E_star*w_2/(pi*R*sqrt(a + c))
-        K_N_right = E_star*theta_1*sqrt(a + c)/(2*pi*R) + E_star*theta_2*sqrt(a + c)/(2*pi*R) -
-            E_star*w_1/(pi*R*sqrt(a + c)) + E_star*w_2/(pi*R*sqrt(a + c))
-        theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
-        theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
+        K_N_left = E_star*sqrt(h)*(t_1/2 + sin(t_1)/2 + segment(t_3/2))/(pi*R)
+        K_N_right = E_star*sqrt(h)*(t_3/2 + sin(t_3)/2 + segment(t_1/2))/(pi*R)
+        h = a + c
+        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
+        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
+        segment(t) = t - sin(t)*cos(t)
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a       left edge of the contact at x = -a [m]
@@ -317,7 +246,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    leave 1e-75 to 1e75 m.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -327,24 +256,46 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['0.88135', '0.753378']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
-    return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).edges(a, c))))
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    # angle of part 3 [-]
+    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
+    return Edges(
+        where(
+            exists,
+            (E_star / (np.pi * R)) * (t_1 / 2 + np.sin(t_1) / 2 + segment(t_3 / 2)) * np.sqrt(h),
+            np.nan,
+        ),
+        where(
+            exists,
+            (E_star / (np.pi * R)) * (t_3 / 2 + np.sin(t_3) / 2 + segment(t_1 / 2)) * np.sqrt(h),
+            np.nan,
+        ),
+    )
 
 
-@elementwise(arrays=26)
+@elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = -E_star*theta_1/(4*pi*R*sqrt(a + c)) - E_star*theta_2/(4*pi*R*sqrt(a + c)) -
-            E_star*w_1*(3*a + b + 4*c)/(6*pi*R*(a - b)*(a + c)**(3/2)) + E_star*w_2*(3*a - b +
-            4*c)/(6*pi*R*(a + b)*(a + c)**(3/2))
-        L_N_right = -E_star*theta_1/(4*pi*R*sqrt(a + c)) - E_star*theta_2/(4*pi*R*sqrt(a + c)) +
-            E_star*w_1*(4*a - b + 3*c)/(6*pi*R*(a + c)**(3/2)*(b + c)) + E_star*w_2*(4*a + b +
-            3*c)/(6*pi*R*(a + c)**(3/2)*(b - c))
-        theta_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        w_1 = sqrt(Max(0, a - b)*Max(0, b + c))
-        theta_2 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        w_2 = sqrt(Max(0, a + b)*Max(0, -b + c))
+        L_N_left = -E_star*k_left/(4*sqrt(h)) + E_star*(-k_left*second_term(t_2, cos_1*cos_2,
+            sin_1*sin_2) + (-k_left + 1/R)*second_term(t_3, 0, sin_2))/(3*pi*sqrt(h))
+        L_N_right = -E_star*k_right/(4*sqrt(h)) + E_star*(-k_right*second_term(t_2, sin_1*sin_2,
+            cos_1*cos_2) + (-k_right + 1/R)*second_term(t_1, 0, cos_1))/(3*pi*sqrt(h))
+        h = a + c
+        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
+        k_left = Piecewise((1/R, a - b > 0), (0, a + b > 0), (1/R, True))
+        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
+            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
+        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
+        k_right = Piecewise((1/R, b - c < 0), (0, b + c > 0), (1/R, True))
+        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
+        second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
+            2*sin(t/2)/far, far > 0), (0, True))
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a       left edge of the contact at x = -a [m]
@@ -355,7 +306,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    leave 1e-75 to 1e75 m.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
         digits at 24 points.
@@ -367,527 +318,167 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['-0.148383', '-0.196186']
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST) & (R > 0) & (b > LEAST)
-    return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, b=b).second(a, c))))
-
-
-@elementwise(arrays=5, bare=("dQ",))
-def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
-    """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
-
-        K_T_left = (dQ/pi + dsigma*(a + c)/8)/sqrt(a + c)
-        K_T_right = (dQ/pi - dsigma*(a + c)/8)/sqrt(a + c)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-
-    Returns Edges(left [Pa*sqrt(m)], right [Pa*sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_T_left proved: limit of the full-stick change at the edge.
-    K_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> [f"{v:.6g}" for v in K_T(3.0, 2.0, 0.25, 0.125)]
-    ['0.0705267', '0.000649565']
-    """
-    h = a + c  # contact width [m]
-    root = np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
-            exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root
-        )
+    # cosine of half the angle of the kink x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # cosine of half the angle of the kink x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    k_left = where(a - b > 0, 1 / R, where(a + b > 0, 0, 1 / R))  # g'' at the left edge [m**(-1)]
+    # sine of half the angle of the kink x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # sine of half the angle of the kink x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
     )
-
-
-@elementwise(arrays=5, bare=("dQ",))
-def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
-    """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
-
-        L_T_left = (dQ/pi - 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
-        L_T_right = (dQ/pi + 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_T_left proved: limit of the full-stick change at the edge.
-    L_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> [f"{v:.6g}" for v in L_T(3.0, 2.0, 0.25, 0.125)]
-    ['-0.00692276', '0.0140404']
-    """
-    h = a + c  # contact width [m]
-    root = 2 * h * np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
+    # angle of part 3 [-]
+    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    k_right = where(b - c < 0, 1 / R, where(b + c > 0, 0, 1 / R))  # g'' at the right edge [m**(-1)]
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
     return Edges(
-        *only_where(
+        where(
             exists,
-            (dQ / np.pi - 3 * dsigma * h / 8) / root,
-            (dQ / np.pi + 3 * dsigma * h / 8) / root,
-        )
-    )
-
-
-@elementwise(arrays=5)
-def stick_margin(
-    a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
-) -> Edges:
-    """Friction left at the edges as all loads begin to change: no slip starts where it is >= 0.
-
-        S_left = f*Abs((4*dM - dP*(a - 3*c))/(a + c)) - Abs(dQ + pi*dsigma*(a + c)/8)
-        S_right = f*Abs((4*dM - dP*(3*a - c))/(a + c)) - Abs(dQ - pi*dsigma*(a + c)/8)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dP      change of the normal load over the same half-cycle [N/m]
-        dM      change of the moment over the same half-cycle [N]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-
-    Returns Edges(left [N/m], right [N/m]).
-    NaN unless a + c > 0 and f > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    S_left proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    S_right proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> [f"{v:.6g}" for v in stick_margin(3.0, 2.0, 0.5, 0.25, 0.25, 0.125, f=0.5)]
-    ['-0.245437', '0.245437']
-    """
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
+            (E_star / (3 * np.pi))
+            * (
+                (1 / R - k_left) * second_term(t_3, 0, sin_2)
+                - k_left * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
+            )
+            / np.sqrt(h)
+            - (E_star / 4) * k_left / np.sqrt(h),
+            np.nan,
+        ),
+        where(
             exists,
-            f * np.abs(4 * dM - dP * (a - 3 * c)) / h - np.abs(dQ + (np.pi / 8) * dsigma * h),
-            f * np.abs(4 * dM - dP * (3 * a - c)) / h - np.abs(dQ - (np.pi / 8) * dsigma * h),
-        )
+            (E_star / (3 * np.pi))
+            * (
+                (1 / R - k_right) * second_term(t_1, 0, cos_1)
+                - k_right * second_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
+            )
+            / np.sqrt(h)
+            - (E_star / 4) * k_right / np.sqrt(h),
+            np.nan,
+        ),
     )
 
 
 def _third(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(5/2) in the pressure next to the edges."""
-    return Edges(*(E_star * edge for edge in _body(R=R, b=b).third(a, c)))
+    h = a + c  # contact width [m]
+    # cosine of half the angle of the kink x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # cosine of half the angle of the kink x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    k_left = where(a - b > 0, 1 / R, where(a + b > 0, 0, 1 / R))  # g'' at the left edge [m**(-1)]
+    # sine of half the angle of the kink x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # sine of half the angle of the kink x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    )
+    # angle of part 3 [-]
+    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    k_right = where(b - c < 0, 1 / R, where(b + c > 0, 0, 1 / R))  # g'' at the right edge [m**(-1)]
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
+    return Edges(
+        where(
+            exists,
+            (E_star / (20 * np.pi))
+            * (
+                (1 / R - k_left) * third_term(t_3, 0, sin_2)
+                - k_left * third_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
+            )
+            / (h * np.sqrt(h))
+            - (E_star / 16) * k_left / (h * np.sqrt(h)),
+            np.nan,
+        ),
+        where(
+            exists,
+            (E_star / (20 * np.pi))
+            * (
+                (1 / R - k_right) * third_term(t_1, 0, cos_1)
+                - k_right * third_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
+            )
+            / (h * np.sqrt(h))
+            - (E_star / 16) * k_right / (h * np.sqrt(h)),
+            np.nan,
+        ),
+    )
 
 
-_LAW = Law(
-    contact,
-    contact_at_tilt,
-    tilt,
-    load,
-    moment,
-    pressure,
-    pressure,
-    K_N,
-    L_N,
-    _breaks,
-    third=_third,
+_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
+_p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
+_T_N = by_position(_third)
+
+
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+    """The pressure at x for E* = 1."""
+    return _p(x, a, c, 1.0, own[0], own[1])
+
+
+def _state(a: Array, c: Array, own: Array) -> Any:
+    """Load, moment, tilt and K_N for E* = 1."""
+    left, right = _K_N(a, c, 1.0, own[0], own[1])
+    load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
+    return load, moment, _tilt(a, c, own[0], own[1]), left, right
+
+
+def _series(a: Array, c: Array, own: Array) -> Any:
+    """L_N and the coefficients of s**(5/2) for E* = 1."""
+    left, right = _L_N(a, c, 1.0, own[0], own[1])
+    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
+    return left, right, third_left, third_right
+
+
+def _slope(x: Array, own: Array) -> Any:
+    """g'(x) and g''(x)."""
+    R, b = own[0], own[1]
+    return where(b <= x, (x - b) / R, 0) + where(b < -x, (b + x) / R, 0), where(
+        b <= x, 1 / R, 0
+    ) + where(b < -x, 1 / R, 0)
+
+
+def _breaks(own: Array) -> Any:
+    """Where the curve changes its formula."""
+    R, b = own[0], own[1]
+    return np.array([-b, b])
+
+
+_BODY = Body(
+    dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
+    (
+        Parameter("R", "radius of the rounded edges", "m"),
+        Parameter("b", "half-width of the flat", "m"),
+    ),
+    "derive/geometries/flat_rounded.py",
+    dict(
+        law="E_star=1.0, R=1.0, b=1.0",
+        edges="3.0, 2.0",
+        load="2.53246",
+        moment="1.82431",
+        alpha="0.367875",
+        dQ="0.32",
+        reduced="2.21246",
+        threshold="0.162975",
+        slip="['0.10337', '0.120929']",
+    ),
 )
 
-
-@chunkwise
-def stick_zone(
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    b: Array,
-    mixed: bool = False,
-) -> StickZone:
-    """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
-
-        moderate tension: load(m, n) = (P1 + P2)/2 - dQ/(2 f), tilt(m, n) = (alpha1 + alpha2)/2
-            - dsigma/(4 f E*)
-        large tension: int r sqrt((xi + m)/(xi - n)) dxi = dQ - pi dsigma (m + n)/8, int r
-            sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones, r = +/-
-            f (p1 + p2), the upper sign on the left if dsigma > 0
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-        mixed   whether to solve cycles in which slip turns round, too, to 1e-7 of the width; takes
-                far longer
-
-    Returns StickZone(m [m], n [m], regime as a code of Regime).
-    NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
-    MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
-    or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> here = Contact(3.0, 2.0, 0.0)
-    >>> zone = stick_zone(here, here, 0.32, 0.0, f=0.5, **law)
-    >>> Regime(zone.regime).name
-    'MODERATE'
-    >>> f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
-    '2.21246'
-    """
-    return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b, mixed=mixed)
-
-
-@chunkwise
-def tension_threshold(
-    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array, b: Array
-) -> Threshold:
-    """Changes of bulk tension between which tension is moderate, so that its solution is exact.
-
-        constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-
-    Returns Threshold(lower [Pa], upper [Pa]).
-    NaN unless there is such a range; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> here = Contact(3.0, 2.0, 0.0)
-    >>> lower, upper = tension_threshold(here, here, 0.32, f=0.5, **law)
-    >>> f"{upper:.6g}"
-    '0.162975'
-    """
-    return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R, b=b)
-
-
-@chunkwise
-def closing_tension(
-    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array, b: Array
-) -> Threshold:
-    """Changes of bulk tension at which the moderate solution closes one slip zone.
-
-        upper: load(m, c) = (P1 + P2)/2 - dQ/(2 f), dsigma = 4 f E* ((alpha1 + alpha2)/2 -
-            tilt(m, c)), c that of the smaller contact
-        lower: the same with a kept
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-
-    Returns Threshold(lower [Pa], upper [Pa]); slip reverses before it closes, see
-    tension_threshold.
-    NaN unless the reduced load is positive; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> here = Contact(3.0, 2.0, 0.0)
-    >>> lower, upper = closing_tension(here, here, 0.32, f=0.5, **law)
-    >>> bool(lower < 0 < upper)
-    True
-    """
-    return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R, b=b)
-
-
-@chunkwise
-def slip_zones(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    b: Array,
-    da: Array = 0.0,
-    dc: Array = 0.0,
-    order: int = 1,
-) -> Edges:
-    """Slip zones by series in their length: order 1, 2 or 3.
-
-        order 1: d = |K_T|/(f K_N) + da/2, and dc/2 at the right edge
-        orders 2 and 3: the conditions of stick_zone for the pressure's first two or three terms
-            at each edge of both contacts, cut behind that power of d, solved as they stand
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-        da      how much further the left edge reaches than at the other end of the half-cycle [m]
-        dc      how much further the right edge reaches [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> d = slip_zones(3.0, 2.0, 0.32, 0.0, f=0.5, **law)
-    >>> [f"{v:.6g}" for v in d]
-    ['0.10337', '0.120929']
-    """
-    return slip_zones_of(
-        _LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, b=b, da=da, dc=dc, order=order
-    )
-
-
-@chunkwise
-def slip_error(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    b: Array,
-    da: Array = 0.0,
-    dc: Array = 0.0,
-    order: int = 1,
-) -> Edges:
-    """By how much one more term would change the slip zones: an estimate of the series' error.
-
-        |d(order + 1) - d(order)|
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-        da      how much further the left edge reaches than at the other end of the half-cycle [m]
-        dc      how much further the right edge reaches [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns Edges(left [m], right [m]).
-    NaN unless both orders give slip zones; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> error = slip_error(3.0, 2.0, 0.32, 0.0, f=0.5, **law)
-    >>> bool(error.left > 0)
-    True
-    """
-    return slip_error_of(
-        _LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, b=b, da=da, dc=dc, order=order
-    )
-
-
-@chunkwise
-def shear_change(
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    b: Array,
-) -> Array:
-    """Change of the shear traction at x over the half-cycle; zero outside the contacts.
-
-        dq = kappa f (p1 + p2) where it slips
-        moderate tension: dq = f (p1 + p2) - 2 f p(x; m, n)
-        large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi where it sticks, w =
-            sqrt((xi + m)(xi - n)), negative on the left
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x       position along the interface, right positive [m]
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
-    regime of the whole half-cycle is MODERATE or LARGE.
-    NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> here = Contact(3.0, 2.0, 0.0)
-    >>> float(shear_change(here.c + 1.0, here, here, 0.32, 0.0, f=0.5, **law))
-    0.0
-    """
-    return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b)
-
-
-@chunkwise
-def shear(
-    x: Array,
-    contact: Contact,
-    Q: Array,
-    sigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    b: Array,
-    dQ: Array = 0.0,
-    dsigma: Array = 0.0,
-) -> Array:
-    """Shear traction at x in a cycle at constant normal loads; zero outside the contact.
-
-        q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq as by shear_change
-        first the shear load rises from nothing to Q and the tension to sigma, in proportion;
-            since then they have fallen by dQ and dsigma, in proportion again: by nothing at the
-            upper end of a cycle, by all of the half-cycle's change at the lower end, from which
-            q rises by shear_change
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x        position along the interface, right positive [m]
-        contact  Contact under normal loads that stay
-        Q        shear load that is reached first [N/m]
-        sigma    differential bulk tension that comes with it [Pa]
-        f        coefficient of friction [-]
-        E_star   composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R        radius of the rounded edges [m]
-        b        half-width of the flat [m]
-        dQ       what the shear load has fallen by since then [N/m]
-        dsigma   what the tension has fallen by since then [Pa]
-
-    Returns q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
-    NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it
-    slips back only where it slipped and drives none of that on, and dQ <= 2 Q; so reverse all
-    signs, those of q too, where the lower end has the larger shear load; nor where Q < 0, dQ < 0,
-    or Q >= f P, which is sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> here = Contact(3.0, 2.0, 0.0)
-    >>> law |= dict(f=0.5)
-    >>> upper, lower = (shear(0.1, here, 0.32, 0.0, dQ=fall, **law)
-    ...                 for fall in (0.0, 2 * 0.32))
-    >>> bool(upper == -lower)  # a cycle between Q and -Q
-    True
-    """
-    return shear_of(_LAW, x, contact, Q, sigma, f=f, E_star=E_star, R=R, b=b, dQ=dQ, dsigma=dsigma)
-
-
-@chunkwise
-def slip_range(
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    b: Array,
-) -> Array:
-    """How far the surfaces slip at x over the half-cycle; zero where they stick.
-
-        (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4; moderate tension and
-            constant loads: 2 f times the gap beside the patch [-m, n]
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x       position along the interface, right positive [m]
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-
-    Returns slip [m], positive.
-    NaN unless x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK; nor where dQ
-    < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> here = Contact(3.0, 2.0, 0.0)
-    >>> zone = stick_zone(here, here, 0.32, 0.0, f=0.5, **law)
-    >>> float(slip_range(zone.n, here, here, 0.32, 0.0, f=0.5, **law))
-    0.0
-    """
-    return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, b=b)
-
-
-@chunkwise_in_time
-def march(
-    P: Array,
-    M: Array,
-    Q: Array,
-    sigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    b: Array,
-    order: int = 0,
-) -> March:
-    """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
-
-        since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
-            where the whole half-cycle is MIXED it has not, and only its end may be known
-
-    Arguments broadcast; the instants of a cycle lie along the last axis.
-    Of a Dask array, that axis must be one chunk.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        Q       shear load at every instant [N/m]
-        sigma   differential bulk tension at every instant [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns March(a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime).
-    NaN unless all loads are as far on their way between both states, to 1e-6 of their change; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/flat_rounded.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, b=1.0)
-    >>> P, M = (of(3.0, 2.0, **law) for of in (load, moment))
-    >>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * 0.32 / 2
-    >>> cycle = march(P, M, Q, 0.0, f=0.5, **law)
-    >>> cycle.left.tolist()
-    [1, 1, -1, -1]
-    """
-    return march_of(_LAW, P, M, Q, sigma, f=f, E_star=E_star, R=R, b=b, order=order)
+contact = _BODY.bound(cycle.contact)
+contact_at_tilt = _BODY.bound(cycle.contact_at_tilt)
+stick_zone = _BODY.bound(cycle.stick_zone)
+tension_threshold = _BODY.bound(cycle.tension_threshold)
+closing_tension = _BODY.bound(cycle.closing_tension)
+slip_zones = _BODY.bound(cycle.slip_zones)
+slip_error = _BODY.bound(cycle.slip_error)
+shear_change = _BODY.bound(cycle.shear_change)
+shear = _BODY.bound(cycle.shear)
+slip_range = _BODY.bound(cycle.slip_range)
+march = _BODY.bound(cycle.march)

@@ -4,28 +4,17 @@
 g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 """
 
+from typing import Any
+
 import numpy as np
 
-from ._arrays import (
-    LEAST,
-    MOST,
-    chunkwise,
-    chunkwise_in_time,
-    elementwise,
-    kink_logarithm,
-    maximum,
-    minimum,
-    only_where,
-    scaled,
-    scaled_at_last,
-    select,
-)
-from ._law import Law
-from ._march import march_of
-from ._shear import shear_change_of, shear_of, slip_range_of
-from ._slip import slip_error_of, slip_zones_of
-from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
-from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
+from .runtime import cycle
+from .full_stick import K_T, L_T, stick_margin
+from .runtime.arrays import elementwise
+from .runtime.body import Body, Parameter
+from .runtime.elementary import LEAST, MOST, kink_logarithm, where
+from .runtime.shared import by_position
+from .runtime.types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
     "K_N",
@@ -57,7 +46,7 @@ __all__ = [
 ]
 
 
-@elementwise(arrays=15)
+@elementwise
 def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
@@ -87,20 +76,24 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     lean = 2 * e
     reach = np.abs(lean)  # how far the moment moves it [m]
     base = P / (E_star * phi)  # half-width without the moment [m]
-    longer = maximum(base, reach)
-    quotient = minimum(base, reach) / longer
+    longer = np.maximum(base, reach)
+    quotient = np.minimum(base, reach) / longer
     root = longer * np.sqrt(quotient**2 + 1)
     far = reach + root  # the farther edge [m]
     leaning = far * np.sign(lean)  # the farther edge, with the side's sign [m]
     near = base * (P / (phi * (E_star * far)))  # the nearer edge [m]
-    a = maximum(leaning, near)
-    c = maximum(-leaning, near)
+    a = np.maximum(leaning, near)
+    c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (minimum(a, c) > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, (2 * phi / np.pi) * np.arctan(lean / base)))
+    exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    return Contact(
+        where(exists, a, np.nan),
+        where(exists, c, np.nan),
+        where(exists, (2 * phi / np.pi) * np.arctan(lean / base), np.nan),
+    )
 
 
-@elementwise(arrays=10)
+@elementwise
 def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -126,7 +119,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     """
     scale = P / (E_star * phi)
     # half the smaller angle of the corner [-]
-    angle = select(
+    angle = where(
         np.abs(alpha) < phi / 2,
         np.pi / 4 - (np.pi / 4) * (np.abs(alpha) / phi),
         (np.pi / 4) * ((phi - np.abs(alpha)) / phi),
@@ -135,14 +128,14 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     far = scale / tangent  # to the farther edge [m]
     leaning = far * np.sign(alpha)  # the farther edge, with the side's sign [m]
     near = scale * tangent  # from the corner to the nearer edge [m]
-    a = maximum(leaning, near)
-    c = maximum(-leaning, near)
+    a = np.maximum(leaning, near)
+    c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (minimum(a, c) > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, +alpha))
+    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
-@elementwise(arrays=4)
+@elementwise
 def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
@@ -165,11 +158,11 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     '0.0160236'
     """
     h = a + c  # contact width [m]
-    exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))))
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    return where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))), np.nan)
 
 
-@elementwise(arrays=3)
+@elementwise
 def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
@@ -191,11 +184,11 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.153093'
     """
     h = a + c  # contact width [m]
-    exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (E_star * phi) * np.sqrt(a * c))
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    return where(exists, (E_star * phi) * np.sqrt(a * c), np.nan)
 
 
-@elementwise(arrays=4)
+@elementwise
 def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
@@ -218,11 +211,11 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     '0.0191366'
     """
     h = a + c  # contact width [m]
-    exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c))
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    return where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c), np.nan)
 
 
-@elementwise(arrays=5)
+@elementwise
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
@@ -249,14 +242,14 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     '0.0567155'
     """
     h = a + c  # contact width [m]
-    left_1 = scaled(a + x, 2 * c / h)  # vanishes at the left edge [m]
-    right_1 = scaled(c - x, 2 * a / h)  # vanishes at the right edge [m]
+    left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
+    right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
     logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
-    exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return only_where(exists, scaled_at_last(logarithm_1, E_star * phi / np.pi))
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    return where(exists, (E_star * phi / np.pi) * logarithm_1, np.nan)
 
 
-@elementwise(arrays=4)
+@elementwise
 def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
@@ -281,11 +274,11 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (2 * E_star * phi / np.pi) / np.sqrt(a * c * h)
-    exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return Edges(*only_where(exists, c * scale, a * scale))
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
+    return Edges(where(exists, c * scale, np.nan), where(exists, a * scale, np.nan))
 
 
-@elementwise(arrays=5)
+@elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
@@ -312,114 +305,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
-    exists = (minimum(a, c) > LEAST) & (h < MOST)
-    return Edges(*only_where(exists, scale * (c / h + 2 * c / a), scale * (a / h + 2 * a / c)))
-
-
-@elementwise(arrays=5, bare=("dQ",))
-def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
-    """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
-
-        K_T_left = (dQ/pi + dsigma*(a + c)/8)/sqrt(a + c)
-        K_T_right = (dQ/pi - dsigma*(a + c)/8)/sqrt(a + c)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-
-    Returns Edges(left [Pa*sqrt(m)], right [Pa*sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_T_left proved: limit of the full-stick change at the edge.
-    K_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/geometries/wedge.py.
-
-    >>> [f"{v:.6g}" for v in K_T(1.5, 1.0, 0.25, 0.125)]
-    ['0.0750345', '0.0256239']
-    """
-    h = a + c  # contact width [m]
-    root = np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(
-        *only_where(
-            exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root
-        )
-    )
-
-
-@elementwise(arrays=5, bare=("dQ",))
-def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
-    """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
-
-        L_T_left = (dQ/pi - 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
-        L_T_right = (dQ/pi + 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_T_left proved: limit of the full-stick change at the edge.
-    L_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/geometries/wedge.py.
-
-    >>> [f"{v:.6g}" for v in L_T(1.5, 1.0, 0.25, 0.125)]
-    ['-0.00475733', '0.024889']
-    """
-    h = a + c  # contact width [m]
-    root = 2 * h * np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
-            exists,
-            (dQ / np.pi - 3 * dsigma * h / 8) / root,
-            (dQ / np.pi + 3 * dsigma * h / 8) / root,
-        )
-    )
-
-
-@elementwise(arrays=5)
-def stick_margin(
-    a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
-) -> Edges:
-    """Friction left at the edges as all loads begin to change: no slip starts where it is >= 0.
-
-        S_left = f*Abs((4*dM - dP*(a - 3*c))/(a + c)) - Abs(dQ + pi*dsigma*(a + c)/8)
-        S_right = f*Abs((4*dM - dP*(3*a - c))/(a + c)) - Abs(dQ - pi*dsigma*(a + c)/8)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dP      change of the normal load over the same half-cycle [N/m]
-        dM      change of the moment over the same half-cycle [N]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-
-    Returns Edges(left [N/m], right [N/m]).
-    NaN unless a + c > 0 and f > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    S_left proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    S_right proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    Derived from derive/geometries/wedge.py.
-
-    >>> [f"{v:.6g}" for v in stick_margin(1.5, 1.0, 0.5, 0.25, 0.25, 0.125, f=0.5)]
-    ['-0.0227185', '0.0227185']
-    """
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
-            exists,
-            f * np.abs(4 * dM - dP * (a - 3 * c)) / h - np.abs(dQ + (np.pi / 8) * dsigma * h),
-            f * np.abs(4 * dM - dP * (3 * a - c)) / h - np.abs(dQ - (np.pi / 8) * dsigma * h),
-        )
+        where(exists, scale * (c / h + 2 * c / a), np.nan),
+        where(exists, scale * (a / h + 2 * a / c), np.nan),
     )
 
 
@@ -427,410 +316,72 @@ def _third(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """Coefficients of s**(5/2) in the pressure next to the edges."""
     h = a + c  # contact width [m]
     scale = (E_star * phi / (20 * np.pi)) / (h * np.sqrt(a * c * h))
-    exists = (minimum(a, c) > LEAST) & (h < MOST)
+    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
     return Edges(
-        *only_where(
-            exists,
-            scale * (3 * a * c / h + 4 * c + 8 * c * h / a) / a,
-            scale * (3 * a * c / h + 4 * a + 8 * a * h / c) / c,
-        )
+        where(exists, scale * (3 * a * c / h + 4 * c + 8 * c * h / a) / a, np.nan),
+        where(exists, scale * (3 * a * c / h + 4 * a + 8 * a * h / c) / c, np.nan),
     )
 
 
-def _breaks(*, phi: Array) -> tuple[Array, ...]:
-    """Where the curve is cut."""
-    return (0,)
+_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
+_p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
+_T_N = by_position(_third)
 
 
-_LAW = Law(
-    contact,
-    contact_at_tilt,
-    tilt,
-    load,
-    moment,
-    pressure,
-    pressure,
-    K_N,
-    L_N,
-    _breaks,
-    third=_third,
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+    """The pressure at x for E* = 1."""
+    return _p(x, a, c, 1.0, own[0])
+
+
+def _state(a: Array, c: Array, own: Array) -> Any:
+    """Load, moment, tilt and K_N for E* = 1."""
+    left, right = _K_N(a, c, 1.0, own[0])
+    load, moment = _load(a, c, 1.0, own[0]), _moment(a, c, 1.0, own[0])
+    return load, moment, _tilt(a, c, own[0]), left, right
+
+
+def _series(a: Array, c: Array, own: Array) -> Any:
+    """L_N and the coefficients of s**(5/2) for E* = 1."""
+    left, right = _L_N(a, c, 1.0, own[0])
+    third_left, third_right = _T_N(a, c, 1.0, own[0])
+    return left, right, third_left, third_right
+
+
+def _slope(x: Array, own: Array) -> Any:
+    """g'(x) and g''(x)."""
+    phi = own[0]
+    return where(x >= 0, 2 * phi, 0) - phi, 0.0
+
+
+def _breaks(own: Array) -> Any:
+    """Where the curve changes its formula."""
+    phi = own[0]
+    return np.array([0.0])
+
+
+_BODY = Body(
+    dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
+    (Parameter("phi", "slope of the flanks", "rad"),),
+    "derive/geometries/wedge.py",
+    dict(
+        law="E_star=1.0, phi=0.125",
+        edges="1.5, 1.0",
+        load="0.153093",
+        moment="0.0191366",
+        alpha="0.0160236",
+        dQ="0.019",
+        reduced="0.134093",
+        threshold="0.0193532",
+        slip="['0.186161', '0.124107']",
+    ),
 )
 
-
-@chunkwise
-def stick_zone(
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    phi: Array,
-    mixed: bool = False,
-) -> StickZone:
-    """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
-
-        moderate tension: load(m, n) = (P1 + P2)/2 - dQ/(2 f), tilt(m, n) = (alpha1 + alpha2)/2
-            - dsigma/(4 f E*)
-        large tension: int r sqrt((xi + m)/(xi - n)) dxi = dQ - pi dsigma (m + n)/8, int r
-            sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones, r = +/-
-            f (p1 + p2), the upper sign on the left if dsigma > 0
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-        mixed   whether to solve cycles in which slip turns round, too, to 1e-7 of the width; takes
-                far longer
-
-    Returns StickZone(m [m], n [m], regime as a code of Regime).
-    NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
-    MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
-    or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> zone = stick_zone(here, here, 0.019, 0.0, f=0.5, **law)
-    >>> Regime(zone.regime).name
-    'MODERATE'
-    >>> f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
-    '0.134093'
-    """
-    return stick_zone_of(_LAW, first, second, dQ, dsigma, f=f, E_star=E_star, phi=phi, mixed=mixed)
-
-
-@chunkwise
-def tension_threshold(
-    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, phi: Array
-) -> Threshold:
-    """Changes of bulk tension between which tension is moderate, so that its solution is exact.
-
-        constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-
-    Returns Threshold(lower [Pa], upper [Pa]).
-    NaN unless there is such a range; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> lower, upper = tension_threshold(here, here, 0.019, f=0.5, **law)
-    >>> f"{upper:.6g}"
-    '0.0193532'
-    """
-    return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, phi=phi)
-
-
-@chunkwise
-def closing_tension(
-    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, phi: Array
-) -> Threshold:
-    """Changes of bulk tension at which the moderate solution closes one slip zone.
-
-        upper: load(m, c) = (P1 + P2)/2 - dQ/(2 f), dsigma = 4 f E* ((alpha1 + alpha2)/2 -
-            tilt(m, c)), c that of the smaller contact
-        lower: the same with a kept
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-
-    Returns Threshold(lower [Pa], upper [Pa]); slip reverses before it closes, see
-    tension_threshold.
-    NaN unless the reduced load is positive; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> lower, upper = closing_tension(here, here, 0.019, f=0.5, **law)
-    >>> bool(lower < 0 < upper)
-    True
-    """
-    return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, phi=phi)
-
-
-@chunkwise
-def slip_zones(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    phi: Array,
-    da: Array = 0.0,
-    dc: Array = 0.0,
-    order: int = 1,
-) -> Edges:
-    """Slip zones by series in their length: order 1, 2 or 3.
-
-        order 1: d = |K_T|/(f K_N) + da/2, and dc/2 at the right edge
-        orders 2 and 3: the conditions of stick_zone for the pressure's first two or three terms
-            at each edge of both contacts, cut behind that power of d, solved as they stand
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-        da      how much further the left edge reaches than at the other end of the half-cycle [m]
-        dc      how much further the right edge reaches [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> d = slip_zones(1.5, 1.0, 0.019, 0.0, f=0.5, **law)
-    >>> [f"{v:.6g}" for v in d]
-    ['0.186161', '0.124107']
-    """
-    return slip_zones_of(
-        _LAW, a, c, dQ, dsigma, f=f, E_star=E_star, phi=phi, da=da, dc=dc, order=order
-    )
-
-
-@chunkwise
-def slip_error(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    phi: Array,
-    da: Array = 0.0,
-    dc: Array = 0.0,
-    order: int = 1,
-) -> Edges:
-    """By how much one more term would change the slip zones: an estimate of the series' error.
-
-        |d(order + 1) - d(order)|
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-        da      how much further the left edge reaches than at the other end of the half-cycle [m]
-        dc      how much further the right edge reaches [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns Edges(left [m], right [m]).
-    NaN unless both orders give slip zones; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> error = slip_error(1.5, 1.0, 0.019, 0.0, f=0.5, **law)
-    >>> bool(error.left > 0)
-    True
-    """
-    return slip_error_of(
-        _LAW, a, c, dQ, dsigma, f=f, E_star=E_star, phi=phi, da=da, dc=dc, order=order
-    )
-
-
-@chunkwise
-def shear_change(
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    phi: Array,
-) -> Array:
-    """Change of the shear traction at x over the half-cycle; zero outside the contacts.
-
-        dq = kappa f (p1 + p2) where it slips
-        moderate tension: dq = f (p1 + p2) - 2 f p(x; m, n)
-        large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi where it sticks, w =
-            sqrt((xi + m)(xi - n)), negative on the left
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x       position along the interface, right positive [m]
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
-    regime of the whole half-cycle is MODERATE or LARGE.
-    NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> float(shear_change(here.c + 1.0, here, here, 0.019, 0.0, f=0.5, **law))
-    0.0
-    """
-    return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, phi=phi)
-
-
-@chunkwise
-def shear(
-    x: Array,
-    contact: Contact,
-    Q: Array,
-    sigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    phi: Array,
-    dQ: Array = 0.0,
-    dsigma: Array = 0.0,
-) -> Array:
-    """Shear traction at x in a cycle at constant normal loads; zero outside the contact.
-
-        q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq as by shear_change
-        first the shear load rises from nothing to Q and the tension to sigma, in proportion;
-            since then they have fallen by dQ and dsigma, in proportion again: by nothing at the
-            upper end of a cycle, by all of the half-cycle's change at the lower end, from which
-            q rises by shear_change
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x        position along the interface, right positive [m]
-        contact  Contact under normal loads that stay
-        Q        shear load that is reached first [N/m]
-        sigma    differential bulk tension that comes with it [Pa]
-        f        coefficient of friction [-]
-        E_star   composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi      slope of the flanks [rad]
-        dQ       what the shear load has fallen by since then [N/m]
-        dsigma   what the tension has fallen by since then [Pa]
-
-    Returns q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
-    NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it
-    slips back only where it slipped and drives none of that on, and dQ <= 2 Q; so reverse all
-    signs, those of q too, where the lower end has the larger shear load; nor where Q < 0, dQ < 0,
-    or Q >= f P, which is sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> law |= dict(f=0.5)
-    >>> upper, lower = (shear(0.1, here, 0.019, 0.0, dQ=fall, **law)
-    ...                 for fall in (0.0, 2 * 0.019))
-    >>> bool(upper == -lower)  # a cycle between Q and -Q
-    True
-    """
-    return shear_of(_LAW, x, contact, Q, sigma, f=f, E_star=E_star, phi=phi, dQ=dQ, dsigma=dsigma)
-
-
-@chunkwise
-def slip_range(
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    phi: Array,
-) -> Array:
-    """How far the surfaces slip at x over the half-cycle; zero where they stick.
-
-        (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4; moderate tension and
-            constant loads: 2 f times the gap beside the patch [-m, n]
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x       position along the interface, right positive [m]
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-
-    Returns slip [m], positive.
-    NaN unless x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK; nor where dQ
-    < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> zone = stick_zone(here, here, 0.019, 0.0, f=0.5, **law)
-    >>> float(slip_range(zone.n, here, here, 0.019, 0.0, f=0.5, **law))
-    0.0
-    """
-    return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, phi=phi)
-
-
-@chunkwise_in_time
-def march(
-    P: Array,
-    M: Array,
-    Q: Array,
-    sigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    phi: Array,
-    order: int = 0,
-) -> March:
-    """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
-
-        since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
-            where the whole half-cycle is MIXED it has not, and only its end may be known
-
-    Arguments broadcast; the instants of a cycle lie along the last axis.
-    Of a Dask array, that axis must be one chunk.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        Q       shear load at every instant [N/m]
-        sigma   differential bulk tension at every instant [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns March(a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime).
-    NaN unless all loads are as far on their way between both states, to 1e-6 of their change; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge.py.
-
-    >>> law = dict(E_star=1.0, phi=0.125)
-    >>> P, M = (of(1.5, 1.0, **law) for of in (load, moment))
-    >>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * 0.019 / 2
-    >>> cycle = march(P, M, Q, 0.0, f=0.5, **law)
-    >>> cycle.left.tolist()
-    [1, 1, -1, -1]
-    """
-    return march_of(_LAW, P, M, Q, sigma, f=f, E_star=E_star, phi=phi, order=order)
+stick_zone = _BODY.bound(cycle.stick_zone)
+tension_threshold = _BODY.bound(cycle.tension_threshold)
+closing_tension = _BODY.bound(cycle.closing_tension)
+slip_zones = _BODY.bound(cycle.slip_zones)
+slip_error = _BODY.bound(cycle.slip_error)
+shear_change = _BODY.bound(cycle.shear_change)
+shear = _BODY.bound(cycle.shear)
+slip_range = _BODY.bound(cycle.slip_range)
+march = _BODY.bound(cycle.march)

@@ -4,18 +4,18 @@
 g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/wedge_parabola.py.
 """
 
+from typing import Any
+
 import numpy as np
 
-from ._arrays import LEAST, MOST, chunkwise, chunkwise_in_time, elementwise, only_where
-from ._law import Law
-from ._march import march_of
-from ._parabolas import Parabolas, looked_up
-from ._shear import shear_change_of, shear_of, slip_range_of
-from ._slip import slip_error_of, slip_zones_of
-from ._solve import contact_at, contact_under, level
-from ._state import State
-from ._stick import closing_tension_of, stick_zone_of, tension_threshold_of
-from ._types import Array, Contact, Edges, March, Regime, StickZone, Threshold
+from .runtime import cycle
+from .full_stick import K_T, L_T, stick_margin
+from .runtime.arrays import elementwise
+from .runtime.body import Body, Parameter
+from .runtime.elementary import LEAST, MOST, kink_logarithm, where
+from .runtime.segments import segment, involute, root_ratio, second_term, third_term, end_pressure
+from .runtime.shared import by_position
+from .runtime.types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 __all__ = [
     "K_N",
@@ -47,120 +47,15 @@ __all__ = [
 ]
 
 
-@looked_up
-def _body(*, R: Array, phi: Array) -> Parabolas:
-    """Where the curve is cut, and the lines and parabolas between."""
-    return Parabolas(
-        kinks=(0,),
-        spans=(),
-        corners={0: phi},
-        bends=(
-            None,
-            1 / R,
-        ),
-        slopes=(
-            (0, -phi),
-            (0, 0),
-        ),
-    )
-
-
-def _breaks(*, R: Array, phi: Array) -> tuple[Array, ...]:
-    """Where the curve is cut."""
-    return _body(R=R, phi=phi).kinks
-
-
-def _state(a: Array, c: Array, *, R: Array, phi: Array) -> State:
-    """What the contact [-a, c] carries for E* = 1, and its edge coefficients."""
-    return _body(R=R, phi=phi).state(a, c)
-
-
-def _slope(x: Array, *, R: Array, phi: Array) -> tuple[Array, Array]:
-    """g'(x) and g''(x)."""
-    return _body(R=R, phi=phi).slope(x)
-
-
-@elementwise(arrays=45)
-def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array, phi: Array) -> Contact:
-    """Contact and tilt under the load P and the moment M.
-
-        P = load(a, c), M = moment(a, c); solved for a and c by Newton's method
-        alpha = tilt(a, c)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-
-    Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m,
-    nor where the rounding of its edges moves the load by 1e-4, beside a kink or far from the
-    origin.  There is a contact for every load and moment: among those of one width, one has its
-    load's centre at -M/P, and the load grows with the width without limit.
-
-    The derivatives follow from K_N: a contact grows by flat punches.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> a, c, alpha = contact(1.0, 0.25, E_star=1.0, R=1.0, phi=0.125)
-    >>> f"{load(a, c, E_star=1.0, R=1.0, phi=0.125):.6g}"
-    '1'
-    >>> f"{moment(a, c, E_star=1.0, R=1.0, phi=0.125):.6g}"
-    '0.25'
-    """
-    a, c, alpha = contact_under(
-        P / E_star, M / E_star, R, _state, _breaks(R=R, phi=phi), R=R, phi=phi
-    )
-    h = a + c  # contact width [m]
-    exists = (P > 0) & (h > LEAST) & (c > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, alpha))
-
-
-@elementwise(arrays=45)
-def contact_at_tilt(
-    P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array, phi: Array
-) -> Contact:
-    """Contact under the load P at the tilt alpha.
-
-        P = load(a, c), alpha = tilt(a, c); solved for a and c by Newton's method
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        P       normal load per unit depth [N/m]
-        alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-
-    Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and alpha < phi and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m, nor where the rounding of its edges moves the load by 1e-4, beside a kink or
-    far from the origin, nor where that of alpha moves an edge by a hundredth of the width.  At
-    every such tilt the load grows with the width, from nothing and without limit.
-
-    The derivatives follow from K_N: a contact grows by flat punches.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> a, c, alpha = contact_at_tilt(1.0, 0.03125, E_star=1.0, R=1.0, phi=0.125)
-    >>> f"{load(a, c, E_star=1.0, R=1.0, phi=0.125):.6g}"
-    '1'
-    >>> f"{tilt(a, c, R=1.0, phi=0.125):.6g}"
-    '0.03125'
-    """
-    place = level(_slope, alpha, R, (0,), R=R, phi=phi)
-    a, c, _ = contact_at(P / E_star, alpha, place, R, _state, _breaks(R=R, phi=phi), R=R, phi=phi)
-    h = a + c  # contact width [m]
-    exists = (P > 0) & (alpha < phi) & (h > LEAST) & (c > LEAST) & (h < MOST)
-    return Contact(*only_where(exists, a, c, +alpha))
-
-
-@elementwise(arrays=26)
+@elementwise
 def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = (2*pi*R*phi + theta_1*(-2*R*phi + a - c) - 2*w_1)/(2*pi*R)
-        theta_1 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        w_1 = sqrt(Max(0, a)*Max(0, c))
+        alpha = (phi*t_1 - h*involute(t_2)/(2*R) - t_2*Max(0, -a)/R)/pi
+        h = a + c
+        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
+        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
+        involute(t) = -t*cos(t) + sin(t)
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a    left edge of the contact at x = -a [m]
@@ -170,7 +65,6 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
 
     Returns alpha [rad].
     NaN unless a + c > 0 and c > 0 and R > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-    Computed part by part between the kinks, where no terms cancel.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
         integral of g(x); 48 digits at 24 points.
@@ -180,17 +74,26 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     '-0.21036'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
-    return only_where(exists, _body(R=R, phi=phi).tilt(a, c))
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
+    return where(
+        exists,
+        (t_1 * phi - h * involute(t_2) / (2 * R) - t_2 * np.maximum(-a, 0.0) / R) / np.pi,
+        np.nan,
+    )
 
 
-@elementwise(arrays=26)
+@elementwise
 def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*(theta_1*(a + c)**2 - 2*w_1*(-4*R*phi + a - c))/(16*R)
-        theta_1 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        w_1 = sqrt(Max(0, a)*Max(0, c))
+        P = E_star*phi*sqrt(Max(0, a)*Max(0, c))/2 + E_star*h**2*segment(t_2)/(16*R)
+        h = a + c
+        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
+        segment(t) = t - sin(t)*cos(t)
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a       left edge of the contact at x = -a [m]
@@ -201,7 +104,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
     Returns P [N/m].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/wedge_parabola.py.
@@ -210,18 +113,26 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     '0.534937'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
-    return only_where(exists, E_star * _body(R=R, phi=phi).load(a, c))
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
+    return where(
+        exists,
+        (E_star * phi / 2) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))
+        + (E_star / (16 * R)) * h**2 * segment(t_2),
+        np.nan,
+    )
 
 
-@elementwise(arrays=26)
+@elementwise
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = E_star*(3*theta_1*(a - c)*(a + c)**2 - 2*w_1*(-6*R*a*phi + 6*R*c*phi + 3*a**2 -
-            2*a*c + 3*c**2))/(96*R)
-        theta_1 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        w_1 = sqrt(Max(0, a)*Max(0, c))
+        M = E_star*h**2*(-h*sin(t_2)**3/(3*R) + (a - c)*segment(t_2)/R)/32 +
+            E_star*phi*sqrt(Max(0, a)*Max(0, c))*(a - c)/8
+        h = a + c
+        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
+        segment(t) = t - sin(t)*cos(t)
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a       left edge of the contact at x = -a [m]
@@ -232,7 +143,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
     Returns M [N].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
         at 24 points.
@@ -242,19 +153,30 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     '-0.0289272'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
-    return only_where(exists, E_star * _body(R=R, phi=phi).moment(a, c))
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
+    return where(
+        exists,
+        (E_star / 32) * h**2 * ((a - c) * segment(t_2) / R - h * np.sin(t_2) ** 3 / (3 * R))
+        + (E_star * phi / 8) * (a - c) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0)),
+        np.nan,
+    )
 
 
-@elementwise(arrays=40)
+@elementwise
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*L_1*(R*phi + x)/(pi*R) + E_star*theta_1*sqrt((a + x)*(c - x))/(2*pi*R)
-        theta_1 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        L_1 = log((sqrt(u_1) + sqrt(v_1))/Abs(sqrt(u_1) - sqrt(v_1)))/2
-        u_1 = (a + x)*Max(0, c)
-        v_1 = (c - x)*Max(0, a)
+        p = E_star*phi*kink_logarithm((2*a + 2*x)*Max(0, c)/h, (2*c - 2*x)*Max(0, a)/h,
+            x)/(2*pi) + E_star*h*end_pressure(t_2, cos_x, sin_x)/(pi*R)
+        h = a + c
+        cos_x = sqrt(Max(0, c - x)/h)
+        sin_x = sqrt(Max(0, a + x)/h)
+        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
+        kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
+        end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 +
+            v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) + v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
 
     Arguments broadcast; results are float64 of the broadcast shape.
         x       position along the interface, right positive [m]
@@ -266,7 +188,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
 
     Returns p [Pa].
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
         integral of g(x); 49 digits at 24 points.
@@ -275,19 +197,38 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.359742'
     """
+    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0) & (x == x)
-    return only_where(exists, E_star * _body(R=R, phi=phi).pressure(x, a, c))
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (x == x)
+    return where(
+        exists,
+        (E_star * phi / (2 * np.pi))
+        * kink_logarithm(
+            (np.maximum(c, 0.0) / h) * (2 * a + 2 * x),
+            (np.maximum(a, 0.0) / h) * (2 * c - 2 * x),
+            x,
+        )
+        + (E_star * h / (np.pi * R)) * end_pressure(t_2, cos_x, sin_x),
+        np.nan,
+    )
 
 
-@elementwise(arrays=26)
+@elementwise
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*(a*theta_1*(a + c) - 2*w_1*(-R*phi + a))/(2*pi*R*a*sqrt(a + c))
-        K_N_right = E_star*(c*theta_1*(a + c) + 2*w_1*(R*phi + c))/(2*pi*R*c*sqrt(a + c))
-        theta_1 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        w_1 = sqrt(Max(0, a)*Max(0, c))
+        K_N_left = E_star*cot_1*phi/(pi*sqrt(h)) + E_star*sqrt(h)*segment(t_2/2)/(pi*R)
+        K_N_right = E_star*phi*tan_1/(pi*sqrt(h)) + E_star*sqrt(h)*(t_2 + sin(t_2))/(2*pi*R)
+        cot_1 = root_ratio(c, a)
+        h = a + c
+        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
+        tan_1 = root_ratio(a, c)
+        segment(t) = t - sin(t)*cos(t)
+        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a       left edge of the contact at x = -a [m]
@@ -298,7 +239,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    1e-75 to 1e75 m.
 
     K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
@@ -307,21 +248,48 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125)]
     ['0.118599', '0.621996']
     """
+    cot_1 = root_ratio(c, a)  # cotangent of half the angle of the kink x = 0 [-]
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
-    return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, phi=phi).edges(a, c))))
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
+    tan_1 = root_ratio(a, c)  # tangent of half the angle of the kink x = 0 [-]
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
+    return Edges(
+        where(
+            exists,
+            (E_star * phi / np.pi) * cot_1 / np.sqrt(h)
+            + (E_star / (np.pi * R)) * segment(t_2 / 2) * np.sqrt(h),
+            np.nan,
+        ),
+        where(
+            exists,
+            (E_star * phi / np.pi) * tan_1 / np.sqrt(h)
+            + (E_star / (2 * np.pi * R)) * (t_2 + np.sin(t_2)) * np.sqrt(h),
+            np.nan,
+        ),
+    )
 
 
-@elementwise(arrays=26)
+@elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = (-3*E_star*a**2*theta_1*(a + c)**(3/2) + 2*E_star*w_1*sqrt(a + c)*(3*R*a*phi
-            + 2*R*c*phi + 3*a**2 + 4*a*c))/(12*pi*R*a**2*(a + c)**2)
-        L_N_right = -E_star*(-4*R*a*phi*w_1 - 6*R*c*phi*w_1 + 3*a*c**2*theta_1 + 8*a*c*w_1 +
-            3*c**3*theta_1 + 6*c**2*w_1)/(12*pi*R*c**2*(a + c)**(3/2))
-        theta_1 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        w_1 = sqrt(Max(0, a)*Max(0, c))
+        L_N_left = E_star*cot_1*phi*(2*cot_1**2 + 3)/(6*pi*h**(3/2)) - E_star*k_left/(4*sqrt(h))
+            + E_star*(-k_left + 1/R)*second_term(t_2, 0, sin_1)/(3*pi*sqrt(h))
+        L_N_right = -E_star*k_right*second_term(t_1, 0, cos_1)/(3*pi*sqrt(h)) -
+            E_star*k_right/(4*sqrt(h)) + E_star*phi*tan_1*(2*tan_1**2 + 3)/(6*pi*h**(3/2))
+        cot_1 = root_ratio(c, a)
+        h = a + c
+        k_left = Piecewise((0, a > 0), (1/R, True))
+        sin_1 = sqrt(Min(h, Max(0, a))/h)
+        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
+        cos_1 = sqrt(Min(h, Max(0, c))/h)
+        k_right = Piecewise((1/R, c > 0), (0, True))
+        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
+        tan_1 = root_ratio(a, c)
+        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+        second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
+            2*sin(t/2)/far, far > 0), (0, True))
 
     Arguments broadcast; results are float64 of the broadcast shape.
         a       left edge of the contact at x = -a [m]
@@ -332,7 +300,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
     Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
     NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.  Computed part by part between the kinks, where no terms cancel.
+    1e-75 to 1e75 m.
 
     L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
         digits at 24 points.
@@ -343,532 +311,145 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125)]
     ['0.0301586', '-0.204532']
     """
+    cot_1 = root_ratio(c, a)  # cotangent of half the angle of the kink x = 0 [-]
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (R > 0) & (phi > 0)
-    return Edges(*only_where(exists, *(E_star * edge for edge in _body(R=R, phi=phi).second(a, c))))
-
-
-@elementwise(arrays=5, bare=("dQ",))
-def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
-    """Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.
-
-        K_T_left = (dQ/pi + dsigma*(a + c)/8)/sqrt(a + c)
-        K_T_right = (dQ/pi - dsigma*(a + c)/8)/sqrt(a + c)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-
-    Returns Edges(left [Pa*sqrt(m)], right [Pa*sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_T_left proved: limit of the full-stick change at the edge.
-    K_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> [f"{v:.6g}" for v in K_T(1.5, 1.0, 0.25, 0.125)]
-    ['0.0750345', '0.0256239']
-    """
-    h = a + c  # contact width [m]
-    root = np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
+    k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [m**(-1)]
+    # sine of half the angle of the kink x = 0 [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
+    # cosine of half the angle of the kink x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)
+    k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [m**(-1)]
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
+    tan_1 = root_ratio(a, c)  # tangent of half the angle of the kink x = 0 [-]
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
     return Edges(
-        *only_where(
-            exists, (dQ / np.pi + dsigma * h / 8) / root, (dQ / np.pi - dsigma * h / 8) / root
-        )
-    )
-
-
-@elementwise(arrays=5, bare=("dQ",))
-def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
-    """Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.
-
-        L_T_left = (dQ/pi - 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
-        L_T_right = (dQ/pi + 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_T_left proved: limit of the full-stick change at the edge.
-    L_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> [f"{v:.6g}" for v in L_T(1.5, 1.0, 0.25, 0.125)]
-    ['-0.00475733', '0.024889']
-    """
-    h = a + c  # contact width [m]
-    root = 2 * h * np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
+        where(
             exists,
-            (dQ / np.pi - 3 * dsigma * h / 8) / root,
-            (dQ / np.pi + 3 * dsigma * h / 8) / root,
-        )
-    )
-
-
-@elementwise(arrays=5)
-def stick_margin(
-    a: Array, c: Array, dP: Array, dM: Array, dQ: Array, dsigma: Array, *, f: Array
-) -> Edges:
-    """Friction left at the edges as all loads begin to change: no slip starts where it is >= 0.
-
-        S_left = f*Abs((4*dM - dP*(a - 3*c))/(a + c)) - Abs(dQ + pi*dsigma*(a + c)/8)
-        S_right = f*Abs((4*dM - dP*(3*a - c))/(a + c)) - Abs(dQ - pi*dsigma*(a + c)/8)
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dP      change of the normal load over the same half-cycle [N/m]
-        dM      change of the moment over the same half-cycle [N]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-
-    Returns Edges(left [N/m], right [N/m]).
-    NaN unless a + c > 0 and f > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    S_left proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    S_right proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> [f"{v:.6g}" for v in stick_margin(1.5, 1.0, 0.5, 0.25, 0.25, 0.125, f=0.5)]
-    ['-0.0227185', '0.0227185']
-    """
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        *only_where(
+            (E_star * phi / (6 * np.pi)) * cot_1 * (2 * cot_1**2 + 3) / (h * np.sqrt(h))
+            + (E_star / (3 * np.pi)) * (1 / R - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(h)
+            - (E_star / 4) * k_left / np.sqrt(h),
+            np.nan,
+        ),
+        where(
             exists,
-            f * np.abs(4 * dM - dP * (a - 3 * c)) / h - np.abs(dQ + (np.pi / 8) * dsigma * h),
-            f * np.abs(4 * dM - dP * (3 * a - c)) / h - np.abs(dQ - (np.pi / 8) * dsigma * h),
-        )
+            (E_star * phi / (6 * np.pi)) * tan_1 * (2 * tan_1**2 + 3) / (h * np.sqrt(h))
+            - (E_star / (3 * np.pi)) * k_right * second_term(t_1, 0, cos_1) / np.sqrt(h)
+            - (E_star / 4) * k_right / np.sqrt(h),
+            np.nan,
+        ),
     )
 
 
 def _third(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     """Coefficients of s**(5/2) in the pressure next to the edges."""
-    return Edges(*(E_star * edge for edge in _body(R=R, phi=phi).third(a, c)))
+    cot_1 = root_ratio(c, a)  # cotangent of half the angle of the kink x = 0 [-]
+    h = a + c  # contact width [m]
+    k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [m**(-1)]
+    # sine of half the angle of the kink x = 0 [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
+    # cosine of half the angle of the kink x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)
+    k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [m**(-1)]
+    # angle of part 1 [-]
+    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
+    tan_1 = root_ratio(a, c)  # tangent of half the angle of the kink x = 0 [-]
+    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
+    return Edges(
+        where(
+            exists,
+            (E_star * phi / (40 * np.pi))
+            * cot_1
+            * (4 * cot_1**2 * (2 * cot_1**2 + 5) + 15)
+            / (h**2 * np.sqrt(h))
+            + (E_star / (20 * np.pi))
+            * (1 / R - k_left)
+            * third_term(t_2, 0, sin_1)
+            / (h * np.sqrt(h))
+            - (E_star / 16) * k_left / (h * np.sqrt(h)),
+            np.nan,
+        ),
+        where(
+            exists,
+            (E_star * phi / (40 * np.pi))
+            * tan_1
+            * (4 * tan_1**2 * (2 * tan_1**2 + 5) + 15)
+            / (h**2 * np.sqrt(h))
+            - (E_star / (20 * np.pi)) * k_right * third_term(t_1, 0, cos_1) / (h * np.sqrt(h))
+            - (E_star / 16) * k_right / (h * np.sqrt(h)),
+            np.nan,
+        ),
+    )
 
 
-_LAW = Law(
-    contact,
-    contact_at_tilt,
-    tilt,
-    load,
-    moment,
-    pressure,
-    pressure,
-    K_N,
-    L_N,
-    _breaks,
-    third=_third,
+_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
+_p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
+_T_N = by_position(_third)
+
+
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+    """The pressure at x for E* = 1."""
+    return _p(x, a, c, 1.0, own[0], own[1])
+
+
+def _state(a: Array, c: Array, own: Array) -> Any:
+    """Load, moment, tilt and K_N for E* = 1."""
+    left, right = _K_N(a, c, 1.0, own[0], own[1])
+    load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
+    return load, moment, _tilt(a, c, own[0], own[1]), left, right
+
+
+def _series(a: Array, c: Array, own: Array) -> Any:
+    """L_N and the coefficients of s**(5/2) for E* = 1."""
+    left, right = _L_N(a, c, 1.0, own[0], own[1])
+    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
+    return left, right, third_left, third_right
+
+
+def _slope(x: Array, own: Array) -> Any:
+    """g'(x) and g''(x)."""
+    R, phi = own[0], own[1]
+    return where(x >= 0, (R * phi + x) / R, 0) - phi, where(x >= 0, 1 / R, 0)
+
+
+def _breaks(own: Array) -> Any:
+    """Where the curve changes its formula."""
+    R, phi = own[0], own[1]
+    return np.array([0.0])
+
+
+_BODY = Body(
+    dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
+    (
+        Parameter("R", "relative radius of curvature on the right", "m"),
+        Parameter("phi", "slope of the left flank", "rad"),
+    ),
+    "derive/geometries/wedge_parabola.py",
+    dict(
+        law="E_star=1.0, R=1.0, phi=0.125",
+        edges="1.5, 1.0",
+        load="0.534937",
+        moment="-0.0289272",
+        alpha="-0.21036",
+        dQ="0.067",
+        reduced="0.467937",
+        threshold="0.0682456",
+        slip="['0.22746', '0.0433708']",
+    ),
 )
 
-
-@chunkwise
-def stick_zone(
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    phi: Array,
-    mixed: bool = False,
-) -> StickZone:
-    """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
-
-        moderate tension: load(m, n) = (P1 + P2)/2 - dQ/(2 f), tilt(m, n) = (alpha1 + alpha2)/2
-            - dsigma/(4 f E*)
-        large tension: int r sqrt((xi + m)/(xi - n)) dxi = dQ - pi dsigma (m + n)/8, int r
-            sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones, r = +/-
-            f (p1 + p2), the upper sign on the left if dsigma > 0
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-        mixed   whether to solve cycles in which slip turns round, too, to 1e-7 of the width; takes
-                far longer
-
-    Returns StickZone(m [m], n [m], regime as a code of Regime).
-    NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
-    MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
-    or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> zone = stick_zone(here, here, 0.067, 0.0, f=0.5, **law)
-    >>> Regime(zone.regime).name
-    'MODERATE'
-    >>> f"{load(zone.m, zone.n, **law):.6g}"  # P - dQ/(2 f)
-    '0.467937'
-    """
-    return stick_zone_of(
-        _LAW, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, phi=phi, mixed=mixed
-    )
-
-
-@chunkwise
-def tension_threshold(
-    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array, phi: Array
-) -> Threshold:
-    """Changes of bulk tension between which tension is moderate, so that its solution is exact.
-
-        constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-
-    Returns Threshold(lower [Pa], upper [Pa]).
-    NaN unless there is such a range; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> lower, upper = tension_threshold(here, here, 0.067, f=0.5, **law)
-    >>> f"{upper:.6g}"
-    '0.0682456'
-    """
-    return tension_threshold_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R, phi=phi)
-
-
-@chunkwise
-def closing_tension(
-    first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array, R: Array, phi: Array
-) -> Threshold:
-    """Changes of bulk tension at which the moderate solution closes one slip zone.
-
-        upper: load(m, c) = (P1 + P2)/2 - dQ/(2 f), dsigma = 4 f E* ((alpha1 + alpha2)/2 -
-            tilt(m, c)), c that of the smaller contact
-        lower: the same with a kept
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-
-    Returns Threshold(lower [Pa], upper [Pa]); slip reverses before it closes, see
-    tension_threshold.
-    NaN unless the reduced load is positive; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> lower, upper = closing_tension(here, here, 0.067, f=0.5, **law)
-    >>> bool(lower < 0 < upper)
-    True
-    """
-    return closing_tension_of(_LAW, first, second, dQ, f=f, E_star=E_star, R=R, phi=phi)
-
-
-@chunkwise
-def slip_zones(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    phi: Array,
-    da: Array = 0.0,
-    dc: Array = 0.0,
-    order: int = 1,
-) -> Edges:
-    """Slip zones by series in their length: order 1, 2 or 3.
-
-        order 1: d = |K_T|/(f K_N) + da/2, and dc/2 at the right edge
-        orders 2 and 3: the conditions of stick_zone for the pressure's first two or three terms
-            at each edge of both contacts, cut behind that power of d, solved as they stand
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-        da      how much further the left edge reaches than at the other end of the half-cycle [m]
-        dc      how much further the right edge reaches [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> d = slip_zones(1.5, 1.0, 0.067, 0.0, f=0.5, **law)
-    >>> [f"{v:.6g}" for v in d]
-    ['0.22746', '0.0433708']
-    """
-    return slip_zones_of(
-        _LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, phi=phi, da=da, dc=dc, order=order
-    )
-
-
-@chunkwise
-def slip_error(
-    a: Array,
-    c: Array,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    phi: Array,
-    da: Array = 0.0,
-    dc: Array = 0.0,
-    order: int = 1,
-) -> Edges:
-    """By how much one more term would change the slip zones: an estimate of the series' error.
-
-        |d(order + 1) - d(order)|
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-        da      how much further the left edge reaches than at the other end of the half-cycle [m]
-        dc      how much further the right edge reaches [m]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns Edges(left [m], right [m]).
-    NaN unless both orders give slip zones; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> error = slip_error(1.5, 1.0, 0.067, 0.0, f=0.5, **law)
-    >>> bool(error.left > 0)
-    True
-    """
-    return slip_error_of(
-        _LAW, a, c, dQ, dsigma, f=f, E_star=E_star, R=R, phi=phi, da=da, dc=dc, order=order
-    )
-
-
-@chunkwise
-def shear_change(
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    phi: Array,
-) -> Array:
-    """Change of the shear traction at x over the half-cycle; zero outside the contacts.
-
-        dq = kappa f (p1 + p2) where it slips
-        moderate tension: dq = f (p1 + p2) - 2 f p(x; m, n)
-        large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi where it sticks, w =
-            sqrt((xi + m)(xi - n)), negative on the left
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x       position along the interface, right positive [m]
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
-    regime of the whole half-cycle is MODERATE or LARGE.
-    NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> float(shear_change(here.c + 1.0, here, here, 0.067, 0.0, f=0.5, **law))
-    0.0
-    """
-    return shear_change_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, phi=phi)
-
-
-@chunkwise
-def shear(
-    x: Array,
-    contact: Contact,
-    Q: Array,
-    sigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    phi: Array,
-    dQ: Array = 0.0,
-    dsigma: Array = 0.0,
-) -> Array:
-    """Shear traction at x in a cycle at constant normal loads; zero outside the contact.
-
-        q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq as by shear_change
-        first the shear load rises from nothing to Q and the tension to sigma, in proportion;
-            since then they have fallen by dQ and dsigma, in proportion again: by nothing at the
-            upper end of a cycle, by all of the half-cycle's change at the lower end, from which
-            q rises by shear_change
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x        position along the interface, right positive [m]
-        contact  Contact under normal loads that stay
-        Q        shear load that is reached first [N/m]
-        sigma    differential bulk tension that comes with it [Pa]
-        f        coefficient of friction [-]
-        E_star   composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R        relative radius of curvature on the right [m]
-        phi      slope of the left flank [rad]
-        dQ       what the shear load has fallen by since then [N/m]
-        dsigma   what the tension has fallen by since then [Pa]
-
-    Returns q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
-    NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it
-    slips back only where it slipped and drives none of that on, and dQ <= 2 Q; so reverse all
-    signs, those of q too, where the lower end has the larger shear load; nor where Q < 0, dQ < 0,
-    or Q >= f P, which is sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> law |= dict(f=0.5)
-    >>> upper, lower = (shear(0.1, here, 0.067, 0.0, dQ=fall, **law)
-    ...                 for fall in (0.0, 2 * 0.067))
-    >>> bool(upper == -lower)  # a cycle between Q and -Q
-    True
-    """
-    return shear_of(
-        _LAW, x, contact, Q, sigma, f=f, E_star=E_star, R=R, phi=phi, dQ=dQ, dsigma=dsigma
-    )
-
-
-@chunkwise
-def slip_range(
-    x: Array,
-    first: Contact,
-    second: Contact,
-    dQ: Array,
-    dsigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    phi: Array,
-) -> Array:
-    """How far the surfaces slip at x over the half-cycle; zero where they stick.
-
-        (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4; moderate tension and
-            constant loads: 2 f times the gap beside the patch [-m, n]
-
-    Arguments broadcast; results are float64 of the broadcast shape.
-        x       position along the interface, right positive [m]
-        first   Contact at the start of the half-cycle that raises the shear load
-        second  Contact at its end; the same for constant normal loads
-        dQ      change of the shear load over the half-cycle that raises it [N/m]
-        dsigma  change of the differential bulk tension over the same half-cycle [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-
-    Returns slip [m], positive.
-    NaN unless x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK; nor where dQ
-    < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> here = Contact(1.5, 1.0, 0.0)
-    >>> zone = stick_zone(here, here, 0.067, 0.0, f=0.5, **law)
-    >>> float(slip_range(zone.n, here, here, 0.067, 0.0, f=0.5, **law))
-    0.0
-    """
-    return slip_range_of(_LAW, x, first, second, dQ, dsigma, f=f, E_star=E_star, R=R, phi=phi)
-
-
-@chunkwise_in_time
-def march(
-    P: Array,
-    M: Array,
-    Q: Array,
-    sigma: Array,
-    *,
-    f: Array,
-    E_star: Array,
-    R: Array,
-    phi: Array,
-    order: int = 0,
-) -> March:
-    """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
-
-        since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given;
-            where the whole half-cycle is MIXED it has not, and only its end may be known
-
-    Arguments broadcast; the instants of a cycle lie along the last axis.
-    Of a Dask array, that axis must be one chunk.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        Q       shear load at every instant [N/m]
-        sigma   differential bulk tension at every instant [Pa]
-        f       coefficient of friction [-]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-        order   order of the series; march takes 0 for the exact conditions
-
-    Returns March(a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime).
-    NaN unless all loads are as far on their way between both states, to 1e-6 of their change; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    Derived from derive/geometries/wedge_parabola.py.
-
-    >>> law = dict(E_star=1.0, R=1.0, phi=0.125)
-    >>> P, M = (of(1.5, 1.0, **law) for of in (load, moment))
-    >>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * 0.067 / 2
-    >>> cycle = march(P, M, Q, 0.0, f=0.5, **law)
-    >>> cycle.left.tolist()
-    [1, 1, -1, -1]
-    """
-    return march_of(_LAW, P, M, Q, sigma, f=f, E_star=E_star, R=R, phi=phi, order=order)
+contact = _BODY.bound(cycle.contact)
+contact_at_tilt = _BODY.bound(cycle.contact_at_tilt)
+stick_zone = _BODY.bound(cycle.stick_zone)
+tension_threshold = _BODY.bound(cycle.tension_threshold)
+closing_tension = _BODY.bound(cycle.closing_tension)
+slip_zones = _BODY.bound(cycle.slip_zones)
+slip_error = _BODY.bound(cycle.slip_error)
+shear_change = _BODY.bound(cycle.shear_change)
+shear = _BODY.bound(cycle.shear)
+slip_range = _BODY.bound(cycle.slip_range)
+march = _BODY.bound(cycle.march)

@@ -1,19 +1,21 @@
 """From proven formulas to NumPy.
 
+plan      which way each function takes: formula, sum over parts, quadrature, solved
 program   named steps, then outputs: what a function computes, before it is text
 rewrite   rules that keep digits in floating point; the result is compared with its source
+parts     formulas of bodies of lines and parabolas as sums over the parts of a contact
 printer   SymPy -> NumPy source
 contract  which functions a module has
-memory    how many arrays a function holds at once
-function  the text of one function
-cancel    where closed formulas lose digits to powers that cancel
-integrated  the text of functions that are integrated, everywhere or where kinks crowd
-parabolas  the text of functions that are added up part by part between kinks
+function  the text of one function that has a formula
+summed    the same for a sum over parts
 third     the text of the third coefficient of the pressure next to the edges
-solved    the text of the inverses that have no closed formula
+law       the text of what the solvers need of a body
+cuts      where a body without closed formulas is cut for quadrature
+curve     the text of such a body: its curve, and the functions that are integrated over it
 module    the one template of a generated module
 mark      what every generated file begins with
 trial     runs the module as it was printed, and compares
 publish   compares a whole package with what is on disk, or replaces it
-support/  what generated modules need besides NumPy; copied beside them
+
+What generated modules need besides NumPy is derive/runtime/, copied beside them.
 """

@@ -14,7 +14,6 @@ from sympy import Expr, Gt, Lt, Min, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
-from derive.codegen.memory import LABORIOUS, arrays_held
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import LEAST, MOST, TINY, Program
 from derive.codegen.rewrite import prove_equal, stable_program
@@ -85,21 +84,7 @@ class FunctionText:
 
     @property
     def _decorators(self) -> Iterator[str]:
-        bare = f", bare={self._bare}" if self._bare else ""
-        yield f"@elementwise(arrays={self._arrays}{bare})".replace("'", '"')
-
-    @property
-    def _arrays(self) -> int:
-        """How many arrays it holds at once, all arguments by position being arrays."""
-        return arrays_held(self._code, map(str, self.function.arguments))
-
-    @property
-    def _bare(self) -> tuple[str, ...]:
-        """Arguments each of which alone makes it hold nothing but its several results."""
-        results, names = len(self.function.fields), map(str, self.function.arguments)
-        if results == 1:
-            return ()
-        return tuple(name for name in names if arrays_held(self._code, [name]) <= results)
+        yield "@elementwise"
 
     @property
     def _signature(self) -> str:
@@ -126,38 +111,16 @@ class FunctionText:
         printer = NumPyPrinter(varying)
         units = self._units()
         if x in arguments and _is_drawn_in(self.sheet):
-            yield "    x = minimum(maximum(x, -a), c)  # beyond the edges all is zero [m]"
+            yield "    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]"
         for step in self.program.steps:
             note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
-            value = self._of_sum(step.expr, varying, printer) or printer.doprint(step.expr)
-            yield from _noted(f"    {step.symbol} = {value}", note)
-        values = {
-            name: self._in_place(expr, varying, printer) or printer.doprint(expr)
-            for name, expr in self.program.outputs.items()
-        }
-        values = {name: "+" * self._is_held(name) + v for name, v in values.items()}
+            yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
+        values = {name: printer.doprint(expr) for name, expr in self.program.outputs.items()}
         if self.function.kind == "Contact":
             yield f"    a = {values['a']}"
             yield f"    c = {values['c']}"
             values |= {"a": "a", "c": "c"}
         yield from self._ending(values)
-
-    def _in_place(self, expr: Expr, varying: set[Symbol], printer: NumPyPrinter) -> str | None:
-        """A number times what varies along x and is wanted no more, computed where that is kept."""
-        factor, kept = expr.as_independent(*varying, as_Add=False)
-        right = [*self.program.outputs.values(), *(step.expr for step in self.program.steps)]
-        uses = sum(kept in side.free_symbols for side in right)
-        own = any(step.symbol == kept and not step.expr.is_Symbol for step in self.program.steps)
-        if x not in self.function.arguments or factor == 1 or not own or uses > 1:
-            return None
-        return f"scaled_at_last({printer.doprint(kept)}, {printer.doprint(factor)})"
-
-    def _of_sum(self, expr: Expr, varying: set[Symbol], printer: NumPyPrinter) -> str | None:
-        """A number times a sum that varies along x, computed in the memory of that sum."""
-        factor, kept = expr.as_independent(*varying, as_Add=False)
-        if x not in self.function.arguments or factor == 1 or not kept.is_Add:
-            return None
-        return f"scaled({printer.doprint(kept)}, {printer.doprint(factor)})"
 
     def _ending(self, values: dict[str, str]) -> Iterator[str]:
         """Where the state exists, and the result that is NaN elsewhere."""
@@ -167,7 +130,12 @@ class FunctionText:
         checks = [printer.doprint(condition) for condition in _one_check(self._checked)]
         checks += self._further_checks
         yield f"    exists = {' & '.join(f'({check})' for check in checks)}"
-        yield from self._result(values)
+        found = ", ".join(f"where(exists, {value}, np.nan)" for value in values.values())
+        yield (
+            f"    return {self.function.kind}({found})"
+            if self.function.kind
+            else f"    return {found}"
+        )
 
     @property
     def _further_checks(self) -> Iterator[str]:
@@ -175,20 +143,6 @@ class FunctionText:
         corners = (k for k in self.sheet.frame.kinks if k.clipped and k.kink.is_corner)
         if self.function.name == "pressure" and any(corners):
             yield "x == x"
-
-    def _result(self, values: dict[str, str]) -> Iterator[str]:
-        found = f"only_where(exists, {', '.join(values.values())})"
-        yield f"    return {self._wrapped(found)}"
-
-    def _wrapped(self, found: str) -> str:
-        """A list of results as the named tuple, or the only one as it is."""
-        return f"{self.function.kind}(*{found})" if self.function.kind else found
-
-    def _is_held(self, name: str) -> bool:
-        """Whether an argument or an earlier field of the result is the same array."""
-        expr, earlier = self.program.outputs[name], [*self.program.outputs]
-        others = [self.program.outputs[n] for n in earlier[: earlier.index(name)]]
-        return expr in self.function.arguments or (expr.is_Symbol and expr in others)
 
     @property
     def _checked(self) -> list[Boolean]:
@@ -309,24 +263,6 @@ class BareText(FunctionText):
     @property
     def _docstring(self) -> str:
         return f'"""{self.function.summary}"""'
-
-
-class CallingText(FunctionText):
-    """The text of a function that hands its arguments to support/: no formula of it is printed."""
-
-    @property
-    def _arrays(self) -> int:
-        return LABORIOUS
-
-    @property
-    def _bare(self) -> tuple[str, ...]:
-        return ()
-
-    def _made(self) -> Program:
-        return Program({})
-
-    def _demand_equal(self) -> None:
-        """Nothing was rewritten; the module is tried as a whole."""
 
 
 def _is_drawn_in(sheet: FormulaSheet) -> bool:

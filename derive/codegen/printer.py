@@ -35,6 +35,8 @@ from sympy.logic.boolalg import BooleanFalse, BooleanTrue
 from sympy.printing.precedence import PRECEDENCE, precedence_traditional
 from sympy.printing.str import StrPrinter
 
+from derive.theory.segments import FUNCTIONS as NAMED
+
 _MUL = PRECEDENCE["Mul"]
 
 
@@ -55,7 +57,6 @@ _FUNCTIONS = {
     "cosh": "np.cosh",
     "exp": "np.exp",
     "expm1": "np.expm1",
-    "kink_logarithm": "kink_logarithm",
     "log": "np.log",
     "log1p": "np.log1p",
     "sign": "np.sign",
@@ -64,6 +65,7 @@ _FUNCTIONS = {
     "tan": "np.tan",
     "tanh": "np.tanh",
 }
+_FUNCTIONS |= {function.__name__: function.__name__ for function in NAMED}
 _NAMED = ("Max", "Min", "Piecewise", "fmax")
 _CONSTANTS = {S.Pi: "np.pi", S.Exp1: "np.e", S.EulerGamma: "np.euler_gamma"}
 
@@ -116,7 +118,7 @@ class NumPyPrinter(StrPrinter):
 
     def _print_fmax(self, expr: Expr) -> str:
         first, second = expr.args
-        return f"fmax({self._print(first)}, {self._print(second)}{'.0' * second.is_Integer})"
+        return f"np.fmax({self._print(first)}, {self._print(second)}{'.0' * second.is_Integer})"
 
     _print_Abs = _print_sign = _print_log = _print_Function
 
@@ -134,7 +136,9 @@ class NumPyPrinter(StrPrinter):
     def _print_Add(self, expr: Add, order: object = None) -> str:
         """Positive terms first: phi - alpha, not -alpha + phi."""
         terms = sorted(expr.as_ordered_terms(), key=lambda t: t.could_extract_minus_sign())
-        text = self.parenthesize(terms[0], PRECEDENCE["Add"])
+        first = terms[0]
+        below = first.could_extract_minus_sign()  # all are
+        text = self._print(first) if below else self.parenthesize(first, PRECEDENCE["Add"])
         for term in terms[1:]:
             negative = term.could_extract_minus_sign()
             inner = self.parenthesize(-term if negative else term, PRECEDENCE["Add"])
@@ -182,10 +186,10 @@ class NumPyPrinter(StrPrinter):
         return f"{expr.p} / {expr.q}"
 
     def _print_Max(self, expr: Expr) -> str:
-        return self._nested("maximum", expr)
+        return self._nested("np.maximum", expr)
 
     def _print_Min(self, expr: Expr) -> str:
-        return self._nested("minimum", expr)
+        return self._nested("np.minimum", expr)
 
     def _nested(self, name: str, expr: Expr) -> str:
         first, *rest = sorted(expr.args, key=lambda arg: (arg.is_number, str(arg)))
@@ -200,7 +204,7 @@ class NumPyPrinter(StrPrinter):
             raise CannotPrint(f"a Piecewise without a last resort: {expr}")
         text = self._print(last)
         for value, condition in reversed(cases):
-            text = f"select({self._print(condition)}, {self._print(value)}, {text})"
+            text = f"where({self._print(condition)}, {self._print(value)}, {text})"
         return text
 
     def _print_Relational(self, expr: Basic) -> str:

@@ -3,7 +3,9 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Abs, Expr, Function, Rational, Symbol, UnevaluatedExpr, log, sqrt
+from sympy import Abs, Expr, Function, Rational, Symbol, UnevaluatedExpr, log
+
+from derive.theory.segments import as_it_is, written_out
 
 
 class Kept(UnevaluatedExpr):
@@ -42,17 +44,6 @@ class log1p(Function):
     """log(1 + z), which keeps the digits of a small z."""
 
     nargs = 1
-
-
-class kink_logarithm(Function):
-    """log(1 + (sqrt(u v) + min(u, v))/|d|) of u, v and d, though the quotient may leave float64.
-
-    Zero where u or v is negative.  A fourth argument is what |d| is at least.
-    """
-
-    nargs = (3, 4)
-    of_a_quotient = True
-    """Of arguments of one dimension."""
 
 
 @dataclass(frozen=True)
@@ -125,19 +116,22 @@ class Program:
 
     def flat(self) -> dict[str, Expr]:
         """The outputs with every step written in, as mathematics."""
-        table = {s.symbol: s.expr for s in self.steps} | {TINY: Rational(1, 2**1074)}
+        plain = self.in_mathematics()
+        table = {s.symbol: as_it_is(s.expr) for s in plain.steps}
 
         def written_in(expr: Expr) -> Expr:
             while held := expr.free_symbols & table.keys():
                 expr = expr.xreplace({symbol: table[symbol] for symbol in held})
+            return expr
+
+        return {name: written_in(expr) for name, expr in plain.outputs.items()}
+
+    def in_mathematics(self) -> "Program":
+        """The program in functions of mathematics alone."""
+
+        def plain(expr: Expr) -> Expr:
+            expr = expr.xreplace({TINY: Rational(1, 2**1074)})
             expr = expr.replace(fmax, lambda p, q: (p + q + Abs(p - q)) / 2)
-            expr = expr.replace(kink_logarithm, _of_kink)
-            return expr.replace(log1p, lambda z: log(1 + z))
+            return written_out(expr).replace(log1p, lambda z: log(1 + z))
 
-        return {name: written_in(expr) for name, expr in self.outputs.items()}
-
-
-def _of_kink(left: Expr, right: Expr, offset: Expr, *_: Expr) -> Expr:
-    """What a kink_logarithm is inside the contact, and farther from the kink than at least."""
-    nearer = (left + right - Abs(left - right)) / 2  # SymPy's Min compares what it holds
-    return log(1 + (sqrt(left * right) + nearer) / Abs(offset))
+        return self.mapped(plain)

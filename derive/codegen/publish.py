@@ -14,14 +14,17 @@ from pathlib import Path
 from derive.codegen.mark import MARK
 from derive.errors import BadOutput
 
-_SUPPORT = Path(__file__).parent / "support"
+_RUNTIME = Path(__file__).parent.parent / "runtime"
 _TITLE = '"""Contact laws as NumPy functions, one module a body; every formula is proven."""\n'
 
-_ALWAYS = ("_arrays", "_types")
-"""Modules of support/ that every package has; the others come with a module that imports them."""
-
 _COMPILED = "__pycache__"
-"""Where Python keeps the modules of a folder compiled; it makes them again if they are gone."""
+"""Where Python, and numba, keep what they compiled; they make it again if it is gone."""
+
+FULL_STICK = "full_stick"
+"""The module of what belongs to no body."""
+
+_SUFFIXES = (".pyc", ".nbi", ".nbc")
+"""Endings of what lies there; anything else would be lost with it."""
 
 Files = Mapping[str, str]
 """Name of each file of a package, and its text."""
@@ -42,22 +45,13 @@ class Difference:
 
 
 def package_files(modules: Files) -> dict[str, str]:
-    """All files of a package that holds `modules`, texts by module name."""
+    """All files of a package that holds `modules`, texts by module name, and the runtime."""
     files = {"__init__.py": f"{MARK}\n{_TITLE}", "py.typed": ""}
-    made = {f"{name}.py": text for name, text in sorted(modules.items())}
-    return files | _support(made) | made
-
-
-def _support(made: Files) -> dict[str, str]:
-    """The modules of support/ that the modules made need, and those that these need."""
-    texts = {p.stem: p.read_text(encoding="utf-8") for p in _SUPPORT.glob("_[a-z]*.py")}
-    needed, open_ = set(_ALWAYS), [*made.values(), *(texts[name] for name in _ALWAYS)]
-    while open_:
-        text = open_.pop()
-        found = {name for name in texts if f"from .{name} import" in text} - needed
-        needed |= found
-        open_ += [texts[name] for name in found]
-    return {f"{name}.py": f"{MARK}\n{texts[name]}" for name in sorted(needed)}
+    files |= {f"{name}.py": text for name, text in sorted(modules.items())}
+    for path in sorted(_RUNTIME.rglob("*.py")):
+        name = path.relative_to(_RUNTIME.parent).as_posix()
+        files[name] = f"{MARK}\n{path.read_text(encoding='utf-8')}"
+    return files
 
 
 def modules_in(folder: Path) -> dict[str, str]:
@@ -68,7 +62,7 @@ def modules_in(folder: Path) -> dict[str, str]:
 
 def differences(files: Files, folder: Path) -> list[Difference]:
     """What in `folder` is not as in `files`: the list of names first, then every byte."""
-    held = {p.name: p for p in _entries(folder)}
+    held = {p.relative_to(folder).as_posix(): p for p in _entries(folder)}
     found = [Difference(name, "missing") for name in files if name not in held]
     found += [Difference(name, "not generated") for name in held if name not in files]
     for name, path in held.items():
@@ -105,6 +99,7 @@ def publish(files: Files, folder: Path) -> None:
     try:
         fresh.mkdir()
         for name, text in files.items():
+            (fresh / name).parent.mkdir(parents=True, exist_ok=True)
             (fresh / name).write_bytes(text.encode())
         if folder.exists():
             folder.replace(old)
@@ -151,31 +146,26 @@ def demand_replaceable(folder: Path) -> None:
         return
     if folder.is_symlink() or not folder.is_dir():
         raise BadOutput(str(folder), "is no directory")
-    foreign = [path for path in _entries(folder) if not _is_ours(path)] + _uncompiled(folder)
-    for path in foreign:
-        name = str(path.relative_to(folder))
-        raise BadOutput(str(folder), f"holds {name!r}, which was not generated")
+    for path in _entries(folder):
+        if not _is_ours(path):
+            name = path.relative_to(folder).as_posix()
+            raise BadOutput(str(folder), f"holds {name!r}, which was not generated")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
         raise BadOutput(str(folder), "is where this command runs")
 
 
 def _entries(folder: Path) -> list[Path]:
-    """What a folder holds, but for the place where Python keeps what it compiled."""
-    if not folder.is_dir():
-        return []
-    return sorted(p for p in folder.iterdir() if p.name != _COMPILED)
-
-
-def _uncompiled(folder: Path) -> list[Path]:
-    """What stands in that place and was not compiled by Python: it would be lost with it."""
-    kept = folder / _COMPILED
-    if kept.is_symlink() or not kept.is_dir():
-        return [kept] if kept.is_symlink() or kept.exists() else []
-    return sorted(p for p in kept.iterdir() if p.is_symlink() or not _is_bytecode(p))
-
-
-def _is_bytecode(path: Path) -> bool:
-    return path.suffix == ".pyc" and path.is_file()
+    """What a folder and those in it hold, but for what was compiled."""
+    found: list[Path] = []
+    for path in sorted(folder.iterdir()) if folder.is_dir() else []:
+        if path.is_dir() and not path.is_symlink():
+            kept = _entries(path)
+            if path.name == _COMPILED:
+                kept = [p for p in kept if p.is_symlink() or p.suffix not in _SUFFIXES]
+            found += kept
+        else:
+            found.append(path)
+    return found
 
 
 def _is_ours(path: Path) -> bool:

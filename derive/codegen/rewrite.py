@@ -38,14 +38,15 @@ from sympy import (
     together,
 )
 
-from derive.codegen.program import TINY, Kept, Program, Step, fmax, kink_logarithm
+from derive.codegen.program import TINY, Kept, Program, Step, fmax
 from derive.piece import vanishes
-from derive.proof.points import Point, named, numeric
+from derive.proof.points import Point, named, numeric, numeric_by_steps
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
 from derive.sheet import FormulaSheet
 from derive.symbols import M, P, a, alpha, c, e, h, w, x
 from derive.theory.frame import KinkFrame
 from derive.theory.ring import factored
+from derive.theory.segments import kink_logarithm
 
 _w = Symbol("w", nonnegative=True)
 _h = Symbol("h", positive=True)
@@ -90,14 +91,16 @@ def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point
 
 def prove_equal(program: Program, source: dict[str, Expr], points: Iterable[Point]) -> Proof:
     """The program against the formulas that it was made from."""
-    flat = program.flat()
+    plain = program.in_mathematics()
+    steps = [(step.symbol, step.expr) for step in plain.steps]
+    found = {name: numeric_by_steps(steps, expr) for name, expr in plain.outputs.items()}
     with mpmath.workdps(WORKING):
         return numerical_proof(
             "rewritten for floating point",
             (
-                Comparison(numeric(expr)(point), numeric(source[name])(point), named(point))
+                Comparison(value(point), numeric(source[name])(point), named(point))
                 for point in points
-                for name, expr in flat.items()
+                for name, value in found.items()
             ),
         )
 

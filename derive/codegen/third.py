@@ -1,20 +1,17 @@
 """The third coefficient of the pressure next to the edges, of s**(5/2).
 
 In:  a proven FormulaSheet.
-Out: the text of `_third`, for series of the slip zones to order 3; none for a body whose integrals
-     have no closed form, or whose formulas would lose digits and are no sums over parabolas.
+Out: the text of `_third`, for series of the slip zones to order 3; none for a body that is
+     integrated.
 """
 
-from collections.abc import Iterator
-from itertools import pairwise
+from sympy import Expr
 
-from sympy import Expr, simplify
-
-from derive.codegen.cancel import cuts_of
 from derive.codegen.contract import Function
-from derive.codegen.function import BareText, CallingText
-from derive.codegen.integrated import is_mended
-from derive.codegen.parabolas import body_of, is_parabolic
+from derive.codegen.function import BareText
+from derive.codegen.parts import parts_program
+from derive.codegen.plan import Route
+from derive.codegen.program import Program
 from derive.codegen.rewrite import prove_equal
 from derive.errors import NotProven
 from derive.sheet import FormulaSheet
@@ -34,39 +31,18 @@ _THIRD = Function(
 """Its conditions are those of L_N."""
 
 
-def has_third(sheet: FormulaSheet) -> bool:
-    """Whether there is a formula for it, or a sum, that keeps its digits."""
-    return is_parabolic(sheet) or (sheet.geometry.slope.is_polynomial and not is_mended(sheet))
-
-
-def third_text(sheet: FormulaSheet, source: str) -> str:
-    """`_third` of one body.
+def third_text(sheet: FormulaSheet, route: Route, source: str) -> str:
+    """`_third` of one body; nothing for one that is integrated.
 
     Raises NotProven if the expanded pressure is not what L_N and K_N say.
     """
-    made = _SummedText if is_parabolic(sheet) else _ExpandedText
+    if route is Route.QUADRATURE:
+        return ""
+    made = _Summed if route is Route.PARTS else _Expanded
     return made(sheet, _THIRD, source).text
 
 
-def smooth_cuts(sheet: FormulaSheet) -> tuple[int, ...]:
-    """Numbers of the cuts of a body without closed formulas that one curve goes across."""
-    slope = sheet.geometry.slope
-    if slope.is_polynomial:
-        return ()
-    _, pieces = cuts_of(slope)
-    sides = enumerate(pairwise(pieces))
-    return tuple(i for i, (left, right) in sides if simplify(left.profile - right.profile) == 0)
-
-
-class _SummedText(BareText, CallingText):
-    """Added up part by part."""
-
-    @property
-    def _code(self) -> Iterator[str]:
-        yield f"    return Edges(*(E_star * edge for edge in {body_of(self.sheet)}.third(a, c)))"
-
-
-class _ExpandedText(BareText):
+class _Expanded(BareText):
     """The pressure expanded once more."""
 
     def _expressions(self) -> dict[str, Expr]:
@@ -78,6 +54,16 @@ class _ExpandedText(BareText):
         proof = prove_equal(self.program, _from_motion(self.sheet), self._points())
         if not proof.holds:
             raise NotProven(f"{NAME} of {self.sheet.geometry.name!r}: {proof}")
+
+
+class _Summed(BareText):
+    """The same as a sum over the parts of a contact, compared when it was made."""
+
+    def _made(self) -> Program:
+        return parts_program(self.sheet, {"left": "third_left", "right": "third_right"})
+
+    def _demand_equal(self) -> None:
+        """Compared when it was made."""
 
 
 def _from_motion(sheet: FormulaSheet) -> dict[str, Expr]:

@@ -21,7 +21,7 @@ import numpy as np
 from mpmath import mpf
 
 from derive.codegen.contract import CONTRACT, Function
-from derive.codegen.publish import package_files
+from derive.codegen.publish import FULL_STICK
 from derive.errors import NotProven
 from derive.proof.points import Point, contacts, named, numeric
 from derive.sheet import FormulaSheet
@@ -39,13 +39,13 @@ _CYCLES = 6
 """Contacts at which a stick zone is tried."""
 
 
-def demand_right(sheet: FormulaSheet, text: str) -> None:
+def demand_right(sheet: FormulaSheet, text: str, stuck: str) -> None:
     """Run the module and compare.
 
     Raises NotProven with the function, the point and both numbers.
     """
     name = sheet.geometry.name
-    with imported(name, text) as module, mpmath.workdps(_DIGITS):
+    with imported(name, text, stuck) as module, mpmath.workdps(_DIGITS):
         points = _held(sheet, contacts(sheet))
         for function in CONTRACT:
             if P in function.arguments:
@@ -152,19 +152,32 @@ def _called(
 
 
 @contextmanager
-def imported(name: str, text: str) -> Iterator[ModuleType]:
-    """The module in a package of its own, that is forgotten again."""
+def imported(name: str, text: str, stuck: str) -> Iterator[ModuleType]:
+    """The module in a package of its own, that is forgotten again.
+
+    The runtime is the one that will be copied beside it: it need not be compiled again.
+    """
     with tempfile.TemporaryDirectory() as folder:
         package = f"_trial_of_{name}"
         home = Path(folder) / package
         home.mkdir()
-        for file, content in package_files({name: text}).items():
-            (home / file).write_text(content, encoding="utf-8")
+        for file, content in {"__init__": "", name: text, FULL_STICK: stuck}.items():
+            (home / f"{file}.py").write_text(content, encoding="utf-8")
         sys.path.insert(0, folder)
         importlib.invalidate_caches()
+        sys.modules |= {
+            module.__name__.replace("derive", package, 1): module for module in _runtime()
+        }
         try:
             yield importlib.import_module(f"{package}.{name}")
         finally:
             sys.path.remove(folder)
             for held in [m for m in sys.modules if m.split(".")[0] == package]:
                 del sys.modules[held]
+
+
+def _runtime() -> list[ModuleType]:
+    """The modules of the runtime that generated ones import."""
+    runtime = importlib.import_module("derive.runtime")
+    names = sorted(path.stem for path in Path(runtime.__path__[0]).glob("[a-z]*.py"))
+    return [runtime, *(importlib.import_module(f"derive.runtime.{name}") for name in names)]

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from markupsafe import Markup
 
+from derive.body import Body
 from derive.codegen.function import example_of
 from derive.codegen.trial import imported
 from derive.compiled import compiled
@@ -30,13 +31,13 @@ class Pictures(NamedTuple):
     drawn_at: str
 
 
-def pictures(sheet: FormulaSheet, text: str) -> Pictures:
+def pictures(sheet: FormulaSheet, body: Body) -> Pictures:
     """Drawn at the plain numbers of the module's own examples."""
     point = example_of(sheet, sheet["load"].conditions)
     own = {q.name: float(point[q.symbol]) for q in sheet.geometry.parameters}
     half = float(max(point[a], point[c]))
     law = {"E_star": float(point[E_star]), **own}
-    with imported(sheet.geometry.name, text) as module:
+    with imported(body.name, body.text, body.stuck) as module:
         lines = tuple(_pressures(module, half, law))
     reach = 1.1 * max(max(line.x) for line in lines)
     values = ", ".join(f"{name} = {value:g}" for name, value in law.items())

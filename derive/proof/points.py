@@ -130,6 +130,25 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
     return at
 
 
+def numeric_by_steps(steps: Iterable[tuple[Symbol, Expr]], expr: Expr) -> Callable[[Point], mpf]:
+    """`expr` as a function of a point, the symbols that it holds computed one after the other."""
+    needed: list[tuple[Symbol, Callable[[Point], mpf]]] = []
+    wanted = set(expr.free_symbols)
+    for symbol, value in reversed([*steps]):
+        if symbol in wanted:
+            needed.insert(0, (symbol, numeric(value)))
+            wanted |= value.free_symbols
+    last = numeric(expr)
+
+    def at(point: Point) -> mpf:
+        known = dict(point)
+        for symbol, value in needed:
+            known[symbol] = value(known)
+        return last(known)
+
+    return at
+
+
 @cache
 def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Function]:
     """`expr` at a point as a function of one variable, in balls for quadrature.

@@ -2,12 +2,15 @@
 
 from dataclasses import replace
 
+import mpmath
 from mpmath.libmp import NoConvergence
 
 from derive.proof.numerical import NumericalRoutes
+from derive.proof.points import contacts, named, numeric, numeric_by_steps
 from derive.proof.symbolic import symbolic_proof
-from derive.proof.verdict import Proof, Verdict, combined
+from derive.proof.verdict import WORKING, Comparison, Proof, Verdict, combined, numerical_proof
 from derive.sheet import FormulaSheet
+from derive.theory.segments import Parts, written_out
 
 
 def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
@@ -39,8 +42,24 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
 def _proof(sheet: FormulaSheet, name: str, numerical: NumericalRoutes) -> Proof:
     """The proof of one formula; a closed form that has no value somewhere is not proven."""
     if not sheet[name].closes:
-        return combined(symbolic_proof(sheet, name), numerical.proof(name))
+        proof = combined(symbolic_proof(sheet, name), numerical.proof(name))
+        return _also_computed(sheet, name, proof)
     try:
         return combined(None, numerical.proof(name))
     except (ArithmeticError, ValueError, TypeError, NoConvergence) as error:
         return Proof(Verdict.UNKNOWN, f"cannot be evaluated: {error}")
+
+
+def _also_computed(sheet: FormulaSheet, name: str, proof: Proof) -> Proof:
+    """The proof of a formula, if the form that is computed in its place equals it."""
+    computed = sheet[name].computed
+    if computed is None or not proof.holds:
+        return proof
+    steps = [(d.symbol, written_out(d.expr)) for d in Parts(sheet.frame).definitions]
+    summed, derived = numeric_by_steps(steps, written_out(computed)), numeric(sheet.flat(name))
+    with mpmath.workdps(WORKING):
+        equal = numerical_proof(
+            "the sum over the parts of the contact, as it is computed",
+            (Comparison(summed(p), derived(p), named(p)) for p in contacts(sheet)),
+        )
+    return proof if equal.holds else equal

@@ -29,7 +29,7 @@ _LONGEST_UNIT = 60
 _TITLE_WIDTH = 80
 
 _MODULES = sys.stdlib_module_names | {
-    *("derive", "generated", "numpy", "scipy", "sympy", "mpmath", "click", "rich", "ruff"),
+    *("derive", "generated", "numpy", "numba", "sympy", "mpmath", "click", "rich", "ruff"),
 }
 """Modules that a file of the same name would hide."""
 

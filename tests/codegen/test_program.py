@@ -7,7 +7,8 @@ from contextlib import contextmanager
 import pytest
 from sympy import Max, Rational, Symbol, cos, log, sin, sqrt, symbols
 
-from derive.codegen.program import Kept, Program, Step, kink_logarithm
+from derive.codegen.program import Kept, Program, Step
+from derive.theory.segments import kink_logarithm
 
 x, y = symbols("x y", real=True)
 r, s, t = symbols("r s t", positive=True)

@@ -10,7 +10,7 @@ from types import ModuleType
 
 import numpy as np
 
-from generated._types import Contact
+from generated.runtime.types import Contact
 from tests.reference.loads import State
 from tests.reference.mesh import Floats
 from tests.reference.normal import Body

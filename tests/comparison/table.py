@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from generated._types import Contact, Regime
+from generated.runtime.types import Contact, Regime
 from tests.comparison.cases import Compared, F
 from tests.reference.solver import reference
 

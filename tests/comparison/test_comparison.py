@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from generated._types import Regime
+from generated.runtime.types import Regime
 from tests.comparison.cases import EVERY, PAPER, Compared, F
 from tests.comparison.table import markdown, row
 

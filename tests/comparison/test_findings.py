@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from generated import wedge
-from generated._types import Regime
+from generated.runtime.types import Regime
 from tests.reference import explore
 from tests.reference.explore import AROUND, VARYING_MOMENT, Kind, Point, threshold
 

@@ -23,7 +23,7 @@ from dask.delayed import delayed
 from numpy.testing import assert_array_equal
 
 from generated import _arrays, flat_rounded, hertz, hyperbola, wedge
-from generated._types import Contact
+from generated.runtime.types import Contact
 from tests.generated.test_library import OWN
 
 E_STAR, F = 1.25, 0.5

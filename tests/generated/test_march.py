@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from generated import wedge
-from generated._types import Contact, Regime
+from generated.runtime.types import Contact, Regime
 
 LAW = {"f": 0.5, "E_star": 1.25, "phi": 0.25}
 OWN = {"E_star": 1.25, "phi": 0.25}

@@ -14,7 +14,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.testing import assert_array_equal
 
 from generated import _logarithm, flat_rounded, hyperbola, wedge
-from generated._types import Contact
+from generated.runtime.types import Contact
 from tests.generated.test_dask import OWN, fields, functions, given_to, module
 
 FORWARD = ("tilt", "load", "moment", "pressure", "K_N", "L_N")

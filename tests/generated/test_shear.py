@@ -12,7 +12,7 @@ from mpmath import mpf
 from numpy.testing import assert_allclose
 
 from generated import flat_sloped, hertz, wedge
-from generated._types import Contact, Regime
+from generated.runtime.types import Contact, Regime
 from tests.accuracy.inverses import formula
 from tests.benchmarks.series import BODIES, E_STAR, F
 from tests.reference.cases import HERTZ, HERTZ_LOAD

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from generated import hertz, rounded_wedge, wedge
-from generated._types import Contact, Regime
+from generated.runtime.types import Contact, Regime
 from tests.benchmarks import series
 
 F, E_STAR = 0.5, 1.25

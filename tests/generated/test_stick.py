@@ -17,7 +17,7 @@ from derive.derivation import derive_sheet
 from derive.library import load_geometry
 from derive.sheet import FormulaSheet
 from generated import hertz, unequal_wedge, wedge
-from generated._types import Contact, Regime, StickZone
+from generated.runtime.types import Contact, Regime, StickZone
 from tests.derive.bodies import evaluated
 from tests.derive.partial_slip import Cycle
 

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from generated import wedge
-from generated._types import Contact, Regime
+from generated.runtime.types import Contact, Regime
 from tests.reference.conditions import HalfCycle, Patch
 from tests.reference.loads import State
 from tests.reference.mixed import turning

@@ -11,7 +11,12 @@ the function's signature and any number of tables:
     | --- | --- | --- |
     | `a=2, c=1, R=1` | `1/2` | (2 − 1)/2 |
 
-Expressions are read by `evaluate`, which knows numbers and elementary functions and nothing else.
+Expressions are read by `evaluate`, which knows numbers, elementary functions, and the few others
+that closed forms of contacts need: the complete elliptic integrals K and E of the parameter
+m = k**2, ellipk(m) and ellipe(m), and the modified Bessel functions I_0 and I_1, besseli0(x) and
+besseli1(x).  Nothing else.
+
+Under stick_zone a and c are the edges of a contact that stays the same through the cycle.
 """
 
 import ast
@@ -19,6 +24,7 @@ import operator
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import mpmath
@@ -39,6 +45,7 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
     "L_T": ("left", "right"),
     "stick_margin": ("left", "right"),
     "slip_zones": ("left", "right"),
+    "stick_zone": ("m", "n"),
 }
 
 COLUMNS = ["inputs", "expected", "working"]
@@ -59,9 +66,12 @@ NAMES = (
     *("sqrt", "exp", "log"),
     *("sin", "cos", "tan", "asin", "acos", "atan"),
     *("sinh", "cosh", "tanh", "asinh", "acosh", "atanh"),
+    *("ellipk", "ellipe"),
 )
 FUNCTIONS: Mapping[str, Callable[[mpmath.mpf], mpmath.mpf]] = {
-    name: getattr(mpmath, name) for name in NAMES
+    **{name: getattr(mpmath, name) for name in NAMES},
+    "besseli0": partial(mpmath.besseli, 0),
+    "besseli1": partial(mpmath.besseli, 1),
 }
 
 _NUMBER = re.compile(r"(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,4})?")

@@ -59,6 +59,10 @@ class TestEvaluate:
             ("log(exp(2))", 2),
             ("acosh(cosh(3))", 3),
             ("4*atan(1)-pi", 0),
+            ("2*ellipk(0)-pi", 0),
+            ("ellipe(1)", 1),
+            ("2*ellipe(1/2)*ellipk(1/2) - ellipk(1/2)**2 - pi/2", 0),
+            ("besseli0(0) + 2e20*besseli1(1e-20)", 2),
         ],
     )
     def test_a_number(self, text: str, value: float) -> None:
@@ -116,6 +120,7 @@ class TestEvaluate:
             "sqrt(x=1)",
             "sqrt(*[1])",
             "gamma(2)",
+            "besseli(0, 1)",
             "eval('1')",
             "__import__('os')",
             "__import__('os').system('true')",

@@ -21,7 +21,7 @@ from derive.plot.style import CYCLE, FORWARD, REVERSE, STICK
 from derive.plot.tractions import places
 from derive.plot.zones import LARGE, MIXED, MODERATE, senses
 from generated import flat_rounded, hertz, wedge
-from generated._types import March, Regime, StickZone
+from generated.runtime.types import March, Regime, StickZone
 
 matplotlib.use("Agg")
 

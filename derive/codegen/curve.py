@@ -1,0 +1,234 @@
+"""A body whose integrals have no closed form: its curve, piece by piece, and functions of it.
+
+In:  a proven FormulaSheet.
+Out: the text of `_curve`, which gives g', g'' and t g''' beside each break, of the law that
+     integrates it, and of the functions that do.  The method is runtime/pieces.py.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+
+from sympy import (
+    Add,
+    Expr,
+    Function,
+    Pow,
+    S,
+    Symbol,
+    Tuple,
+    cosh,
+    cse,
+    diff,
+    expand,
+    factor,
+    numbered_symbols,
+    powsimp,
+    simplify,
+    sqrt,
+    tanh,
+)
+
+from derive.codegen.cuts import cuts_of
+from derive.codegen.function import FunctionText
+from derive.codegen.law import LawText, as_float, function_head
+from derive.codegen.printer import NumPyPrinter
+from derive.codegen.program import Program
+from derive.piece import Piece
+from derive.symbols import E_star, x
+
+Steps = list[tuple[Symbol, Expr]]
+
+_t = Symbol("t", positive=True)
+"""Distance from a break."""
+
+
+class IntegratedText(FunctionText):
+    """The text of one function that is integrated."""
+
+    def _made(self) -> Program:
+        return Program({})
+
+    def _demand_equal(self) -> None:
+        """Nothing is rewritten; the module is tried as a whole."""
+
+    @property
+    def _decorators(self) -> Iterator[str]:
+        return iter(())
+
+    @property
+    def _code(self) -> Iterator[str]:
+        own = ", ".join(f"{q.name}={q.name}" for q in self.sheet.geometry.parameters)
+        material = (E_star,) * self.function.material
+        given = ", ".join(f"{s}={s}" for s in (*self.function.arguments, *material))
+        yield f"    asked = Asked(_BODY, {self.function.name}, dict({own}))"
+        yield f"    return integrated(asked, {given})"
+
+
+class CurveText(LawText):
+    """The text of the law of a body that is integrated."""
+
+    def _formulas(self, own: str) -> Iterator[str]:
+        """The curve, and what is integrated over it."""
+        slope = self.sheet.geometry.slope
+        places, pieces = cuts_of(slope)
+        printer = NumPyPrinter()
+        yield "@kernel(BESIDE_BREAK)"
+        yield from function_head("_curve", "piece, side, t", "g', g'' and t g''' beside a break.")
+        yield from self._unpacked()
+        for i, piece in enumerate(pieces):
+            for sense, place in ((1, piece.lower), (-1, piece.upper)):
+                if place.is_finite:
+                    yield f"    if piece == {i} and side == {sense}:"
+                    yield from _branch(piece, place, sense)
+        yield "    return np.nan, np.nan, np.nan"
+        steps = {kink.position: kink.step for kink in slope.kinks}
+        jumps = [printer.doprint(steps.get(place, S.Zero)) for place in places]
+        for name, words, values in (
+            ("_breaks", "Where the curve is cut.", map(printer.doprint, places)),
+            ("_corners", "By how much g' rises there.", jumps),
+        ):
+            yield "@kernel(BREAKS)"
+            yield from function_head(name, "", words)
+            yield from self._unpacked()
+            yield f"    return np.array([{', '.join(map(as_float, values))}])"
+        for name, arguments, words in (
+            ("pressure", "x, a, c", "The pressure at x for E* = 1."),
+            ("state", "a, c", "Load, moment, tilt and K_N for E* = 1."),
+            ("slope", "x", "g'(x) and g''(x); infinite beyond the body's ends."),
+            ("series", "a, c", "L_N for E* = 1."),
+        ):
+            yield f"@kernel({name.upper()})"
+            yield from function_head(f"_{name}", arguments, words)
+            if name == "slope":
+                yield from self._ends()
+            yield "    curve = curve_of(_curve, _breaks, _corners)"
+            yield f"    return pieces.{name}(curve, {arguments}, own)"
+
+    def _ends(self) -> Iterator[str]:
+        """What is beyond the ends of a body whose curve has such."""
+        ends = zip(
+            self.sheet.geometry.slope.domain, ("<=", ">="), ("-np.inf", "np.inf"), strict=True
+        )
+        held = [(end, side, slope) for end, side, slope in ends if end.is_finite]
+        yield from self._unpacked() if held else ()
+        for end, side, slope in held:
+            yield f"    if x {side} {NumPyPrinter().doprint(end)}:"
+            yield f"        return {slope}, np.inf"
+
+    def _slope(self) -> Iterator[str]:
+        return iter(())
+
+    def _breaks(self) -> Iterator[str]:
+        return iter(())
+
+
+def _branch(piece: Piece, place: Expr, sense: int) -> Iterator[str]:
+    """g', g'' and t g''' at t beside a break."""
+
+    def rates(expr: Expr) -> list[Expr]:
+        return [sense * _rate(term) for term in Add.make_args(expr)]
+
+    given = piece.slope.subs(x, place + sense * _t)
+    slope = _shortest(simplify, Add.make_args(given))
+    curvature = _shortest(_positive_form, rates(slope), is_positive=True)
+    change = _shortest(simplify, [_t * rate for rate in rates(curvature)])
+    curves = [slope, curvature, change]
+    steps, values = _roots_once(*cse(curves, symbols=_named("s_", curves)))
+    printer = NumPyPrinter({_t, *(symbol for symbol, _ in steps)})
+    for symbol, value in steps:
+        yield f"        {symbol} = {printer.doprint(value)}"
+    yield f"        return {', '.join(map(as_float, map(printer.doprint, values)))}"
+
+
+class _tanh(Function):
+    """A hyperbolic tangent whose rate is no difference."""
+
+    nargs = 1
+
+    def fdiff(self, _: int = 1) -> Expr:
+        """1/cosh(z)**2, not 1 - tanh(z)**2, whose digits are lost far from zero."""
+        return cosh(self.args[0]) ** -2
+
+
+def _rate(expr: Expr) -> Expr:
+    """The derivative.
+
+    >>> from sympy import tanh
+    >>> _rate(tanh(2 * _t))
+    2/cosh(2*t)**2
+    """
+    return diff(expr.replace(tanh, _tanh), _t).replace(_tanh, tanh)
+
+
+def _named(stem: str, beside: list[Expr]) -> Iterator[Symbol]:
+    """Symbols by number, with names that none has beside them."""
+    taken = [Symbol(symbol.name) for symbol in Tuple(*beside).free_symbols]
+    return iter(numbered_symbols(stem, exclude=taken))
+
+
+def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
+    """Several half powers of t or of one step by its root, which is a step of its own.
+
+    >>> from sympy import Rational, symbols
+    >>> s, y = symbols("s y", positive=True)
+    >>> _roots_once([(s, _t + 1)], [y / sqrt(s), y / s ** Rational(3, 2)])
+    ([(s, t + 1), (r_0, sqrt(s))], [y/r_0, y/(r_0*s)])
+    """
+    powers: dict[Expr, set[Pow]] = {base: set() for base in (_t, *(name for name, _ in steps))}
+    for power in Tuple(*values, *(value for _, value in steps)).atoms(Pow):
+        if power.base in powers and power.exp.is_Rational and power.exp.q == 2:
+            powers[power.base].add(power)
+    named, shared, roots = _named("r_", values + [value for _, value in steps]), {}, {}
+    for base in [base for base, found in powers.items() if len(found) > 1]:
+        roots[base] = next(named)
+        for power in powers[base]:
+            sense = 1 if power.exp > 0 else -1
+            shared[power] = base ** (power.exp - S(sense) / 2) * roots[base] ** sense
+    found = [(roots[_t], sqrt(_t))] if _t in roots else []
+    for name, value in steps:
+        found.append((name, value.xreplace(shared)))
+        found += [(roots[name], sqrt(name))] if name in roots else []
+    return found, [value.xreplace(shared) for value in values]
+
+
+def _positive_form(curvature: Expr) -> Expr:
+    """A form of g'' without a difference, if there is one."""
+    return factor(simplify(curvature))
+
+
+def _shortest(
+    form: Callable[[Expr], Expr], terms: Sequence[Expr], is_positive: bool = False
+) -> Expr:
+    """A form of a sum, whole or term by term, whichever is shorter.
+
+    is_positive: term by term only if none of them is known to be subtracted.
+
+    >>> _shortest(simplify, [1 / (1 + _t), 1 / (2 + _t)])
+    1/(t + 2) + 1/(t + 1)
+    """
+    forms, whole = [form(term) for term in terms], form(Add(*terms))
+    apart = Add(*map(_joined, forms))
+    subtracts = is_positive and any(term.is_nonpositive for term in forms)
+    return _joined(whole) if subtracts or whole.count_ops() <= apart.count_ops() else apart
+
+
+def _joined(expr: Expr) -> Expr:
+    """t^k/t^2 as t^(k - 2), k a parameter or pi: apart, both are 0 at a t that its power may reach.
+
+    >>> from sympy import cosh, Symbol
+    >>> k = Symbol("k", positive=True)
+    >>> _joined(_t**k * (k * (k - 1) * cosh(_t) / _t**2 + 1))
+    k*t**(k - 2)*(k - 1)*cosh(t) + t**k
+    """
+    powers = [power.exp for power in expr.atoms(Pow) if power.base == _t]
+    if not (any(map(_is_uneven, powers)) and any(e.is_negative for e in powers)):
+        return expr
+    terms: dict[Expr, Expr] = {}
+    for term in Add.make_args(expand(expr)):
+        apart, with_t = powsimp(term).as_independent(_t, as_Add=False)
+        terms[with_t] = terms.get(with_t, S.Zero) + apart
+    return Add(*(factor(apart) * with_t for with_t, apart in terms.items()))
+
+
+def _is_uneven(exponent: Expr) -> bool:
+    """Whether a power is no whole one and no half one, or may be none: k, pi, 7/3."""
+    return not (2 * exponent).is_integer

@@ -1,1 +1,0 @@
-"""What generated modules need besides NumPy; copied beside them, never imported from here."""

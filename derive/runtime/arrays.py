@@ -1,0 +1,160 @@
+"""How a function of float64 serves everything that broadcasts.
+
+A formula's temporaries are as large as its argument.  Long arrays are cut into blocks, whose
+temporaries stay in the processor's cache.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from functools import wraps
+from inspect import Parameter, signature
+from typing import Any, TypeVar
+
+import numpy as np
+
+from .chunks import any_lazy, demand_array, is_lazy, known_shape, over_chunks
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+Numbers = dict[str, Any]
+
+BLOCK = 16_384
+"""Elements evaluated at once."""
+
+_FLOAT64 = np.dtype(np.float64)
+_OWN = (np.ndarray, np.generic)
+
+
+def elementwise(function: Function) -> Function:
+    """Let a formula of float64 take numbers and arrays of any real type, and long arrays in blocks.
+
+    Keyword-only arguments are material and geometry: NaN unless positive and finite.  Dask arrays
+    stay lazy.  Arrays of other libraries that follow NumPy's protocols are computed by these.  No
+    floating-point warning leaves the call: what does not exist is NaN.
+
+    The function raises TypeError for what is no real number, ValueError for shapes that do not
+    broadcast.
+    """
+    called = signature(function)
+    positive = {n for n, p in called.parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
+    names = tuple(n for n in called.parameters if n not in positive)
+    defaults = {n: p.default for n, p in called.parameters.items() if p.default is not p.empty}
+    kind = called.return_annotation if hasattr(called.return_annotation, "_fields") else None
+
+    @wraps(function)
+    def call(*args: Any, **kwargs: Any) -> Any:
+        given = defaults | dict(zip(names, args, strict=False)) | kwargs
+        if len(args) + len(kwargs) > len(given) or len(given) != len(called.parameters):
+            called.bind(*args, **kwargs)  # raises, in Python's words
+        numbers = {name: real(value, name) for name, value in given.items()}
+        for name in positive:
+            numbers[name] = positive_or_nan(numbers[name])
+        if any_lazy(numbers.values()):
+            shape_of(numbers)
+            return over_chunks(call, numbers)
+        return evaluated(function, numbers, kind, BLOCK)
+
+    return call  # type: ignore[return-value]
+
+
+def evaluated(function: Callable[..., Any], numbers: Numbers, kind: Any, block: int) -> Any:
+    """A function of float64 at all elements of what broadcasts, `block` of them at a time.
+
+    kind: the named tuple that it returns, None for an array.
+    """
+    shape = shape_of(numbers)
+    count = 1 if kind is None else len(kind._fields)
+    with np.errstate(all="ignore"):
+        if any(map(is_foreign, numbers.values())):
+            return function(**numbers)
+        if math.prod(shape) > block:
+            found = _in_blocks(function, numbers, count, block)
+        else:
+            result = function(**numbers)
+            found = [_shaped(v, shape) for v in (result if count > 1 else (result,))]
+    return found[0] if kind is None else kind(*found)
+
+
+def _shaped(value: Any, shape: tuple[int, ...]) -> Any:
+    """A result in the shape of the arguments, a number as a number."""
+    if np.shape(value) != shape:
+        value = np.broadcast_to(value, shape).copy()
+    return np.float64(value) if shape == () else value
+
+
+def _in_blocks(function: Callable[..., Any], numbers: Numbers, count: int, block: int) -> list[Any]:
+    fixed = {name: v for name, v in numbers.items() if not v.ndim}
+    varying = {name: v for name, v in numbers.items() if v.ndim}
+    flags: Any = [["readonly"]] * len(varying) + [["writeonly", "allocate"]] * count
+    blocks = np.nditer(
+        [*varying.values(), *[None] * count],
+        ["external_loop", "buffered"],
+        flags,
+        [_FLOAT64] * (len(varying) + count),
+        buffersize=block,
+    )
+    with blocks:
+        for arrays in blocks:
+            inputs, outputs = arrays[: len(varying)], arrays[len(varying) :]
+            result = function(**fixed, **dict(zip(varying, inputs, strict=True)))
+            for out, value in zip(outputs, result if count > 1 else (result,), strict=True):
+                out[...] = value
+        return list(blocks.operands[len(varying) :])
+
+
+def shape_of(numbers: Mapping[str, Any]) -> tuple[int, ...]:
+    """The shape to which all broadcast.
+
+    Raises ValueError with their names and shapes if there is none.
+    """
+    shapes = {known_shape(value) for value in numbers.values()} - {()}
+    if len(shapes) < 2:
+        return shapes.pop() if shapes else ()
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError:
+        told = ", ".join(f"{name} {v.shape}" for name, v in numbers.items() if v.ndim)
+        raise ValueError(
+            f"the arguments must broadcast to one shape; their shapes are {told}"
+        ) from None
+
+
+def positive_or_nan(value: Any) -> Any:
+    """A constant of the material or the geometry, NaN unless it is positive and finite."""
+    if type(value) is np.float64:
+        return value if 0 < value < np.inf else np.float64(np.nan)
+    if is_lazy(value):
+        return value  # each chunk is tested when it is there
+    return np.where((value > 0) & (value < np.inf), value, np.nan)
+
+
+def is_foreign(value: Any) -> bool:
+    """Whether it is an array of another library that follows NumPy's protocols."""
+    return not isinstance(value, _OWN) and hasattr(value, "__array_function__")
+
+
+def real(value: Any, label: str) -> Any:
+    """A real number as np.float64, anything else as an array of float64; masked elements are NaN.
+
+    A Dask array is left as it is: each chunk becomes float64 when it is there.  So is a long array
+    of another real type: each block does.
+
+    Raises TypeError for what is no real number.
+    """
+    if type(value) is float or type(value) is np.float64:
+        return np.float64(value)
+    if type(value) is np.ndarray and value.dtype == _FLOAT64 and value.ndim:
+        return value
+    demand_array(value, label)
+    foreign = is_foreign(value)
+    try:
+        array = value if foreign else np.asanyarray(value)
+        if array.dtype.kind not in "iuf":
+            raise TypeError
+        if is_lazy(array) or (array.size > BLOCK and type(array) is np.ndarray):
+            return array
+        with np.errstate(all="ignore"):
+            numbers = array.astype(np.float64)
+    except (AttributeError, TypeError, ValueError):
+        found = f"{type(value).__name__} {value!r:.60}"
+        raise TypeError(f"{label} must be a real number or an array of such; got {found}") from None
+    return numbers if foreign else np.asarray(np.ma.filled(numbers, np.nan))[()]

@@ -1,0 +1,178 @@
+"""One body as the runtime knows it: its law, its parameters, and its functions of a whole cycle.
+
+A generated module makes one `Body` and binds the functions of cycle.py to it.  Its formulas are
+compiled, and the solvers loaded, when one of these is called for the first time.
+"""
+
+import importlib
+import threading
+from collections.abc import Callable, Mapping
+from functools import cache, cached_property
+from inspect import Parameter as Argument
+from inspect import cleandoc, signature
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .arrays import Numbers, evaluated, is_foreign, positive_or_nan, real, shape_of
+from .chunks import any_lazy, is_lazy, over_chunks
+
+CASES = 65_536
+"""Cases that are solved in one piece."""
+
+
+class Parameter(NamedTuple):
+    """A parameter of a body: its name, what it means, its unit."""
+
+    name: str
+    meaning: str
+    unit: str
+
+
+class Body:
+    """A body: functions of one contact for E* = 1, written for numbers, and what belongs to them.
+
+    functions   pressure, state, slope, series and breaks, as `kernels.Law` describes them
+    parameters  of the geometry, in the order in which those functions find them
+    origin      the file that g(x) came from
+    example     what the examples of its functions hold, by name
+    """
+
+    def __init__(
+        self,
+        functions: Mapping[str, Callable[..., Any]],
+        parameters: tuple[Parameter, ...],
+        origin: str,
+        example: Mapping[str, str],
+    ) -> None:
+        self.functions, self.parameters = functions, parameters
+        self.origin, self.example = origin, example
+        self.names = tuple(p.name for p in parameters)
+        self._names = frozenset(self.names)
+        self._lock = threading.Lock()
+
+    @cached_property
+    def law(self) -> Any:
+        """The body's functions, compiled, as the kernels take them."""
+        kernels = importlib.import_module(".kernels", __package__)
+        with self._lock:
+            return kernels.handed(kernels.Law(**self.functions))
+
+    def bound(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """A function of cycle.py for this body, the body's parameters keyword-only arguments."""
+
+        def call(*args: Any, **kwargs: Any) -> Any:
+            if not self._names <= kwargs.keys():
+                call.__signature__.bind(*args, **kwargs)  # type: ignore[attr-defined]
+            own = {name: kwargs.pop(name) for name in self.names}
+            return function(Asked(self, call, own), *args, **kwargs)
+
+        given = [*signature(function).parameters.values()][1:]
+        own = [Argument(n, Argument.KEYWORD_ONLY, annotation=Any) for n in self.names]
+        optional = [a for a in given if a.kind is a.KEYWORD_ONLY and a.default is not a.empty]
+        others = [a for a in given if a not in optional]
+        arguments = [*others, *own, *optional]
+        call.__signature__ = signature(function).replace(parameters=arguments)  # type: ignore[attr-defined]
+        call.__name__ = call.__qualname__ = function.__name__
+        call.__doc__ = self._described(function, [a.name for a in arguments])
+        return call
+
+    def _described(self, function: Callable[..., Any], arguments: list[str]) -> str:
+        """The function's docstring with its arguments, and an example in the body's numbers."""
+        words = importlib.import_module(".words", __package__)
+        name = function.__name__
+        meanings = {p.name: f"{p.meaning} [{p.unit}]" for p in self.parameters}
+        meanings = words.MEANINGS | meanings | words.OTHERWISE.get(name, {})
+        width = max(map(len, arguments))
+        lines = [f"    {a:{width}}  {meanings[a]}" for a in arguments]
+        text = cleandoc(function.__doc__ or "").replace("{arguments}", "\n".join(lines))
+        example = words.EXAMPLES[name].format_map(self.example)
+        return f"{text}\n\nDerived from {self.origin}.\n\n{example}"
+
+
+class Asked(NamedTuple):
+    """A call of a public function: the body, the function itself, the body's parameters."""
+
+    body: Body
+    call: Callable[..., Any]
+    own: dict[str, Any]
+
+    def solved(
+        self,
+        loop: str,
+        given: Mapping[str, Any],
+        constants: Mapping[str, Any],
+        row: tuple[str, ...],
+        kind: Any = None,
+        over_modulus: tuple[str, ...] = (),
+        by_modulus: bool = False,
+        options: Mapping[str, Any] | None = None,
+    ) -> Any:
+        """What a loop kernel finds at all cases of what broadcasts.
+
+        loop: the kernel by its module and name.
+        constants: E_star, and f where it is needed.
+        row: names of what the kernel is handed of each case; the options follow.
+        over_modulus: names of what is handed over divided by E*.
+        by_modulus: whether the results are multiplied by E*.
+        """
+        options = options or {}
+        numbers = numbers_of(given, {**constants, **self.own})
+        if any_lazy(numbers.values()):
+            shape_of(numbers)
+            return over_chunks(with_options(self.call, options), numbers)
+        kernel, law = kernel_of(loop), self.body.law
+        count = 1 if kind is None else len(kind._fields)
+
+        def rows(**part: Any) -> Any:
+            shape = shape_of(part)
+            cases = np.empty((*shape, len(row) + len(options)))
+            for i, name in enumerate(row):
+                divisor = part["E_star"] if name in over_modulus else 1.0
+                cases[..., i] = part[name] / divisor
+            cases[..., len(row) :] = [*options.values()]
+            own = np.empty((*shape, len(self.own)))
+            for i, name in enumerate(self.own):
+                own[..., i] = part[name]
+            size = cases.size // cases.shape[-1]
+            out = np.empty((size, count))
+            kernel(law, cases.reshape(size, -1), own.reshape(size, -1), out)
+            factor = part["E_star"] if by_modulus else 1.0
+            found = [out[:, i].reshape(shape) * factor for i in range(count)]
+            return found if count > 1 else found[0]
+
+        return evaluated(rows, numbers, kind, CASES)
+
+
+def numbers_of(given: Mapping[str, Any], constants: Mapping[str, Any]) -> Numbers:
+    """Everything as float64, constants NaN unless positive and finite.
+
+    Raises TypeError for what is no real number, and for arrays of other libraries than NumPy and
+    Dask.
+    """
+    numbers = {name: real(value, name) for name, value in given.items()}
+    numbers |= {name: positive_or_nan(real(value, name)) for name, value in constants.items()}
+    for name, value in numbers.items():
+        if is_foreign(value) and not is_lazy(value):
+            raise TypeError(
+                "what is solved or integrated takes NumPy and Dask arrays alone, explicit formulas "
+                f"others, too; {name} is a {type(value).__module__}.{type(value).__name__}"
+            )
+    return numbers
+
+
+def with_options(call: Callable[..., Any], options: Mapping[str, Any]) -> Callable[..., Any]:
+    """The function with its options; it keeps its name, by which Dask calls its tasks."""
+
+    def chosen(**given: Any) -> Any:
+        return call(**given, **options)
+
+    chosen.__name__ = call.__name__
+    return chosen
+
+
+@cache
+def kernel_of(loop: str) -> Any:
+    """A kernel, from its module in this package and its name: "inverse.each_contact"."""
+    module, _, name = loop.rpartition(".")
+    return getattr(importlib.import_module(f".{module}", __package__), name)

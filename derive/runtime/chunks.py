@@ -1,0 +1,137 @@
+"""Dask arrays, chunk by chunk: the functions for NumPy arrays, for arrays that are not there yet.
+
+Nothing of Dask is imported; whoever hands over such an array has loaded it.
+"""
+
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from operator import itemgetter
+from typing import Any
+
+import numpy as np
+
+from .types import Contact
+
+Array = Any
+
+
+def is_lazy(value: Any) -> bool:
+    """Whether it is a Dask array."""
+    dask = sys.modules.get("dask.array")
+    return dask is not None and isinstance(value, dask.Array)
+
+
+def any_lazy(values: Iterable[Any]) -> bool:
+    """Whether any of them is a Dask array."""
+    return "dask.array" in sys.modules and any(map(is_lazy, values))
+
+
+def demand_array(value: Any, label: str) -> None:
+    """Raises TypeError for what is lazy, and no Dask array: it would be computed as a whole."""
+    graph = getattr(value, "__dask_graph__", None)
+    if graph is not None and not is_lazy(value) and graph() is not None:
+        raise TypeError(
+            f"{label} is lazy, but no Dask array; got {type(value).__name__}: give the array in "
+            "it, .data of xarray, .to_dask_array(lengths=True) of a data frame, or "
+            "dask.array.from_delayed of a task"
+        )
+
+
+def known_shape(value: Any) -> tuple[int, ...]:
+    """Its shape; 1 for a length that is not known yet, which agrees with every other."""
+    if type(value) is np.ndarray or type(value) is np.float64:
+        return value.shape
+    return tuple(1 if np.isnan(n) else n for n in value.shape)
+
+
+def over_chunks(
+    function: Callable[..., Any], given: Mapping[str, Any], in_time: bool = False
+) -> Any:
+    """What `function` makes of arguments some of which are lazy: lazy, and of the same kind.
+
+    given: numbers and arrays that broadcast, by name; "first.a" is the field a of `first`.
+    in_time: whether the last axis is time, and must lie in one chunk.
+
+    Chunks are unified as for Dask's own functions.  All fields of a chunk's result are one task.
+    What `function` makes of no elements tells the kinds of its results, and what it refuses.
+
+    Raises ValueError for time in several chunks.
+    """
+    names = tuple(given)
+    instants = _instants(given) if in_time else 0
+    emptied = [_empty(v, instants) for v in given.values()]
+    sample = _on_chunk(*emptied, function=function, names=names)
+    blockwise = sys.modules["dask.array"].blockwise
+    axes = _axes(max(_ndim(v) for v in given.values()))
+    pairs = [x for v in given.values() for x in (v, _axes(_ndim(v)) if _is_array(v) else None)]
+    name, many = function.__name__, isinstance(sample, tuple)
+    made = blockwise(
+        _on_chunk,
+        axes,
+        *pairs,
+        function=function,
+        names=names,
+        token=name,
+        meta=sample[0] if many else sample,
+    )
+    if not many:
+        return made
+    return type(sample)(
+        *(
+            blockwise(itemgetter(i), axes, made, axes, token=f"{name}-{field}", meta=sample[i])
+            for i, field in enumerate(sample._fields)
+        )
+    )
+
+
+def _on_chunk(*values: Array, function: Callable[..., Any], names: tuple[str, ...]) -> Any:
+    """The result for one chunk; what was a Contact is one again."""
+    given: dict[str, Any] = {}
+    for name, value in zip(names, values, strict=True):
+        owner, _, field = name.partition(".")
+        if field:
+            given[owner] = given.get(owner, Contact(*[np.nan] * 3))._replace(**{field: value})
+        else:
+            given[name] = value
+    return function(**given)
+
+
+def _is_array(value: Any) -> bool:
+    """Whether it has chunks, or is to be cut into such."""
+    return is_lazy(value) or _ndim(value) > 0
+
+
+def _ndim(value: Any) -> int:
+    return getattr(value, "ndim", 0)
+
+
+def _axes(ndim: int) -> tuple[int, ...]:
+    """Axes by their number from the last one, as arrays broadcast."""
+    return tuple(reversed(range(ndim)))
+
+
+def _empty(value: Any, instants: int) -> Any:
+    """An array of no elements in its place; time is kept, unless there are no instants."""
+    if not _is_array(value):
+        return value
+    shape = [0] * value.ndim
+    if instants and shape:
+        shape[-1] = 1 if value.shape[-1] == 1 else instants
+    return np.zeros_like(value._meta if is_lazy(value) else value, shape=tuple(shape))
+
+
+def _instants(given: Mapping[str, Any]) -> int:
+    """How many instants there are; two if that is not known yet.
+
+    Raises ValueError if they lie in several chunks.
+    """
+    lengths = [2]
+    for name, value in given.items():
+        if is_lazy(value) and any(n > 1 for n in value.numblocks[-1:]):
+            raise ValueError(
+                f"the last axis of {name} is time and must lie in one chunk; its chunks are "
+                f"{value.chunks[-1]}: give {name}.rechunk({{-1: -1}})"
+            )
+        if _ndim(value):
+            lengths += [n for n in value.shape[-1:] if n == n]
+    return max(lengths)

@@ -1,0 +1,35 @@
+"""What contacts carry, case by case, where no closed formula is evaluated."""
+
+import math
+from typing import Any
+
+from .kernels import LOOP, kernel, opened
+
+
+@kernel(LOOP)
+def each_state(law: Any, given: Any, own: Any, out: Any) -> None:
+    """Load, moment, tilt and K_N of the contacts a, c; NaN where one leaves the body."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        load, moment, tilt, left, right = law.state(given[i, 0], given[i, 1], own[i])
+        if load < math.inf:
+            out[i, 0], out[i, 1], out[i, 2], out[i, 3], out[i, 4] = load, moment, tilt, left, right
+        else:
+            out[i, :] = math.nan
+
+
+@kernel(LOOP)
+def each_pressure(law: Any, given: Any, own: Any, out: Any) -> None:
+    """Pressures at x, of contacts a, c."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        out[i, 0] = law.pressure(given[i, 0], given[i, 1], given[i, 2], own[i])
+
+
+@kernel(LOOP)
+def each_series(law: Any, given: Any, own: Any, out: Any) -> None:
+    """Coefficients of s**(3/2) and of s**(5/2) of the contacts a, c."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        left, right, third_left, third_right = law.series(given[i, 0], given[i, 1], own[i])
+        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = left, right, third_left, third_right

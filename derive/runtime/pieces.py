@@ -1,0 +1,472 @@
+"""What a contact carries, by quadrature of the body's curvature: one rule for every convex body.
+
+Each element ds of the contact [-a, c] adds the pressure (1/pi) g''(s) L(x, s) ds for E* = 1, with
+
+    L(x, s) = asinh sqrt(min(u, v)/(h |x - s|)),   u = (c - s)(a + x),   v = (a + s)(c - x),
+
+and a corner adds the jump of g' there in place of g'' ds.  Load and edge coefficients follow,
+
+    P = (1/2) int g'' w ds,   K_left = (1/(pi sqrt(h))) int g'' w/(a + s) ds,   K_right alike,
+    alpha = -(1/pi) int g'/w ds.
+
+On a convex body nothing in the first three is ever subtracted: no digit is lost, wherever the
+contact lies.  The contact is cut at the body's breaks, and the pressure's at x.  On each part the
+nodes of the double exponential rule crowd towards both ends, and every distance from an end is a
+product, not a difference.  The step is halved until two sums agree.
+
+What is alike on both sides of a contact is written once: the other side sees the body from behind.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .kernels import BREAKS, COMPILED, kernel, real, results, truth, vector, whole
+from .shared import shared
+
+FARTHEST = 6
+"""How far the rule may go: to 1e-275 of a part.  It stops where its terms count no more."""
+
+FINEST = 8
+"""Steps of the rule are 1 at first and 2**-FINEST at last."""
+
+AGREED = 1e-11
+"""Two sums that agree to this, the later one is exact to rounding."""
+
+BESIDE = 0.1
+"""Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
+
+ALIKE = 1e-12
+"""Two limits of g'' at a break that agree to this are the same."""
+
+HUGE = 1e300
+"""A quotient that is larger may leave float64."""
+
+TINY, NOTHING = 5e-324, 1e-300
+"""The smallest distance from a break, in metres, and from an edge, in parts of the width."""
+
+
+class Curve(NamedTuple):
+    """A body by its curve.  It is cut into pieces at its breaks, one break at least.
+
+    beside   (piece, side, t, own) -> g', g'' and t g''' on a piece, numbered from the left, at the
+             distance t > 0 from its left break (side = 1) or its right one (side = -1)
+    breaks   (own) -> where the breaks are, from left to right
+    corners  (own) -> jumps of g' at the breaks
+    """
+
+    beside: Any
+    breaks: Any
+    corners: Any
+
+
+class Part(NamedTuple):
+    """What lies of one piece inside a window of the contact, seen from in front or from behind.
+
+    piece, sense   the piece's number; 1, or -1 where it is seen from behind
+    length         [m]
+    past, ahead    distances from the piece's breaks to the part's ends [m]
+    extent         length in parts of the contact's width
+    start, end     distances from the window's ends to the part's, in parts of the width
+    """
+
+    piece: Any
+    sense: Any
+    length: Any
+    past: Any
+    ahead: Any
+    extent: Any
+    start: Any
+    end: Any
+
+
+class Node(NamedTuple):
+    """The curve at one place of a part.
+
+    slope, curvature, change   g', g'' and t g'''
+    t                          distance from the nearer break [m]
+    start, end                 distances from the window's ends, in parts of the width
+    along                      distance from the part's start, in parts of the width
+    """
+
+    slope: Any
+    curvature: Any
+    change: Any
+    t: Any
+    start: Any
+    end: Any
+    along: Any
+
+
+if COMPILED:
+    from numba import types
+    from numba.core import cgutils
+    from numba.extending import intrinsic
+
+    BESIDE_BREAK: Any = results(3)(whole, whole, real, vector)
+    CURVE: Any = types.NamedTuple(
+        tuple(map(types.FunctionType, (BESIDE_BREAK, BREAKS, BREAKS))), Curve
+    )
+    PART: Any = types.NamedTuple((whole, whole, *(real,) * 6), Part)
+    NODE: Any = types.NamedUniTuple(real, 7, Node)
+    CUT: Any = PART(vector, whole, real, real, real, whole)
+    AT: Any = NODE(CURVE, PART, real, real, vector)
+    INTEGRAND: Any = results(5)(NODE, results(3))
+    OVER_PART: Any = (types.FunctionType(INTEGRAND), results(3), CURVE, PART, vector)
+    ADD: Any = real(*OVER_PART, whole, whole, real, vector, vector)
+    INTEGRATE: Any = types.void(*OVER_PART, vector)
+    CARRIED: Any = results(5)(CURVE, real, real, vector)
+    PRESSED: Any = real(CURVE, real, real, real, vector)
+    EXPANDED: Any = results(4)(CURVE, real, real, vector)
+    EXPANDED_AT: Any = real(CURVE, real, real, vector, whole)
+    INCLINED: Any = results(2)(CURVE, real, vector)
+    SMOOTH: Any = truth(CURVE, whole, vector)
+
+    def _value_of(signature: Any) -> Any:
+        """Turn a kernel into a value.  What uses numba's own such values is not kept on disk."""
+        function = types.FunctionType(signature)
+
+        @intrinsic  # type: ignore[untyped-decorator]
+        def value(_: Any, kernel: Any) -> Any:
+            def code(context: Any, builder: Any, *_: Any) -> Any:
+                compiled = kernel.dispatcher.get_compile_result(signature)
+                context.active_code_library.add_linking_library(compiled.library)
+                found = context.declare_function(builder.module, compiled.fndesc)
+                made = cgutils.create_struct_proxy(function)(context, builder)
+                made.jit_addr = made.c_addr = builder.bitcast(found, cgutils.voidptr_t)
+                return made._getvalue()
+
+            return function(kernel), code
+
+        return value
+
+    _beside_value, _breaks_value, _integrand = map(_value_of, (BESIDE_BREAK, BREAKS, INTEGRAND))
+
+    @shared
+    def curve_of(beside: Any, breaks: Any, corners: Any) -> Curve:
+        """A curve from its three kernels."""
+        return Curve(_beside_value(beside), _breaks_value(breaks), _breaks_value(corners))
+
+else:
+    BESIDE_BREAK = CURVE = PART = NODE = CUT = AT = INTEGRAND = ADD = INTEGRATE = None
+    CARRIED = PRESSED = EXPANDED = EXPANDED_AT = INCLINED = SMOOTH = None
+    curve_of = Curve
+
+    def _integrand(kernel: Any) -> Any:
+        """The function itself."""
+        return kernel
+
+
+# ---------------------------------------------------------------- the contact's parts
+
+
+@kernel(CUT)
+def _part(breaks: Any, piece: int, low: float, high: float, h: float, sense: int) -> Part:
+    """What lies of a piece inside the window [low, high]."""
+    width = high - low
+    length, start, end, past, ahead = width, 0.0, 0.0, math.inf, math.inf
+    if 0 < piece < breaks.size:
+        length = min(length, breaks[piece] - breaks[piece - 1])
+    if piece > 0:
+        left = breaks[piece - 1]
+        start, past = max(left - low, 0.0), max(low - left, 0.0)
+        length = min(length, high - left)
+    if piece < breaks.size:
+        right = breaks[piece]
+        end, ahead = max(high - right, 0.0), max(right - high, 0.0)
+        length = min(length, right - low)
+    if sense < 0:
+        start, end, past, ahead = end, start, ahead, past
+    length = max(length, 0.0)
+    return Part(piece, sense, length, past, ahead, length / h, start / h, end / h)
+
+
+@kernel(AT)
+def _at(curve: Any, part: Any, q: float, rest: float, own: Any) -> Node:
+    """The curve at the fractions q and 1 - q of a part, seen from the nearer break."""
+    before, behind = part.past + part.length * q, part.ahead + part.length * rest
+    side = part.sense if before <= behind else -part.sense
+    t = max(min(before, behind), TINY)
+    slope, curvature, change = curve.beside(part.piece, side, t, own)
+    along = part.extent * q
+    start, end = max(part.start + along, NOTHING), max(part.end + part.extent * rest, NOTHING)
+    return Node(part.sense * slope, curvature, part.sense * change, t, start, end, along)
+
+
+@kernel(INCLINED)
+def slope(curve: Any, x: float, own: Any) -> tuple[float, float]:
+    """g'(x) and g''(x); at a break, of the piece on its right."""
+    breaks = curve.breaks(own)
+    piece = 0
+    while piece < breaks.size and x >= breaks[piece]:
+        piece += 1
+    node = _at(curve, _part(breaks, piece, x, x, 1.0, 1), 0.5, 0.5, own)
+    return node.slope, node.curvature
+
+
+# ---------------------------------------------------------------- the rule
+
+
+def _rule() -> Any:
+    """q, 1 - q and weights of the rule on (0, 1) with q = 1/(1 + exp(pi sinh t)), t > 0.
+
+    First those of step 1, t = 1, 2, ..., FARTHEST; then, level by level, those of half the step
+    that come between.  Where t < 0, q and 1 - q change places.
+    """
+    levels = [np.arange(1.0, FARTHEST + 1)]
+    levels += [np.arange(0.5**n, FARTHEST, 2 * 0.5**n) for n in range(1, FINEST + 1)]
+    t = np.concatenate(levels)
+    q, rest = (1 / (1 + np.exp(sign * np.pi * np.sinh(t))) for sign in (1, -1))
+    return np.column_stack((q, rest, np.pi * np.cosh(t) * q * rest))
+
+
+RULE = _rule()
+MIDDLE = math.pi / 4
+"""The weight where t = 0."""
+
+
+@kernel(ADD)
+def _add(
+    integrand: Any,
+    given: Any,
+    curve: Any,
+    part: Any,
+    own: Any,
+    level: int,
+    side: int,
+    reach: float,
+    sums: Any,
+    sizes: Any,
+) -> float:
+    """Add what a level brings on one side of a part; tell how far from its middle terms count.
+
+    From the third level on, the rule goes no farther than that.
+    """
+    step = 0.5**level
+    apart = 1.0 if level == 0 else 2 * step
+    nodes = int(FARTHEST / apart)
+    first = 0 if level == 0 else nodes
+    for j in range(nodes):
+        t = step + j * apart
+        if level > 1 and t >= reach + 0.5:
+            break
+        q, rest, weight = RULE[first + j, side], RULE[first + j, 1 - side], RULE[first + j, 2]
+        values = integrand(_at(curve, part, q, rest, own), given)
+        for i in range(sums.size):
+            size = sizes[i]
+            sums[i] += weight * values[i]
+            sizes[i] += abs(weight * values[i])
+            if sizes[i] != size:
+                reach = max(reach, t)
+                if t == FARTHEST:  # the sum has not come to its end
+                    sums[i] = math.nan
+    return reach
+
+
+@kernel(INTEGRATE)
+def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, total: Any) -> None:
+    """Add the integrals over a part to `total`: NaN where the sums do not agree or have no end.
+
+    All are infinite beyond the body's curve, where the first one is infinite or none.
+
+    integrand: its values, as many as are totalled, from a node and three numbers that are given.
+    """
+    if not part.length > 0:
+        return
+    sums, sizes, before = np.zeros(total.size), np.zeros(total.size), np.zeros(total.size)
+    values = integrand(_at(curve, part, 0.5, 0.5, own), given)
+    for i in range(total.size):
+        sums[i] = MIDDLE * values[i]
+        sizes[i] = abs(sums[i])
+    low = high = 0.0
+    for level in range(FINEST + 1):
+        low = _add(integrand, given, curve, part, own, level, 0, low, sums, sizes)
+        high = _add(integrand, given, curve, part, own, level, 1, high, sums, sizes)
+        if not sizes[0] < math.inf:
+            total[:] = math.inf
+            return
+        agree = level > 1
+        for i in range(total.size):
+            off = abs(sums[i] - 2 * before[i])
+            if level == FINEST and not off <= AGREED * sizes[i]:
+                sums[i] = math.nan
+            agree = agree and (off <= AGREED * sizes[i] or math.isnan(sums[i]))
+            before[i] = sums[i]
+        if agree:
+            total += 0.5**level * part.length * sums
+            return
+
+
+# ---------------------------------------------------------------- load, moment, tilt, K_N
+
+
+@kernel(INTEGRAND)
+def _of_state(node: Any, _: Any) -> tuple[float, ...]:
+    """g'' w, g'' w/(a + s), g'' w/(c - s), g'/w and g'' w (2 s + a - c), in parts of the width."""
+    root = math.sqrt(node.start / node.end)
+    w = root * node.end
+    force, arm = node.curvature * w, node.start - node.end
+    return force, node.curvature / root, node.curvature * root, node.slope / w, force * arm
+
+
+@kernel(CARRIED)
+def state(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
+    """Load, moment, tilt, K_N at the left and the right edge, for E* = 1.
+
+    NaN where [-a, c] is no contact, and what is infinite, as K_N is where g'' is infinite at an
+    edge; a load without limit where the contact leaves the body's curve.
+    """
+    h, total = a + c, np.zeros(5)
+    if not 0 < h < math.inf:
+        return math.nan, math.nan, math.nan, math.nan, math.nan
+    breaks, corners = curve.breaks(own), curve.corners(own)
+    for piece in range(breaks.size + 1):
+        part = _part(breaks, piece, -a, c, h, 1)
+        _integrate(_integrand(_of_state), (0.0, 0.0, 0.0), curve, part, own, total)
+    for i in range(breaks.size):
+        A, B = (a + breaks[i]) / h, (c - breaks[i]) / h
+        if corners[i] > 0 and A > 0 and B > 0:
+            root = math.sqrt(A) * math.sqrt(B)
+            total[0] += corners[i] * root
+            total[1] += corners[i] * root / A
+            total[2] += corners[i] * root / B
+            total[4] += corners[i] * root * (A - B)
+    load, root = h * total[0] / 2, math.pi * math.sqrt(h)
+    if not 0 < load < math.inf:
+        load = math.inf if load == math.inf else math.nan
+        return load, math.nan, math.nan, math.nan, math.nan
+    moment = (a - c) / 2 * load - h * h * total[4] / 8
+    return load, moment, -total[3] / (math.pi * h), total[1] / root, total[2] / root
+
+
+# ---------------------------------------------------------------- pressure
+
+
+@shared
+def _asinh_root(z: float) -> float:
+    """asinh sqrt(z)."""
+    return math.log1p(2 * (z + math.sqrt(z) * math.sqrt(1 + z))) / 2
+
+
+@kernel(INTEGRAND)
+def _of_pressure(node: Any, given: Any) -> tuple[float, ...]:
+    """g''(s) L(x, s), x being the window's end; its distance from the edge behind it is given."""
+    return node.curvature * _asinh_root(node.start * given[0] / node.end), 0.0, 0.0, 0.0, 0.0
+
+
+@kernel(PRESSED)
+def pressure(curve: Any, x: float, a: float, c: float, own: Any) -> float:
+    """The pressure at x for E* = 1; zero outside the contact, infinite at a corner alone."""
+    h, left, right, total = a + c, a + x, c - x, np.zeros(1)
+    if not (0 < h < math.inf and math.isfinite(x)):
+        return math.nan
+    if left <= 0 or right <= 0:
+        return 0.0
+    breaks, corners = curve.breaks(own), curve.corners(own)
+    for piece in range(breaks.size + 1):
+        before, behind = _part(breaks, piece, -a, x, h, 1), _part(breaks, piece, x, c, h, -1)
+        for part, to_edge in ((before, right / h), (behind, left / h)):
+            given = to_edge, 0.0, 0.0
+            _integrate(_integrand(_of_pressure), given, curve, part, own, total)
+    if not total[0] < math.inf:
+        return math.nan
+    for i in range(breaks.size):
+        A, B, away = a + breaks[i], c - breaks[i], abs(x - breaks[i])
+        if corners[i] > 0 and A > 0 and B > 0:
+            if away == 0:
+                return math.inf
+            total[0] += corners[i] * _asinh_root(min(B * left, A * right) / h / away)
+    return total[0] / math.pi
+
+
+# ---------------------------------------------------------------- L_N
+
+
+@shared
+def _psi(r: float) -> float:
+    """3 sqrt(h) times the integral of k ds that is zero at the far edge."""
+    return 2 * r - 1.5 * math.atan(r) - r / (2 * (1 + r * r))
+
+
+@kernel(INTEGRAND)
+def _of_second(node: Any, _: Any) -> tuple[float, ...]:
+    """g'' r (3 + 2 r**2)."""
+    square = node.start / node.end
+    return node.curvature * math.sqrt(square) * (3 + 2 * square), 0.0, 0.0, 0.0, 0.0
+
+
+@kernel(INTEGRAND)
+def _of_second_by_parts(node: Any, given: Any) -> tuple[float, ...]:
+    """-2 t g''' (psi(r) - psi(r_0))/t.
+
+    Given are r_0, how far its place lies from the edge, and how far the part starts from there.
+    """
+    r_0, to_edge, offset = given
+    r = math.sqrt(node.start / node.end)
+    step = (offset + node.along) / (node.end * to_edge) / (r + r_0)
+    twist = (1 - r * r_0) / ((1 + r * r) * (1 + r_0 * r_0))
+    rise = 2 * step - 1.5 * math.atan2(step, 1 + r * r_0) - step * twist / 2
+    if abs(rise) > HUGE * node.t:  # beside an edge that lies at a break
+        return -2 * (node.change / node.t) * rise, 0.0, 0.0, 0.0, 0.0
+    return -2 * node.change * (rise / node.t), 0.0, 0.0, 0.0, 0.0
+
+
+@kernel(SMOOTH)
+def _is_smooth(curve: Any, i: int, own: Any) -> bool:
+    """Whether g'' goes on at a break without a jump, neither zero nor infinite there."""
+    _, left, of_left = curve.beside(i, -1, TINY, own)
+    _, right, of_right = curve.beside(i + 1, 1, TINY, own)
+    return abs(left - right) + abs(of_left) + abs(of_right) < ALIKE * (left + right)
+
+
+@kernel(EXPANDED_AT)
+def _second(curve: Any, a: float, c: float, own: Any, sense: int) -> float:
+    """The coefficient of s**(3/2) at the right edge, seen from behind at the left one.
+
+    It is (1/pi) times the finite part of int g'' k ds, k = r (3 + 2 r**2)/(6 h**(3/2)), with
+    r = sqrt((a + s)/(c - s)).  Close to the edge g'' is integrated by parts, with
+
+        int k ds = psi(r)/(3 sqrt(h)),   psi(r) = 2 r - (3/2) atan r - r/(2 (1 + r**2)),
+
+    whose finite part at the edge is -3 pi/4.  By parts goes what lies behind the last break, left
+    out smooth ones close to the edge: from these on, large terms would cancel.
+    """
+    h, total = a + c, np.zeros(1)
+    if not 0 < h < math.inf:
+        return math.nan
+    breaks, corners = curve.breaks(own), curve.corners(own)
+    origin, to_edge = 0.0, 1.0
+    for i in range(breaks.size):
+        A, B = (a + breaks[i]) / h, (c - breaks[i]) / h
+        if sense < 0:
+            A, B = B, A
+        if A <= 0 or B <= 0:
+            continue
+        if corners[i] > 0:
+            square = A / B
+            total[0] += corners[i] * math.sqrt(square) * (3 + 2 * square)
+        if origin < A and (B > BESIDE or corners[i] > 0 or not _is_smooth(curve, i, own)):
+            origin, to_edge = A, B
+    r_0 = math.sqrt(origin / to_edge)
+    for piece in range(breaks.size + 1):
+        part = _part(breaks, piece, -a, c, h, sense)
+        if part.start < origin:
+            _integrate(_integrand(_of_second), (0.0, 0.0, 0.0), curve, part, own, total)
+        else:
+            given = r_0, to_edge, part.start - origin
+            scaled = np.zeros(1)
+            _integrate(_integrand(_of_second_by_parts), given, curve, part, own, scaled)
+            total += h * scaled
+            if part.length > 0 and part.end == 0:
+                edge = _at(curve, part, 1.0, 0.0, own).curvature
+                total[0] -= 2 * h * edge * (0.75 * math.pi + _psi(r_0))
+    if not math.isfinite(total[0]):
+        return math.nan
+    return total[0] / (6 * math.pi * h * math.sqrt(h))
+
+
+@kernel(EXPANDED)
+def series(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
+    """Coefficients of s**(3/2) at both edges for E* = 1; those of s**(5/2) are not found."""
+    return _second(curve, a, c, own, -1), _second(curve, a, c, own, 1), math.nan, math.nan

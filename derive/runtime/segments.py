@@ -1,0 +1,240 @@
+"""Functions of the parts of a contact that a body's straight lines and parabolas cover.
+
+A place s of the contact [-a, c], h wide, has its angle on the half circle over the contact,
+2 atan2(sqrt(a + s), sqrt(c - s)), from 0 at the left edge to pi at the right one.  A part opens an
+angle t: that between the angles of its ends.  Sines and cosines of half angles are roots of
+distances,
+
+    sin = sqrt((a + s)/h),    cos = sqrt((c - s)/h).
+
+What is asked for is a sum of positive terms, or is expanded where its terms would cancel.  All
+functions take numbers and arrays, and are compiled for numbers.
+"""
+
+from math import factorial
+
+import numpy as np
+
+from .elementary import where
+from .shared import shared
+from .types import Array
+
+NOTHING = 1e-300
+"""What stands for zero under a line."""
+
+_TURN = 1.0
+"""Below this angle a segment is expanded, and below 3/2 of it an involute."""
+
+_NEAR, _WIDE = 0.5, 1.0
+"""A part is seen from afar where its logarithms differ by less than artanh of the first, and half
+its angle is smaller than the second: elsewhere nothing cancels by parts."""
+
+_SEGMENT = tuple((-1) ** n * 4.0 ** (n + 1) / factorial(2 * n + 3) for n in range(12, -1, -1))
+"""segment(t)/t**3 = sum (-1)**n 4**(n + 1)/(2 n + 3)! t**(2 n), the highest power first."""
+
+_INVOLUTE = tuple((-1) ** n * (2.0 * n + 2) / factorial(2 * n + 3) for n in range(12, -1, -1))
+"""involute(t)/t**3 = sum (-1)**n (2 n + 2)/(2 n + 3)! t**(2 n), the highest power first."""
+
+_EXCESS = tuple(1 / (2.0 * n + 3) for n in range(13, -1, -1))
+"""(artanh(z) - z)/z**3 = sum z**(2 n)/(2 n + 3), the highest power first."""
+
+
+@shared
+def polynomial(coefficients: tuple[float, ...], z: Array) -> Array:
+    """A polynomial of z, the coefficient of its highest power first."""
+    total = 0.0 * z
+    for coefficient in coefficients:
+        total = total * z + coefficient
+    return total
+
+
+@shared
+def segment(t: Array) -> Array:
+    """t - sin(t) cos(t), 0 <= t <= pi: twice the area of a segment of the unit circle, 2 t wide.
+
+    (2/3) t**3 - (2/15) t**5 + (4/315) t**7 - ... where t < 1.
+
+    >>> float(segment(np.pi))
+    3.141592653589793
+    """
+    square = t * t
+    series = t * square * polynomial(_SEGMENT, square)
+    return where(t < _TURN, series, t - np.sin(t) * np.cos(t))
+
+
+@shared
+def involute(t: Array) -> Array:
+    """sin(t) - t cos(t), 0 <= t <= pi: how far the involute of the unit circle leads sideways.
+
+    (1/3) t**3 - (1/30) t**5 + (1/840) t**7 - ... where t < 3/2.
+
+    >>> float(involute(np.pi))
+    3.141592653589793
+    """
+    square = t * t
+    series = t * square * polynomial(_INVOLUTE, square)
+    return where(t < 1.5 * _TURN, series, np.sin(t) - t * np.cos(t))
+
+
+@shared
+def excess(y: Array) -> Array:
+    """artanh(y) - y, 0 <= y <= 1/2.
+
+    With z = y/(1 + sqrt(1 - y**2)) it is 2 (artanh(z) - z) + y z**2, and
+    artanh(z) - z = z**3/3 + z**5/5 + z**7/7 + ...
+
+    >>> float(excess(0.0))
+    0.0
+    """
+    z = y / (1 + np.sqrt(np.maximum((1 - y) * (1 + y), 0.0)))
+    square = z * z
+    return 2 * (z * square) * polynomial(_EXCESS, square) + y * square
+
+
+@shared
+def root_ratio(numerator: Array, denominator: Array) -> Array:
+    """sqrt(numerator/denominator); zero unless both are positive, for a place in the contact.
+
+    >>> float(root_ratio(4.0, 1.0)), float(root_ratio(4.0, 0.0))
+    (2.0, 0.0)
+    """
+    inside = (numerator > 0) & (denominator > 0)
+    quotient = np.maximum(numerator, 0.0) / np.maximum(denominator, NOTHING)
+    return where(inside, np.sqrt(quotient), 0.0)
+
+
+@shared
+def second_term(t: Array, near: Array, far: Array) -> Array:
+    """int (sin(v)**2 + 2 tan(v)**2) dv over the half angles of a part, for the right edge.
+
+    t: the angle that the part opens, 0 <= t < pi.
+    near, far: the product of the sines, and of the cosines, of the half angles of its ends; the
+        other way round for the left edge.  Zero where far is: of a part that ends at the edge.
+
+    With e = t/2, cos(e) = near + far and the tangents' difference X = sin(e)/far it is
+
+        2 (X - e) + segment(e)/2 + near sin(e),   X - e = (near X + involute(e))/(near + far),
+
+    near zero t**3/4 for a part that begins at the left edge.
+
+    >>> float(second_term(0.0, 0.5, 0.5))
+    0.0
+    """
+    e = t / 2
+    sine = np.sin(e)
+    beyond = _beyond(e, sine, near, far)
+    return where(far > 0, 2 * beyond + segment(e) / 2 + near * sine, 0.0)
+
+
+@shared
+def third_term(t: Array, near: Array, far: Array) -> Array:
+    """int (3 sin(v)**2 + 12 tan(v)**2 + 8 tan(v)**4) dv over the half angles of a part.
+
+    Arguments as those of second_term; with e = t/2 and X = sin(e)/far it is
+
+        4 (X - e) + (3/2) segment(e) + 3 near sin(e) + 8 (near/far) X + (8/3) X**3.
+
+    >>> float(third_term(0.0, 0.5, 0.5))
+    0.0
+    """
+    e = t / 2
+    sine = np.sin(e)
+    below = np.maximum(far, NOTHING)
+    rise = sine / below
+    steep = rise * (8 * (near / below) + rise * rise * 8 / 3)
+    found = 4 * _beyond(e, sine, near, far) + 1.5 * segment(e) + 3 * near * sine + steep
+    return where(far > 0, found, 0.0)
+
+
+@shared
+def _beyond(e: Array, sine: Array, near: Array, far: Array) -> Array:
+    """X - e: by how much the difference of two tangents exceeds that of their angles."""
+    cosine = np.maximum(near + far, NOTHING)
+    return (near * (sine / np.maximum(far, NOTHING)) + involute(e)) / cosine
+
+
+@shared
+def end_pressure(t: Array, sine: Array, cosine: Array) -> Array:
+    """int L ds/h over the part between an edge and a kink, seen from x.
+
+    t: the angle that the part opens, 0 <= t <= pi.
+    sine, cosine: of half the angle of x, both from the part's edge: roots of the distances of x
+        from that edge and from the other one, over h.
+
+    With e = t/2 and f, half the angle of x,
+
+        e sin(f) cos(f) + (sin(e)**2 - sin(f)**2) artanh(y),   y = tan(e)/tan(f) or its inverse,
+
+    a sum of positive terms where x lies on the part.  Where it does not, y < 1/2 and e < 1,
+
+        sin(e)**2 y - sin(f) cos(f) involute(e)/cos(e) - (sin(f)**2 - sin(e)**2) excess(y).
+
+    >>> float(end_pressure(np.pi, 1.0, 1.0)) / (np.pi / 2)
+    1.0
+    """
+    e = t / 2
+    sine_e, cosine_e = np.sin(e), np.maximum(np.cos(e), NOTHING)
+    p, q, root = sine_e * cosine, cosine_e * sine, sine * cosine
+    offset = (p - q) * (p + q)
+    y = np.minimum(p / np.maximum(q, NOTHING), _NEAR)
+    level = np.log1p(2 * np.minimum(p, q) / np.maximum(np.abs(p - q), NOTHING)) / 2
+    by_parts = e * root + offset * level
+    afar = sine_e * sine_e * y - root * (involute(e) / cosine_e) + offset * excess(y)
+    return where((p < _NEAR * q) & (e < _WIDE), afar, by_parts)
+
+
+@shared
+def part_pressure(
+    t: Array,
+    start: Array,
+    end: Array,
+    sine_1: Array,
+    cosine_1: Array,
+    sine_2: Array,
+    cosine_2: Array,
+    sine: Array,
+    cosine: Array,
+) -> Array:
+    """int L ds/h over the part between two kinks, seen from x.
+
+    t: the angle that the part opens, 0 <= t <= pi.
+    start, end: how far its ends lie right of x, over h.
+    sine_1, ..., cosine: of the half angles of its ends and of x.
+
+    With L_1 and L_2 at its ends it is, a sum of positive terms where x lies on the part,
+
+        (t/2) sin(f) cos(f) + end L_2 - start L_1,   L = artanh of the ratio of both tangents.
+
+    Where it does not, the nearer end lies d away, w_1 is its sine times its cosine, l the part's
+    length, L that of the farther end, y < 1/2 and
+    e < 1, with e = t/2 and w = sin(f) cos(f),
+
+        l L + (w/cos(e)) (w_1 sin(e)**2/(d cos(e) + w_1 sin(e)) - involute(e)) - d excess(y),
+        y = w sin(e)/(d cos(e) + w_1 sin(e)),   l = sin(e) sin(f_1 + f_2).
+
+    >>> float(part_pressure(np.pi, -0.5, 0.5, 0.0, 1.0, 1.0, 0.0, 0.6, 0.8)) / (0.24 * np.pi)
+    1.0
+    """
+    e, root = t / 2, sine * cosine
+    first = _level(sine_1 * cosine, cosine_1 * sine, start)
+    second = _level(sine_2 * cosine, cosine_2 * sine, end)
+    by_parts = e * root + end * second - start * first
+    sine_e, cosine_e = np.sin(e), np.maximum(sine_1 * sine_2 + cosine_1 * cosine_2, NOTHING)
+    right = start > 0  # of x
+    distance = np.maximum(np.maximum(start, -end), 0.0)
+    near = where(right, sine_1 * cosine_1, sine_2 * cosine_2)
+    level = where(right, second, first)
+    length = sine_e * (sine_1 * cosine_2 + cosine_1 * sine_2)
+    reach = np.maximum(distance * cosine_e + near * sine_e, NOTHING)
+    y = np.minimum(root * sine_e / reach, _NEAR)
+    bent = root / cosine_e * (near * (sine_e * sine_e) / reach - involute(e))
+    afar = length * level + bent - distance * excess(y)
+    far = (distance > 0) & (root * sine_e < _NEAR * reach) & (e < _WIDE)
+    return where(far, afar, by_parts)
+
+
+@shared
+def _level(p: Array, q: Array, offset: Array) -> Array:
+    """L = artanh(min(p, q)/max(p, q)), the difference of whose squares is the offset."""
+    least = np.minimum(p, q)
+    return np.log1p(2 * (p * q + least * least) / np.maximum(np.abs(offset), NOTHING)) / 2

@@ -1,0 +1,13 @@
+"""Partial slip: stick zones, slip zones and shear of a cycle, from a body's law.
+
+quadrature  nodes and weights on a slip zone
+moderate    the stick zone as a contact of the same body
+large       the stick zone between slip zones of opposite signs
+growth      whether slip grows all the way, as both assume
+tables      functions of one variable by Chebyshev series
+mixed       the stick zone where slip reverses within a half-cycle
+zone        which of these a cycle is
+series      slip zones by series in their length
+shear       the change of shear, and how far the surfaces slip
+march       a cycle instant by instant
+"""

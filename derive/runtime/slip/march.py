@@ -1,0 +1,256 @@
+r"""A steady cycle instant by instant: where it slips, and which way.
+
+All loads move in proportion, there and back between two states: at the least shear and at the
+greatest.  Let `part` say how far an instant has come from the first to the second.  Since the loads
+last turned, slip has grown as in a half-cycle that ends now, between the contact at the turn and
+the one now, if it grows all the way in the whole half-cycle; so the regime is that of the whole.
+Where slip turns round inside it (MIXED), nothing is told but its ends.
+
+What is not known is refused, for all instants alike: loads out of proportion, a history that does
+not come back, and |Q| >= f P.  The last instant leads straight back to the first.  A history that
+goes from one state to the other and no further, so that this step were the whole way back, is a
+first loading and no cycle.
+
+Loads are a matrix of P, M, Q, sigma over E*, an instant a column; contacts one of A, C, TILT, LOAD
+and MOMENT, an instant a row.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..inverse import contact
+from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
+from ..types import Array
+from .large import EXACT, large_slip
+from .moderate import LOAD, MOMENT, TILT, A, C, patch
+from .series import slip_zones
+from .zone import FULL_STICK, LARGE, MIXED, NONE, SLIDING, UNSOLVED, stick_zone
+
+OUT_OF_PHASE, NOT_CLOSED, IN_ORDER = 7.0, 8.0, -1.0
+"""Two more codes of Regime, and that nothing is amiss."""
+
+P, M, Q, SIGMA = range(4)
+"""The rows of the loads."""
+
+BY_RANK = (Q, SIGMA, P, M)
+"""The first of them that changes says how far the others must have come."""
+
+IN_PHASE = 1e-6
+"""How far loads may be off the way between both states, in parts of their change."""
+
+ROUNDING = 1e-12
+"""Loads that change by less, in parts of what is large, are constant."""
+
+NOWHERE = math.nan, math.nan
+
+
+# ---------------------------------------------------------------- what the loads do
+
+
+@kernel(matrix(LAW, vector, matrix))
+def _contacts(law: Any, own: Array, loads: Array) -> Array:
+    """The contact at every instant; NaN where there is none."""
+    found = np.empty((loads.shape[1], 5))
+    for i in range(loads.shape[1]):
+        if i > 0 and loads[P, i] == loads[P, i - 1] and loads[M, i] == loads[M, i - 1]:
+            found[i] = found[i - 1]
+            continue
+        found[i, A], found[i, C], found[i, TILT] = contact(law, own, loads[P, i], loads[M, i])
+        found[i, LOAD], found[i, MOMENT] = loads[P, i], loads[M, i]
+    return found
+
+
+@kernel(vector(matrix, matrix, real))
+def _roundings(loads: Array, contacts: Array, f: Array) -> Array:
+    """What counts as no change of each load: a part of its size, and of P, P h, f P and f P/h."""
+    sizes = np.zeros(4)
+    for i in range(loads.shape[1]):
+        h, load = contacts[i, A] + contacts[i, C], abs(loads[P, i])
+        for k, size in ((P, load), (M, load * h), (Q, f * load), (SIGMA, f * load / h)):
+            sizes[k] = max(sizes[k], abs(loads[k, i]), size)
+    for k in range(4):
+        sizes[k] *= ROUNDING
+    return sizes
+
+
+@kernel(vector(matrix, vector))
+def _parts(loads: Array, roundings: Array) -> Array:
+    """How far every instant has come, 0 to 1; NaN where the loads are out of proportion."""
+    part = np.zeros(loads.shape[1])
+    low = high = 0
+    for k in BY_RANK:
+        low, high = np.argmin(loads[k]), np.argmax(loads[k])
+        change = loads[k, high] - loads[k, low]
+        if change > 2 * roundings[k]:
+            rest = roundings[k] / change
+            for i in range(part.size):
+                come = (loads[k, i] - loads[k, low]) / change
+                part[i] = 0.0 if come <= rest else 1.0 if come >= 1 - rest else come
+            break
+    for k in range(4):
+        change = loads[k, high] - loads[k, low]
+        for i in range(part.size):
+            off = abs(loads[k, i] - loads[k, low] - part[i] * change)
+            if not off <= IN_PHASE * abs(change) + roundings[k]:
+                part[i] = math.nan
+    return part
+
+
+@kernel(vector(vector))
+def _starts(part: Array) -> Array:
+    """When the half-cycle of every instant began; NaN where the way there or back is not monotone.
+
+    While the loads rest at a turn, the half-cycle that led there is at its end.
+    """
+    count, begin = part.size, 0
+    for i in range(count):
+        if part[i] == 0 and part[(i + 1) % count] > 0:
+            begin = i
+    starts = np.empty(count)
+    turn, rises, reached = begin, True, 0.0
+    for k in range(1, count + 1):
+        i = (begin + k) % count
+        now = part[i] if rises else 1 - part[i]
+        if reached == 1 and now < 1:
+            turn, rises, reached = (i - 1) % count, not rises, 0.0
+            now = 1 - now
+        starts[i] = turn if now >= reached - IN_PHASE else math.nan
+        reached = max(reached, now)
+    return starts
+
+
+@kernel(real(matrix, matrix, real, vector, vector))
+def _amiss(loads: Array, contacts: Array, f: Array, part: Array, starts: Array) -> Array:
+    """The regime of a history that is refused at all instants."""
+    last = part.size - 1
+    slides, leaps = False, abs(part[last] - part[0]) > 1 - IN_PHASE
+    strays = False
+    for i in range(part.size):
+        known = f > 0 and contacts[i, C] + contacts[i, A] > 0 and math.isfinite(contacts[i, TILT])
+        for k in range(4):
+            known = known and math.isfinite(loads[k, i])
+        if not known:
+            return NONE
+        slides = slides or abs(loads[Q, i]) >= f * loads[P, i]
+        strays = strays or math.isnan(part[i]) or math.isnan(starts[i])
+    if slides:
+        return SLIDING
+    if strays:
+        return OUT_OF_PHASE
+    return NOT_CLOSED if leaps else IN_ORDER
+
+
+# ---------------------------------------------------------------- what slips
+
+
+@kernel(vector(matrix, matrix, vector, real, whole, whole, real))
+def _half_cycle(
+    loads: Array,
+    contacts: Array,
+    roundings: Array,
+    f: Array,
+    start: Array,
+    end: Array,
+    sense: Array,
+) -> Array:
+    """a1, c1, a2, c2, dQ, dsigma, f between two instants; sense: -1 if the loads go back."""
+    cycle = np.empty(7)
+    cycle[0], cycle[1] = contacts[start, A], contacts[start, C]
+    cycle[2], cycle[3] = contacts[end, A], contacts[end, C]
+    for i, k in ((4, Q), (5, SIGMA)):
+        rise = sense * (loads[k, end] - loads[k, start])
+        cycle[i] = 0.0 if abs(rise) <= roundings[k] else rise
+    cycle[6] = f
+    return cycle
+
+
+@kernel(results(2)(LAW, vector, matrix, vector, whole, whole, whole, real))
+def _stuck(
+    law: Any,
+    own: Array,
+    contacts: Array,
+    cycle: Array,
+    start: Array,
+    now: Array,
+    order: Array,
+    regime: Array,
+) -> Any:
+    """m and n of a half-cycle that ends now, if the whole one is of a regime that is known."""
+    a, c = min(cycle[0], cycle[2]), min(cycle[1], cycle[3])
+    m, n = NOWHERE
+    if regime == FULL_STICK:
+        return a, c
+    if order > 0:
+        da, dc = cycle[2] - cycle[0], cycle[3] - cycle[1]
+        left, right = slip_zones(
+            law, own, cycle[2], cycle[3], cycle[4], cycle[5], cycle[6], da, dc, order
+        )
+        m, n = cycle[2] - left, cycle[3] - right
+    elif regime == LARGE:
+        left, right = large_slip(law, own, cycle, EXACT)
+        m, n = a - left, c - right
+    else:
+        m, n = patch(law, own, contacts, start, now, 1.0, cycle)
+    rounding = ROUNDING * (a + c)
+    if m + n > 0 and m <= a + rounding and n <= c + rounding:
+        return m, n
+    return NOWHERE
+
+
+@kernel(real(matrix, matrix, real))
+def _begin(found: Array, contacts: Array, regime: Array) -> Array:
+    """Instants of which no more is known than their contacts and the regime."""
+    for i in range(found.shape[0]):
+        found[i, 0], found[i, 1], found[i, 6] = contacts[i, A], contacts[i, C], regime
+        found[i, 2] = found[i, 3] = math.nan
+        found[i, 4] = found[i, 5] = 0.0
+    return regime
+
+
+@kernel(real(vector, real, real, real))
+def _finish(found: Array, regime: Array, left: Array, order: Array) -> Array:
+    """The senses of slip of an instant whose stick zone has been asked for, and its regime."""
+    if math.isnan(found[2]):
+        found[6] = UNSOLVED if order == 0 else NONE
+    elif regime != FULL_STICK:
+        found[4], found[5] = left, -left if regime == LARGE else left
+    return found[6]
+
+
+@kernel(LOOP)
+def each_march(law: Any, given: Array, own: Array, out: Array) -> None:
+    """given: f, order, then P, M, Q and sigma at T instants.
+
+    out: a, c, m, n, left, right, regime, T times.
+    """
+    law = opened(law)
+    count = (given.shape[1] - 2) // 4
+    for row in range(given.shape[0]):
+        f, order, body = given[row, 0], int(given[row, 1]), own[row]
+        loads, found = given[row, 2:].reshape((4, count)), out[row].reshape((count, 7))
+        contacts = _contacts(law, body, loads)
+        roundings = _roundings(loads, contacts, f)
+        part = _parts(loads, roundings)
+        starts = _starts(part)
+        regime = _amiss(loads, contacts, f, part, starts)
+        _begin(found, contacts, regime)
+        if regime != IN_ORDER:
+            continue
+        low, high = np.argmin(part), np.argmax(part)
+        cycle = _half_cycle(loads, contacts, roundings, f, low, high, 1.0)
+        m, _, regime = stick_zone(law, body, cycle)
+        _begin(found, contacts, regime)
+        kappa = -1.0 if regime == LARGE and cycle[5] < 0 else 1.0
+        for i in range(count):
+            start = int(starts[i])
+            sense = 1.0 if part[start] == 0 else -1.0
+            # of a mixed cycle its ends alone are known, if at all
+            turns = part[i] == (1 + sense) / 2
+            if not math.isnan(m) and (regime != MIXED or turns):
+                cycle = _half_cycle(loads, contacts, roundings, f, start, i, sense)
+                found[i, 2], found[i, 3] = _stuck(
+                    law, body, contacts, cycle, start, i, order, regime
+                )
+                _finish(found[i], regime, sense * kappa, order)

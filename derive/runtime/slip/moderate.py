@@ -1,0 +1,83 @@
+"""The stick zone of moderate tension: the contact at the mean load less dQ/(2 f) and the mean tilt
+less dsigma/(4 f), for E* = 1; and the changes of tension that leave no slip zone at one edge.
+"""
+
+import math
+from typing import Any
+
+from ..inverse import contact_at_tilt
+from ..kernels import LAW, kernel, matrix, real, results, vector, whole
+
+A, C, TILT, LOAD, MOMENT = range(5)
+"""What is known of a contact, in this order."""
+
+FACTOR = 8.0
+"""By how much a width is changed until it is bracketed."""
+
+STEPS = 100
+"""Steps at most until a width is bracketed, and until it is found."""
+
+EPS = 2.0**-52
+
+
+@kernel(results(2)(LAW, vector, matrix, whole, whole, real, vector))
+def patch(law: Any, own: Any, way: Any, one: int, other: int, part: float, cycle: Any) -> Any:
+    """m and n between two contacts, the rows of `way`, after a part of the change of shear."""
+    load = (way[one, LOAD] + way[other, LOAD]) / 2 - part * cycle[4] / (2 * cycle[6])
+    tilt = (way[one, TILT] + way[other, TILT]) / 2 - part * cycle[5] / (4 * cycle[6])
+    return contact_at_tilt(law, own, load, tilt)
+
+
+@kernel(results(3)(LAW, vector, real, real, real))
+def _keeping(law: Any, own: Any, edge: float, width: float, side: float) -> Any:
+    """Load, its rate with the width, and tilt of a contact that keeps its left or right edge."""
+    a, c = (edge, width - edge) if side < 0 else (width - edge, edge)
+    load, _, tilt, K_left, K_right = law.state(a, c, own)
+    if not load > 0:
+        return 0.0, 0.0, math.nan
+    return load, math.pi / 4 * math.sqrt(width) * (K_right if side < 0 else K_left), tilt
+
+
+@kernel(real(LAW, vector, real, real, real, real))
+def _width_under(law: Any, own: Any, load: float, edge: float, side: float, width: float) -> Any:
+    """Width of the contact under a load that keeps its edge on one side; NaN if there is none.
+
+    width: where to look first.
+    """
+    steps = 0
+    while _keeping(law, own, edge, width, side)[0] < load and steps < STEPS:
+        width, steps = width * FACTOR, steps + 1
+    while _keeping(law, own, edge, width / FACTOR, side)[0] > load and steps < STEPS:
+        width, steps = width / FACTOR, steps + 1
+    low, high = width / FACTOR, width
+    before = high - low
+    for _ in range(STEPS - steps):
+        now, rate, _ = _keeping(law, own, edge, width, side)
+        if now < load:
+            low = width
+        else:
+            high = width
+        step = (load - now) / rate if rate > 0 else math.inf
+        if abs(step) <= 4 * EPS * width:
+            return width
+        if not (low < width + step < high and abs(step) < before / 2):
+            step = (low + high) / 2 - width
+        width, before = width + step, abs(step)
+        if high - low <= 4 * EPS * width:
+            return width
+    return math.nan
+
+
+@kernel(real(LAW, vector, matrix, vector, real))
+def closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
+    """The change of tension at which the zone ends where the smaller contact does, on one side."""
+    load = (ends[0, LOAD] + ends[1, LOAD]) / 2 - cycle[4] / (2 * cycle[6])
+    if not load > 0:
+        return math.nan
+    edge = min(ends[0, C], ends[1, C]) if side > 0 else min(ends[0, A], ends[1, A])
+    width = max(ends[0, A] + ends[0, C], ends[1, A] + ends[1, C])
+    width = _width_under(law, own, load, edge, side, width)
+    if not width > 0:
+        return math.nan
+    _, _, tilt = _keeping(law, own, edge, width, side)
+    return 4 * cycle[6] * ((ends[0, TILT] + ends[1, TILT]) / 2 - tilt)

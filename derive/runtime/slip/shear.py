@@ -1,0 +1,287 @@
+r"""The change of shear over a half-cycle, and how far the surfaces slip.
+
+With w(x) = sqrt((x + m)(x - n)), negative on the left, W(x) = sqrt((x + m)(n - x)), and r = kappa f
+(p1 + p2) in the slip zones, the bounded solution is
+
+    dq(x) = (W(x)/pi) int_slip r/(w(xi) (xi - x)) dxi              in the stick zone,
+    (1/pi) PV int dq/(x - xi) dxi - dsigma/4
+          = -(w(x)/pi) PV int_slip r/(w(xi) (xi - x)) dxi          in the slip zones.
+
+Let a slip zone be L long and d away from x, the other one D, y the distance from its start, and
+h_s = m + n.  It holds p1 + p2 = p_0 at its start, which is taken off, since
+
+    sqrt(d D) int_0^L dy/(sqrt(y (y + h_s)) (y + d)) = 2 arctan sqrt(L D/(d (L + h_s))).
+
+Under moderate tension dq is f (p1 + p2 - 2 p_s), p_s the pressure of the patch [-m, n].
+
+The second equation is E*/2 times the rate of slip along x.  Slip is its integral from the stick
+zone: with y and Y the distances of x and xi from there, to the outside,
+
+    int_0^y sqrt(t (t + h_s))/(Y - t) dt = -sqrt(y (y + h_s)) - (2 Y + h_s) asinh sqrt(y/h_s)
+        + sqrt(Y (Y + h_s)) log |(r + s)/(r - s)|,   r = sqrt(Y (y + h_s)),  s = sqrt(y (Y + h_s)),
+
+and for Y < -h_s, the other slip zone, with |Y|, |Y + h_s| in r and s and the logarithm's sign
+changed.
+
+The shear itself follows from its changes where the normal loads are constant.  From nothing, slip
+holds f p where a half-cycle changes by 2 f p, and both obey the same linear equations: what Q and
+sigma leave when they first rise is half the change under 2 Q and 2 sigma.  What they fall by after
+that changes it as any half-cycle does, as long as it slips back in no other place than it slipped,
+and drives none of these on.
+
+A cycle is a vector a1, c1, a2, c2, dQ, dsigma, f; everything is for E* = 1.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..kernels import LAW, LOOP, kernel, opened, real, results, truth, vector
+from .quadrature import both_pressures, reaches, slip_nodes, slip_zone
+
+MODERATE, LARGE, MIXED, FULL_STICK = 1.0, 2.0, 3.0, 5.0
+"""Codes of Regime."""
+
+LEVEL = 2
+"""Level of the quadrature: enough however close a kink is to the stick zone."""
+
+BESIDE = 1e-20
+"""How far a place in the stick zone is kept from a corner, in parts of its width, or"""
+
+EPS = 2.0**-52
+"""in parts of its distance from the origin."""
+
+ROUNDED = 1e-9
+"""Ends of two stick zones that differ by less, in parts of the contact, may be the same."""
+
+TINY = 1e-300
+"""Least number a logarithm is taken of."""
+
+
+# ---------------------------------------------------------------- the change of shear
+
+
+@kernel(truth(vector))
+def _alike(cycle: Any) -> Any:
+    """Whether the contact is the same at both ends of the half-cycle."""
+    return cycle[0] == cycle[2] and cycle[1] == cycle[3]
+
+
+@kernel(real(vector, real, real))
+def _sense(cycle: Any, side: float, regime: float) -> Any:
+    """kappa, the sense of slip on one side."""
+    if regime != LARGE:
+        return 1.0
+    return side if cycle[5] < 0 else -side
+
+
+@kernel(real(LAW, vector, real, real, real))
+def _beside_corner(law: Any, own: Any, x: float, m: float, n: float) -> Any:
+    """x, moved off a corner in the stick zone, inward: p is infinite there, dq is not."""
+    for place in law.breaks(own):
+        away = max(BESIDE * (m + n), EPS * abs(place))
+        if abs(x - place) < away:
+            x = place + (away if place < (n - m) / 2 else -away)
+    return x
+
+
+@kernel(real(LAW, vector, vector, real))
+def _summed(law: Any, own: Any, cycle: Any, x: float) -> Any:
+    """p1 + p2; infinite at a corner."""
+    p = law.pressure(x, cycle[0], cycle[1], own)
+    return 2 * p if _alike(cycle) else p + law.pressure(x, cycle[2], cycle[3], own)
+
+
+@kernel(real(LAW, vector, vector, real, real, real, real))
+def _felt(law: Any, own: Any, cycle: Any, side: float, m: float, n: float, x: float) -> Any:
+    """(W(x)/pi) int (p1 + p2)/(|w| |xi - x|) dxi over one slip zone, x in the stick zone."""
+    end, away, across = (n, n - x, m + x) if side > 0 else (m, m + x, n - x)
+    smaller, larger = reaches(cycle, side)
+    length, stuck = larger - end, m + n
+    if not length > 0:
+        return 0.0
+    at_start = both_pressures(law, own, cycle, side * end)
+    zone = slip_zone(law, own, cycle, side, smaller - end, LEVEL)
+    total = 0.0
+    for i in range(zone.shape[1]):
+        y = zone[0, i]
+        total += zone[1, i] * (zone[2, i] - at_start) / (math.sqrt(y * (y + stuck)) * (y + away))
+    angle = math.atan2(math.sqrt(length * across), math.sqrt(away * (length + stuck)))
+    return (math.sqrt(away * across) * total + 2 * at_start * angle) / math.pi
+
+
+@kernel(real(LAW, vector, vector, real, real, real, real))
+def change_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x: float) -> Any:
+    """dq at x; zero outside both contacts, NaN where the stick zone is not known."""
+    if regime == FULL_STICK and _alike(cycle):
+        return 0.0
+    stuck = m + n
+    if regime not in (MODERATE, LARGE, MIXED) or not stuck < math.inf or math.isnan(x):
+        return math.nan
+    f = cycle[6]
+    if x <= -m or x >= n:
+        side = -1.0 if x < (n - m) / 2 else 1.0
+        return _sense(cycle, side, regime) * f * _summed(law, own, cycle, x)
+    if regime == LARGE:
+        felt = _felt(law, own, cycle, -1.0, m, n, x) - _felt(law, own, cycle, 1.0, m, n, x)
+        return _sense(cycle, -1.0, regime) * f * felt
+    x = _beside_corner(law, own, x, m, n)
+    return f * (_summed(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
+
+
+@kernel(LOOP)
+def each_shear_change(law: Any, given: Any, own: Any, out: Any) -> None:
+    """given: x, a1, c1, a2, c2, dQ, dsigma, f, m, n, regime; out: dq."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        m, n, regime = given[i, 8], given[i, 9], given[i, 10]
+        out[i, 0] = change_at(law, own[i], given[i, 1:8], m, n, regime, given[i, 0])
+
+
+# ---------------------------------------------------------------- the shear itself
+
+
+@kernel(truth(vector, results(3), real, real))
+def _turns_between(cycle: Any, zone: Any, a: float, c: float) -> Any:
+    """Whether the rate of shear, while [-a, c] sticks, changes its sign in a stick zone."""
+    place = (c - a) / 2 + 4 * cycle[4] / (math.pi * cycle[5])
+    nearly = ROUNDED * (cycle[0] + cycle[1])
+    return -zone[0] - nearly < place < zone[1] + nearly
+
+
+@kernel(truth(vector, results(3), vector, results(3)))
+def _slips_within(cycle: Any, zone: Any, other: Any, other_zone: Any) -> Any:
+    """Whether a half-cycle slips nowhere but where the other one does, and there in its sense.
+
+    Nor does it drive any place on that slipped.  Under moderate tension the rate of shear has one
+    sign all over.  A zone is m, n and its regime.
+    """
+    m, n, regime = zone
+    if regime == FULL_STICK:
+        return True
+    nearly = ROUNDED * (cycle[0] + cycle[1])
+    if regime != other_zone[2] or not (m > other_zone[0] - nearly and n > other_zone[1] - nearly):
+        return False
+    if regime == MODERATE:
+        return True
+    return (
+        regime == LARGE
+        and (cycle[5] < 0) == (other[5] < 0)
+        and _turns_between(cycle, other_zone, cycle[0], cycle[1])
+        and _turns_between(cycle, other_zone, m, n)
+    )
+
+
+@kernel(real(LAW, vector, vector, results(3), vector, results(3), real))
+def shear_at(
+    law: Any, own: Any, rise: Any, rise_zone: Any, fall: Any, fall_zone: Any, x: float
+) -> Any:
+    """q at x after half of the change `rise` from nothing, less that of `fall`.
+
+    Both are cycles of one contact, with their m, n and regime.  NaN where a stick zone on the way
+    is not known, or where slip does not grow all the way.
+    """
+    known = rise_zone[2] in (MODERATE, LARGE, FULL_STICK) and fall[4] <= rise[4]
+    if not (known and _slips_within(fall, fall_zone, rise, rise_zone)):
+        return math.nan
+    m, n, regime = rise_zone
+    q = change_at(law, own, rise, m, n, regime, x) / 2
+    m, n, regime = fall_zone
+    return q - change_at(law, own, fall, m, n, regime, x)
+
+
+@kernel(LOOP)
+def each_shear(law: Any, given: Any, own: Any, out: Any) -> None:
+    """given: x, a, c, Q, sigma, dQ, dsigma, f, both stick zones as m, n, regime; out: q.
+
+    The rise is the half-cycle of 2 Q and 2 sigma, the fall that of dQ and dsigma.
+    """
+    law = opened(law)
+    rise, fall = np.empty(7), np.empty(7)
+    for i in range(given.shape[0]):
+        row = given[i]
+        for cycle in (rise, fall):
+            cycle[0] = cycle[2] = row[1]
+            cycle[1] = cycle[3] = row[2]
+            cycle[6] = row[7]
+        rise[4], rise[5] = 2 * row[3], 2 * row[4]
+        fall[4], fall[5] = row[5], row[6]
+        rise_zone, fall_zone = (row[8], row[9], row[10]), (row[11], row[12], row[13])
+        out[i, 0] = shear_at(law, own[i], rise, rise_zone, fall, fall_zone, row[0])
+
+
+# ---------------------------------------------------------------- slip
+
+
+@kernel(real(LAW, vector, vector, vector, real, real, real, real, real))
+def _slipped(
+    law: Any,
+    own: Any,
+    cycle: Any,
+    cuts: Any,
+    there: float,
+    side: float,
+    m: float,
+    n: float,
+    other: float,
+) -> Any:
+    """What p1 + p2 in the slip zone on one side adds to slip, over 2 f kappa/pi.
+
+    int (p1 + p2)/|w| times the integral over t from 0 to y that the text above gives.
+
+    there  y, distance of a place from the stick zone
+    other  side of that place
+    cuts   the breaks of the body's curve, and that place
+    """
+    stuck, end = m + n, n if side > 0 else m
+    smaller, larger = reaches(cycle, side)
+    nodes = slip_nodes(cuts, side, end, smaller - end, larger - end, LEVEL)
+    root, arc = math.sqrt(there * (there + stuck)), math.asinh(math.sqrt(there / stuck))
+    total = 0.0
+    for i in range(nodes.shape[1]):
+        y = nodes[0, i]
+        across = y + stuck
+        if side == other:
+            summed = math.sqrt(y * (there + stuck)) + math.sqrt(there * across)
+            logarithm = math.log(summed * summed / max(stuck * abs(y - there), TINY))
+            smooth = root + (y + across) * arc
+        else:
+            summed = math.sqrt(across * (there + stuck)) + math.sqrt(there * y)
+            logarithm = math.log(summed * summed / (stuck * (across + there)))
+            smooth = (y + across) * arc - root
+        p = both_pressures(law, own, cycle, side * (end + y))
+        total += nodes[1, i] * p * (logarithm - smooth / math.sqrt(y * across))
+    return total
+
+
+@kernel(real(LAW, vector, vector, real, real, real, real))
+def slip_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x: float) -> Any:
+    """How far the surfaces slip at x; NaN outside of one contact, and where slip turns round."""
+    if not (regime > 0 and -min(cycle[0], cycle[2]) <= x <= min(cycle[1], cycle[3])):
+        return math.nan
+    if regime == FULL_STICK or -m <= x <= n:
+        return 0.0
+    if regime not in (MODERATE, LARGE):
+        return math.nan
+    breaks = law.breaks(own)
+    cuts = np.empty(breaks.size + 1)
+    for i in range(breaks.size):
+        cuts[i] = breaks[i]
+    cuts[breaks.size] = x
+    other = 1.0 if x > n else -1.0
+    there = x - n if x > n else -m - x
+    total = 0.0
+    for side in (-1.0, 1.0):
+        kappa = _sense(cycle, side, regime)
+        total += kappa * _slipped(law, own, cycle, cuts, there, side, m, n, other)
+    return 2 * cycle[6] / math.pi * abs(total)
+
+
+@kernel(LOOP)
+def each_slip_range(law: Any, given: Any, own: Any, out: Any) -> None:
+    """given: x, a1, c1, a2, c2, dQ, dsigma, f, m, n, regime; out: slip."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        m, n, regime = given[i, 8], given[i, 9], given[i, 10]
+        out[i, 0] = slip_at(law, own[i], given[i, 1:8], m, n, regime, given[i, 0])

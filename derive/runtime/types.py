@@ -1,0 +1,82 @@
+"""What the generated functions return: named tuples of arrays, fields in a fixed order."""
+
+from enum import IntEnum
+from typing import Any, NamedTuple, TypeAlias
+
+Array: TypeAlias = Any
+"""A scalar or an array of any kind that broadcasts; float64 comes out."""
+
+
+class Contact(NamedTuple):
+    """The contact [-a, c] and its tilt."""
+
+    a: Array
+    c: Array
+    alpha: Array
+
+
+class Edges(NamedTuple):
+    """One value at the left edge x = -a and one at the right edge x = c."""
+
+    left: Array
+    right: Array
+
+
+class Regime(IntEnum):
+    """How a cycle slips.
+
+    NONE        there is no such cycle, or one of its numbers is none
+    MODERATE    forward slip at both edges: m and n are exact
+    LARGE       slip of opposite signs at the edges: m and n are exact
+    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, but exact
+                for constant loads where forward slip overtakes it in the end, or where
+                stick_zone is asked to solve these cycles, too
+    SLIDING     nothing sticks: m and n are NaN
+    FULL_STICK  nothing slips: m and n are those of the smaller contact
+    UNSOLVED    the iteration did not end, or the phases of a mixed cycle were not found: NaN
+    OUT_OF_PHASE  loads of a march that are not in proportion at every instant: NaN at all of them
+    NOT_CLOSED  instants of a march that are no cycle: NaN at all of them
+    """
+
+    NONE = 0
+    MODERATE = 1
+    LARGE = 2
+    MIXED = 3
+    SLIDING = 4
+    FULL_STICK = 5
+    UNSOLVED = 6
+    OUT_OF_PHASE = 7
+    NOT_CLOSED = 8
+
+
+class StickZone(NamedTuple):
+    """What sticks all the time, [-m, n], and a code of Regime."""
+
+    m: Array
+    n: Array
+    regime: Array
+
+
+class Threshold(NamedTuple):
+    """Changes of bulk tension between which tension is moderate."""
+
+    lower: Array
+    upper: Array
+
+
+class March(NamedTuple):
+    """A cycle instant by instant.
+
+    a, c         the contact [-a, c]
+    m, n         what has not slipped since the loads last turned, [-m, n]
+    left, right  sense of slip at either edge: +1 forward, -1 in reverse, 0 none, or none known
+    regime       a code of Regime; by the signs of K_T where m and n are those of a series
+    """
+
+    a: Array
+    c: Array
+    m: Array
+    n: Array
+    left: Array
+    right: Array
+    regime: Array

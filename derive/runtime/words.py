@@ -1,0 +1,96 @@
+"""Words and examples of the functions in cycle.py: what their docstrings say of one body."""
+
+MEANINGS = {
+    "P": "normal load per unit depth [N/m]",
+    "M": "moment per unit depth, M = -int p x dx [N]",
+    "Q": "shear load at every instant [N/m]",
+    "a": "left edge of the contact at x = -a [m]",
+    "alpha": "tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]",
+    "c": "right edge of the contact at x = c [m]",
+    "contact": "Contact under normal loads that stay",
+    "dQ": "change of the shear load over the half-cycle that raises it [N/m]",
+    "da": "how much further the left edge reaches than at the other end of the half-cycle [m]",
+    "dc": "how much further the right edge reaches [m]",
+    "dsigma": "change of the differential bulk tension over the same half-cycle [Pa]",
+    "f": "coefficient of friction [-]",
+    "first": "Contact at the start of the half-cycle that raises the shear load",
+    "mixed": "whether to solve cycles in which slip reverses, too, to 1e-7 of the width",
+    "order": "order of the series: 1, 2 or 3",
+    "second": "Contact at its end; the same for constant normal loads",
+    "sigma": "differential bulk tension at every instant [Pa]",
+    "x": "position along the interface, right positive [m]",
+    "E_star": "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]",
+}
+"""What each argument is."""
+
+OTHERWISE = {
+    "shear": {
+        "Q": "shear load that is reached first [N/m]",
+        "sigma": "differential bulk tension that comes with it [Pa]",
+        "dQ": "what the shear load has fallen by since then [N/m]",
+        "dsigma": "what the tension has fallen by since then [Pa]",
+    },
+    "march": {"order": "order of the series; 0 for the exact conditions"},
+}
+"""What it is in one function alone."""
+
+_HERE = """\
+>>> law = dict({law})
+>>> here = Contact({edges}, 0.0)
+"""
+
+_LAW = """\
+>>> law = dict({law})
+"""
+
+EXAMPLES = {
+    "contact": f"""\
+{_LAW}>>> a, c, alpha = contact({{load}}, {{moment}}, **law)
+>>> f"{{{{load(a, c, **law):.6g}}}}, {{{{moment(a, c, **law):.6g}}}}"
+'{{load}}, {{moment}}'""",
+    "contact_at_tilt": f"""\
+{_LAW}>>> a, c, alpha = contact_at_tilt({{load}}, {{alpha}}, **law)
+>>> f"{{{{load(a, c, **law):.6g}}}}"
+'{{load}}'""",
+    "stick_zone": f"""\
+{_HERE}>>> zone = stick_zone(here, here, {{dQ}}, 0.0, f=0.5, **law)
+>>> Regime(zone.regime).name
+'MODERATE'
+>>> f"{{{{load(zone.m, zone.n, **law):.6g}}}}"  # P - dQ/(2 f)
+'{{reduced}}'""",
+    "tension_threshold": f"""\
+{_HERE}>>> lower, upper = tension_threshold(here, here, {{dQ}}, f=0.5, **law)
+>>> f"{{{{upper:.6g}}}}"  # 8 dQ/(pi (a + c))
+'{{threshold}}'""",
+    "closing_tension": f"""\
+{_HERE}>>> lower, upper = closing_tension(here, here, {{dQ}}, f=0.5, **law)
+>>> bool(lower < 0 < upper)
+True""",
+    "slip_zones": f"""\
+{_LAW}>>> d = slip_zones({{edges}}, {{dQ}}, 0.0, f=0.5, **law)
+>>> [f"{{{{v:.6g}}}}" for v in d]  # dQ/(pi f sqrt(a + c) K_N)
+{{slip}}""",
+    "slip_error": f"""\
+{_LAW}>>> error = slip_error({{edges}}, {{dQ}}, 0.0, f=0.5, **law)
+>>> bool(error.left > 0)
+True""",
+    "shear_change": f"""\
+{_HERE}>>> float(shear_change(here.c + 1.0, here, here, {{dQ}}, 0.0, f=0.5, **law))
+0.0""",
+    "shear": f"""\
+{_HERE}>>> law |= dict(f=0.5)
+>>> upper, lower = (shear(0.1, here, {{dQ}}, 0.0, dQ=fall, **law) for fall in (0.0, 2 * {{dQ}}))
+>>> bool(abs(upper + lower) < 1e-12 * abs(upper))  # a cycle between Q and -Q
+True""",
+    "slip_range": f"""\
+{_HERE}>>> zone = stick_zone(here, here, {{dQ}}, 0.0, f=0.5, **law)
+>>> float(slip_range(zone.n, here, here, {{dQ}}, 0.0, f=0.5, **law))
+0.0""",
+    "march": f"""\
+{_LAW}>>> P, M = (of({{edges}}, **law) for of in (load, moment))
+>>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * {{dQ}} / 2
+>>> cycle = march(P, M, Q, 0.0, f=0.5, **law)
+>>> cycle.left.tolist()
+[1, 1, -1, -1]""",
+}
+"""An example of each function; a body fills in its numbers."""

@@ -1,0 +1,587 @@
+r"""The formulas of a body of straight lines and parabolas, part by part, in terms of one sign.
+
+By parts over g'' a corner adds J w_j to twice the load over E*, a curved part k int w ds, with J
+the jump of g' and k = g'' there: nothing is subtracted on a convex body.  A part opens an angle t
+on the half circle x = mid - (h/2) cos(theta); its integrals are a few functions of that angle.  A
+part between an edge and a kink adds the area of a segment of a circle,
+
+    int w ds = (h**2/8) segment(t),    segment(t) = t - sin(t) cos(t),
+
+one between the kinks 1 and 2, with sin_j and cos_j of half the angles of its ends,
+
+    int w ds = (h**2/4) (segment(t/2) + sin(t) (sin_1 cos_2 + cos_1 sin_2)**2).
+
+The functions are computed by derive/runtime/segments.py.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+from sympy import (
+    Abs,
+    Add,
+    Expr,
+    Function,
+    Gt,
+    Max,
+    Min,
+    Piecewise,
+    Rational,
+    S,
+    Symbol,
+    UnevaluatedExpr,
+    atan2,
+    cos,
+    factor_terms,
+    log,
+    pi,
+    simplify,
+    sin,
+    sqrt,
+    symbols,
+)
+from sympy.printing.latex import LatexPrinter
+
+from derive.piece import Piece
+from derive.symbols import E_star, a, c, x
+from derive.theory.edges import Edge
+from derive.theory.frame import Frame, KinkFrame
+
+h = Symbol("h", positive=True)
+"""Contact width, by its name."""
+
+sin_x, cos_x = symbols("sin_x cos_x", nonnegative=True)
+"""Of half the angle of x."""
+
+
+class Named(Function):
+    """A function that the formulas call by its name; real."""
+
+    letters: tuple[Symbol, ...] = ()
+    """Arguments of its definition."""
+
+    @staticmethod
+    def definition(*_: Expr) -> Expr:
+        """The function in elementary functions."""
+        raise NotImplementedError
+
+    @property
+    def written_out(self) -> Expr:
+        """The value in elementary functions."""
+        return self.definition(*self.args)
+
+    def _eval_is_extended_real(self) -> bool:
+        return True
+
+    def _latex(self, printer: LatexPrinter, exp: str | None = None) -> str:
+        name = type(self).__name__.replace("_", r"\_")
+        power = f"^{{{exp}}}" if exp else ""
+        arguments = ", ".join(map(printer.doprint, self.args))
+        return rf"\operatorname{{{name}}}{power}{{\left({arguments} \right)}}"
+
+
+_t, _near, _far = symbols("t near far", real=True)
+_sine, _cosine, _start, _end = symbols("u v start end", positive=True)
+_ends = symbols("u_1 v_1 u_2 v_2", positive=True)
+_A, _B, _d = symbols("A B d", real=True)
+
+
+class segment(Named):
+    """t - sin(t) cos(t): a segment of the unit circle."""
+
+    nargs = 1
+    letters = (_t,)
+
+    @staticmethod
+    def definition(t: Expr) -> Expr:
+        """In elementary functions."""
+        return t - sin(t) * cos(t)
+
+
+class involute(Named):
+    """sin(t) - t cos(t): how far the involute of the unit circle leads sideways."""
+
+    nargs = 1
+    letters = (_t,)
+
+    @staticmethod
+    def definition(t: Expr) -> Expr:
+        """In elementary functions."""
+        return sin(t) - t * cos(t)
+
+
+class root_ratio(Named):
+    """sqrt(A/B), zero unless both are positive."""
+
+    nargs = 2
+    of_a_quotient = True
+    letters = (_A, _B)
+
+    @staticmethod
+    def definition(above: Expr, below: Expr) -> Expr:
+        """In elementary functions."""
+        return Piecewise((sqrt(above / below), (above > 0) & (below > 0)), (S.Zero, True))
+
+
+class kink_logarithm(Named):
+    """log(1 + (sqrt(A B) + Min(A, B))/Abs(d)), zero where A or B is negative.
+
+    A fourth argument is what |d| is at least.
+    """
+
+    nargs = (3, 4)
+    of_a_quotient = True
+    letters = (_A, _B, _d)
+
+    @staticmethod
+    def definition(left: Expr, right: Expr, offset: Expr, *_: Expr) -> Expr:
+        """Inside the contact, and farther from the kink than at least."""
+        nearer = (left + right - Abs(left - right)) / 2  # SymPy's Min compares what it holds
+        return log(1 + (sqrt(left * right) + nearer) / Abs(offset))
+
+
+class second_term(Named):
+    """int (sin(v)**2 + 2 tan(v)**2) dv over the half angles of a part, zero where it has no end."""
+
+    nargs = 3
+    letters = (_t, _near, _far)
+
+    @staticmethod
+    def definition(t: Expr, near: Expr, far: Expr) -> Expr:
+        """In elementary functions: X is the difference of the tangents."""
+        rise = sin(t / 2) / far
+        found = 2 * rise - 3 * t / 4 + sin(t / 2) * (near - far) / 2
+        return Piecewise((found, far > 0), (S.Zero, True))
+
+
+class third_term(Named):
+    """int (3 sin(v)**2 + 12 tan(v)**2 + 8 tan(v)**4) dv over the half angles of a part."""
+
+    nargs = 3
+    letters = (_t, _near, _far)
+
+    @staticmethod
+    def definition(t: Expr, near: Expr, far: Expr) -> Expr:
+        """In elementary functions."""
+        rise = sin(t / 2) / far
+        first = 4 * rise - 5 * t / 4 + 3 * sin(t / 2) * (near - far) / 2
+        steep = 8 * near / far * rise + Rational(8, 3) * rise**3
+        return Piecewise((first + steep, far > 0), (S.Zero, True))
+
+
+class end_pressure(Named):
+    """int L ds/h over a part between an edge and a kink; u and v: sine and cosine of x."""
+
+    nargs = 3
+    letters = (_t, _sine, _cosine)
+
+    @staticmethod
+    def definition(t: Expr, sine: Expr, cosine: Expr) -> Expr:
+        """In elementary functions."""
+        p, q = sin(t / 2) * cosine, cos(t / 2) * sine
+        level = log(Abs((p + q) / (p - q))) / 2
+        return t / 2 * sine * cosine + (p**2 - q**2) * level
+
+
+class part_pressure(Named):
+    """int L ds/h over a part between two kinks; u and v: sines and cosines of both and of x."""
+
+    nargs = 9
+    letters = (_t, _start, _end, *_ends, _sine, _cosine)
+
+    @staticmethod
+    def definition(t: Expr, start: Expr, end: Expr, *halves: Expr) -> Expr:
+        """In elementary functions; zero where the part is empty."""
+        sine_1, cosine_1, sine_2, cosine_2, sine, cosine = halves
+
+        def level(p: Expr, q: Expr) -> Expr:
+            return log(Abs((p + q) / (p - q))) / 2
+
+        first = level(sine_1 * cosine, cosine_1 * sine)
+        second = level(sine_2 * cosine, cosine_2 * sine)
+        return t / 2 * sine * cosine + end * second - start * first
+
+
+FUNCTIONS = (
+    *(segment, involute, root_ratio, kink_logarithm, second_term, third_term),
+    *(end_pressure, part_pressure),
+)
+"""All of them; the runtime has each under its name."""
+
+
+def written_out(expr: Expr) -> Expr:
+    """`expr` with every named function in elementary functions."""
+    return expr.replace(lambda e: isinstance(e, Named), lambda e: e.written_out)
+
+
+def as_it_is(angle: Expr) -> Expr:
+    """An expression that holds an angle, as no root of 0/0 that SymPy makes of its sine."""
+    return UnevaluatedExpr(angle) if angle.has(atan2) else angle
+
+
+def definitions_of(exprs: Iterable[Expr]) -> dict[Expr, Expr]:
+    """The definitions of the named functions that expressions hold."""
+    held = {type(node) for expr in exprs for node in expr.atoms(Named)}
+    return {f(*f.letters): f.definition(*f.letters) for f in FUNCTIONS if f in held}
+
+
+def has_parts(frame: Frame) -> bool:
+    """Whether a contact can leave a kink of straight lines and parabolas."""
+    slope = frame.slope
+    constant = slope.is_polynomial and not any(simplify(p.curvature).has(x) for p in slope.pieces)
+    return constant and any(k.clipped for k in frame.kinks)
+
+
+@dataclass(frozen=True)
+class Definition:
+    """symbol = expr, in a few words."""
+
+    symbol: Symbol
+    expr: Expr
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Part:
+    """The part of a contact that one piece of the body covers.
+
+    before, behind: the kinks at its ends; None at an edge.
+    """
+
+    number: int
+    piece: Piece
+    before: KinkFrame | None
+    behind: KinkFrame | None
+
+    @cached_property
+    def t(self) -> Symbol:
+        """The angle that it opens on the half circle."""
+        return Symbol(f"t_{self.number}", nonnegative=True)
+
+    @cached_property
+    def bend(self) -> Expr:
+        """g'' on it."""
+        return simplify(self.piece.curvature)
+
+    @property
+    def is_inner(self) -> bool:
+        """Whether it lies between two kinks."""
+        return self.before is not None and self.behind is not None
+
+    @property
+    def begins(self) -> tuple[Expr, Expr]:
+        """Sine and cosine of half the angle of its left end."""
+        return (S.Zero, S.One) if self.before is None else _sine_and_cosine(self.before)
+
+    @property
+    def ends(self) -> tuple[Expr, Expr]:
+        """Sine and cosine of half the angle of its right end."""
+        return (S.One, S.Zero) if self.behind is None else _sine_and_cosine(self.behind)
+
+    @property
+    def near(self) -> Expr:
+        """Product of both sines."""
+        return self.begins[0] * self.ends[0]
+
+    @property
+    def far(self) -> Expr:
+        """Product of both cosines."""
+        return self.begins[1] * self.ends[1]
+
+    @property
+    def across(self) -> Expr:
+        """Sine of half the sum of the angles of its ends."""
+        return self.ends[0] * self.begins[1] + self.begins[0] * self.ends[1]
+
+    @property
+    def angle(self) -> Expr:
+        """The definition of t."""
+        before, behind = self.before, self.behind
+        if before and behind:
+            span = simplify(behind.kink.position - before.kink.position)
+            length = Max(0, Min(h, span, behind.left, before.right))
+            return 2 * atan2(length, h * self.across * (self.near + self.far))
+        kink = before or behind
+        if kink is None:
+            return pi  # all of the contact
+        left, right = (sqrt(Max(0, distance)) for distance in (kink.left, kink.right))
+        return 2 * (atan2(right, left) if before else atan2(left, right))
+
+    # ------------------------------------------------------------------ its integrals
+
+    @property
+    def area(self) -> Expr:
+        """int w ds over h**2/8."""
+        if not self.is_inner:
+            return segment(self.t)
+        return 2 * segment(self.t / 2) + 2 * sin(self.t) * self.across**2
+
+    @property
+    def arm(self) -> Expr:
+        """int w (s - mid) ds over h**3/24."""
+        if not self.is_inner:
+            return (-1 if self.before is None else 1) * sin(self.t) ** 3
+        first, last = (sine * cosine for sine, cosine in (self.begins, self.ends))
+        squares = first**2 + first * last + last**2
+        return 8 * sin(self.t / 2) * (self.near - self.far) * squares
+
+    @property
+    def lean(self) -> Expr:
+        """int g'/w ds."""
+        if self.bend == 0:
+            return simplify(self.piece.slope) * self.t
+        if self.before is None:
+            return self._slope_at(self.ending) * self.t - self.bend * h / 2 * involute(self.t)
+        if self.behind is None:
+            return self._slope_at(self.beginning) * self.t + self.bend * h / 2 * involute(self.t)
+        both = self._slope_at(self.beginning) + self._slope_at(self.ending)
+        bent = self.bend * h * (self.near - self.far) * involute(self.t / 2)
+        return self.t / 2 * factor_terms(both) + bent
+
+    def weight(self, edge: Edge) -> Expr:
+        """int w/A ds over h for the left edge, int w/B ds over h for the right one."""
+        touched = self.before if edge is Edge.LEFT else self.behind
+        half = segment(self.t / 2)
+        if self.is_inner:
+            return half + 2 * sin(self.t / 2) * (self.far if edge is Edge.LEFT else self.near)
+        return (self.t + sin(self.t)) / 2 if touched is None else half
+
+    def beyond(self, edge: Edge, term: Callable[..., Expr]) -> Expr:
+        """A part's share in the pressure's next term at an edge that it does not touch."""
+        both = (self.near, self.far) if edge is Edge.RIGHT else (self.far, self.near)
+        return term(self.t, *both)
+
+    @property
+    def seen(self) -> Expr:
+        """int L ds over h, seen from x."""
+        if self.before is None:
+            return end_pressure(self.t, sin_x, cos_x)
+        if self.behind is None:
+            return end_pressure(self.t, cos_x, sin_x)
+        start, end = ((k.kink.position - x) / h for k in (self.before, self.behind))
+        return part_pressure(self.t, start, end, *self.begins, *self.ends, sin_x, cos_x)
+
+    # ------------------------------------------------------------------ its slope
+
+    @property
+    def beginning(self) -> Expr:
+        """Where it begins."""
+        return -a if self.before is None else Max(-a, self.before.kink.position)
+
+    @property
+    def ending(self) -> Expr:
+        """Where it ends."""
+        return c if self.behind is None else Min(c, self.behind.kink.position)
+
+    def _slope_at(self, place: Expr) -> Expr:
+        """g' at a place, as a sum of two of one sign, if that is known.
+
+        From an end of the piece that g' does not come back to zero from, or from its root.
+        """
+        slope = simplify(self.piece.slope)
+        for end, sense in ((self.piece.lower, 1), (self.piece.upper, -1)):
+            there = simplify(slope.subs(x, end)) if end.is_finite else None
+            if there is not None and (sense * there).is_nonnegative:
+                return there + self.bend * _distance(place, end)
+        root = simplify(-slope.subs(x, 0) / self.bend)
+        return self.bend * _distance(place, root)
+
+
+def _distance(place: Expr, other: Expr) -> Expr:
+    """place - other, in one comparison where the place is compared with the other one."""
+    if isinstance(place, Max | Min) and other in place.args:
+        (edge,) = set(place.args) - {other}
+        return Max(0, edge - other) if isinstance(place, Max) else -Max(0, other - edge)
+    return place - other
+
+
+def _sine_and_cosine(kink: KinkFrame) -> tuple[Symbol, Symbol]:
+    number = kink.kink.number
+    sine, cosine = symbols(f"sin_{number} cos_{number}", nonnegative=True)
+    return sine, cosine
+
+
+def _tangents(kink: KinkFrame) -> tuple[Symbol, Symbol]:
+    """Tangent and cotangent of half the angle of a kink."""
+    number = kink.kink.number
+    tangent, cotangent = symbols(f"tan_{number} cot_{number}", nonnegative=True)
+    return tangent, cotangent
+
+
+def _root(kink: KinkFrame) -> Expr:
+    """w at a kink."""
+    return sqrt(Max(0, kink.left) * Max(0, kink.right))
+
+
+@dataclass(frozen=True)
+class Parts:
+    """A body's formulas as sums over its parts and corners."""
+
+    frame: Frame
+
+    @cached_property
+    def parts(self) -> tuple[Part, ...]:
+        """From left to right."""
+        ends = pairwise((None, *self.frame.kinks, None))
+        pieces = enumerate(zip(self.frame.slope.pieces, ends, strict=True), start=1)
+        return tuple(Part(number, piece, *kinks) for number, (piece, kinks) in pieces)
+
+    @property
+    def curved(self) -> tuple[Part, ...]:
+        """Those on which g'' is not zero."""
+        return tuple(part for part in self.parts if part.bend != 0)
+
+    @property
+    def corners(self) -> Iterator[tuple[Expr, KinkFrame]]:
+        """Jumps of g', and their kinks."""
+        return ((k.kink.step, k) for k in self.frame.kinks if k.kink.is_corner)
+
+    @cached_property
+    def formulas(self) -> dict[str, Expr]:
+        """All formulas by their names on the sheet, and third_left and third_right."""
+        found = {
+            "tilt": self.tilt,
+            "load": self.load,
+            "moment": self.moment,
+            "pressure": self.pressure,
+        }
+        for edge in Edge:
+            side = edge.name.lower()
+            found[f"K_N_{side}"] = self.edge_coefficient(edge)
+            found[f"L_N_{side}"] = self.second_coefficient(edge)
+            found[f"third_{side}"] = self.third_coefficient(edge)
+        return found
+
+    @property
+    def tilt(self) -> Expr:
+        """-(1/pi) int g'/w ds."""
+        return -Add(*(part.lean for part in self.parts)) / pi
+
+    @property
+    def load(self) -> Expr:
+        """(E*/2) int g'' w ds."""
+        curved = E_star * h**2 / 16 * self._sum(lambda part: part.area)
+        return curved + Add(*(E_star * J * _root(k) / 2 for J, k in self.corners))
+
+    @property
+    def moment(self) -> Expr:
+        """-(E*/4) int g'' w (s + mid) ds."""
+        curved = (a - c) * self._sum(lambda part: part.area) - h / 3 * self._sum(lambda p: p.arm)
+        corners = (
+            E_star * J * _root(k) * (a - c - 2 * k.kink.position) / 8 for J, k in self.corners
+        )
+        return E_star * h**2 / 32 * curved + Add(*corners)
+
+    @property
+    def pressure(self) -> Expr:
+        """(E*/pi) int g'' L ds."""
+        curved = E_star * h / pi * self._sum(lambda part: part.seen)
+        corners = (
+            E_star
+            * J
+            / (2 * pi)
+            * kink_logarithm(
+                2 * (a + x) * Max(0, k.right) / h,
+                2 * (c - x) * Max(0, k.left) / h,
+                x - k.kink.position,
+            )
+            for J, k in self.corners
+        )
+        return curved + Add(*corners)
+
+    def edge_coefficient(self, edge: Edge) -> Expr:
+        """(E*/(pi sqrt(h))) int g'' w/B ds at the right edge, of sqrt(s)."""
+        curved = E_star * sqrt(h) / pi * self._sum(lambda part: part.weight(edge))
+        return curved + E_star / (pi * sqrt(h)) * self._jumps(edge, lambda r: r)
+
+    def second_coefficient(self, edge: Edge) -> Expr:
+        """Of s**(3/2): what g'' at the edge alone would give, and what other parts add to it."""
+        here = -E_star * self.bend_at(edge) / (4 * sqrt(h))
+        curved = E_star / (3 * pi * sqrt(h)) * self._others(edge, second_term)
+        corners = self._jumps(edge, lambda r: r * (3 + 2 * r**2))
+        return here + curved + E_star / (6 * pi * h ** Rational(3, 2)) * corners
+
+    def third_coefficient(self, edge: Edge) -> Expr:
+        """Of s**(5/2), alike."""
+        here = -E_star * self.bend_at(edge) / (16 * h ** Rational(3, 2))
+        curved = E_star / (20 * pi * h ** Rational(3, 2)) * self._others(edge, third_term)
+        corners = self._jumps(edge, lambda r: r * (15 + r**2 * (20 + 8 * r**2)))
+        return here + curved + E_star / (40 * pi * h ** Rational(5, 2)) * corners
+
+    @property
+    def definitions(self) -> tuple[Definition, ...]:
+        """What the symbols of the formulas stand for, each after those that it holds."""
+        found = [Definition(h, a + c, "contact width")]
+        for k in self.frame.kinks:
+            at = f"half the angle of the kink x = {k.kink.position}"
+            halves, tangents = _sine_and_cosine(k), _tangents(k)
+            sides, words = (k.left, k.right), ("sine", "cosine", "tangent", "cotangent")
+            clipped = (sqrt(Min(h, Max(0, distance)) / h) for distance in sides)
+            ratios = (root_ratio(*sides), root_ratio(*reversed(sides)))
+            for symbol, expr, word in zip(
+                (*halves, *tangents), (*clipped, *ratios), words, strict=True
+            ):
+                found.append(Definition(symbol, expr, f"{word} of {at}"))
+        found += [
+            Definition(part.t, part.angle, f"angle of part {part.number}") for part in self.parts
+        ]
+        found += [
+            Definition(sin_x, sqrt(Max(0, a + x) / h), "sine of half the angle of x"),
+            Definition(cos_x, sqrt(Max(0, c - x) / h), "cosine of half the angle of x"),
+        ]
+        for edge in Edge:
+            symbol, at = self.bend_at(edge), f"g'' at the {edge.name.lower()} edge"
+            if isinstance(symbol, Symbol):
+                found.append(Definition(symbol, self._bends(edge), at))
+        return tuple(found)
+
+    def defined_in(self, forms: Iterable[Expr]) -> dict[Expr, Expr]:
+        """The symbols that formulas hold, and the functions that they call, as they are printed."""
+        exprs = [*forms]
+        known: dict[Symbol, Expr] = {d.symbol: d.expr for d in self.definitions}
+        found: set[Symbol] = set()
+        for expr in exprs:  # grows as it is gone through
+            for symbol in expr.free_symbols & known.keys() - found:
+                found.add(symbol)
+                exprs.append(known[symbol])
+        held = {symbol: expr for symbol, expr in known.items() if symbol in found}
+        return held | definitions_of(exprs)
+
+    def bend_at(self, edge: Edge) -> Expr:
+        """g'' at an edge: a symbol, or zero of a body without curved parts."""
+        return Symbol(f"k_{edge.name.lower()}", real=True) if self.curved else S.Zero
+
+    def _bends(self, edge: Edge) -> Expr:
+        """The definition of g'' at an edge."""
+        kinks = self.frame.kinks
+        if edge is Edge.LEFT:
+            inward, distances = self.parts, [k.left for k in kinks]
+        else:
+            inward, distances = self.parts[::-1], [k.right for k in reversed(kinks)]
+        *others, last = inward
+        branches = [(p.bend, Gt(d, 0)) for p, d in zip(others, distances, strict=True)]
+        return Piecewise(*branches, (last.bend, True))
+
+    def _others(self, edge: Edge, term: Callable[..., Expr]) -> Expr:
+        """What the parts that do not end at an edge add to the g'' there."""
+        if not self.curved:
+            return S.Zero
+        others = self.parts[1:] if edge is Edge.LEFT else self.parts[:-1]
+        here = self.bend_at(edge)
+        return Add(*((part.bend - here) * part.beyond(edge, term) for part in others))
+
+    def _jumps(self, edge: Edge, of_tangent: Callable[[Expr], Expr]) -> Expr:
+        """The sum over the corners' jumps times a function of sqrt(A/B), for the right edge."""
+        side = edge is Edge.RIGHT
+        return factor_terms(
+            Add(*(J * of_tangent(_tangents(k)[0 if side else 1]) for J, k in self.corners))
+        )
+
+    def _sum(self, share: Callable[[Part], Expr]) -> Expr:
+        """The sum over g'' times a share, each g'' once."""
+        groups: dict[Expr, Expr] = {}
+        for part in self.curved:
+            groups[part.bend] = groups.get(part.bend, S.Zero) + share(part)
+        return factor_terms(Add(*(bend * total for bend, total in groups.items())))

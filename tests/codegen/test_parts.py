@@ -1,0 +1,135 @@
+"""Functions that are sums over the parts of a contact: their text, and the digits that it keeps."""
+
+from collections.abc import Callable
+from functools import cache
+from random import Random
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from mpmath import mpf
+from sympy import Expr
+
+from derive.codegen.parts import equations, parts_program
+from derive.codegen.printer import NumPyPrinter
+from derive.derivation import derive_sheet
+from derive.errors import NotProven
+from derive.library import load_geometry
+from derive.proof.points import Point, holds, numeric
+from derive.runtime import elementary, segments
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, a, c, x
+from derive.theory.edges import Edge, pressure_series
+from derive.theory.segments import Parts
+
+BODIES = ("flat_rounded", "rounded_wedge", "two_radii", "wedge_parabola", "flat_sloped")
+FIELDS = (
+    *({"": name} for name in ("tilt", "load", "moment", "pressure")),
+    *({side: f"{name}_{side}" for side in ("left", "right")} for name in ("K_N", "L_N", "third")),
+)
+
+
+@cache
+def sheet_of(name: str) -> FormulaSheet:
+    return derive_sheet(load_geometry(name))
+
+
+def function_of(sheet: FormulaSheet, fields: dict[str, str]) -> Callable[..., Any]:
+    """The program as NumPy."""
+    program, printer = parts_program(sheet, fields), NumPyPrinter()
+    given = ["x", "a", "c", "E_star", *(q.name for q in sheet.geometry.parameters)]
+    outputs = ", ".join(map(printer.doprint, program.outputs.values()))
+    lines = [f"{step.symbol} = {printer.doprint(step.expr)}" for step in program.steps]
+    held: dict[str, Any] = {"np": np} | vars(elementary) | vars(segments)
+    exec(  # noqa: S102
+        "\n    ".join([f"def made({', '.join(given)}):", *lines, f"return ({outputs},)"]), held
+    )
+    made: Callable[..., Any] = held["made"]
+    return made
+
+
+@cache
+def derived(body: str, name: str) -> Expr:
+    sheet = sheet_of(body)
+    if not name.startswith("third_"):
+        return sheet.flat(name)
+    edge = Edge[name.removeprefix("third_").upper()]
+    return sheet.frame.flat(pressure_series(sheet.frame, edge, 3)[2])
+
+
+def contacts(sheet: FormulaSheet, count: int = 30) -> list[Point]:
+    """Contacts with edges, and places in them, by 1e-9 of their width and more beside kinks."""
+    rng, found = Random(sheet.geometry.name), []
+    kinks = sheet.geometry.slope.kinks
+    while len(found) < count:
+        h = 10 ** rng.uniform(-1, 1)
+        point = {q.symbol: mpf(rng.uniform(0.2, 3)) for q in sheet.geometry.parameters}
+        point |= {s: mpf(h * 10 ** rng.uniform(-6, 3)) for s in point if str(s) == "b"}
+        places = [float(numeric(kink.position)(point)) for kink in kinks]
+
+        def beside(size: float, of: list[float] = places) -> float:
+            return rng.choice(of) + rng.choice([-1, 1]) * size * 10 ** rng.uniform(-9, -1)
+
+        left = rng.choice([beside(h), beside(h) - h, rng.choice(places) - h * rng.random()])
+        point |= {E_star: mpf(1), a: mpf(-left), c: mpf(left + h)}
+        point[x] = mpf(rng.choice([beside(h), left + h * rng.random()]))
+        edges = [-point[a], point[c]]
+        if not edges[0] < point[x] < edges[1]:
+            continue
+        gaps = [abs(edge - place) for edge in (*edges, point[x]) for place in places]
+        gaps += [abs(point[x] - edge) for edge in edges]
+        if min(gaps) > 0.9e-9 * h and holds(sheet["pressure"].conditions, point):
+            found.append(point)
+    return found
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_digits_are_kept_beside_kinks(name: str) -> None:
+    sheet = sheet_of(name)
+    points = contacts(sheet)
+    for fields in FIELDS:
+        made = function_of(sheet, fields)
+        for point in points:
+            order = [x, a, c, E_star, *(q.symbol for q in sheet.geometry.parameters)]
+            with np.errstate(all="ignore"):
+                found = made(*(float(point[symbol]) for symbol in order))
+            for value, formula in zip(found, fields.values(), strict=True):
+                with mpmath.workdps(100):
+                    true = numeric(derived(name, formula))(point)
+                    scale = abs(true)
+                    if formula in ("tilt", "moment"):  # by symmetry these may vanish
+                        scale += 1e-3 * abs(numeric(sheet.flat("load"))(point))
+                    assert abs(mpf(float(value)) - true) <= 2e-13 * scale, (formula, point)
+
+
+def test_what_is_printed_is_what_runs() -> None:
+    program = parts_program(sheet_of("flat_rounded"), {"": "load"})
+    assert [*equations(program, {"": "P"})] == [
+        "P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)",
+        "h = a + c",
+        "t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))",
+        "t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))",
+        "segment(t) = t - sin(t)*cos(t)",
+    ]
+    printed = [NumPyPrinter().doprint(expr) for expr in program.outputs.values()]
+    assert printed == ["E_star * h**2 * (segment(t_1) + segment(t_3)) / (16 * R)"]
+    step = next(step for step in program.steps if str(step.symbol) == "t_1")
+    assert NumPyPrinter().doprint(step.expr) == (
+        "2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))"
+    )
+
+
+def test_a_sum_that_is_not_the_sheet_s_formula_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Parts, "load", property(lambda parts: 2 * E_star * (a + c)))
+    with pytest.raises(NotProven, match="part by part"):
+        parts_program(sheet_of("two_radii"), {"": "load"})
+
+
+def test_nothing_presses_beyond_the_edges() -> None:
+    for name in BODIES:
+        made = function_of(sheet_of(name), {"": "pressure"})
+        count = len(sheet_of(name).geometry.parameters)
+        with np.errstate(all="ignore"):
+            (p,) = made(np.array([-4.0, -3.0, 2.0, 5.0]), 3.0, 2.0, 1.0, *[1.0] * count)
+        np.testing.assert_array_equal(p, 0.0)

@@ -1,0 +1,111 @@
+"""Formulas as sums over the parts of a contact: against the derived ones, and in their signs."""
+
+from dataclasses import replace
+from functools import cache
+
+import mpmath
+import pytest
+from sympy import Piecewise, Rational, Symbol, symbols
+
+from derive.derivation import derive_sheet
+from derive.geometry import Geometry, parameter
+from derive.library import load_geometry
+from derive.notation import latex_of, text_of
+from derive.proof.points import contacts, numeric, numeric_by_steps
+from derive.proof.prove import prove_sheet
+from derive.runtime import elementary
+from derive.runtime import segments as runtime
+from derive.sheet import FormulaSheet
+from derive.symbols import x
+from derive.theory.edges import Edge, pressure_series
+from derive.theory.segments import FUNCTIONS, Parts, definitions_of, has_parts, segment, written_out
+
+BODIES = ("flat_rounded", "rounded_wedge", "two_radii", "wedge_parabola", "flat_sloped")
+
+
+b, R = parameter("b", "half a length", unit="m"), parameter("R", "radius", unit="m")
+many_parts = Geometry(
+    "many_parts",
+    g=Piecewise(
+        (-(x + b) / 4, x < -b),
+        (0, x < 0),
+        (x**2 / (2 * R), x < b),
+        (x**2 / R - b * x / R + b**2 / (2 * R), x < 2 * b),
+        (3 * b * x / R - 7 * b**2 / (2 * R), x < 3 * b),
+        (3 * b * x / R - 7 * b**2 / (2 * R) + (x - 3 * b) ** 2 / (2 * R), True),
+    ),
+)
+"""A flank, a corner, a flat, two curved parts between kinks, a straight one and a curved end."""
+
+
+@cache
+def sheet_of(name: str) -> FormulaSheet:
+    return derive_sheet(many_parts if name == "many_parts" else load_geometry(name))
+
+
+@pytest.mark.parametrize("name", [*BODIES, "many_parts"])
+def test_the_sums_are_the_derived_formulas(name: str) -> None:
+    sheet = sheet_of(name)
+    parts, points = Parts(sheet.frame), contacts(sheet)
+    steps = [(d.symbol, written_out(d.expr)) for d in parts.definitions]
+    for formula, expr in parts.formulas.items():
+        if formula.startswith("third_"):
+            edge = Edge[formula.removeprefix("third_").upper()]
+            derived = sheet.frame.flat(pressure_series(sheet.frame, edge, 3)[2])
+        else:
+            derived = sheet.flat(formula)
+        with mpmath.workdps(50):
+            summed, true = numeric_by_steps(steps, written_out(expr)), numeric(derived)
+            pairs = [(summed(p), true(p)) for p in points]
+        assert len(pairs) == 24
+        gaps = [abs(found / wanted - 1) for found, wanted in pairs if wanted]
+        assert max(gaps) < mpmath.mpf(10) ** -42, formula
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_no_term_of_what_a_contact_carries_is_negative(name: str) -> None:
+    parts = Parts(sheet_of(name).frame)
+    for formula in ("load", "K_N_left", "K_N_right", "pressure"):
+        terms = parts.formulas[formula].expand().as_ordered_terms()
+        assert not any(term.could_extract_minus_sign() for term in terms)
+
+
+def test_what_the_rounded_edges_of_a_punch_carry_is_two_segments() -> None:
+    sheet = sheet_of("flat_rounded")
+    assert text_of(sheet["load"].computed) == "E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)"
+    assert sheet.computed_as("load").startswith("P(a, c) = E_star*h**2*(segment(t_1)")
+    shown = str(sheet)
+    for line in (
+        "t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))",
+        "segment(t) = t - sin(t)*cos(t)",
+    ):
+        assert f"    {line}\n" in shown
+    assert r"\operatorname{segment}{\left(t_{1} \right)}" in sheet.latex
+    assert r"\sin_{1}" in sheet.latex
+
+
+def test_bodies_that_a_contact_cannot_leave_keep_one_form() -> None:
+    for name in ("hertz", "wedge", "parabola_quartic"):
+        sheet = sheet_of(name)
+        assert not has_parts(sheet.frame)
+        assert all(formula.computed is None for formula in sheet.values())
+        assert sheet.computed_definitions == {}
+
+
+def test_a_sum_that_is_not_the_formula_is_refuted() -> None:
+    sheet = sheet_of("flat_sloped")
+    load = sheet["load"]
+    wrong = replace(load, computed=load.computed * Rational(1001, 1000))
+    proven = prove_sheet(replace(sheet, formulas={**sheet.formulas, "load": wrong}))
+    assert not proven["load"].proof.holds
+    assert proven["tilt"].proof.holds
+
+
+def test_every_function_has_a_definition_and_a_way_to_be_computed() -> None:
+    for function in FUNCTIONS:
+        held = [f"{letter}" for letter in function.letters]
+        assert len(set(held)) == len(held)
+        assert hasattr(runtime, function.__name__) or hasattr(elementary, function.__name__)
+    t = Symbol("t_1", nonnegative=True)
+    assert [text_of(v) for v in definitions_of([segment(t)]).values()] == ["t - sin(t)*cos(t)"]
+    assert latex_of(symbols("sin_1")) == r"\sin_{1}"

@@ -1,0 +1,176 @@
+"""Slip that turns round: another solution, the boundary-element solver's zones, both neighbours."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.optimize import brentq
+
+from derive.runtime.inverse import contact_at_tilt
+from derive.runtime.kernels import LOOP, Law, kernel, opened
+from derive.runtime.slip import mixed, tables
+from derive.runtime.slip.large import large_slip
+from derive.runtime.slip.mixed import turned_round, turning
+from tests.reference.conditions import HalfCycle, Patch
+from tests.reference.loads import State
+from tests.reference.mixed import turning as another_solution
+
+from . import laws
+
+F = 0.5
+
+
+@kernel(LOOP)
+def each_zone(law, given, own, out):
+    """given: a, c, dQ, dsigma; m and n of what turns round, the moderate zone, the large one."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        a, c, dQ, dsigma = given[i]
+        load, moment, tilt, _, _ = law.state(a, c, own[i])
+        ends = np.array([[a, c, tilt, load, moment], [a, c, tilt, load, moment]])
+        cycle = np.array([a, c, a, c, dQ, dsigma, F])
+        out[i, 0], out[i, 1] = turned_round(law, own[i], ends, cycle)
+        low, lean = load - dQ / (2 * F), tilt - dsigma / (4 * F)
+        out[i, 2], out[i, 3] = contact_at_tilt(law, own[i], low, lean)
+        left, right = large_slip(law, own[i], cycle, 1e-12)
+        out[i, 4], out[i, 5] = a - left, c - right
+
+
+def cycles(case, a, c, shear, tension):
+    """dQ in parts of 2 f P, tension of 8 dQ/(pi h)."""
+    a, c, shear, tension = np.broadcast_arrays(a, c, shear, tension)
+    edges = zip(a.flat, c.flat, strict=True)
+    load = [case.functions.state(float(u), float(v), case.own)[0] for u, v in edges]
+    dQ = 2 * F * shear * np.reshape(load, a.shape)
+    rows = np.stack([a, c, dQ, tension * 8 * dQ / (np.pi * (a + c))], axis=-1)
+    return np.ascontiguousarray(rows.reshape(-1, 4), dtype=float)
+
+
+def zones(case, given, own=None):
+    own = np.tile(case.own if own is None else own, (len(given), 1))
+    out = np.empty((len(given), 6))
+    each_zone(case.law, given, own, out)
+    return out
+
+
+@pytest.mark.parametrize(
+    ("name", "a", "c", "shear", "tension"),
+    [
+        ("wedge", 1.5, 1.25, 0.15, 1.08),
+        pytest.param("wedge", 1.25, 1.5, 0.2, 1.2, marks=pytest.mark.slow),  # ends in phase 2
+        pytest.param("hertz", 1.75, 1.25, 0.4, 1.1, marks=pytest.mark.slow),
+    ],
+)
+def test_another_solution_finds_the_same(name, a, c, shear, tension):
+    """tests/reference/mixed.py: Abel's equation by steps, tables by splines, SciPy's roots."""
+    case = getattr(laws, name)
+    given = cycles(case, a, c, shear, tension)
+    patch = Patch(a, c, lambda x: np.array([case.functions.pressure(y, a, c, case.own) for y in x]))
+    ends = (State(1.0, 0.0, s * given[0, 2] / 2, s * given[0, 3] / 2) for s in (-1, 1))
+    other = another_solution(HalfCycle(lambda P, M: patch, F, *ends)).zone
+    assert_allclose(zones(case, given)[0, :2], other, atol=2e-6 * (a + c))
+
+
+def test_the_boundary_element_solver_finds_the_same():
+    """tests/reference/FINDINGS.md: the upright wedge, dQ = 0.3 f P, tension over its threshold."""
+    found = {
+        0.95: (0.72845, 0.99143, 1.3e-4),
+        1.0: (0.72251, 0.99419, 1.9e-4),
+        1.05: (0.71662, 0.99206, 1.4e-4),
+        1.085: (0.71253, 0.98834, 1.3e-4),
+    }
+    given = np.array([[1.0, 1.0, 0.15, part * 0.206021] for part in found])
+    for (m, n), (m_there, n_there, off) in zip(
+        zones(laws.wedge, given)[:, :2], found.values(), strict=True
+    ):
+        assert abs(m - m_there) <= off and abs(n - n_there) <= off
+
+
+@pytest.mark.parametrize("name", ["wedge", "hertz", "flat_rounded"])
+def test_it_begins_where_moderate_slip_no_longer_overtakes(name):
+    """Past a + n(moderate) = H, by d in parts of the contact, n parts from it like d**2."""
+    case, a, c = getattr(laws, name), 1.5, 1.25
+
+    def past(tension):
+        zone = zones(case, cycles(case, a, c, 0.3, tension))
+        return (a + zone[:, 3]) / (a + c) - 1 / np.asarray(tension)
+
+    border = brentq(lambda t: past(t)[0], 0.9, 1.3, xtol=1e-15)
+    tension = border + np.geomspace(1e-4, 1e-2, 12)
+    zone = zones(case, cycles(case, a, c, 0.3, tension))
+    apart = (zone[:, 3] - zone[:, 1]) / past(tension) ** 2
+    assert_allclose(apart, apart[0], rtol=0.1)
+    assert 1 < apart[0] < 6
+    assert np.isnan(zones(case, cycles(case, a, c, 0.3, border - 1e-3))[0, 0])
+
+
+@pytest.mark.parametrize("name", ["wedge", "hertz", "flat_rounded"])
+def test_it_goes_over_into_large_tension(name):
+    """Up to m + n(large) = H: before, by d in parts of the contact, n parts from it like d**2."""
+    case, a, c = getattr(laws, name), 1.5, 1.25
+
+    def past(tension):
+        zone = zones(case, cycles(case, a, c, 0.2, tension))
+        return np.maximum((zone[:, 4] + zone[:, 5]) / (a + c) - 1 / np.asarray(tension), -1)
+
+    border = brentq(lambda t: past(t)[0], 1.02, 1.6, xtol=1e-12)
+    tension = border - (border - 1) * np.array([0.02, 0.05, 0.1, 0.15])
+    zone = zones(case, cycles(case, a, c, 0.2, tension))
+    apart = (zone[:, 5] - zone[:, 1]) / past(tension) ** 2
+    assert_allclose(apart, apart[0], rtol=0.1)
+    assert 1 < apart[0] < 6
+    assert_allclose(zone[:, 0], zone[:, 4], atol=1e-4)
+    assert np.isnan(zones(case, cycles(case, a, c, 0.2, border + 1e-3))[0, 0])
+
+
+@pytest.mark.parametrize("name", ["wedge", "hertz", "flat_rounded"])
+def test_a_body_seen_from_behind(name):
+    case = getattr(laws, name)
+    there = zones(case, cycles(case, 1.5, 1.25, 0.2, 1.02))[0]
+    back = zones(case, cycles(case, 1.25, 1.5, 0.2, -1.02))[0]
+    assert np.isfinite(there[0])
+    assert_allclose(there[:2], back[1::-1], rtol=1e-11)
+
+
+def test_it_scales_with_lengths_and_loads():
+    there = zones(laws.wedge, cycles(laws.wedge, 1.5, 1.25, 0.2, 1.05))[0, :2]
+    given = cycles(laws.wedge, 1.5, 1.25, 0.2, 1.05) * [1e-3, 1e-3, 5e-5, 5e-2]
+    small = zones(laws.wedge, given, np.array([0.05]))[0, :2]
+    assert_allclose(1e3 * small, there, rtol=1e-10)
+
+
+def test_random_cycles_are_all_solved():
+    """Between both neighbours there is no hole, and the zone lies inside the contact."""
+    rng = np.random.default_rng(5)
+    a, c = rng.uniform(1.02, 2.0, (2, 40))
+    sign = rng.choice([-1, 1], 40)
+    for name in ("wedge", "hertz", "flat_rounded"):
+        case = getattr(laws, name)
+        given = cycles(case, a, c, rng.uniform(0.05, 0.5, 40), sign * rng.uniform(1.0, 1.4, 40))
+        m, n, m_0, n_0, m_1, n_1 = zones(case, given).T
+        H = 8 * given[:, 2] / (np.pi * np.abs(given[:, 3]))
+        past = np.where(sign > 0, a + n_0, c + m_0) > H
+        turns = past & ~(m_1 + n_1 >= H)
+        assert np.count_nonzero(turns) > 10
+        assert np.all(np.isfinite(m) == turns)
+        assert np.all((m + n > 0)[turns] & (m < a)[turns] & (n < c)[turns])
+
+
+def test_nothing_turns_round_without_a_middle_or_loads():
+    law, own = laws.wedge.functions, laws.wedge.own
+    for dQ, dsigma, middle in ((0.0, 0.2, 0.0), (0.15, 0.0, 0.0), (0.15, 0.2, 1.5)):
+        zone = turning.py_func(law, own, 1.0, 1.0, dQ, dsigma, F, middle)
+        assert all(math.isnan(end) for end in zone)
+
+
+def test_the_text_gives_what_its_compiled_form_gives(monkeypatch):
+    given = cycles(laws.wedge, 1.5, 1.25, 0.2, -1.1)
+    m, n, m_0, n_0 = zones(laws.wedge, given)[0, :4]
+    for module in (mixed, tables):
+        for name, value in vars(module).items():
+            if hasattr(value, "py_func"):
+                monkeypatch.setattr(module, name, value.py_func)
+    law = Law(*(function.py_func for function in laws.wedge.functions))
+    zone = mixed.turning(law, laws.wedge.own, *map(float, given[0]), F, (n_0 - m_0) / 2)
+    assert_allclose(zone, (m, n), rtol=1e-11)

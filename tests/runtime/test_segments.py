@@ -1,0 +1,168 @@
+"""The functions of the parts of a contact against their definitions to 40 digits and more."""
+
+from collections.abc import Callable, Iterator
+from random import Random
+
+import mpmath
+import numpy as np
+import pytest
+from mpmath import mpf
+
+from derive.runtime import segments
+from derive.runtime.kernels import COMPILED, kernel, real
+
+DIGITS = 90
+"""So many that differences of the definitions keep 40."""
+
+
+def angles(rng: Random) -> float:
+    """From 0 to pi, often close to one of both."""
+    small = 10 ** rng.uniform(-9, 0)
+    return rng.choice([small, rng.uniform(0, np.pi), np.pi - small])
+
+
+def halves(rng: Random) -> tuple[mpf, mpf, mpf]:
+    """Half the angles of a part's ends and of a place; some parts are narrow, some places near."""
+    low, high = sorted(mpf(angles(rng)) / 2 for _ in range(2))
+    if rng.random() < 0.4:
+        high = low + min(low, mpmath.pi / 2 - low) * mpf(10) ** rng.uniform(-9, -0.1)
+    place = mpf(angles(rng)) / 2
+    if rng.random() < 0.5:
+        place = high + (high - low) * rng.choice([-1, 1]) * mpf(10) ** rng.uniform(-6, 2)
+    if not 1e-6 < place < mpmath.pi / 2 - 1e-6:
+        place = (low + high) / 2
+    return low, high, place
+
+
+def worst(cases: Iterator[tuple[float, mpf]]) -> float:
+    return max(float(abs(mpf(float(found)) / true - 1)) for found, true in cases)
+
+
+OF_AN_ANGLE: dict[str, Callable[[mpf], mpf]] = {
+    "segment": lambda t: t - mpmath.sin(t) * mpmath.cos(t),
+    "involute": lambda t: mpmath.sin(t) - t * mpmath.cos(t),
+    "excess": lambda y: mpmath.atanh(y) - y,
+}
+
+
+@pytest.mark.parametrize("name", OF_AN_ANGLE)
+def test_functions_of_an_angle_keep_their_digits(name: str) -> None:
+    rng, function = Random(1), getattr(segments, name)
+    drawn = [angles(rng) for _ in range(1000)]
+    given = [t for t in drawn if name != "excess" or t <= 0.5]
+    with mpmath.workdps(DIGITS):
+        assert worst((function(t), OF_AN_ANGLE[name](mpf(t))) for t in given) < 1e-15
+    assert function(0.0) == 0
+
+
+def test_the_pressure_of_a_part_at_an_edge() -> None:
+    rng = Random(2)
+
+    def cases() -> Iterator[tuple[float, mpf]]:
+        for _ in range(1000):
+            _, e, f = halves(rng)
+            sine, cosine, t = mpmath.sin(f), mpmath.cos(f), float(2 * e)
+            e = mpf(t) / 2
+            level = mpmath.log(abs(mpmath.sin(e + f) / mpmath.sin(e - f))) / 2
+            true = e * sine * cosine + (mpmath.sin(e) ** 2 - sine**2) * level
+            yield segments.end_pressure(t, float(sine), float(cosine)), true
+
+    with mpmath.workdps(DIGITS):
+        assert worst(cases()) < 2e-14  # where x lies by 1e-9 of its angle beside the kink
+
+
+def test_the_pressure_of_a_part_between_kinks() -> None:
+    rng = Random(3)
+
+    def cases() -> Iterator[tuple[float, mpf]]:
+        for _ in range(1000):
+            low, high, f = halves(rng)
+            squares = [mpmath.sin(end) ** 2 - mpmath.sin(f) ** 2 for end in (low, high)]
+            first, second = (
+                mpmath.log(abs(mpmath.sin(end + f) / mpmath.sin(end - f))) / 2
+                for end in (low, high)
+            )
+            true = (high - low) * mpmath.sin(2 * f) / 2 + squares[1] * second - squares[0] * first
+            places = [g(v) for v in (low, high, f) for g in (mpmath.sin, mpmath.cos)]
+            yield segments.part_pressure(*map(float, (2 * (high - low), *squares, *places))), true
+
+    with mpmath.workdps(DIGITS):
+        assert worst(cases()) < 3e-15
+
+
+@pytest.mark.parametrize("name", ["second_term", "third_term"])
+def test_the_next_terms_of_the_pressure(name: str) -> None:
+    rng, function = Random(4), getattr(segments, name)
+
+    def antiderivative(v: mpf) -> mpf:
+        square, tangent = v / 2 - mpmath.sin(2 * v) / 4, mpmath.tan(v)
+        if name == "second_term":
+            return square + 2 * (tangent - v)
+        return 3 * square + 12 * (tangent - v) + 8 * (tangent**3 / 3 - tangent + v)
+
+    def cases() -> Iterator[tuple[float, mpf]]:
+        for number in range(1000):
+            low, high, _ = halves(rng)
+            low *= number % 4 > 0  # some begin at the edge
+            near, far = mpmath.sin(low) * mpmath.sin(high), mpmath.cos(low) * mpmath.cos(high)
+            found = function(float(2 * (high - low)), float(near), float(far))
+            yield found, antiderivative(high) - antiderivative(low)
+
+    with mpmath.workdps(DIGITS):
+        assert worst(cases()) < 3e-15
+    with np.errstate(over="ignore"):
+        assert function(0.0, 0.0, 0.0) == function(0.7, 0.6, 0.0) == 0
+
+
+def test_nothing_presses_at_the_edges_and_beyond() -> None:
+    assert segments.end_pressure(1.0, 0.0, 1.0) == segments.end_pressure(1.0, 1.0, 0.0) == 0
+    assert segments.end_pressure(0.0, 0.6, 0.8) == 0
+    ends = (0.6, 0.8, 0.8, 0.6)
+    for sine, cosine in ((0.0, 1.0), (1.0, 0.0)):
+        offsets = (0.36 - sine**2, 0.64 - sine**2)
+        assert segments.part_pressure(0.5, *offsets, *ends, sine, cosine) == 0
+    assert segments.root_ratio(-1.0, 1.0) == segments.root_ratio(1.0, -1.0) == 0
+    assert segments.root_ratio(9.0, 4.0) == 1.5
+
+
+def test_a_place_on_a_kink_has_a_pressure() -> None:
+    on, near = (segments.end_pressure(1.0, np.sin(v), np.cos(v)) for v in (0.5, 0.5 + 1e-12))
+    assert abs(on / near - 1) < 1e-10
+    at, beside = (
+        segments.part_pressure(0.6, 0.0 + d, 0.3 + d, 0.6, 0.8, 0.8, 0.6, 0.6, 0.8)
+        for d in (0.0, 1e-12)
+    )
+    assert abs(at / beside - 1) < 1e-10
+
+
+NAMES = ("segment", "involute", "root_ratio", "second_term", "third_term", "end_pressure")
+
+
+@pytest.mark.parametrize("name", [*NAMES, "part_pressure"])
+def test_arrays_have_the_values_of_numbers(name: str) -> None:
+    function = getattr(segments, name)
+    count = function.__code__.co_argcount
+    rng = np.random.default_rng(5)
+    given = rng.uniform(0.05, 0.95, (count, 40))
+    with np.errstate(all="raise"):
+        found = function(*given)
+        alone = [function(*map(float, row)) for row in given.T]
+    np.testing.assert_allclose(found, alone, rtol=1e-15)
+
+
+def same(value: float) -> float:
+    return value
+
+
+@pytest.mark.skipif(not COMPILED, reason="numba compiles nothing here")
+@pytest.mark.parametrize("name", [*NAMES, "part_pressure"])
+def test_compiled_for_numbers_they_have_the_same_values(name: str) -> None:
+    import numba
+
+    kernel(real(real))(same)  # tells numba of the functions
+    function = getattr(segments, name)
+    count = function.__code__.co_argcount
+    compiled = numba.njit(real(*[real] * count), error_model="numpy")(function)
+    rng = np.random.default_rng(6)
+    for row in rng.uniform(0.05, 0.95, (40, count)):
+        assert compiled(*row) == pytest.approx(function(*map(float, row)), rel=1e-14)

@@ -1,0 +1,123 @@
+"""The regimes of a cycle, in order; mixed cycles; the kernels' text as plain Python."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from derive.runtime.slip import zone as kernels
+from derive.runtime.slip.zone import FULL_STICK, LARGE, MIXED, MODERATE, NONE, SLIDING, UNSOLVED
+from derive.runtime.types import Regime
+
+from .laws import flat_rounded, hertz, wedge
+from .test_moderate import solved, zone
+
+LOAD = math.pi / 4  # of a cylinder whose contact is [-1, 1]
+
+
+def test_codes_are_those_of_the_enum():
+    names = ("NONE", "MODERATE", "LARGE", "MIXED", "SLIDING", "FULL_STICK", "UNSOLVED")
+    for name in names:
+        assert getattr(kernels, name) == Regime[name]
+
+
+@pytest.mark.parametrize(
+    ("cycle", "regime"),
+    [
+        ((1, 1, 1, 1, 0.1, 0.0, 0.5), MODERATE),
+        ((1, 1, 1, 1, 0.1, 0.8, 0.5), LARGE),
+        ((1, 1, 1, 1, 0.1, 0.13, 0.5), MIXED),
+        ((1, 1, 1, 1, LOAD, 0.0, 0.5), SLIDING),
+        ((1, 1, 1, 1, 1.01 * LOAD, 5.0, 0.5), SLIDING),
+        ((1, 1, 1, 1, 0.0, 0.0, 0.5), FULL_STICK),
+        ((1, 1, 1.1, 1.1, 1e-3, 1e-3, 0.5), FULL_STICK),
+        ((1, 1, 1, 1, -0.1, 0.0, 0.5), NONE),
+        ((1, 1, 1, 1, 0.1, 0.0, -0.5), NONE),
+        ((1, 1, 1, 1, 0.1, math.inf, 0.5), NONE),
+        ((1, 1, 1, 1, math.nan, 0.0, 0.5), NONE),
+        ((1, 1, -1, 0.5, 0.1, 0.0, 0.5), NONE),
+        # the moment turns an edge ahead of slip
+        ((1, 1, 1.2, 0.8, 0.1, 0.0, 0.5), MIXED),
+    ],
+)
+def test_regimes(cycle, regime):
+    ((m, n, found),) = zone(hertz, cycle)
+    assert found == regime
+    known = {FULL_STICK, MODERATE, LARGE}
+    assert (np.isfinite(m) and np.isfinite(n)) or regime not in known
+    if regime in (NONE, SLIDING):
+        assert np.isnan(m) and np.isnan(n)
+
+
+def test_full_stick_keeps_what_is_always_in_contact():
+    ((m, n, _),) = zone(hertz, (1.1, 1.05, 1, 1, 0, 0, 0.5))
+    assert (m, n) == (1, 1)
+
+
+def test_shear_that_grows_with_the_load_sticks_up_to_friction():
+    more = math.pi * (1.1**2 - 1) / 4
+    below, above = zone(hertz, *((1, 1, 1.1, 1.1, 0.5 * more * k, 0, 0.5) for k in (0.99, 1.01)))
+    assert below[2] == FULL_STICK
+    assert above[2] == MODERATE
+
+
+@pytest.mark.parametrize("case", [hertz, wedge, flat_rounded], ids=["hertz", "wedge", "flat"])
+@pytest.mark.parametrize("sense", [-1, 1])
+def test_mixed_cycles_lead_from_moderate_to_large(case, sense):
+    a, c, dQ, f = 1.4, 1.3, 0.1, 0.5
+    start = 8 * dQ / (math.pi * (a + c))
+    tensions = sense * start * np.linspace(0.98, 2.5, 150)
+    rows = [(a, c, a, c, dQ, tension, f, 1.0) for tension in tensions]
+    m, n, regime = solved(kernels.each_stick_zone, case, rows, 3).T
+    changes = np.flatnonzero(np.diff(regime))
+    assert [*regime[changes], regime[-1]] == [MODERATE, MIXED, LARGE]
+    for edge in (m, n):
+        assert np.isfinite(edge).all()
+        steps = np.abs(np.diff(edge))
+        for k in changes:
+            assert steps[k] < 2 * max(steps[k - 1], steps[k + 1])
+
+
+def test_mixed_cycles_are_left_unknown_unless_asked_for():
+    rows = [(1, 1, 1, 1, 0.1, 0.13, 0.5)]
+    ((m, n, regime),) = zone(hertz, *rows)
+    assert regime == MIXED and np.isnan(m) and np.isnan(n)
+    ((m, n, regime),) = solved(kernels.each_stick_zone, hertz, [(*rows[0], 1.0)], 3)
+    assert regime in (MIXED, UNSOLVED) and np.isfinite(m) == (regime == MIXED)
+
+
+CASES = [
+    ("hertz", (1.1, 0.9, 1.1, 0.9, 0.1, 0.05, 0.5)),
+    ("hertz", (1.1, 0.9, 1.11, 0.92, 0.05, 0.35, 0.5)),
+    ("wedge", (1.2, 0.7, 1.2, 0.7, 0.1, -0.5, 0.5)),
+    ("wedge", (1.2, 0.7, 1.21, 0.71, 0.1, 0.01, 0.5)),
+    ("flat_rounded", (1.8, 1.9, 1.8, 1.9, 0.02, -1.4, 0.6)),
+]
+
+SCRIPT = """
+import json, sys
+from tests.runtime import laws
+from tests.runtime.test_moderate import zone
+cases = json.loads(sys.argv[1])
+print(json.dumps([list(zone(getattr(laws, name), cycle)[0]) for name, cycle in cases]))
+"""
+
+
+def test_it_runs_as_plain_python_too():
+    root = Path(__file__).parents[2]
+    found = subprocess.run(
+        [sys.executable, "-c", SCRIPT, json.dumps(CASES)],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(root)},
+        cwd=root,
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    )
+    bodies = {"hertz": hertz, "wedge": wedge, "flat_rounded": flat_rounded}
+    compiled = [zone(bodies[name], cycle)[0] for name, cycle in CASES]
+    assert np.array(json.loads(found.stdout)) == pytest.approx(np.array(compiled), rel=1e-13)
