@@ -225,6 +225,7 @@ def _read(content: bytes, key: str) -> Body:
     return Body(
         name=facts["name"],
         text=facts["text"],
+        stuck=facts["stuck"],
         seconds=facts["seconds"],
         closed=tuple(facts["closed"]),
         numerical=tuple(facts["numerical"]),

@@ -17,7 +17,7 @@ import derive.theory
 
 ROOT = Path(__file__).parents[1]
 DERIVE, GENERATED = ROOT / "derive", ROOT / "generated"
-SUPPORT = DERIVE / "codegen" / "support"
+RUNTIME = DERIVE / "runtime"
 
 
 # ------------------------------------------------------------------ who imports whom
@@ -84,7 +84,7 @@ def test_the_modules_are_found() -> None:
     assert {"derive", "derive.theory.frame", "derive.cli", "generated.hertz"} <= MODULES.keys()
     assert "derive.theory.frame" in imported("derive.theory.moments")
     assert "derive.theory.stick" in imported("derive.derivation")
-    assert "generated._arrays" in imported("generated.hertz")
+    assert "generated.runtime.arrays" in imported("generated.hertz")
     assert "derive.pipeline" in imported("derive.cli") - imported("derive.cli", at_load=True)
 
 
@@ -126,7 +126,7 @@ NEVER = {
     ),
     "derive.symbols": ("derive",),
     "derive.errors": ("derive", "sympy", "click", "rich"),
-    "derive.codegen.support": ("derive", "sympy", "mpmath"),
+    "derive.runtime": ("derive", "sympy", "mpmath"),
     "derive": ("generated", "tests"),
     "generated": ("derive", "sympy", "mpmath", "tests"),
 }
@@ -136,7 +136,7 @@ NEVER = {
 def test_data_flows_one_way(package: str) -> None:
     for name in members(package):
         allowed = {package} if package not in NEVER[package] else set()
-        if package == "derive.codegen.support":
+        if package == "derive.runtime":
             allowed = set(members(package))  # its modules are copied together
         wrong = inside(imported(name), *NEVER[package]) - allowed - {name}
         assert not wrong, f"{name} imports {wrong}"
@@ -253,27 +253,29 @@ def test_the_search_for_executed_text_finds_it(tmp_path: Path) -> None:
 # ------------------------------------------------------------------ generated and its source
 
 
-UNUSED = {"_mended.py"}
-"""Of kinks between polynomials of higher degree than the library has: a package holds what its
-modules import."""
-
-
-@pytest.mark.parametrize(
-    "path",
-    [p for p in sources(SUPPORT) if p.name not in {"__init__.py", *UNUSED}],
-    ids=lambda path: path.name,
-)
-def test_support_is_copied_byte_by_byte_below_a_header(path: Path) -> None:
-    header, _, rest = (GENERATED / path.name).read_bytes().partition(b"\n")
-    assert header.startswith(b"# Generated")
-    assert rest == path.read_bytes()
+def test_the_runtime_is_copied_byte_by_byte_below_a_header() -> None:
+    for path in sources(RUNTIME):
+        copy = GENERATED / "runtime" / path.relative_to(RUNTIME)
+        header, _, rest = copy.read_bytes().partition(b"\n")
+        assert header.startswith(b"# Generated")
+        assert rest == path.read_bytes(), path.name
 
 
 def test_every_generated_file_has_its_source() -> None:
-    support = {path.name for path in SUPPORT.glob("_[a-z]*.py")} - UNUSED
+    runtime = {f"runtime/{path.relative_to(RUNTIME).as_posix()}" for path in sources(RUNTIME)}
     bodies = {p.name for p in (DERIVE / "geometries").glob("*.py") if p.name != "__init__.py"}
-    held = {path.name for path in GENERATED.iterdir() if path.name != "__pycache__"}
-    assert held == support | bodies | {"__init__.py", "py.typed"}
+    held = {p.relative_to(GENERATED).as_posix() for p in GENERATED.rglob("*") if p.is_file()}
+    kept = {name for name in held if "__pycache__" not in name}
+    assert kept == runtime | bodies | {"__init__.py", "full_stick.py", "py.typed"}
+
+
+def test_the_runtime_alone_knows_numba_and_formulas_do_not_load_it() -> None:
+    users = {name for name in MODULES if inside(imported(name), "numba")}
+    assert users == inside(users, "derive.runtime", "generated.runtime")
+    loaded = {"generated.hertz"}
+    while more := {m for n in loaded for m in imported(n, at_load=True) & MODULES.keys()} - loaded:
+        loaded |= more
+    assert "generated.runtime.body" in loaded and not loaded & users
 
 
 # ------------------------------------------------------------------ nothing of a machine

@@ -33,7 +33,7 @@ OTHER = "1" * 64
 VERDICTS = (("tilt", Verdict.PROVED), ("L_N_left", Verdict.NUMERICAL))
 PROOFS = (("tilt", "proved: I_0 = 0; α"), ("L_N_left", "numerical: 31 digits at 24 points"))
 FORMS = ("forward",), ("from (P, M)",)
-BODY = Body("hertz", 'text = "α ≤ φ"\r\n', 1.25, *FORMS, VERDICTS, PROOFS, "struck")
+BODY = Body("hertz", 'text = "α ≤ φ"\r\n', "stuck = 1", 1.25, *FORMS, VERDICTS, PROOFS, "struck")
 PLAIN = """from sympy import Abs
 from derive import Geometry, parameter, x
 geometry = Geometry("body", g=parameter("phi", "slope", unit="rad") * Abs(x))

@@ -45,7 +45,7 @@ def test_the_tutorial_works_as_it_stands(tmp_path: Path, monkeypatch: pytest.Mon
         assert done.exit_code == 0, done.output
     calls, (plot,) = "\n".join(TUTORIAL.findall(text)), PLOT.findall(text)
     names: dict[str, object] = {}
-    assert failures(calls, names) == (0, 8)
+    assert failures(calls, names) == (0, 7)
     if importlib.util.find_spec("matplotlib"):
         monkeypatch.setenv("MPLBACKEND", "Agg")
         exec(plot, names)  # noqa: S102  (our own text)
@@ -58,11 +58,18 @@ def test_the_geometry_file_shown_is_that_of_the_library() -> None:
     assert shown.group(1).split() == written.split()
 
 
-def test_every_link_leads_somewhere() -> None:
-    links = re.findall(r"\]\(([^)#:]+)\)", README.read_text())
-    assert links
-    for link in links:
-        assert (README.parent / link).exists(), link
+PAGES = [README, *sorted((README.parent / "docs").glob("*.md"))]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_link_leads_somewhere(page: Path) -> None:
+    for link in re.findall(r"\]\(([^)#:]+)[^):]*\)", page.read_text()):
+        assert (page.parent / link).exists(), link
+
+
+def test_the_examples_of_the_page_on_slip_give_what_they_show() -> None:
+    failed, attempted = failures((README.parent / "docs" / "slip.md").read_text(), {})
+    assert (failed, attempted >= 5) == (0, True)
 
 
 def test_it_says_which_python_before_the_first_example() -> None:

@@ -40,6 +40,12 @@ BESIDE = 0.1
 ALIKE = 1e-12
 """Two limits of g'' at a break that agree to this are the same."""
 
+STEP, LEAST_STEP = 1e-2, 1e-7
+"""Of a difference, over the width or the distance from a break; over the width at least."""
+
+DIFFERENCE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12
+"""Weights of the difference of fourth order."""
+
 HUGE = 1e300
 """A quotient that is larger may leave float64."""
 
@@ -81,24 +87,6 @@ class Part(NamedTuple):
     end: Any
 
 
-class Node(NamedTuple):
-    """The curve at one place of a part.
-
-    slope, curvature, change   g', g'' and t g'''
-    t                          distance from the nearer break [m]
-    start, end                 distances from the window's ends, in parts of the width
-    along                      distance from the part's start, in parts of the width
-    """
-
-    slope: Any
-    curvature: Any
-    change: Any
-    t: Any
-    start: Any
-    end: Any
-    along: Any
-
-
 if COMPILED:
     from numba import types
     from numba.core import cgutils
@@ -109,7 +97,7 @@ if COMPILED:
         tuple(map(types.FunctionType, (BESIDE_BREAK, BREAKS, BREAKS))), Curve
     )
     PART: Any = types.NamedTuple((whole, whole, *(real,) * 6), Part)
-    NODE: Any = types.NamedUniTuple(real, 7, Node)
+    NODE: Any = results(7)
     CUT: Any = PART(vector, whole, real, real, real, whole)
     AT: Any = NODE(CURVE, PART, real, real, vector)
     INTEGRAND: Any = results(5)(NODE, results(3))
@@ -183,15 +171,19 @@ def _part(breaks: Any, piece: int, low: float, high: float, h: float, sense: int
 
 
 @kernel(AT)
-def _at(curve: Any, part: Any, q: float, rest: float, own: Any) -> Node:
-    """The curve at the fractions q and 1 - q of a part, seen from the nearer break."""
+def _at(curve: Any, part: Any, q: float, rest: float, own: Any) -> tuple[float, ...]:
+    """The curve at the fractions q and 1 - q of a part, seen from the nearer break: a node.
+
+    It is g', g'', t g''' and t, the distance from the nearer break [m]; then in parts of the width
+    the distances from the window's start, from its end, and from the part's start.
+    """
     before, behind = part.past + part.length * q, part.ahead + part.length * rest
     side = part.sense if before <= behind else -part.sense
     t = max(min(before, behind), TINY)
     slope, curvature, change = curve.beside(part.piece, side, t, own)
     along = part.extent * q
     start, end = max(part.start + along, NOTHING), max(part.end + part.extent * rest, NOTHING)
-    return Node(part.sense * slope, curvature, part.sense * change, t, start, end, along)
+    return part.sense * slope, curvature, part.sense * change, t, start, end, along
 
 
 @kernel(INCLINED)
@@ -202,7 +194,7 @@ def slope(curve: Any, x: float, own: Any) -> tuple[float, float]:
     while piece < breaks.size and x >= breaks[piece]:
         piece += 1
     node = _at(curve, _part(breaks, piece, x, x, 1.0, 1), 0.5, 0.5, own)
-    return node.slope, node.curvature
+    return node[0], node[1]
 
 
 # ---------------------------------------------------------------- the rule
@@ -304,10 +296,11 @@ def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, tota
 @kernel(INTEGRAND)
 def _of_state(node: Any, _: Any) -> tuple[float, ...]:
     """g'' w, g'' w/(a + s), g'' w/(c - s), g'/w and g'' w (2 s + a - c), in parts of the width."""
-    root = math.sqrt(node.start / node.end)
-    w = root * node.end
-    force, arm = node.curvature * w, node.start - node.end
-    return force, node.curvature / root, node.curvature * root, node.slope / w, force * arm
+    slope, curvature, _, _, start, end, _ = node
+    root = math.sqrt(start / end)
+    w = root * end
+    force = curvature * w
+    return force, curvature / root, curvature * root, slope / w, force * (start - end)
 
 
 @kernel(CARRIED)
@@ -352,7 +345,8 @@ def _asinh_root(z: float) -> float:
 @kernel(INTEGRAND)
 def _of_pressure(node: Any, given: Any) -> tuple[float, ...]:
     """g''(s) L(x, s), x being the window's end; its distance from the edge behind it is given."""
-    return node.curvature * _asinh_root(node.start * given[0] / node.end), 0.0, 0.0, 0.0, 0.0
+    _, curvature, _, _, start, end, _ = node
+    return curvature * _asinh_root(start * given[0] / end), 0.0, 0.0, 0.0, 0.0
 
 
 @kernel(PRESSED)
@@ -392,8 +386,9 @@ def _psi(r: float) -> float:
 @kernel(INTEGRAND)
 def _of_second(node: Any, _: Any) -> tuple[float, ...]:
     """g'' r (3 + 2 r**2)."""
-    square = node.start / node.end
-    return node.curvature * math.sqrt(square) * (3 + 2 * square), 0.0, 0.0, 0.0, 0.0
+    _, curvature, _, _, start, end, _ = node
+    square = start / end
+    return curvature * math.sqrt(square) * (3 + 2 * square), 0.0, 0.0, 0.0, 0.0
 
 
 @kernel(INTEGRAND)
@@ -403,13 +398,14 @@ def _of_second_by_parts(node: Any, given: Any) -> tuple[float, ...]:
     Given are r_0, how far its place lies from the edge, and how far the part starts from there.
     """
     r_0, to_edge, offset = given
-    r = math.sqrt(node.start / node.end)
-    step = (offset + node.along) / (node.end * to_edge) / (r + r_0)
+    _, _, change, t, start, end, along = node
+    r = math.sqrt(start / end)
+    step = (offset + along) / (end * to_edge) / (r + r_0)
     twist = (1 - r * r_0) / ((1 + r * r) * (1 + r_0 * r_0))
     rise = 2 * step - 1.5 * math.atan2(step, 1 + r * r_0) - step * twist / 2
-    if abs(rise) > HUGE * node.t:  # beside an edge that lies at a break
-        return -2 * (node.change / node.t) * rise, 0.0, 0.0, 0.0, 0.0
-    return -2 * node.change * (rise / node.t), 0.0, 0.0, 0.0, 0.0
+    if abs(rise) > HUGE * t:  # beside an edge that lies at a break
+        return -2 * (change / t) * rise, 0.0, 0.0, 0.0, 0.0
+    return -2 * change * (rise / t), 0.0, 0.0, 0.0, 0.0
 
 
 @kernel(SMOOTH)
@@ -459,14 +455,42 @@ def _second(curve: Any, a: float, c: float, own: Any, sense: int) -> float:
             _integrate(_integrand(_of_second_by_parts), given, curve, part, own, scaled)
             total += h * scaled
             if part.length > 0 and part.end == 0:
-                edge = _at(curve, part, 1.0, 0.0, own).curvature
+                edge = _at(curve, part, 1.0, 0.0, own)[1]
                 total[0] -= 2 * h * edge * (0.75 * math.pi + _psi(r_0))
     if not math.isfinite(total[0]):
         return math.nan
     return total[0] / (6 * math.pi * h * math.sqrt(h))
 
 
+@kernel(real(CURVE, real, real, vector, whole, real))
+def _third(curve: Any, a: float, c: float, own: Any, sense: int, K: float) -> float:
+    """The coefficient N of s**(5/2) at the right edge, seen from behind at the left one.
+
+    An edge that moves by dc adds K sqrt(h - s)/(2 sqrt(h) sqrt(s)) dc to the pressure; by powers of
+    s, dL/dc + (5/2) N = -K/(16 h**2).  The rate is a difference of fourth order, over steps short
+    against the width and the distance from the nearest break.
+    """
+    edge, h = (c if sense > 0 else -a), a + c
+    step = STEP * h
+    for place in curve.breaks(own):
+        step = min(step, STEP * abs(edge - place))
+    if not step > LEAST_STEP * h:
+        return math.nan
+    rate = 0.0
+    for k in range(-2, 3):
+        moved = k * step
+        if sense > 0:
+            L = _second(curve, a, c + moved, own, sense)
+        else:
+            L = _second(curve, a + moved, c, own, sense)
+        rate += DIFFERENCE[k + 2] * L
+    return -(K / (16 * h * h) + rate / step) * 2 / 5
+
+
 @kernel(EXPANDED)
 def series(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
-    """Coefficients of s**(3/2) at both edges for E* = 1; those of s**(5/2) are not found."""
-    return _second(curve, a, c, own, -1), _second(curve, a, c, own, 1), math.nan, math.nan
+    """Coefficients of s**(3/2) and of s**(5/2) at both edges for E* = 1."""
+    left, right = _second(curve, a, c, own, -1), _second(curve, a, c, own, 1)
+    _, _, _, K_left, K_right = state(curve, a, c, own)
+    third_left = _third(curve, a, c, own, -1, K_left)
+    return left, right, third_left, _third(curve, a, c, own, 1, K_right)

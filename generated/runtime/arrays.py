@@ -46,7 +46,7 @@ def elementwise(function: Function) -> Function:
         given = defaults | dict(zip(names, args, strict=False)) | kwargs
         if len(args) + len(kwargs) > len(given) or len(given) != len(called.parameters):
             called.bind(*args, **kwargs)  # raises, in Python's words
-        numbers = {name: real(value, name) for name, value in given.items()}
+        numbers = {name: real(given[name], name) for name in called.parameters}
         for name in positive:
             numbers[name] = positive_or_nan(numbers[name])
         if any_lazy(numbers.values()):

@@ -6,6 +6,7 @@ compiled, and the solvers loaded, when one of these is called for the first time
 """
 
 import importlib
+import math
 import threading
 from collections.abc import Callable, Mapping
 from functools import cache, cached_property
@@ -75,6 +76,7 @@ class Body:
         arguments = [*others, *own, *optional]
         call.__signature__ = signature(function).replace(parameters=arguments)  # type: ignore[attr-defined]
         call.__name__ = call.__qualname__ = function.__name__
+        call.__module__ = self.functions["state"].__module__  # by which Dask's workers find it
         call.__doc__ = self._described(function, [a.name for a in arguments])
         return call
 
@@ -135,9 +137,14 @@ class Asked(NamedTuple):
             own = np.empty((*shape, len(self.own)))
             for i, name in enumerate(self.own):
                 own[..., i] = part[name]
-            size = cases.size // cases.shape[-1]
+            size = math.prod(shape)
             out = np.empty((size, count))
-            kernel(law, cases.reshape(size, -1), own.reshape(size, -1), out)
+            kernel(
+                law,
+                cases.reshape(size, cases.shape[-1]),
+                own.reshape(size, own.shape[-1]),
+                out,
+            )
             factor = part["E_star"] if by_modulus else 1.0
             found = [out[:, i].reshape(shape) * factor for i in range(count)]
             return found if count > 1 else found[0]

@@ -5,6 +5,7 @@ What a person gives follows the `Asked`, which knows the body; `Body.bound` make
 function of it and completes its docstring.  The kernels are loaded when they are first needed.
 """
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -35,11 +36,12 @@ def _between(first: Any, second: Any, **others: Any) -> dict[str, Any]:
     return _edges_of(first, "first") | _edges_of(second, "second") | others
 
 
-def _demand_order(order: Any, least: int) -> None:
+def _demand_order(order: Any, least: int, most: int) -> None:
+    """Raises TypeError for what is no whole number, ValueError for an order that there is not."""
     if isinstance(order, bool) or not isinstance(order, int | np.integer):
         raise TypeError(f"order must be a whole number; got {order!r:.60}")
-    if not least <= order <= 3:
-        raise ValueError(f"order must be {least} to 3; got {order}")
+    if not least <= order <= most:
+        raise ValueError(f"order must be {least} to {most}; got {order}")
 
 
 # ---------------------------------------------------------------- what a contact carries
@@ -271,6 +273,7 @@ def slip_zones(
     + P2), which is sliding.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
+    _demand_order(order, 1, 3)
     return _series(asked, given, f, E_star, order, 0)
 
 
@@ -298,6 +301,7 @@ def slip_error(
     NaN unless both orders give slip zones; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
+    _demand_order(order, 1, 2)
     return _series(asked, given, f, E_star, order, 2)
 
 
@@ -305,7 +309,6 @@ def _series(
     asked: Asked, given: dict[str, Any], f: Array, E_star: Array, order: int, first: int
 ) -> Edges:
     """Slip zones (first = 0) or their errors (first = 2)."""
-    _demand_order(order, 1)
     found = asked.solved(
         "slip.series.each_slip_zones",
         given,
@@ -486,23 +489,28 @@ def march(
     instant leads back to the first; SLIDING where |Q| >= f P at any instant; NONE where a contact
     does not exist.
     """
-    _demand_order(order, 0)
+    _demand_order(order, 0, 3)
     numbers = numbers_of(
         {"P": P, "M": M, "Q": Q, "sigma": sigma}, {"f": f, "E_star": E_star, **asked.own}
     )
     shape = shape_of(numbers)
     if any_lazy(numbers.values()):
         return over_chunks(with_options(asked.call, {"order": order}), numbers, in_time=True)
-    *cycles, instants = shape or (1,)
+    if not shape or shape[-1] < 2:
+        raise ValueError(
+            f"a cycle has two instants or more, along the last axis; got shape {shape}"
+        )
+    *cycles, instants = shape
     with np.errstate(all="ignore"):
         loads = [numbers[name] / numbers["E_star"] for name in ("P", "M", "Q", "sigma")]
-    whole = [np.broadcast_to(v, (*cycles, instants)).reshape(-1, instants) for v in loads]
-    count = whole[0].shape[0]
+    count = math.prod(cycles)
+    whole = [np.broadcast_to(v, (*cycles, instants)).reshape(count, instants) for v in loads]
     constants = [_constant(numbers[name], cycles, instants) for name in ("f", *asked.own)]
     given = np.hstack([constants[0], np.full((count, 1), float(order)), *whole])
     own = np.ascontiguousarray(np.hstack([np.empty((count, 0)), *constants[1:]]))
     out = np.empty((count, 7 * instants))
-    kernel_of("slip.march.each_march")(asked.body.law, given, own, out)
+    with np.errstate(all="ignore"):
+        kernel_of("slip.march.each_march")(asked.body.law, given, own, out)
     found = out.reshape(*cycles, instants, 7)
     values = [found[..., i].reshape(shape) for i in range(4)]
     senses = [found[..., i].astype(np.int64).reshape(shape) for i in range(4, 7)]
@@ -514,7 +522,7 @@ def _constant(value: Any, cycles: list[int], instants: int) -> Any:
 
     Raises ValueError where it changes in time.
     """
-    held = np.broadcast_to(value, (*cycles, instants)).reshape(-1, instants)
+    held = np.broadcast_to(value, (*cycles, instants)).reshape(math.prod(cycles), instants)
     if np.any((held != held[:, :1]) & ~np.isnan(held)):
         raise ValueError("f, E_star and the body's parameters must not change along the last axis")
     return held[:, :1]

@@ -111,7 +111,7 @@ def _short(goal: Any, a: float, c: float, now: Any) -> Any:
 @kernel(results(2)(GOAL, real, real, results(5)))
 def _step(goal: Any, a: float, c: float, now: Any) -> Any:
     """Newton's step of a and c."""
-    load, moment, tilt, left, right = now
+    load, moment, _, left, right = now
     h, mid = a + c, (c - a) / 2
     short, off = _short(goal, a, c, now)
     force = 4 * load / (math.pi * math.sqrt(h))

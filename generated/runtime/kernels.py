@@ -11,7 +11,9 @@ and `opened` inside, since numba takes ten microseconds to unwrap each function 
 
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
+from pathlib import Path
 from threading import Timer
 from typing import Any, NamedTuple, TypeVar
 
@@ -52,11 +54,27 @@ class Law(NamedTuple):
     breaks: Any
 
 
+def _forget_what_is_stale() -> None:
+    """Remove compiled kernels that are older than any source of the runtime.
+
+    numba looks at the file of a kernel alone, and would keep what it has compiled into it from
+    others that have changed since.
+    """
+    home = Path(__file__).parent
+    newest = max(path.stat().st_mtime for path in home.rglob("*.py"))
+    for folder in (home.parent, home, *home.glob("*/")):
+        for path in folder.glob("__pycache__/*.nb[ic]"):
+            with suppress(OSError):
+                if path.stat().st_mtime < newest:
+                    path.unlink()
+
+
 if COMPILED:
     from numba import types
     from numba.core import cgutils
     from numba.extending import intrinsic, overload, register_jitable
 
+    _forget_what_is_stale()
     real: Any = types.float64
     whole: Any = types.int64
     truth: Any = types.boolean
@@ -80,7 +98,9 @@ if COMPILED:
         """Compile a function for one signature, and keep it on disk."""
         while SHARED:
             register_jitable(SHARED.pop())
-        compiled = numba.njit(signature, cache=True, nogil=True, error_model="numpy")
+        compiled = numba.njit(
+            signature, cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True
+        )
 
         def made(function: Kernel) -> Kernel:
             timer = Timer(PATIENCE, _tell)

@@ -1,346 +1,464 @@
-"""Errors of generated functions in units in the last place, region by region."""
+"""The worst relative error of every generated function, region by region."""
 
 import importlib
-import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cache
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import mpmath
 import numpy as np
 from mpmath import mpf
-from sympy import Expr, lambdify
 
-from derive.codegen.contract import CONTRACT, Function
-from derive.codegen.integrated import keeps_its_digits
-from derive.codegen.parabolas import is_parabolic
-from tests.accuracy.cycles import CYCLES, Cycle
+from derive.codegen.contract import CONTRACT
+from generated.runtime.types import Regime
+from tests.accuracy import partial_slip
 from tests.accuracy.definitions import formula
-from tests.accuracy.inverses import INVERSES
-from tests.accuracy.reference import Answer, Point, Problem, condition, exact, sheet_of
-from tests.accuracy.regions import Regions, Sample
-from tests.paper_forms import FORMS
+from tests.accuracy.partial_slip import digits_of
+from tests.accuracy.reference import Answer, Given, Problem, function_of, sheet_of
+from tests.accuracy.regions import BULK, Placed, Regions, Sample, contacts_of
 
-CLOSED, PARTS, INTEGRATED, SOLVED, CYCLE = "closed", "by parts", "integrated", "solved", "cycle"
-"""How a function computes: a formula; sums over the parts between kinks; quadrature; Newton's
-method; the conditions of partial slip."""
+BOUNDS = {True: 1e-13, False: 1e-12}
+"""Of relative errors, in the bulk and elsewhere."""
 
-LIMITS = {
-    CLOSED: 4.0,
-    PARTS: 4.0,
-    INTEGRATED: 64.0,
-    SOLVED: 4.0,
-    CYCLE: 64.0,
-}
-"""Largest error over the condition of the problem, in units in the last place."""
+EXACT = ("hertz", "wedge", "unequal_wedge", "quartic", "parabola_quartic")
+EXPLICIT = 1e-14
+"""The bound of explicit formulas of these bodies, in every region."""
 
-WELL = 10.0
-"""A problem of a smaller condition is well conditioned."""
+ROUNDING = 1e-15
+"""What rounding may do to a number whose condition is one: some units in the last place."""
+
+Results = Callable[[Any, Regions, Sample], Sequence[Any]]
+"""Numbers of a generated module at a sample."""
+
+Scale = Callable[[str, list[mpf], Given], list[mpf]]
+"""What the error of each number is relative to."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One function, or one regime of one.
+
+    results  its numbers; scale: what their errors are relative to
+    starts   the unknowns from which they are told, if they are not the unknowns themselves
+    share    of the points asked for; integrated: the same where a pressure is an integral
+    """
+
+    name: str
+    results: Results
+    problem: Callable[[str], Problem]
+    where: Callable[[Regions], Placed]
+    scale: Scale
+    starts: Results = lambda module, regions, sample: ()
+    share: float = 1.0
+    integrated: float = 0.05
+
+    def points(self, body: str, count: int) -> int:
+        """How many random points of a body are tried in a region; none where they are too dear."""
+        known = sheet_of(body).geometry.slope.is_polynomial
+        share = self.share if known else min(self.share, self.integrated)
+        return max(2, round(share * count)) if share else 0
 
 
 @dataclass(frozen=True)
 class Worst:
-    """The worst of one output in one region.
+    """The worst of one function in one region.
 
-    points      how many were tried
-    lost        how many of them gave no number
-    ulp         largest error, and `condition` of the problem there, at `point`
-    well        largest error where the problem is well conditioned
-    excess      largest error over the condition, which explains that much, at `over`
-    paper       worst error of the paper's printed form, None where it prints none
+    error      relative; met: whether each is within its bound, or explained by rounded inputs
+    condition  that of the problem where the error exceeds its bound
+    lost       points at which the function gave no number, or none next to a solution
     """
 
     body: str
     function: str
-    output: str
     region: str
-    kind: str
-    points: int
-    lost: int
-    ulp: float
-    condition: float
-    point: Point
-    well: float
-    excess: float
-    over: Point
-    paper: float | None = None
+    points: int = 0
+    lost: int = 0
+    error: float = 0.0
+    met: bool = True
+    condition: float = 0.0
+    point: dict[str, float] = field(default_factory=dict)
 
 
-def ulps(value: float, reference: mpf) -> float:
-    """|value - reference| in units in the last place of the reference."""
-    nearest = float(reference)
-    if not np.isfinite(value) or not np.isfinite(nearest):
-        return np.inf
-    with mpmath.workdps(60):
-        return float(abs(mpf(value) - reference) / mpf(np.spacing(abs(nearest))))
+def bound(body: str, function: str, region: str) -> float:
+    """The largest relative error that is allowed."""
+    explicit = any(f.name == function and f.available(sheet_of(body)) for f in CONTRACT)
+    return EXPLICIT if body in EXACT and explicit else BOUNDS[region == BULK]
 
 
-@cache
-def kind_of(body: str, function: str) -> str:
-    """How a function of a body computes."""
-    sheet = sheet_of(body)
-    its = next((f for f in CONTRACT if f.name == function), None)
-    if its is None:
-        return CYCLE
-    if not its.available(sheet):
-        return SOLVED
-    if not all(sheet.is_closed(name) for name in its.formulas):
-        return INTEGRATED
-    by_parts = its.geometric and is_parabolic(sheet) and not keeps_its_digits(sheet, function)
-    return PARTS if by_parts else CLOSED
+# ------------------------------------------------------------------ what errors are relative to
 
 
-SHARES = {CLOSED: 1.0, PARTS: 1.0, SOLVED: 0.1, INTEGRATED: 0.05}
-"""How many points are tried in a region, in parts of those asked for: some references are dear."""
+def _itself(_: str, numbers: list[mpf], __: Given) -> list[mpf]:
+    return [abs(v) for v in numbers]
 
 
-def functions(body: str) -> Iterator[str]:
-    """Every function of one body that is measured."""
-    yield from (f.name for f in CONTRACT)
-    yield from (cycle.name for cycle in CYCLES if cycle.takes(sheet_of(body)))
+def _larger(_: str, numbers: list[mpf], __: Given) -> list[mpf]:
+    return [max(map(abs, numbers))] * len(numbers)
 
 
-def share_of(body: str, name: str) -> float:
-    """Of the points asked for, those that are tried of one function."""
-    cycle = next((c for c in CYCLES if c.name == name), None)
-    kind = kind_of(body, name)
-    share = cycle.share if cycle else SHARES[kind]
-    dear = kind != CLOSED and not sheet_of(body).geometry.slope.is_polynomial
-    return min(share, SHARES[INTEGRATED]) if dear else share
+def _width(_: str, numbers: list[mpf], given: Given) -> list[mpf]:
+    known = {"a": numbers[0], "c": numbers[1]} if "a" not in given else given
+    return [known["a"] + known["c"]] * len(numbers)
 
 
-def worst_of(body: str, count: int, only: str = "") -> Iterator[Worst]:
-    """Every function of one body, or one of them, over all its regions."""
-    for name in functions(body):
-        if only in ("", name):
-            kind = kind_of(body, name)
-            cycle = next((c for c in CYCLES if c.name == name), None)
-            integrated = not sheet_of(body).geometry.slope.is_polynomial
-            points = max(1, round(share_of(body, name) * count))
-            regions = Regions(sheet_of(body), importlib.import_module(f"generated.{body}"), points)
-            for region, sample in cycle.where(regions) if cycle else regions.of(name):
-                if integrated and "extreme widths" in region:
-                    continue  # the proofs' quadrature does not reach so far
-                if len(next(iter(sample.values()))):
-                    yield from _measured(body, name, kind, region, sample, cycle)
+def _contact(body: str, numbers: list[mpf], given: Given) -> list[mpf]:
+    h = numbers[0] + numbers[1]
+    return [h, h, given.get("P", mpf(0)) / (given["E_star"] * h)][: len(numbers)]
 
 
-def _measured(
-    body: str, name: str, kind: str, region: str, sample: Sample, cycle: Cycle | None
-) -> Iterator[Worst]:
-    function = next((f for f in CONTRACT if f.name == name), None)
-    if cycle is not None:
-        yield from _cycles(body, region, sample, cycle)
-    elif kind == SOLVED:
-        yield from _inverses(body, name, region, sample)
-    elif function is not None:
-        yield from _formulas(body, kind, region, sample, function)
+def _moments(body: str, _: list[mpf], given: Given) -> list[mpf]:
+    return [formula(body, "load")(**given) * (given["a"] + given["c"])]
 
 
-# ------------------------------------------------------------------ formulas
+def _tilts(body: str, _: list[mpf], given: Given) -> list[mpf]:
+    load = formula(body, "load")(**{**given, "E_star": mpf(1)})
+    return [load / (given["a"] + given["c"])]
 
 
-def _formulas(
-    body: str, kind: str, region: str, sample: Sample, function: Function
-) -> Iterator[Worst]:
-    sheet = sheet_of(body)
-    names = [str(s) for s in (*function.arguments, *function.keywords(sheet))]
-    given = {name: sample[name] for name in names}
-    module = importlib.import_module(f"generated.{body}")
-    result = getattr(module, function.name)(**given)
-    points = _points(given)
-    for field, expr in function.outputs(sheet).items():
-        if field and expr.is_Symbol:
-            continue  # an argument, handed back
-        expr = sheet.frame.flat(expr)
-        got = getattr(result, field) if field else result
-        if kind == INTEGRATED:
-            of = _by_integrals(body, dict(function.fields)[field])
-        else:
-            of = _by_formula(body, expr)
-        yield _worst(
-            (body, function.name, field, region, kind),
-            got,
-            points,
-            [of.value(point) for point in points],
-            of.condition,
-            _paper(body, function.name, field, given) if kind == CLOSED else None,
+def _second(body: str, numbers: list[mpf], given: Given) -> list[mpf]:
+    """L_N, or K_N over the width."""
+    first = [formula(body, f"K_N_{side}")(**given) for side in ("left", "right")]
+    width = given["a"] + given["c"]
+    return [max(abs(v), K / width) for v, K in zip(numbers, first, strict=True)]
+
+
+def _friction(body: str, _: list[mpf], given: Given) -> list[mpf]:
+    return [2 * given["f"] * formula(body, "pressure")(**given)]
+
+
+# ------------------------------------------------------------------ the catalogue
+
+
+def _explicit(function: Any) -> Measured:
+    def results(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+        names = map(str, (*function.arguments, *function.keywords(regions.sheet)))
+        found = getattr(module, function.name)(**{n: sample[n] for n in names})
+        return found if function.kind else (found,)
+
+    def problem(body: str) -> Problem:
+        polynomial = sheet_of(body).geometry.slope.is_polynomial
+
+        def of(source: str) -> Callable[..., mpf]:
+            if function.geometric:
+                return formula(body, source)
+            names, value = function_of(sheet_of(body).flat(source))
+            return lambda **given: value(*(given[n] for n in names))
+
+        sources = [of(source) for _, source in function.fields]
+        told = lambda _, given: [source(**given) for source in sources]  # noqa: E731
+        return Problem(told=told, digits=120 if polynomial or not function.geometric else 36)
+
+    scales = {"tilt": _tilts, "moment": _moments, "L_N": _second}
+    where = {"pressure": Regions.places}.get(function.name, Regions.contacts)
+    scale = scales.get(function.name, _itself if function.geometric else _larger)
+    where = where if function.geometric else Regions.sheared
+    return Measured(function.name, results, problem, where, scale)
+
+
+def _from_loads(name: str, *given: str) -> Measured:
+    fields = {"P": "load", "M": "moment", "alpha": "tilt"}
+
+    def results(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+        law = regions.law_of(sample, friction=False)
+        found = getattr(module, name)(*(sample[n] for n in given), **law)
+        return found if name == "contact" else found[:2]
+
+    def problem(body: str) -> Problem:
+        laws = {n: formula(body, fields[n]) for n in given}
+        tilt = formula(body, "tilt")
+
+        def at(edges: Sequence[mpf], known: Given) -> dict[str, mpf]:
+            return {**known, "a": edges[0], "c": edges[1]}
+
+        def told(edges: Sequence[mpf], known: Given) -> Sequence[mpf]:
+            return [*edges, tilt(**at(edges, known))] if name == "contact" else edges
+
+        polynomial = sheet_of(body).geometry.slope.is_polynomial
+        return Problem(
+            lambda edges, known: [law(**at(edges, known)) - known[n] for n, law in laws.items()],
+            told,
+            80 if polynomial else 36,
         )
 
-
-@dataclass(frozen=True)
-class _Reference:
-    value: Callable[[Point], mpf]
-    condition: Callable[[int, Point], float]
+    where = lambda regions: regions.loaded(*given)  # noqa: E731
+    first = lambda *of: results(*of)[:2]  # noqa: E731
+    return Measured(name, results, problem, where, _contact, first, 0.2)
 
 
-@cache
-def _by_formula(body: str, expr: Expr) -> _Reference:
-    kinks = [k.position for k in sheet_of(body).geometry.slope.kinks]
-
-    def beside(point: Point) -> Point:
-        """x beside a kink by nothing to speak of: there a formula is zero times infinity."""
-        if "x" in point and any(exact(place, point) == point["x"] for place in kinks):
-            with mpmath.workdps(400):
-                return {**point, "x": mpf(point["x"]) + mpf(10) ** -300}
-        return point
-
-    return _Reference(
-        lambda point: exact(expr, beside(point)),
-        lambda _, point: max(1.0, condition(expr, beside(point))),
-    )
+def _zone(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+    return regions.zone_of(sample)[:2]
 
 
-@cache
-def _by_integrals(body: str, name: str) -> _Reference:
-    """The defining integrals."""
-    of = formula(body, name)
-
-    def problem() -> Problem:
-        return Problem(lambda _, __: [], lambda _, given: [of(**given)], digits=_digits(body))
-
-    @cache
-    def answer(point: tuple[tuple[str, float], ...]) -> Answer:
-        return problem().answer([], dict(point))
-
-    return _Reference(
-        lambda point: answer(tuple(point.items())).numbers[0],
-        lambda _, point: answer(tuple(point.items())).conditions[0],
-    )
+def _cycle(name: str, module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+    """A function of a half-cycle; at x, where there is one."""
+    loads = [sample["dQ"], *([sample["dsigma"]] if "x" in sample else [])]
+    places = [sample["x"]] if "x" in sample else []
+    found = getattr(module, name)(*places, *contacts_of(sample), *loads, **regions.law_of(sample))
+    return (found,) if places else found
 
 
-def _paper(
-    body: str, function: str, field: str, given: Sample
-) -> Callable[[list[mpf]], float] | None:
-    expr: Expr | None = FORMS.get(body, {}).get(function, {}).get(field)
-    if expr is None:
-        return None
-    held = sorted(expr.free_symbols, key=str)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        values = lambdify(held, expr, modules="numpy")(*(given[str(s)] for s in held))
-    return lambda references: max(
-        ulps(float(v), r) for v, r in zip(values, references, strict=True)
-    )
+def _shear(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+    fall = {"dQ": sample["dQ"], "dsigma": sample["dsigma"]}
+    here = contacts_of(sample)[0]
+    rise = sample["Q"], sample["sigma"]
+    return (module.shear(sample["x"], here, *rise, **regions.law_of(sample), **fall),)
 
 
-# ------------------------------------------------------------------ what is solved
+def _shear_zones(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+    risen = {**sample, "dQ": 2 * sample["Q"], "dsigma": 2 * sample["sigma"]}
+    return [*regions.zone_of(risen)[:2], *regions.zone_of(sample)[:2]]
 
 
-def _digits(body: str) -> int:
-    """Of what is solved for."""
-    return 50 if sheet_of(body).geometry.slope.is_polynomial else 36
+def _closing_edges(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+    """The edges that move as the moderate solution closes a slip zone."""
+    law = regions.law_of(sample, friction=False)
+    own = {n: v for n, v in law.items() if n != "E_star"}
+    edges = sample["a"], sample["c"]
+    load = module.load(*edges, **law) - sample["dQ"] / (2 * sample["f"])
+    scale = 4 * sample["f"] * sample["E_star"]
+    ends = _cycle("closing_tension", module, regions, sample)
+    tilts = (module.tilt(*edges, **own) - t / scale for t in ends)
+    lower, upper = (module.contact_at_tilt(load, alpha, **law) for alpha in tilts)
+    return lower.c, upper.a
 
 
-def _inverses(body: str, name: str, region: str, sample: Sample) -> Iterator[Worst]:
-    sheet, inverse = sheet_of(body), INVERSES[name]
-    names = [*inverse.arguments, "E_star", *(q.name for q in sheet.geometry.parameters)]
-    given = {n: sample[n] for n in names}
-    result = getattr(importlib.import_module(f"generated.{body}"), name)(**given)
-    found = result.a, result.c
-    problem = inverse.problem(body, _digits(body))
-    yield from _answered((body, name), ("a", "c"), region, SOLVED, given, found, found, problem)
+def _series(*orders: int) -> Results:
+    def of(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+        given = [sample[n] for n in ("a", "c", "dQ", "dsigma")]
+        law = regions.law_of(sample)
+        return [v for n in orders for v in module.slip_zones(*given, order=n, **law)]
+
+    return of
 
 
-def _cycles(body: str, region: str, sample: Sample, cycle: Cycle) -> Iterator[Worst]:
-    module = importlib.import_module(f"generated.{body}")
-    results = cycle.results(module, sample)
-    starts = cycle.starts(module, sample) if cycle.starts else results
-    problem, names = cycle.of(body, _digits(body)), (body, cycle.name)
-    yield from _answered(names, cycle.fields, region, CYCLE, sample, results, starts, problem)
+def _series_error(order: int) -> Results:
+    def of(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+        given = [sample[n] for n in ("a", "c", "dQ", "dsigma")]
+        return module.slip_error(*given, order=order, **regions.law_of(sample))
+
+    return of
 
 
-def _answered(
-    names: tuple[str, str],
-    fields: Sequence[str],
-    region: str,
-    kind: str,
-    sample: Sample,
-    results: Sequence[Any],
-    starts: Sequence[Any],
-    problem: Problem,
-) -> Iterator[Worst]:
-    """The worst of each number; what was not solved is lost."""
-    points, begun = _points(sample), [*zip(*starts, strict=True)]
-    given = np.all(np.isfinite(np.array(results, dtype=float)), axis=0)
-    answers = {
-        k: answer
-        for k, point in enumerate(points)
-        if given[k] and (answer := _answer(problem, begun[k], point)) is not None
-    }
-    there = [*answers]
-    for i, field in enumerate(fields):
-        yield _worst(
-            (*names, field, region, kind),
-            np.array([results[i][k] for k in there]),
-            [points[k] for k in there],
-            [answers[k].numbers[i] for k in there],
-            lambda k, _, i=i: answers[there[k]].conditions[i],  # type: ignore[misc]
-            None,
-            lost=len(points) - len(there),
+WAY = np.array([0.0, 0.25, 0.75, 1.0, 0.75, 0.5])
+"""How far the loads of a march have come, instant by instant; the last is judged, half a fall."""
+
+
+def _march(module: Any, regions: Regions, sample: Sample) -> Sequence[Any]:
+    law = {n: v[:, None] for n, v in regions.law_of(sample).items()}
+    edges = sample["a"][:, None], sample["c"][:, None]
+    normal = {n: v for n, v in law.items() if n != "f"}
+    loads = [of(*edges, **normal) for of in (module.load, module.moment)]
+    found = module.march(*loads, *(sample[n][:, None] * WAY for n in ("dQ", "dsigma")), **law)
+    return [v[:, -1] for v in (found.m, found.n)]
+
+
+def _half_fallen(body: str) -> Problem:
+    """The stick zone half of the half-cycle's change after the loads have turned."""
+    zone = partial_slip.patch(body)
+
+    def off(edges: Sequence[mpf], given: Given) -> Sequence[mpf]:
+        return zone(edges, {**given, **{n: given[n] / 2 for n in ("dQ", "dsigma")}})
+
+    return Problem(off)
+
+
+_MODERATE, _LARGE = Regime.MODERATE, Regime.LARGE
+
+CATALOGUE = (
+    *(_explicit(f) for f in CONTRACT if f.name not in ("contact", "contact_at_tilt")),
+    _from_loads("contact", "P", "M"),
+    _from_loads("contact_at_tilt", "P", "alpha"),
+    Measured(
+        "stick_zone, moderate",
+        _zone,
+        lambda body: Problem(partial_slip.patch(body)),
+        lambda regions: regions.cycles(_MODERATE),
+        _width,
+        _zone,
+        0.2,
+    ),
+    Measured(
+        "stick_zone, moderate, varying",
+        _zone,
+        lambda body: Problem(partial_slip.patch(body)),
+        lambda regions: regions.cycles(_MODERATE, varied=True),
+        _width,
+        _zone,
+        0.2,
+    ),
+    Measured(
+        "stick_zone, large",
+        _zone,
+        lambda body: Problem(partial_slip.between(body), digits=digits_of(body)),
+        lambda regions: regions.cycles(_LARGE),
+        _width,
+        _zone,
+        0.04,
+        0.01,
+    ),
+    Measured(
+        "stick_zone, large, varying",
+        _zone,
+        lambda body: Problem(partial_slip.between(body), digits=digits_of(body)),
+        lambda regions: regions.cycles(_LARGE, varied=True),
+        _width,
+        _zone,
+        0.02,
+        0.0,
+    ),
+    Measured(
+        "tension_threshold",
+        partial(_cycle, "tension_threshold"),
+        lambda body: Problem(told=lambda _, given: partial_slip.threshold(given)),
+        lambda regions: regions.cycles(_MODERATE),
+        _itself,
+        share=0.2,
+    ),
+    Measured(
+        "closing_tension",
+        partial(_cycle, "closing_tension"),
+        partial_slip.closing,
+        lambda regions: regions.cycles(_MODERATE),
+        _larger,
+        _closing_edges,
+        0.2,
+    ),
+    *(
+        Measured(
+            f"slip_zones, order {order}",
+            _series(order),
+            lambda body, order=order: Problem(partial_slip.series(body, order)),  # type: ignore[misc]
+            lambda regions: regions.cycles(_MODERATE),
+            _width,
+            _series(order),
+            0.1,
+            0.05 if order < 3 else 0.0,
         )
-
-
-def _answer(problem: Problem, start: Sequence[float], point: Point) -> Answer | None:
-    """The solution next to what a function gave; None where there is none.
-
-    Where many digits do not show it, beside a kink, twice as many may.
-    """
-    if not np.all(np.isfinite(start)):
-        return None
-    for digits in (problem.digits, 2 * problem.digits):
-        try:
-            return replace(problem, digits=digits).answer(start, point)
-        except ArithmeticError:
-            continue
-    return None
+        for order in (1, 2, 3)
+    ),
+    *(
+        Measured(
+            f"slip_error, order {order}",
+            _series_error(order),
+            partial(lambda order, body: partial_slip.series_error(body, order), order),
+            lambda regions: regions.cycles(_MODERATE),
+            _width,
+            _series(order, order + 1),
+            0.1,
+            0.05 if order < 2 else 0.0,
+        )
+        for order in (1, 2)
+    ),
+    Measured(
+        "shear_change, moderate",
+        partial(_cycle, "shear_change"),
+        partial_slip.change,
+        lambda regions: regions.placed(_MODERATE),
+        _friction,
+        _zone,
+        0.1,
+    ),
+    Measured(
+        "shear_change, large",
+        partial(_cycle, "shear_change"),
+        lambda body: partial_slip.change(body, large=True),
+        lambda regions: regions.placed(_LARGE),
+        _friction,
+        _zone,
+        0.03,
+        0.0,
+    ),
+    Measured(
+        "shear",
+        _shear,
+        partial_slip.shear,
+        Regions.risen_and_fallen,
+        _friction,
+        _shear_zones,
+        0.1,
+    ),
+    Measured(
+        "slip_range, moderate",
+        partial(_cycle, "slip_range"),
+        partial_slip.slip,
+        lambda regions: regions.placed(_MODERATE, slips=True),
+        _itself,
+        _zone,
+        0.03,
+        0.0,
+    ),
+    Measured(
+        "slip_range, large",
+        partial(_cycle, "slip_range"),
+        lambda body: partial_slip.slip(body, large=True),
+        lambda regions: regions.placed(_LARGE, slips=True),
+        _itself,
+        _zone,
+        0.02,
+        0.0,
+    ),
+    Measured(
+        "march",
+        _march,
+        _half_fallen,
+        lambda regions: regions.cycles(_MODERATE),
+        _width,
+        _march,
+        0.1,
+    ),
+)
 
 
 # ------------------------------------------------------------------ the worst of many
 
 
-def _points(given: Sample) -> list[Point]:
-    count = len(next(iter(given.values())))
-    return [{n: float(v[i]) for n, v in given.items()} for i in range(count)]
+def worst_of(body: str, name: str, count: int) -> Iterator[Worst]:
+    """One function of one body in every region."""
+    of = next(entry for entry in CATALOGUE if entry.name == name)
+    module = importlib.import_module(f"generated.{body}")
+    found: dict[str, list[Worst]] = {}
+    if points := of.points(body, count):
+        regions = Regions(sheet_of(body), module, points)
+        for region, sample in of.where(regions):
+            if sample["E_star"].size:
+                found.setdefault(region, []).append(_worst(body, of, region, regions, sample))
+    for rows in found.values():
+        worst = max(rows, key=lambda row: (not row.met, row.error))
+        total = {n: sum(getattr(row, n) for row in rows) for n in ("points", "lost")}
+        yield Worst(**{**worst.__dict__, **total})
 
 
-def _worst(
-    names: tuple[str, ...],
-    got: Any,
-    points: list[Point],
-    references: list[mpf],
-    conditioned: Callable[[int, Point], float],
-    paper: Callable[[list[mpf]], float] | None,
-    lost: int = 0,
-) -> Worst:
-    if not points:
-        return Worst(*names, lost, lost, 0.0, 1.0, {}, 0.0, 0.0, {})  # type: ignore[arg-type]
-    errors = np.array([ulps(float(v), r) for v, r in zip(got, references, strict=True)])
-    kappa = np.ones(len(errors))
-    for i in np.flatnonzero(errors > 1):
-        kappa[i] = conditioned(int(i), points[i])
-    at, over = int(np.argmax(errors)), int(np.argmax(errors / kappa))
-    if errors[at] <= 1:
-        kappa[at] = conditioned(at, points[at])
-    well = errors[kappa <= WELL]
-    return Worst(
-        *names,  # type: ignore[arg-type]
-        len(points) + lost,
-        lost,
-        float(errors[at]),
-        float(kappa[at]),
-        points[at],
-        float(np.max(well)) if well.size else 0.0,
-        float(np.max(errors / np.maximum(kappa, 1))),
-        points[over],
-        paper(references) if paper else None,
-    )
+def _worst(body: str, of: Measured, region: str, regions: Regions, sample: Sample) -> Worst:
+    module, problem = regions.module, of.problem(body)
+    results = np.array(np.broadcast_arrays(*of.results(module, regions, sample)), dtype=float)
+    begun = of.starts(module, regions, sample)
+    starts = [*zip(*begun, strict=True)] if len(begun) else [()] * results.shape[1]
+    limit = bound(body, of.name, region)
+    lost, worst = 0, Worst(body, of.name, region)
+    for k in range(results.shape[1]):
+        point = {n: float(v[k]) for n, v in sample.items()}
+        answer = _answer(problem, starts[k], point)
+        if answer is None or not np.all(np.isfinite(results[:, k])):
+            lost += 1
+            continue
+        with mpmath.workdps(problem.digits):
+            scales = of.scale(body, answer.numbers, answer.given)
+            for i, (value, number) in enumerate(zip(results[:, k], answer.numbers, strict=True)):
+                scale = scales[i] or mpf(1)
+                error = float(abs(mpf(value) - number) / scale)
+                condition = answer.moved[i] / float(scale) if error > limit else 0.0
+                met = error <= max(limit, ROUNDING * condition)
+                if (not met, error) > (not worst.met, worst.error):
+                    worst = Worst(body, of.name, region, 0, 0, error, met, condition, point)
+    return Worst(**{**worst.__dict__, "points": results.shape[1], "lost": lost})
 
 
-def worst_rows(rows: Iterable[Worst]) -> dict[tuple[str, str], list[Worst]]:
-    """Rows by body and function."""
-    found: dict[tuple[str, str], list[Worst]] = {}
-    for row in rows:
-        found.setdefault((row.body, row.function), []).append(row)
-    return found
+def _answer(problem: Problem, start: Sequence[Any], point: dict[str, float]) -> Answer | None:
+    """The solution next to what a function gave; None where there is none."""
+    if not np.all(np.isfinite(np.array(start, dtype=float))):
+        return None
+    try:
+        return problem.answer([float(v) for v in start], point)
+    except (ArithmeticError, ValueError):
+        return None

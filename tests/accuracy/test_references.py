@@ -1,14 +1,12 @@
 """What the references say is right by hand, and by routes of their own."""
 
-from itertools import pairwise
-
 import mpmath
 import pytest
 from mpmath import mpf
 
 from derive.proof.balls import ball, number
 from derive.proof.points import numeric
-from tests.accuracy import marches, series, tensions, tractions
+from tests.accuracy import partial_slip
 from tests.accuracy.definitions import formula, pressure_along
 from tests.accuracy.quadrature import integrals
 from tests.accuracy.reference import Problem, sheet_of
@@ -100,7 +98,7 @@ def test_closing_tension_of_a_cylinder_by_hand() -> None:
         expected = 4 * mpf("0.5") * mpf("1.25") * less / (2 * mpf("1.5"))
         start = [1.25 - float(less), 1.5 - float(less)]
         given = {**HERTZ, **EDGES, "dQ": dQ}
-        lower, upper = tensions.closing("hertz").answer(start, given).numbers
+        lower, upper = partial_slip.closing("hertz").answer(start, given).numbers
         assert close(upper, expected)
         assert close(lower, -expected)
 
@@ -112,7 +110,7 @@ def test_large_tension_in_many_digits_by_another_quadrature(
     body: str, own: dict[str, float], start: tuple[float, float]
 ) -> None:
     given = {**own, **EDGES, "dQ": 0.0625, "dsigma": 0.25}
-    zone = Problem(tensions.between(body), digits=28).answer(start, given).numbers
+    zone = Problem(partial_slip.between(body), digits=28).answer(start, given).numbers
     assert all(0 < found < edge for found, edge in zip(zone, EDGES.values(), strict=True))
     with mpmath.workdps(25):
         known = {name: mpf(value) for name, value in given.items()}
@@ -122,35 +120,6 @@ def test_large_tension_in_many_digits_by_another_quadrature(
         changes = known["f"], known["dQ"], known["dsigma"]
         cycle = Cycle(pressures, *edges, *changes, (1, -1))
         assert max(map(abs, cycle.residuals(*zone))) < mpf(10) ** -18
-
-
-# ------------------------------------------------------------------ series
-
-
-def test_first_order_of_a_cylinder_by_hand() -> None:
-    """K_N = E* sqrt(h)/(2 R): d = |dQ +/- pi h dsigma/8| 2 R/(pi f E* h)."""
-    given = {**HERTZ, **EDGES, "dQ": 0.0625, "dsigma": 0.03125}
-    left, right = series.series(1)("hertz").answer([0.1, 0.05], given).numbers
-    with mpmath.workdps(50):
-        pull = mpmath.pi * mpf("2.75") / 8 * mpf("0.03125")
-        scale = 2 * mpf("1.5") / (mpmath.pi * mpf("0.5") * mpf("1.25") * mpf("2.75"))
-        assert close(left, (mpf("0.0625") + pull) * scale)
-        assert close(right, (mpf("0.0625") - pull) * scale)
-
-
-def test_series_draw_near_to_the_patch_where_normal_loads_vary() -> None:
-    """Third order off by the fourth power: slip zones halved with everything, error over 1/16."""
-    off = []
-    for part in (1.0, 0.5):
-        gained = {"da": 0.015625 * part, "dc": 0.0078125 * part}
-        given = {**HERTZ, **EDGES, "dQ": 0.0625 * part, "dsigma": 0.015625 * part}
-        zones = series.series(3)("hertz").answer([0.08 * part, 0.06 * part], {**given, **gained})
-        second = {"a_2": 1.5 - gained["da"], "c_2": 1.25 - gained["dc"]}
-        start = [e - float(d) for e, d in zip(EDGES.values(), zones.numbers, strict=True)]
-        patch = Problem(tensions.patch("hertz")).answer(start, {**given, **second}).numbers
-        with mpmath.workdps(40):
-            off.append(abs(mpf(1.5) - patch[0] - zones.numbers[0]))
-    assert off[0] / off[1] > 14
 
 
 # ------------------------------------------------------------------ tractions
@@ -169,14 +138,14 @@ def test_shear_of_a_cylinder_is_cattaneos_and_mindlins() -> None:
             return mpf("1.25") / (2 * mpf("1.5")) * mpmath.sqrt(b**2 - mpf("0.25"))
 
         start = [float(b) for b in halves for _ in "ac"]
-        (q,) = tractions.shear("hertz").answer(start, given).numbers
+        (q,) = partial_slip.shear("hertz").answer(start, given).numbers
         assert close(q, (-p(half) - p(halves[0]) + 2 * p(halves[1])) / 2)
 
 
 def test_changes_of_large_tension_carry_the_shear_load() -> None:
     given = {**WEDGE, **EDGES, "dQ": 0.0625, "dsigma": 0.25}
-    problem = tractions.change("wedge", large=True)
-    answer = Problem(tensions.between("wedge"), digits=28).answer((1.2, 1.2), given)
+    problem = partial_slip.change("wedge", large=True)
+    answer = Problem(partial_slip.between("wedge"), digits=28).answer((1.2, 1.2), given)
     m, n = answer.unknowns
     with mpmath.workdps(28):
         known = {name: mpf(value) for name, value in given.items()}
@@ -198,7 +167,7 @@ def test_slip_under_moderate_tension_is_the_gap_beside_the_patch(x: float) -> No
     """2 f times it; it opens with g' + alpha less the pressure's strain, whose integral over x is
     (2/(pi E*)) int p log((x - s)/(end - s)) ds."""
     given = {**HERTZ, **EDGES, "dQ": 0.125, "dsigma": 0.015625, "x": x}
-    answer = tractions.slip("hertz").answer([1.37, 1.15], given)
+    answer = partial_slip.slip("hertz").answer([1.37, 1.15], given)
     m, n = answer.unknowns
     with mpmath.workdps(32):
         E, R = mpf("1.25"), mpf("1.5")
@@ -212,63 +181,6 @@ def test_slip_under_moderate_tension_is_the_gap_beside_the_patch(x: float) -> No
         gap = (place**2 - end**2) / (2 * R) + alpha * (place - end)
         gap -= 2 / (mpmath.pi * E) * mpmath.quad(pressed, [-m, (n - m) / 2, n])
         assert close(answer.numbers[0], gap, 15)
-
-
-def test_slip_under_large_tension_rises_with_the_mismatch_of_strain() -> None:
-    """(E*/2) d slip/dx = dsigma/4 - (1/pi) PV int dq/(x - xi) dxi up to its sign, dq in the stick
-    zone from its own integral; by a difference of slip."""
-    given = {**WEDGE, **EDGES, "dQ": 0.0625, "dsigma": 0.25}
-    m, n = Problem(tensions.between("wedge"), digits=28).answer((1.2, 1.2), given).unknowns
-    slip, change = (of("wedge", large=True).told for of in (tractions.slip, tractions.change))
-    assert slip is not None and change is not None
-    with mpmath.workdps(20):
-        known = {name: mpf(value) for name, value in given.items()}
-        x, step = (n + known["c"]) / 2, mpf(10) ** -5
-        more, less = (slip((m, n), {**known, "x": x + by})[0] for by in (step, -step))
-
-        def dq(s: mpf) -> mpf:
-            return change((m, n), {**known, "x": s})[0]
-
-        here = dq(x)
-        with mpmath.workdps(12):
-            cuts = [-known["a"], -m, mpf(0), n, x, known["c"]]
-            regular = sum(
-                mpmath.quad(lambda s: (dq(s) - here) / (x - s), [p, q], maxdegree=4)
-                for p, q in pairwise(cuts)
-            )
-        logarithm = here * mpmath.log((x + known["a"]) / (known["c"] - x))
-        strain = (regular + logarithm) / mpmath.pi - known["dsigma"] / 4
-        rate = known["E_star"] / 2 * (more - less) / (2 * step)
-        assert close(abs(rate), abs(strain), 4)
-
-
-# ------------------------------------------------------------------ marches
-
-
-def test_a_march_ends_in_the_stick_zone_of_its_half_cycle() -> None:
-    """Cattaneo's: constant loads, no tension; h sqrt(1 - dQ/(2 f P)) at both instants."""
-    problem = marches.march("hertz")
-    P, way = float(hertz_load()), marches.WAY
-    given = {"E_star": 1.25, "R": 1.5, "f": 0.5}
-    for i, part in enumerate(way):
-        given |= {f"P_{i}": P, f"M_{i}": 0.0, f"Q_{i}": 0.25 * part, f"sigma_{i}": 0.0}
-    half = 1.375
-    start = []
-    for now, begun in marches.INSTANTS.items():
-        dQ = 0.25 * abs(way[now] - way[begun])
-        stuck = half * (1 - dQ / P) ** 0.5
-        start += [half, half, stuck, stuck, half, half]
-    found = problem.answer(start, given).numbers
-    with mpmath.workdps(40):
-        whole = mpf("2.75") / 2
-        for (now, begun), zone in zip(
-            marches.INSTANTS.items(), (found[:4], found[4:]), strict=True
-        ):
-            dQ = abs(mpf(given[f"Q_{now}"]) - mpf(given[f"Q_{begun}"]))
-            width = mpmath.sqrt(16 * mpf("1.5") * mpf(P) / (mpmath.pi * mpf("1.25"))) / 2
-            assert close(width, whole, 14)
-            assert close(zone[0], width) and close(zone[1], width)
-            assert close(zone[2], width * mpmath.sqrt(1 - dQ / mpf(P)))
 
 
 def test_pressures_in_balls_are_the_formulas() -> None:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from generated._types import Contact
+from generated.runtime.types import Contact
 
 TABLE = Path(__file__).parent.parent.parent / "notebooks" / "series.md"
 F, E_STAR = 0.5, 1.0

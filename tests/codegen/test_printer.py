@@ -73,7 +73,7 @@ from sympy import (
 )
 
 from derive.codegen.printer import CannotPrint, NumPyPrinter
-from derive.codegen.support import _arrays
+from derive.runtime import elementary
 
 x, y, z = symbols("x y z", real=True)
 p, q = symbols("p q", positive=True)
@@ -307,7 +307,7 @@ UNKNOWN: list[Basic] = [
 def computed(expr: Expr, varying: tuple[Symbol, ...], arrays: bool) -> list[float]:
     """The printed text, evaluated at all points: in one go, or point by point."""
     text = NumPyPrinter(varying).doprint(expr)
-    names = {"np": np} | vars(_arrays)
+    names = {"np": np} | vars(elementary)
     columns = {str(s): np.array(values) for s, values in POINTS.items()}
     if arrays:
         value = eval(text, names, columns)  # noqa: S307

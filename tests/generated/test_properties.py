@@ -17,7 +17,6 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
-from scipy.optimize import brentq
 from sympy import simplify
 
 from derive.geometry import Geometry
@@ -28,8 +27,8 @@ from derive.units import parse_unit
 BODIES = ["hertz", "wedge", "unequal_wedge"]
 """Closed both ways, and so exact to a rounding or two; test_library has all the others."""
 
-MANY = settings(max_examples=100, deadline=None)
-FEW = settings(max_examples=20, deadline=None)
+MANY = settings(max_examples=50, deadline=None)
+FEW = settings(max_examples=15, deadline=None)
 
 
 def module(body: str) -> ModuleType:
@@ -76,10 +75,6 @@ def kinks(body: str, own: Mapping[str, float]) -> list[float]:
 
 EVERY_BODY = pytest.mark.parametrize("body", BODIES)
 SYMMETRIC = pytest.mark.parametrize("body", [b for b in BODIES if is_symmetric(b)])
-WITH_CONTACT = pytest.mark.parametrize("body", [b for b in BODIES if hasattr(module(b), "contact")])
-AT_TILT = pytest.mark.parametrize(
-    "body", [b for b in BODIES if hasattr(module(b), "contact_at_tilt")]
-)
 
 
 @dataclass(frozen=True)
@@ -131,12 +126,9 @@ def states(draw: st.DrawFn, body: str) -> State:
     return state
 
 
-def close(got: Any, wanted: Any, ulps: int) -> bool:
-    """Whether all fields agree to so many units in the last place."""
-    pairs = zip(np.atleast_1d(got), np.atleast_1d(wanted), strict=True)
-    return all(
-        one == other or abs(one - other) <= ulps * np.spacing(abs(other)) for one, other in pairs
-    )
+def close(got: Any, wanted: Any) -> bool:
+    """Whether all fields agree, up to rounding."""
+    return bool(np.allclose(got, wanted, rtol=1e-13, atol=0))
 
 
 # ------------------------------------------------------------------ mirrors
@@ -148,83 +140,29 @@ def close(got: Any, wanted: Any, ulps: int) -> bool:
 def test_the_mirror_image_of_a_contact(body: str, data: st.DataObject) -> None:
     here = data.draw(states(body))
     there = State(body, here.c, here.a, here.own, here.E_star)
-    assert close(there.of("tilt"), -here.of("tilt"), 1)
-    assert close(there.of("load"), here.of("load"), 1)
-    assert close(there.of("moment"), -here.of("moment"), 1)
+    assert close(there.of("tilt"), -here.of("tilt"))
+    assert close(there.of("load"), here.of("load"))
+    assert close(there.of("moment"), -here.of("moment"))
     for name in ("K_N", "L_N"):
-        assert close(there.of(name)[::-1], here.of(name), 1)
+        assert close(there.of(name)[::-1], here.of(name))
     place = here.h * data.draw(between(0.001, 0.999)) - here.a
-    assert close(there.pressure(-place), here.pressure(place), 1)
+    assert close(there.pressure(-place), here.pressure(place))
 
 
 @SYMMETRIC
-@MANY
-@given(data=st.data(), shear=between(0, 10), tension=between(-10, 10))
-def test_the_mirror_image_of_full_stick(
-    body: str, data: st.DataObject, shear: float, tension: float
-) -> None:
-    state = data.draw(states(body))
-    K_T = module(body).K_T
-    mirrored = K_T(state.c, state.a, shear, -tension)
-    assert close(mirrored[::-1], K_T(state.a, state.c, shear, tension), 1)
-
-
-@pytest.mark.parametrize("body", [b for b in BODIES if is_symmetric(b)])
 @pytest.mark.parametrize("function", ["contact", "contact_at_tilt"])
 @MANY
 @given(data=st.data())
 def test_the_mirror_image_of_a_load(body: str, function: str, data: st.DataObject) -> None:
-    if not hasattr(module(body), function):
-        return
     state = data.draw(states(body))
     load = state.of("load")
     lean = state.of("moment") if function == "contact" else state.of("tilt")
     here = getattr(module(body), function)(load, lean, **state.material)
     there = getattr(module(body), function)(load, -lean, **state.material)
-    assert close([there.c, there.a, -there.alpha], here, 1)
-
-
-@SYMMETRIC
-@MANY
-@given(data=st.data())
-def test_a_contact_without_tilt_is_symmetric(body: str, data: st.DataObject) -> None:
-    state = data.draw(states(body))
-    half = state.h / 2
-    assume(all(abs(place) < half for place in kinks(body, state.own)))
-    level = State(body, half, half, state.own, state.E_star)
-    assert level.of("tilt") == 0
-    assert level.of("moment") == 0
+    assert close([there.c, there.a, -there.alpha], here)
 
 
 # ------------------------------------------------------------------ scales
-
-FORWARD = ("load", "moment", "pressure", "K_N", "L_N")
-
-
-@EVERY_BODY
-@MANY
-@given(data=st.data(), power=st.integers(-30, 30))
-def test_pressures_are_proportional_to_the_modulus(
-    body: str, data: st.DataObject, power: int
-) -> None:
-    state = data.draw(states(body))
-    stiffer = State(body, state.a, state.c, state.own, state.E_star * 2.0**power)
-    for name in FORWARD:
-        place = (state.h * 0.3 - state.a,) if name == "pressure" else ()
-        factor = np.float64(2.0**power)
-        assert close(stiffer.of(name, *place), factor * np.array(state.of(name, *place)), 0)
-
-
-@EVERY_BODY
-@MANY
-@given(data=st.data(), factor=between(0.01, 100))
-def test_pressures_are_proportional_to_the_modulus_by_any_factor(
-    body: str, data: st.DataObject, factor: float
-) -> None:
-    state = data.draw(states(body))
-    stiffer = State(body, state.a, state.c, state.own, state.E_star * factor)
-    for name in ("load", "moment", "K_N", "L_N"):
-        assert np.allclose(stiffer.of(name), factor * np.array(state.of(name)), rtol=1e-14, atol=0)
 
 
 @EVERY_BODY
@@ -238,41 +176,16 @@ def test_all_lengths_by_a_power_of_four(body: str, data: st.DataObject, power: i
     own = {name: value * k ** units[name] for name, value in state.own.items()}
     larger = State(body, state.a * k, state.c * k, own, state.E_star)
     place = state.h * 0.3 - state.a
-    assert close(larger.of("tilt"), state.of("tilt"), 1)
-    assert close(larger.of("load"), k * state.of("load"), 1)
-    assert close(larger.of("moment"), k**2 * state.of("moment"), 1)
-    assert close(larger.pressure(place * k), state.pressure(place), 1)
-    assert close(larger.of("K_N"), np.array(state.of("K_N")) / k**0.5, 1)
-    assert close(larger.of("L_N"), np.array(state.of("L_N")) / k**1.5, 1)
+    assert close(larger.of("tilt"), state.of("tilt"))
+    assert close(larger.of("load"), k * state.of("load"))
+    assert close(larger.of("moment"), k**2 * state.of("moment"))
+    assert close(larger.pressure(place * k), state.pressure(place))
+    assert close(larger.of("K_N"), np.array(state.of("K_N")) / k**0.5)
+    assert close(larger.of("L_N"), np.array(state.of("L_N")) / k**1.5)
     K_T = module(body).K_T
     shear, tension = 0.7, -0.3
     here = np.array(K_T(state.a, state.c, shear, tension))
-    assert close(K_T(larger.a, larger.c, shear * k, tension), here * k**0.5, 1)
-
-
-@WITH_CONTACT
-@MANY
-@given(data=st.data(), power=st.integers(-30, 30))
-def test_loads_and_modulus_together_change_no_contact(
-    body: str, data: st.DataObject, power: int
-) -> None:
-    state = data.draw(states(body))
-    k, contact = 2.0**power, module(body).contact
-    load, moment = state.of("load"), state.of("moment")
-    here = contact(load, moment, **state.material)
-    stiffer = state.material | {"E_star": state.E_star * k}
-    assert close(contact(load * k, moment * k, **stiffer), here, 1)
-
-
-@EVERY_BODY
-@MANY
-@given(data=st.data(), shear=between(0, 10), tension=between(-10, 10))
-def test_full_stick_is_linear(body: str, data: st.DataObject, shear: float, tension: float) -> None:
-    state = data.draw(states(body))
-    K_T = module(body).K_T
-    parts = np.array(K_T(state.a, state.c, shear, 0.0)) + K_T(state.a, state.c, 0.0, tension)
-    largest = np.max(np.abs(K_T(state.a, state.c, shear, abs(tension))))
-    assert np.allclose(K_T(state.a, state.c, shear, tension), parts, rtol=0, atol=1e-15 * largest)
+    assert close(K_T(larger.a, larger.c, shear * k, tension), here * k**0.5)
 
 
 # ------------------------------------------------------------------ there and back
@@ -290,77 +203,25 @@ def agrees(state: State, contact: Any) -> bool:
     )
 
 
-@WITH_CONTACT
+@EVERY_BODY
 @MANY
-@given(data=st.data())
-def test_the_contact_under_a_contact_s_load_and_moment(body: str, data: st.DataObject) -> None:
-    state = data.draw(states(body))
-    found = module(body).contact(state.of("load"), state.of("moment"), **state.material)
-    assert agrees(state, found)
-
-
-@AT_TILT
-@MANY
-@given(data=st.data())
-def test_the_contact_under_a_contact_s_load_at_its_tilt(body: str, data: st.DataObject) -> None:
-    state = data.draw(states(body))
-    found = module(body).contact_at_tilt(state.of("load"), state.of("tilt"), **state.material)
-    assert agrees(state, found)
-    assert found.alpha == state.of("tilt")
-
-
-@WITH_CONTACT
-@MANY
-@given(data=st.data())
-def test_the_load_and_moment_of_a_load_s_contact(body: str, data: st.DataObject) -> None:
-    """From loads that are no contact's yet."""
-    state = data.draw(states(body))
-    load = state.of("load") * data.draw(between(0.5, 2))
-    moment = state.of("moment") * data.draw(between(0.5, 2))
-    found = module(body).contact(load, moment, **state.material)
-    assume(np.isfinite(found.a))
-    back = State(body, float(found.a), float(found.c), state.own, state.E_star)
-    assert abs(back.of("load") - load) <= 1e-13 * load
-    assert abs(back.of("moment") - moment) <= 1e-13 * max(abs(moment), load * back.h)
-    tilt = back.of("tilt")
-    large = abs(State(body, 0.9 * back.h, 0.1 * back.h, state.own, 1.0).of("tilt"))
-    assert abs(tilt - found.alpha) <= 1e-13 * max(large, abs(tilt))
+@given(data=st.data(), stiffer=between(0.01, 100))
+def test_the_contact_under_a_contact_s_loads(
+    body: str, data: st.DataObject, stiffer: float
+) -> None:
+    """By its moment and by its tilt; loads and modulus by one factor change no contact."""
+    state, of = data.draw(states(body)), module(body)
+    load, material = stiffer * state.of("load"), dict(state.material)
+    material["E_star"] *= stiffer
+    assert agrees(state, of.contact(load, stiffer * state.of("moment"), **material))
+    tilted = of.contact_at_tilt(load, state.of("tilt"), **material)
+    assert agrees(state, tilted) and tilted.alpha == state.of("tilt")
 
 
 # ------------------------------------------------------------------ growth
 
 
-def grown(state: State, factor: float) -> State:
-    """The contact whose right edge reaches further at the same tilt, by bisection of tilt(a, c)."""
-    tilt = float(state.of("tilt"))
-    edge = state.a + state.h * (factor - 1)
-    right = state.c + state.h * (factor - 1)
-
-    def gap(left: float) -> float:
-        there = State(state.body, left, right, state.own, state.E_star).of("tilt")
-        return float(there) - tilt
-
-    wide = state.h * factor
-    low = max(state.a - 0.5 * wide, 1e-3 * state.a) if state.a > 0 else state.a - 0.5 * wide
-    while not gap(edge) > 0:
-        edge += wide
-    left = brentq(gap, low, edge, xtol=1e-14 * wide, rtol=1e-14)
-    return State(state.body, left, right, state.own, state.E_star)
-
-
 @EVERY_BODY
-@FEW
-@given(data=st.data(), growth=between(1.01, 2))
-def test_the_load_grows_with_the_contact_at_fixed_tilt(
-    body: str, data: st.DataObject, growth: float
-) -> None:
-    state = data.draw(states(body))
-    larger = grown(state, growth)
-    assert larger.a > state.a
-    assert larger.of("load") > state.of("load")
-
-
-@AT_TILT
 @MANY
 @given(data=st.data(), growth=between(1.001, 1000))
 def test_the_contact_grows_with_the_load_at_fixed_tilt(
@@ -372,18 +233,6 @@ def test_the_contact_grows_with_the_load_at_fixed_tilt(
     there = module(body).contact_at_tilt(load * growth, tilt, **state.material)
     assert there.a > here.a
     assert there.c > here.c
-
-
-@WITH_CONTACT
-@MANY
-@given(data=st.data(), growth=between(1.001, 3))
-def test_the_body_tilts_with_the_moment(body: str, data: st.DataObject, growth: float) -> None:
-    state = data.draw(states(body))
-    load, moment = state.of("load"), state.of("moment")
-    assume(abs(moment) > 1e-6 * load * state.h)
-    here = module(body).contact(load, moment, **state.material)
-    there = module(body).contact(load, moment * growth, **state.material)
-    assert (there.alpha - here.alpha) * moment > 0
 
 
 # ------------------------------------------------------------------ pressure
@@ -420,20 +269,12 @@ def integral(state: State, weight: Any) -> float:
 @EVERY_BODY
 @FEW
 @given(data=st.data())
-def test_pressure_carries_the_load(body: str, data: st.DataObject) -> None:
+def test_pressure_carries_load_and_moment(body: str, data: st.DataObject) -> None:
     state = data.draw(states(body))
-    load = state.of("load")
+    load, arm = state.of("load"), max(abs(state.a), abs(state.c))
     assert abs(integral(state, lambda place: 1.0) - load) <= 1e-9 * load
-
-
-@EVERY_BODY
-@FEW
-@given(data=st.data())
-def test_pressure_carries_the_moment(body: str, data: st.DataObject) -> None:
-    state = data.draw(states(body))
-    arm = max(abs(state.a), abs(state.c))
     found = -integral(state, lambda place: place)
-    assert abs(found - state.of("moment")) <= 1e-9 * state.of("load") * arm
+    assert abs(found - state.of("moment")) <= 1e-9 * load * arm
 
 
 @EVERY_BODY

@@ -175,12 +175,6 @@ def test_the_second_window_begins_where_the_large_zone_gets_too_narrow() -> None
         assert np.max(steps) <= 1.5 * np.min(steps)
 
 
-@pytest.mark.parametrize("asked", ["yes", None, np.array([True, False])])
-def test_it_is_asked_for_by_a_truth_value(asked: Any) -> None:
-    with pytest.raises(TypeError, match="mixed must be True or False"):
-        zone_of("wedge", 1.5, 1.25, 0.2, 1.05, mixed=asked)
-
-
 def test_varying_loads_stay_unknown() -> None:
     first, second = (Contact(a, 1.25, 0.0) for a in (1.5, 1.52))
     _, shear, change = cycle("wedge", 1.5, 1.25, 0.2, 1.05)

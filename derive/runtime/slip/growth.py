@@ -44,7 +44,7 @@ PLACES = 4
 SLACK = 1e-6
 """What is allowed for rounding, in parts of the friction."""
 
-AGREED = 1e-11
+AGREED = 1e-8
 """What slip zones on the way are known to, in parts of their own."""
 
 

@@ -81,7 +81,7 @@ def _parts(loads: Array, roundings: Array) -> Array:
     part = np.zeros(loads.shape[1])
     low = high = 0
     for k in BY_RANK:
-        low, high = np.argmin(loads[k]), np.argmax(loads[k])
+        low, high = int(np.argmin(loads[k])), int(np.argmax(loads[k]))
         change = loads[k, high] - loads[k, low]
         if change > 2 * roundings[k]:
             rest = roundings[k] / change
@@ -93,7 +93,7 @@ def _parts(loads: Array, roundings: Array) -> Array:
         change = loads[k, high] - loads[k, low]
         for i in range(part.size):
             off = abs(loads[k, i] - loads[k, low] - part[i] * change)
-            if not off <= IN_PHASE * abs(change) + roundings[k]:
+            if not off <= IN_PHASE * abs(change) + 2 * roundings[k]:
                 part[i] = math.nan
     return part
 
@@ -246,9 +246,9 @@ def each_march(law: Any, given: Array, own: Array, out: Array) -> None:
         for i in range(count):
             start = int(starts[i])
             sense = 1.0 if part[start] == 0 else -1.0
-            # of a mixed cycle its ends alone are known, if at all
-            turns = part[i] == (1 + sense) / 2
-            if not math.isnan(m) and (regime != MIXED or turns):
+            # of a mixed cycle its ends alone are known, if at all, and not by series
+            ends = part[i] == (1 + sense) / 2 and order == 0
+            if not math.isnan(m) and (regime != MIXED or ends):
                 cycle = _half_cycle(loads, contacts, roundings, f, start, i, sense)
                 found[i, 2], found[i, 3] = _stuck(
                     law, body, contacts, cycle, start, i, order, regime

@@ -249,7 +249,7 @@ def _by_turns(law: Any, own: Any, cycle: Any, level: int) -> Any:
 
     Infinite where both conditions are met nowhere inside both contacts.
     """
-    width = common_width(cycle)
+    width, rests = common_width(cycle), False
     left = right = width / 4
     for _ in range(TURNS):
         last_left, last_right = left, right
@@ -260,14 +260,15 @@ def _by_turns(law: Any, own: Any, cycle: Any, level: int) -> Any:
             return math.nan, math.nan
         if _reverses(cycle, left, right):
             return math.inf, math.inf
-        rests = SMALLEST * min(left, right, stuck) + 16 * EPS * width
-        if abs(left - last_left) < rests and abs(right - last_right) < rests:
+        least = SMALLEST * min(left, right, stuck) + 16 * EPS * width
+        rests = abs(left - last_left) < least and abs(right - last_right) < least
+        if rests:
             break
     _, _, miss = _step(law, own, cycle, left, right, level)
     scale = cycle[4] + math.pi * (width - left - right) * abs(cycle[5]) / 8
     if miss <= (MET * scale) ** 2:
         return left, right
-    return (math.inf, math.inf) if miss >= 0 else (math.nan, math.nan)
+    return (math.inf, math.inf) if rests and miss >= 0 else (math.nan, math.nan)
 
 
 @kernel(results(2)(LAW, vector, vector))
@@ -304,9 +305,14 @@ def large_slip(law: Any, own: Any, cycle: Any, agreed: float) -> Any:
         if left == math.inf and last_left == math.inf:
             return left, right
         off_left, off_right = abs(left - last_left), abs(right - last_right)
-        if off_left <= agreed * left + rounding and off_right <= agreed * right + rounding:
+        known = left < math.inf
+        if (
+            known
+            and off_left <= agreed * left + rounding
+            and off_right <= agreed * right + rounding
+        ):
             return left, right
         last_left, last_right = left, right
-        if not left < math.inf:
+        if not known:
             left, right = guess_left, guess_right
     return math.nan, math.nan

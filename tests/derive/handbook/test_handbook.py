@@ -41,7 +41,7 @@ OUTSIDE = re.compile(r"""(?:src|href)=["'](?!#|[\w-]+\.html)|url\(|@import|<scri
 def body_of(sheet: FormulaSheet, text: str) -> Body:
     proofs = tuple((name, "proved: a stand-in for a proof") for name in sheet)
     verdicts = tuple((name, Verdict.PROVED) for name in sheet)
-    return Body(sheet.geometry.name, text, 0.0, ("forward",), (), verdicts, proofs)
+    return Body(sheet.geometry.name, text, "", 0.0, ("forward",), (), verdicts, proofs)
 
 
 def made(name: str) -> tuple[FormulaSheet, Body]:

@@ -7,7 +7,7 @@ import pytest
 from mpmath import mpf
 from sympy import Rational, Symbol, lambdify, series, simplify, sqrt, symbols
 
-from derive.codegen.support import _slip as support
+from derive.runtime.slip import series as runtime
 from derive.symbols import E_star, a, c, dsigma, f, h
 from derive.theory import slip
 from derive.theory.edges import Edge, pressure_series
@@ -45,9 +45,9 @@ def test_what_an_order_leaves_out_is_of_the_next_order(of: str, order: int) -> N
     assert abs(mpmath.log(errors[0] / errors[1], 4) - (order + 1)) < 0.05
 
 
-def test_the_table_of_the_generated_code_is_that_of_the_theory() -> None:
+def test_the_table_of_the_kernels_is_that_of_the_theory() -> None:
     """Coefficient of C_i by powers of d, over pi."""
-    for of, table, least in (("near", support.NEAR, 1), ("far", support.FAR, 2)):
+    for of, table, least in (("near", runtime.NEAR, 1), ("far", runtime.FAR, 2)):
         for i, row in enumerate(table):
             for j, number in enumerate(row):
                 unit = [int(k == i) for k in range(3)]
@@ -70,6 +70,18 @@ def test_terms_put_back_leave_nothing_up_to_their_order(order: int) -> None:
     for condition in slip.conditions(order):
         off = condition.xreplace(small).subs(zones).subs(c, width - a)
         assert simplify(series(off, size, 0, order + 1).removeO()) == 0
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_terms_seen_from_behind_are_those_of_the_other_edge(order: int) -> None:
+    """The mirror exchanges left and right, a and c, and turns the sign of the tension."""
+    edges = {slip.K_T_left: slip.K_T_right, slip.kappa_left: slip.kappa_right}
+    edges |= dict(
+        zip(slip.coefficients("left", order), slip.coefficients("right", order), strict=True)
+    )
+    mirror = {**edges, **{v: k for k, v in edges.items()}, dsigma: -dsigma, a: c, c: a}
+    for left, right in zip(*slip.terms(order), strict=True):
+        assert simplify(left.subs(mirror, simultaneous=True) - right) == 0
 
 
 def test_second_order_is_that_of_theory() -> None:

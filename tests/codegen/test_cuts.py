@@ -1,13 +1,12 @@
-"""Which closed formulas cancel, how large their terms are, and where such bodies are cut."""
+"""Which closed formulas cancel, and where bodies are cut for quadrature."""
 
 import pytest
-from sympy import Abs, Expr, Max, Rational
+from sympy import Abs, Expr, Max
 
 from derive import Geometry, parameter, x
-from derive.codegen.cancel import cancels, cuts_of, plain_cuts, size_of_terms
+from derive.codegen.cuts import cancels, cuts_of
 from derive.library import library, load_geometry
 from derive.profile import Slope
-from derive.symbols import a, c
 
 pytestmark = pytest.mark.slow
 
@@ -23,7 +22,6 @@ def slope(g: Expr) -> Slope:
 
 @pytest.mark.parametrize("name", sorted(library()))
 def test_no_body_of_the_library_cancels(name: str) -> None:
-    """Their formulas and their speed stay what they are."""
     assert not cancels(load_geometry(name).slope)
 
 
@@ -64,31 +62,16 @@ def test_a_body_is_cut_where_its_curvature_is_least() -> None:
 
 
 @pytest.mark.parametrize(
-    ("g", "wanted", "plain"),
+    ("g", "wanted"),
     [
-        (x**2 / (2 * R) + Max(0, x - b) ** 3 / L**2, ["0", "b"], (0,)),
-        (x**2 / (2 * R) + Max(0, -x - b) ** 3 / L**2, ["-b", "0"], (1,)),
-        (x**2 / (2 * R) + Max(0, x) ** 3 / L**2, ["0"], ()),
-        (Max(0, Abs(x) - b) ** 2 / (2 * R), ["-b", "b"], ()),
-        ((x - b) ** 2 / (2 * R) + x**4 / L**3 + (x + h_0) ** 6 / R**5, ["0"], ()),
+        (x**2 / (2 * R) + Max(0, x - b) ** 3 / L**2, ["0", "b"]),
+        (x**2 / (2 * R) + Max(0, -x - b) ** 3 / L**2, ["-b", "0"]),
+        (x**2 / (2 * R) + Max(0, x) ** 3 / L**2, ["0"]),
+        (Max(0, Abs(x) - b) ** 2 / (2 * R), ["-b", "b"]),
+        ((x - b) ** 2 / (2 * R) + x**4 / L**3 + (x + h_0) ** 6 / R**5, ["0"]),
     ],
     ids=["before a kink", "beyond a kink", "a kink there", "a flat there", "no kink"],
 )
-def test_a_body_that_is_level_at_the_origin_is_cut_there(
-    g: Expr, wanted: list[str], plain: tuple[int, ...]
-) -> None:
+def test_a_body_that_is_level_at_the_origin_is_cut_there(g: Expr, wanted: list[str]) -> None:
     """g' = t/R is exact there; at a distance t from b it is (b - t)/R, a small difference."""
-    places, _ = cuts_of(slope(g))
-    assert [str(place) for place in places] == wanted
-    assert plain_cuts(slope(g)) == plain
-
-
-def test_the_size_of_the_terms_of_a_cube() -> None:
-    """g' = 3 (s - b)^2/L^2 beyond b: 3 s^2 + 6 b s + 3 b^2, at b = 1 and s = 2 of 27, L = 1."""
-    size, farthest = size_of_terms(slope(Max(0, x - b) ** 3 / L**2))
-    at = {"x": 2, "b": 1, "L": 1}
-    numbers = {s: at[s.name] for s in size.free_symbols if s.name in at}
-    assert size.subs(numbers).subs({a: 2, c: Rational(3, 2)}) == 27
-    assert size.subs(numbers).subs({a: 2, c: Rational(1, 2)}) == 0
-    assert farthest.subs({a: -2, c: 3}) == 3
-    assert {s.name for s in size.free_symbols} == {"x", "b", "L", "c"}
+    assert [str(place) for place in cuts_of(slope(g))[0]] == wanted

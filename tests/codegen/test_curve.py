@@ -1,0 +1,223 @@
+"""The curve of a body that is integrated: g', g'' and t g''' as code, close to a break and far."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import ModuleType
+
+import mpmath
+import numpy as np
+import pytest
+from mpmath import mpf
+from sympy import Abs, Expr, Max, Rational, cosh, log, pi, sqrt
+from sympy import exp as sympy_exp
+
+from derive import parameter, x
+from tests.codegen.made import module_of, text_of_body
+
+pytestmark = pytest.mark.slow
+
+b = parameter("b", "width", unit="m")
+k = parameter("k", "exponent", unit="-")
+L = parameter("L", "length", unit="m")
+phi = parameter("phi", "slope", unit="rad")
+
+OWN = {"b": 0.5, "L": 1.5, "phi": 0.125}
+DISTANCES = np.concatenate([np.geomspace(1e-75, 1e-3, 15), np.linspace(0.01, 3, 6)])
+
+
+def product(t: mpf, k: mpf) -> list[list[mpf]]:
+    """Terms of g', g'' and g''' for g = b u**k cosh u, u = t/b, by the rule for products."""
+    width = mpf(OWN["b"])
+    u = t / width
+    cosh_u, sinh_u = mpmath.cosh(u), mpmath.sinh(u)
+    first = [k * u ** (k - 1) * cosh_u, u**k * sinh_u]
+    second = [k * (k - 1) * u ** (k - 2) * cosh_u, 2 * k * u ** (k - 1) * sinh_u, u**k * cosh_u]
+    third = [
+        k * (k - 1) * (k - 2) * u ** (k - 3) * cosh_u,
+        3 * k * (k - 1) * u ** (k - 2) * sinh_u,
+        3 * k * u ** (k - 1) * cosh_u,
+        u**k * sinh_u,
+    ]
+    return [first, [term / width for term in second], [term / width**2 for term in third]]
+
+
+def summed(t: mpf, k: mpf) -> list[list[mpf]]:
+    """The same for g = b u**k + t**(7/3)/L**(4/3) + phi sqrt(t**2 + b**2), term by term."""
+    width, slope, third = mpf(OWN["b"]), mpf(OWN["phi"]), mpf(1) / 3
+    scale = mpf(OWN["L"]) ** (-4 * third)
+    u, root = t / width, mpmath.sqrt(t**2 + width**2)
+    return [
+        [k * u ** (k - 1), 7 * third * t ** (4 * third) * scale, slope * t / root],
+        [
+            k * (k - 1) * u ** (k - 2) / width,
+            28 * third**2 * t**third * scale,
+            slope * width**2 / root**3,
+        ],
+        [
+            k * (k - 1) * (k - 2) * u ** (k - 3) / width**2,
+            28 * third**3 * t ** (-2 * third) * scale,
+            -3 * slope * width**2 * t / root**5,
+        ],
+    ]
+
+
+@contextmanager
+def body_of(g: Expr, **more: float) -> Iterator[tuple[ModuleType, np.ndarray, Callable]]:
+    """The module of g(x), its own parameters in their order, and the curve beside x = 0."""
+    with module_of(text_of_body(g)) as module:
+        own = np.array([(OWN | more)[name] for name in module._BODY.names])
+        apex = [*module._breaks(own)].index(0)
+        yield module, own, lambda side, t: module._curve(apex + (side > 0), side, t, own)
+
+
+power = b * (Abs(x) / b) ** k
+BODIES: dict[str, tuple[Expr, Callable[[mpf, mpf], list[list[mpf]]]]] = {
+    "times cosh": (power * cosh(x / b), product),
+    "beside a root": (
+        power + Abs(x) ** Rational(7, 3) / L ** Rational(4, 3) + phi * sqrt(x**2 + b**2),
+        summed,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(name: str) -> None:
+    """No common denominator, and t**k/t**2 as one power: apart, both leave float64 at small t."""
+    g, terms = BODIES[name]
+    with body_of(g, k=1.75) as (module, own, curve):
+        for exponent in (1.75, 3.25):
+            own[module._BODY.names.index("k")] = exponent
+            for t in map(float, DISTANCES):
+                with mpmath.workdps(40):
+                    wanted = terms(mpf(t), mpf(exponent))
+                    wanted[2] = [mpf(t) * term for term in wanted[2]]  # t g'''
+                    totals = [(sum(each), sum(map(abs, each))) for each in wanted]
+                for side in (1, -1):
+                    for value, (total, size) in zip(curve(side, t), totals, strict=True):
+                        assert abs(abs(mpf(value)) - abs(total)) <= 1e-13 * size, t
+
+
+@pytest.mark.parametrize("exponent", [pi, sqrt(2), Rational(7, 3)], ids=str)
+def test_a_power_that_is_no_whole_or_half_one_is_written_as_it_is(exponent: Expr) -> None:
+    """g = x**2/(2 L) + phi x + b u**q, u = |x|/b: g'' = 1/L + q (q - 1) u**(q - 2)/b, also where
+    t**2 is next to nothing."""
+    q = float(exponent)
+    g = x**2 / (2 * L) + phi * x + b * (Abs(x) / b) ** exponent
+    with body_of(g) as (_, _, curve):
+        for t in (1e-75, 1e-40, 1e-3, 1.0):
+            wanted = 1 / 1.5 + q * (q - 1) * (t / 0.5) ** (q - 2) / 0.5
+            assert curve(1, t)[1] == pytest.approx(wanted, rel=1e-12)
+            assert curve(-1, t)[1] == pytest.approx(wanted, rel=1e-12)
+
+
+def test_a_corner_where_an_exponential_is_e_becomes_code() -> None:
+    """g = phi (b exp(x/b) + Max(0, x - b)): at x = b g' is phi e and phi (e + 1), g'' phi e/b."""
+    text = text_of_body(b * phi * sympy_exp(x / b) + phi * Max(0, x - b))
+    with module_of(text) as module:
+        own = np.array([OWN[name] for name in module._BODY.names])
+        (at,) = (i for i, place in enumerate(module._breaks(own)) if place == 0.5)
+        assert module._corners(own)[at] == 0.125
+        for piece, side, slope in ((at, -1, np.e), (at + 1, 1, np.e + 1)):
+            found = module._curve(piece, side, 0.0, own)
+            assert abs(found[0]) == pytest.approx(0.125 * slope, rel=1e-15)
+            assert found[1] == pytest.approx(0.125 * np.e / 0.5, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("g", "rate"),
+    [
+        (phi * L * (sympy_exp(x / L) - x / L), 1.0),
+        (phi * L * (1 + x / L) ** Rational(3, 2) - Rational(3, 2) * phi * x, 0.75),
+        (phi * (L + x) * log(1 + x / L) - phi * x, 1.0),
+        (phi * L / (1 + x / L) ** 2 + 2 * phi * x, 6.0),
+    ],
+    ids=["exponential", "half power", "logarithm", "reciprocal"],
+)
+def test_a_slope_whose_terms_cancel_at_the_apex_keeps_its_digits(g: Expr, rate: float) -> None:
+    """g' = rate phi t/L up to (t/L)**2: exp(u) - 1, (3/2)(sqrt(1 + u) - 1), log(1 + u), ..."""
+    with body_of(g) as (_, _, curve):
+        for t in (1e-75, 1e-30, 1e-16):
+            wanted = rate * 0.125 * t / 1.5
+            assert curve(1, t)[0] == pytest.approx(wanted, rel=1e-14)
+            assert curve(-1, t)[0] == pytest.approx(-wanted, rel=1e-14)
+
+
+# ------------------------------------------------------------------ what is integrated over it
+
+
+def exactly(integrand: Callable[[mpf], mpf], a: float, c: float) -> mpf:
+    """int f(s)/w ds over [-a, c] by s = (c - a)/2 + (h/2) sin u."""
+    half, mid = (mpf(a) + mpf(c)) / 2, (mpf(c) - mpf(a)) / 2
+    parts = mpmath.linspace(-mpmath.pi / 2, mpmath.pi / 2, 9)
+    return mpmath.quad(lambda u: integrand(mid + half * mpmath.sin(u)), parts)
+
+
+def load(curvature: Callable[[mpf], mpf], a: float, c: float) -> mpf:
+    """P = (E*/2) int g'' w ds."""
+    a, c = mpf(a), mpf(c)
+    return exactly(lambda s: curvature(s) * (a + s) * (c - s), a, c) / 2
+
+
+def own_of(module: ModuleType) -> dict[str, float]:
+    return {name: OWN[name] for name in module._BODY.names}
+
+
+SMOOTH: dict[str, tuple[Expr, Callable[[mpf], mpf], list[tuple[float, float]]]] = {
+    "flanks that turn straight, with a corner": (
+        phi * b * log(cosh(x / b)) + phi * Abs(x - b / 4),
+        lambda s: mpf(OWN["phi"]) / OWN["b"] / mpmath.cosh(s / OWN["b"]) ** 2,
+        [(-3, 3.5), (-5, 5.5), (-10, 10.5), (-150, 151.0)],
+    ),
+    "a quartic apex under a root": (
+        phi * b * sqrt(1 + (x / b) ** 4),
+        lambda s: (
+            mpf(OWN["phi"]) * 2 * s**2 * (3 + (s / OWN["b"]) ** 4)
+            / OWN["b"] ** 3 / (1 + (s / OWN["b"]) ** 4) ** mpf(1.5)
+        ),
+        [(1, 1), (1e-3, -5e-4), (1e-6, 2e-6), (1e-10, 1e-10)],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(name: str) -> None:
+    """Far out on flanks, and close to a place without curvature; the corner lies beside."""
+    g, curvature, contacts = SMOOTH[name]
+    with module_of(text_of_body(g)) as module:
+        for a, c in contacts:
+            with mpmath.workdps(40):
+                wanted = load(curvature, a, c)
+                found = module.load(a, c, E_star=1.0, **own_of(module))
+                assert abs(mpf(float(found)) / wanted - 1) < 1e-12, (a, c)
+
+
+def test_a_tilt_whose_left_edge_lies_just_beyond_a_smooth_kink() -> None:
+    """At -b g'' = 0 and g''' jumps; the quadrature is done when the tilt agrees, too.
+
+    -pi alpha = int g'/w ds, with s = (c - a)/2 + (h/2) sin u; phi x adds -phi.
+    """
+
+    def rise(s: mpf) -> mpf:
+        return mpf(11) / 4 * mpmath.sign(s + 0.5) * (2 * abs(s + 0.5)) ** mpf(1.75)
+
+    with module_of(text_of_body(b * (Abs(x + b) / b) ** Rational(11, 4) + phi * x)) as module:
+        for beyond in (1e-12, 1e-7, 1e-4):
+            a, c = 0.5 + beyond, 0.25
+            found = module.tilt(a, c, **own_of(module))
+            with mpmath.workdps(40):
+                half, mid = (mpf(a) + mpf(c)) / 2, (mpf(c) - mpf(a)) / 2
+                kink = mpmath.asin((-mpf(0.5) - mid) / half)
+                over = mpmath.quad(
+                    lambda u, mid=mid, half=half: rise(mid + half * mpmath.sin(u)),
+                    [-mpmath.pi / 2, kink, *mpmath.linspace(kink, mpmath.pi / 2, 9)[1:]],
+                )
+                wanted = -over / mpmath.pi - mpf(OWN["phi"])
+            assert abs(mpf(float(found)) / wanted - 1) < 1e-12
+
+
+def test_exponentials_beyond_float64_have_a_slope_all_the_same() -> None:
+    """g = phi b log(1 + exp(x/b)): P = (E*/2) int g'' w ds -> (E* phi/2) sqrt(a c) far out, where
+    g'' = (phi/b)/(4 cosh(x/2b)^2) is as narrow as a corner."""
+    with module_of(text_of_body(phi * b * log(1 + sympy_exp(x / b)))) as module:
+        found = module.load(1e6, 4e6, E_star=1.0, **own_of(module))
+    assert float(found) == pytest.approx(OWN["phi"] * 2e6 / 2, rel=1e-9)

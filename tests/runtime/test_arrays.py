@@ -1,0 +1,406 @@
+"""What goes into formulas and what comes out: types, shapes, long arrays, what does not exist.
+
+A warning anywhere is an error (pyproject.toml), and every call is made where the caller has told
+NumPy to raise.
+"""
+
+import inspect
+import itertools
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from derive.runtime.arrays import BLOCK, elementwise, shape_of
+from derive.runtime.types import Array, Contact, Edges
+from generated import hertz, unequal_wedge, wedge
+
+VALUES: Mapping[str, float] = {
+    **{"x": 0.25, "a": 2.0, "c": 1.5, "P": 1.0, "M": 0.125, "alpha": 0.0625, "dQ": 0.5},
+    **{"dsigma": 0.25, "dP": 0.375, "dM": -0.125, "f": 0.5, "E_star": 1.25},
+}
+"""A contact of every body whose own lengths and slopes are PARAMETER."""
+PARAMETER = 0.375
+
+ARGUMENTS = {
+    "contact": "P M=0.0",
+    "contact_at_tilt": "P alpha=0.0",
+    **dict.fromkeys(("tilt", "load", "moment", "K_N", "L_N"), "a c"),
+    "pressure": "x a c",
+    **dict.fromkeys(("K_T", "L_T"), "a c dQ dsigma"),
+    "stick_margin": "a c dP dM dQ dsigma",
+}
+"""The contract, written out: names, order and defaults of what is no constant."""
+FIELDS = {
+    **dict.fromkeys(("contact", "contact_at_tilt"), Contact._fields),
+    **dict.fromkeys(("K_N", "L_N", "K_T", "L_T", "stick_margin"), Edges._fields),
+}
+
+INF, NAN = np.inf, np.nan
+NEVER = {
+    "P": (0.0, -1.0, NAN, INF),
+    "M": (NAN, INF),
+    "alpha": (NAN, INF),
+    "a": (NAN, INF, -1.5, -2.0),
+    "c": (NAN, INF, -2.0, -1e300),
+    "x": (NAN,),
+    **dict.fromkeys(("dQ", "dsigma", "dP", "dM"), (NAN,)),
+}
+"""Values of one argument with which no state exists, whatever the body; a = -1.5 is no width."""
+NEVER_CONSTANT = (0.0, -0.0, -1.0, NAN, INF, -INF)
+OF_THE_WEDGE = {"alpha": (PARAMETER, -PARAMETER, 1e300), "a": (0.0, -1.0), "c": (0.0, -1.0)}
+"""More of them: its tilt ends at its own slope, its contact spans the apex."""
+STUCK = ("K_T", "L_T", "stick_margin")
+"""What needs no more than a width: full stick knows nothing of the body."""
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    f"{body.__name__.rpartition('.')[2]}.{name}": getattr(body, name)
+    for body in (hertz, wedge, unequal_wedge)
+    for name in ARGUMENTS
+}
+EACH = pytest.mark.parametrize("name", FUNCTIONS)
+
+
+def arguments(name: str) -> list[str]:
+    return list(inspect.signature(FUNCTIONS[name]).parameters)
+
+
+def constants(name: str) -> list[str]:
+    """Material and geometry."""
+    parameters = inspect.signature(FUNCTIONS[name]).parameters.values()
+    return [p.name for p in parameters if p.kind is p.KEYWORD_ONLY]
+
+
+def values(name: str) -> dict[str, Any]:
+    """A state that exists."""
+    return {argument: VALUES.get(argument, PARAMETER) for argument in arguments(name)}
+
+
+def call(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a result by name; the only one of an array is ''."""
+    with np.errstate(all="raise"):
+        result = FUNCTIONS[name](**given)
+    return result._asdict() if isinstance(result, tuple) else {"": result}
+
+
+def one_by_one(name: str, given: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """The same, from one call with Python floats for every element."""
+    spread = np.broadcast_arrays(*(np.asarray(v, dtype=np.float64) for v in given.values()))
+    rows = [
+        call(name, {k: float(v[i]) for k, v in zip(given, spread, strict=True)})
+        for i in np.ndindex(spread[0].shape)
+    ]
+    return {f: np.array([r[f] for r in rows]).reshape(spread[0].shape) for f in rows[0]}
+
+
+def same(got: Mapping[str, Any], wanted: Mapping[str, Any]) -> None:
+    """Equal fields of float64 and of one shape, NaN equal to NaN."""
+    assert got.keys() == wanted.keys()
+    for field, expected in wanted.items():
+        assert got[field].dtype == np.float64
+        assert got[field].shape == expected.shape
+        assert_allclose(got[field], expected, rtol=1e-14, atol=1e-15)
+
+
+def varied(name: str, count: int) -> dict[str, np.ndarray]:
+    """Different states in every element, most of them existing."""
+    rng = np.random.default_rng(1)
+    found = {}
+    for argument, value in values(name).items():
+        signs = rng.choice([-1.0, 1.0], count) if argument in ("x", "M", "alpha", "dsigma") else 1.0
+        found[argument] = value * 2.0 ** rng.uniform(-2, 2, count) * signs
+    return found
+
+
+# ------------------------------------------------------------------ the contract
+
+
+@EACH
+def test_arguments_and_results_are_those_of_the_contract(name: str) -> None:
+    parameters = inspect.signature(FUNCTIONS[name]).parameters
+    places = [p for p in parameters.values() if p.kind is p.POSITIONAL_OR_KEYWORD]
+    told = [p.name if p.default is p.empty else f"{p.name}={p.default}" for p in places]
+    assert " ".join(told) == ARGUMENTS[name.partition(".")[2]]
+    assert all(parameters[c].default is inspect.Parameter.empty for c in constants(name))
+    given = values(name)
+    result = FUNCTIONS[name](**given)
+    assert getattr(result, "_fields", None) == FIELDS.get(name.partition(".")[2])
+    placed = [given[p.name] for p in places]
+    assert_array_equal(FUNCTIONS[name](*placed, **{c: given[c] for c in constants(name)}), result)
+    optional = {p.name: 0.0 for p in places if p.default is not p.empty}
+    short = {k: v for k, v in given.items() if k not in optional}
+    same(call(name, short), call(name, given | optional))
+
+
+@EACH
+def test_what_is_left_out_or_unknown_is_named(name: str) -> None:
+    for argument, p in inspect.signature(FUNCTIONS[name]).parameters.items():
+        if p.default is inspect.Parameter.empty:
+            with pytest.raises(TypeError, match=rf"\b{argument}\b"):
+                FUNCTIONS[name](**{k: v for k, v in values(name).items() if k != argument})
+    with pytest.raises(TypeError, match="surplus"):
+        FUNCTIONS[name](**values(name), surplus=1.0)
+    if constants(name):
+        with pytest.raises(TypeError, match="positional"):
+            FUNCTIONS[name](*values(name).values())
+
+
+def test_a_function_keeps_its_name_and_its_docstring() -> None:
+    @elementwise
+    def sum_of(a: Array, c: Array, *, R: Array) -> Array:
+        """The docstring."""
+        return (a + c) / R
+
+    assert (sum_of.__name__, sum_of.__doc__) == ("sum_of", "The docstring.")
+    assert sum_of(1, c=2, R=4) == 0.75 and np.isnan(sum_of(1, 2, R=-1))
+
+
+# ------------------------------------------------------------------ numbers and arrays
+
+SCALARS: tuple[Callable[[float], Any], ...] = (
+    *(float, np.float64, np.float32, np.float16, np.longdouble, np.array, np.ma.array),
+)
+WHOLES = (int, np.int8, np.uint8, np.int64, np.uint64)
+WHOLE = {"x": 7, "alpha": 0, "E_star": 100, "R": 100, "phi": 100, "phi_1": 100, "phi_2": 100}
+"""Whole numbers; as others, 110, they overflow an int8 as soon as two are added."""
+
+
+def test_a_scalar_of_any_kind_gives_a_float64() -> None:
+    for name, kind in itertools.product(FUNCTIONS, SCALARS):
+        got = call(name, {k: kind(v) for k, v in values(name).items()})
+        assert {type(v) for v in got.values()} == {np.float64}
+        same(got, call(name, values(name)))
+
+
+@pytest.mark.parametrize("kind", WHOLES)
+def test_whole_numbers_count_as_floats(kind: Callable[[int], Any]) -> None:
+    for name in FUNCTIONS:
+        given = {k: WHOLE.get(k, 110) for k in arguments(name)}
+        wanted = call(name, {k: float(v) for k, v in given.items()})
+        same(call(name, {k: kind(v) for k, v in given.items()}), wanted)
+        arrays = {k: np.array([kind(v), kind(v)]) for k, v in given.items()}
+        same(call(name, arrays), {f: np.array([v, v]) for f, v in wanted.items()})
+
+
+FORMS: dict[str, Callable[[np.ndarray], Any]] = {
+    "list": lambda v: v.tolist(),
+    "backwards": lambda v: v[::-1].copy()[::-1],
+    "big-endian": lambda v: v.astype(">f8"),
+    "unaligned": lambda v: np.frombuffer(b"\0" + v.tobytes(), np.uint8)[1:].view(np.float64),
+    "read-only": lambda v: (v.setflags(write=False), v)[1],
+    "subclass": lambda v: v.view(type("Mine", (np.ndarray,), {})),
+    "without a mask": lambda v: np.ma.array(v),
+    "Fortran": lambda v: np.asfortranarray(v.reshape(3, 4)),
+    "a window": lambda v: np.pad(v.reshape(3, 4), 2, constant_values=np.nan)[2:-2, 2:-2],
+    "three axes": lambda v: v.reshape(2, 1, 6),
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_an_array_of_any_form_is_taken_element_by_element(form: str) -> None:
+    for name in FUNCTIONS:
+        given = {k: FORMS[form](v) for k, v in varied(name, 12).items()}
+        got = call(name, given)
+        assert {type(v) for v in got.values()} == {np.ndarray}
+        same(got, one_by_one(name, given))
+
+
+@EACH
+def test_what_is_masked_is_nan(name: str) -> None:
+    for argument, kind in itertools.product(arguments(name), (np.float64, np.int8)):
+        given = {k: np.full(3, v) for k, v in values(name).items()}
+        masked = np.ma.array(np.ones(3, kind), mask=[False, True, False])
+        wanted = call(name, given | {argument: np.ones(3)})
+        for field, value in call(name, given | {argument: masked}).items():
+            assert type(value) is np.ndarray and np.isnan(value[1])
+            assert_array_equal(value[::2], wanted[field][::2])
+        got = call(name, values(name) | {argument: np.ma.masked})
+        assert all(type(v) is np.float64 and np.isnan(v) for v in got.values())
+
+
+@EACH
+def test_all_arguments_broadcast(name: str) -> None:
+    tall, wide = np.array([[1.0], [1.125], [0.75]]), np.array([[1.0, 1.25, 0.875, 1.5]])
+    for first, second in itertools.combinations(arguments(name), 2):
+        given = values(name)
+        given[first], given[second] = given[first] * tall, given[second] * wide
+        got = call(name, given)
+        assert all(value.shape == (3, 4) for value in got.values()), (first, second)
+        same(got, one_by_one(name, given))
+
+
+@pytest.mark.parametrize(
+    ("shape", "others", "result"),
+    [
+        ((0,), (), (0,)),
+        ((3, 0), (1,), (3, 0)),
+        ((0, 1), (1, 20_000), (0, 20_000)),
+        ((1, 0, 1), (2, 1, 20_000), (2, 0, 20_000)),
+    ],
+)
+def test_what_is_empty_gives_what_is_empty(
+    shape: tuple[int, ...], others: tuple[int, ...], result: tuple[int, ...]
+) -> None:
+    for name in FUNCTIONS:
+        given = {k: np.full(others, v) for k, v in values(name).items()}
+        first = arguments(name)[0]
+        got = call(name, given | {first: np.full(shape, values(name)[first])})
+        assert all(v.shape == result and v.dtype == np.float64 for v in got.values())
+
+
+def test_shapes_that_do_not_broadcast_are_named() -> None:
+    words = r"must broadcast to one shape; their shapes are a \(2, 3\), c \(2,\)"
+    with pytest.raises(ValueError, match=words):
+        shape_of({"a": np.ones((2, 3)), "c": np.ones(2), "R": np.float64(1)})
+    for name in FUNCTIONS:
+        first, second = arguments(name)[:2]
+        given = values(name) | {first: np.ones((2, 20_000)), second: np.ones((3, 1))}
+        with pytest.raises(ValueError, match=rf"{first} \(2, 20000\)") as caught:
+            call(name, given)
+        assert f"{second} (3, 1)" in str(caught.value)
+
+
+# ------------------------------------------------------------------ long arrays
+
+MANY = 2 * BLOCK + 1003
+LAYOUTS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "line": lambda v: v,
+    "Fortran": lambda v: np.asfortranarray(v[: MANY // 6 * 6].reshape(6, -1)),
+    "short rows": lambda v: v[: MANY // 2 * 2].reshape(-1, 2),
+    "backwards": lambda v: v[::-1],
+    "repeated": lambda v: np.broadcast_to(v[:200], (250, 200)),
+    "float32": lambda v: v.astype(np.float32),
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_long_array_is_computed_as_its_parts_are(layout: str) -> None:
+    for name in FUNCTIONS:
+        given = {k: LAYOUTS[layout](v) for k, v in varied(name, MANY).items()}
+        shape = next(iter(given.values())).shape
+        flat = {k: v.ravel() for k, v in given.items()}
+        parts = [
+            call(name, {k: v[i : i + 9973] for k, v in flat.items()})
+            for i in range(0, np.prod(shape), 9973)
+        ]
+        wanted = {f: np.concatenate([p[f] for p in parts]).reshape(shape) for f in parts[0]}
+        same(call(name, given), wanted)
+
+
+@EACH
+def test_a_column_against_a_row_that_is_long(name: str) -> None:
+    states, (first, *_, last) = varied(name, 300), arguments(name)
+    given = values(name) | {first: states[first][:, None], last: states[last][None, :101]}
+    got = call(name, given)
+    for i, j in ((0, 0), (299, 100), (7, 93)):
+        one = call(name, given | {first: states[first][i], last: states[last][j]})
+        same({f: v[i, j] for f, v in got.items()}, one)
+
+
+@EACH
+@pytest.mark.parametrize("count", [12, MANY])
+def test_results_are_the_caller_s_own(name: str, count: int) -> None:
+    """What he does to them reaches neither what was given nor the other field."""
+    given = {k: np.full(count, v) for k, v in values(name).items()}
+    got = call(name, given)
+    for first, second in itertools.combinations([*got.values(), *given.values()], 2):
+        assert not np.shares_memory(first, second)
+    for value in got.values():
+        value[:] = -1.0
+    assert all(np.all(array == values(name)[k]) for k, array in given.items())
+
+
+def test_threads_do_not_disturb_each_other() -> None:
+    """Each of them has told NumPy to raise, and has values of its own."""
+    states = [(name, varied(name, count)) for name in FUNCTIONS for count in (9, MANY)]
+    wanted = [call(*state) for state in states]
+    with ThreadPoolExecutor(4) as pool:
+        for got, expected in zip(pool.map(lambda s: call(*s), states), wanted, strict=True):
+            same(got, expected)
+
+
+# ------------------------------------------------------------------ states that do not exist
+
+
+def nowhere(name: str) -> Iterator[tuple[str, float]]:
+    """Arguments with a value with which no state exists."""
+    body, _, function = name.partition(".")
+    for argument in arguments(name):
+        yield from ((argument, v) for v in NEVER.get(argument, NEVER_CONSTANT))
+        if body == "wedge" and function not in STUCK:
+            yield from ((argument, v) for v in OF_THE_WEDGE.get(argument, ()))
+
+
+@EACH
+def test_a_state_that_does_not_exist_is_nan_and_harms_nobody(name: str) -> None:
+    """All of them in one array, each beside one that exists; and one by one."""
+    wrong = list(nowhere(name))
+    given = {k: np.full(2 * len(wrong), v) for k, v in values(name).items()}
+    wanted = call(name, given)
+    for place, (argument, value) in enumerate(wrong):
+        given[argument][2 * place] = value
+        alone = call(name, values(name) | {argument: value})
+        assert all(np.isnan(v) for v in alone.values()), (argument, value)
+    for field, found in call(name, given).items():
+        assert [w for w, v in zip(wrong, found[::2], strict=True) if not np.isnan(v)] == []
+        assert_array_equal(found[1::2], wanted[field][1::2])
+
+
+@EACH
+def test_extreme_numbers_raise_no_warning(name: str) -> None:
+    """Overflow, underflow and cancellation stay inside; so do those of long double."""
+    extremes = np.array([5e-324, 1e-308, 1e-160, 1e160, 1e308, -1e308, 1e-300])
+    for first, second in itertools.combinations(arguments(name), 2):
+        given = values(name) | {first: extremes[:, None], second: extremes}
+        assert all(v.shape == (7, 7) for v in call(name, given).values())
+        call(name, values(name) | {first: np.longdouble("1e4000")})
+        call(name, values(name) | {first: np.array([np.longdouble("1e-4000")])})
+
+
+def test_what_the_caller_told_numpy_stays() -> None:
+    with np.errstate(divide="raise", over="warn", under="print", invalid="call"):
+        before = np.geterr()
+        wedge.load(np.nan, -1.0, E_star=1.0, phi=0.0)
+        assert np.geterr() == before
+
+
+# ------------------------------------------------------------------ what is no real number
+
+NO_NUMBERS: dict[str, Any] = {
+    **{"bool": True, "bool array": np.array([True, False]), "bool list": [True, False]},
+    **{"complex": 1j, "complex array": np.array([1.0 + 0j]), "masked": np.ma.array([1j])},
+    **{"text": "1.0", "bytes": b"1.0", "text array": np.array(["1.0"]), "nothing": None},
+    **{"list with nothing": [1.0, None], "object array": np.array([1.0], dtype=object)},
+    **{"ragged list": [[1.0], [1.0, 2.0]], "set": {1.0}, "function": abs},
+    **{"date": np.datetime64("2001-01-01"), "record": np.zeros(1, dtype=[("a", "f8")])},
+    **{"long text": "long" * 10_000, "long list": ["long"] * 10_000},
+}
+
+
+@pytest.mark.parametrize("kind", NO_NUMBERS)
+def test_what_is_no_real_number_is_refused_by_name_and_in_short(kind: str) -> None:
+    for name in FUNCTIONS:
+        for argument in arguments(name):
+            with pytest.raises(TypeError, match=rf"^{argument} must be a real number") as caught:
+                call(name, values(name) | {argument: NO_NUMBERS[kind]})
+            assert len(str(caught.value)) < 300
+
+
+# ------------------------------------------------------------------ pressure outside
+
+
+@pytest.mark.parametrize("name", [name for name in FUNCTIONS if name.endswith(".pressure")])
+@pytest.mark.parametrize(("a", "c"), [(2.0, 1.5), (1e-3, 3e-4), (1e12, 2e12), (0.1, 0.2)])
+def test_pressure_is_zero_at_the_edges_and_outside(name: str, a: float, c: float) -> None:
+    own = {k: v for k, v in values(name).items() if k not in "xac"}
+    own |= {"R": PARAMETER * min(a, c)} if "R" in own else {}
+    beyond = np.array([0.0, 1e-15, 1e-3, 1.0, 1e10, 1e150, 1e300, np.inf])
+    with np.errstate(over="ignore"):
+        right, left = c + beyond * c, -(a + beyond * a)
+    for x in (left, right):
+        assert_array_equal(call(name, {"x": x, "a": a, "c": c, **own})[""], 0.0)
+    for x in (np.nextafter(-a, np.inf), np.nextafter(c, -np.inf)):
+        assert call(name, {"x": x, "a": a, "c": c, **own})[""] > 0

@@ -1,0 +1,246 @@
+"""Dask arrays in, Dask arrays out: lazily, chunk by chunk.
+
+Everything here runs in this process; tests/generated/test_cluster.py has the distributed scheduler,
+and tests/runtime/test_cycle.py asks every function that is solved for.
+"""
+
+import doctest
+import re
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import dask
+import dask.array as da
+import numpy as np
+import pytest
+from dask.delayed import delayed
+from numpy.testing import assert_allclose, assert_array_equal
+
+from generated import flat_rounded, hertz, hyperbola, wedge
+from generated.runtime.types import Contact
+
+F = 0.5
+LAW: Mapping[str, Any] = {"E_star": 1.0, "phi": 0.25}
+CYLINDER: Mapping[str, Any] = {"f": F, "E_star": 1.0, "R": 1.0}
+
+
+@pytest.fixture(autouse=True)
+def in_this_thread() -> Iterator[None]:
+    with dask.config.set(scheduler="synchronous"):
+        yield
+
+
+# ------------------------------------------------------------------ what may be mixed
+
+
+def test_numbers_arrays_and_constants_mix() -> None:
+    x, a = np.linspace(-0.9, 0.9, 4), np.array([[1.0], [1.25], [1.5]])
+    phi = np.array([[0.1], [0.2], [0.3]])
+    found = wedge.pressure(
+        da.from_array(x, chunks=2), a, 1.25, E_star=da.from_array(1.5), phi=da.from_array(phi)
+    )
+    assert found.chunks == ((3,), (2, 2))
+    assert_allclose(found.compute(), wedge.pressure(x, a, 1.25, E_star=1.5, phi=phi), rtol=1e-14)
+
+
+def test_chunks_that_differ_and_axes_of_one_are_unified() -> None:
+    P, M = np.linspace(1, 2, 10), np.linspace(-0.5, 0.5, 10)
+    found = hertz.contact(da.from_array(P, chunks=4), da.from_array(M, chunks=5), E_star=1.0, R=2.0)
+    assert found.a.chunks == ((4, 1, 3, 2),)
+    assert_allclose(found.a.compute(), hertz.contact(P, M, E_star=1.0, R=2.0).a, rtol=1e-14)
+    tall, wide = da.from_array(P[:5, None], chunks=(2, 1)), da.from_array(M[None, :4], (1, 3))
+    assert hertz.contact(tall, wide, E_star=1.0, R=2.0).a.chunks == ((2, 2, 1), (3, 1))
+
+
+def unknown(values: np.ndarray) -> Any:
+    """Chunks whose lengths are not known: those above the middle."""
+    whole = da.from_array(values, chunks=4)
+    return whole[whole > 1.5]
+
+
+def test_lengths_may_be_unknown() -> None:
+    values, own = np.linspace(1, 2, 11), {"E_star": 1.0, "b": 0.5, "phi": 0.25}
+    states = [hyperbola.contact(P, 0.25, **own) for P in (unknown(values), values[values > 1.5])]
+    zone, known = (hyperbola.stick_zone(s, s, 0.1 * s.a, 0.0, f=F, **own) for s in states)
+    assert np.isnan(states[0].a.shape[0])
+    assert_allclose(zone.m.compute(), known.m, rtol=1e-12)
+    assert_array_equal(zone.regime.compute(), known.regime)
+    with pytest.raises(ValueError, match="compute_chunk_sizes"):
+        wedge.contact(unknown(values), np.ones(6), **LAW)
+
+
+def test_no_axis_no_elements_and_empty_chunks() -> None:
+    own = {"E_star": 1.0, "R": 1.0, "b": 0.5}
+    state = flat_rounded.contact(da.from_array(1.0), 0.1, **own)
+    assert all(v.shape == () and v.dtype == np.float64 for v in state)
+    assert_allclose(dask.compute(*state), flat_rounded.contact(1.0, 0.1, **own), rtol=1e-14)
+    some = da.from_array(np.linspace(1, 2, 4), chunks=((0, 2, 0, 2),))
+    found = hyperbola.contact(some, 0.25, E_star=1.0, b=0.5, phi=0.25).a
+    assert found.chunks == ((0, 2, 0, 2),) and np.all(np.isfinite(found.compute()))
+    assert hertz.load(da.ones(0), 1.0, E_star=1.0, R=1.0).compute().shape == (0,)
+
+
+@pytest.mark.parametrize("dtype", [np.int8, np.float32, ">f8"])
+def test_every_real_type_counts_as_float64(dtype: Any) -> None:
+    a = np.array([100, 110, 120], dtype=dtype)
+    found = wedge.load(da.from_array(a, chunks=2), 100, **LAW)
+    assert found.dtype == np.float64
+    assert_allclose(found.compute(), wedge.load(a, 100, **LAW), rtol=1e-15)
+
+
+def test_what_is_masked_or_no_constant_is_nan_where_it_is() -> None:
+    a = da.ma.masked_greater(da.linspace(1, 2, 5, chunks=2), 1.6)
+    found = wedge.load(a, 1.0, **LAW).compute()
+    assert type(found) is np.ndarray
+    assert_array_equal(np.isnan(found), [False, False, False, True, True])
+    R = da.from_array(np.array([1.0, -1.0, 0.0, np.inf, 2.0]), chunks=2)
+    found = hertz.load(1.0, 1.0, E_star=1.0, R=R).compute()
+    assert_array_equal(np.isnan(found), [False, True, True, True, False])
+
+
+# ------------------------------------------------------------------ time
+
+
+def test_time_may_be_cut_along_every_other_axis() -> None:
+    Q = np.linspace(0.05, 0.15, 7)[:, None] * [0.0, 1.0, 2.0, 1.0]
+    cycle = hertz.march(1.0, 0.0, da.from_array(Q, chunks=(3, 4)), 0.0, **CYLINDER)
+    assert cycle.m.chunks == ((3, 3, 1), (4,))
+    assert cycle.left.dtype == cycle.regime.dtype == np.int64
+    whole = hertz.march(1.0, 0.0, Q, 0.0, **CYLINDER)
+    for one, other in zip(dask.compute(*cycle), whole, strict=True):
+        assert_allclose(one, other, rtol=1e-12)
+
+
+def test_instants_may_be_unknown_in_number() -> None:
+    Q = np.array([0.0, 0.1, 0.2, 0.1, 9.0])
+    lazily = da.from_array(Q, chunks=5)
+    for P in (1.0, np.ones(1), np.ones((3, 1))):
+        cycle = hertz.march(P, 0.0, lazily[lazily < 1], 0.0, **CYLINDER)
+        known = hertz.march(P, 0.0, Q[:4], 0.0, **CYLINDER)
+        assert_allclose(cycle.m.compute(), known.m, rtol=1e-12)
+
+
+# ------------------------------------------------------------------ each chunk once
+
+
+def test_from_loads_to_slip_each_chunk_is_computed_once_and_alone() -> None:
+    sizes: list[int] = []
+
+    def counted(block: Any) -> Any:
+        sizes.append(block.size)
+        return block
+
+    P = da.linspace(1, 2, 7, chunks=3).map_blocks(counted, meta=np.empty(0))
+    own = {"E_star": 1.0, "b": 0.5, "phi": 0.25}
+    state = hyperbola.contact(P, 0.1, **own)
+    zone = hyperbola.stick_zone(state, state, 0.1, 0.0, f=F, **own)
+    slip = [da.histogram(v, bins=4, range=(0, 2))[0] for v in (state.a - zone.m, state.c - zone.n)]
+    assert sizes == []
+    dask.compute(*slip, zone.regime.max())
+    assert sorted(sizes) == [1, 3, 3]
+
+
+def test_the_same_call_has_the_same_name() -> None:
+    """So that Dask shares what two results have in common."""
+    P = da.linspace(1, 2, 6, chunks=2)
+    one, two, other = (hertz.contact(P, M, E_star=1.0, R=1.0) for M in (0.1, 0.1, 0.2))
+    assert one.a.name == two.a.name
+    assert len({one.a.name, one.c.name, other.a.name}) == 3
+    assert one.a.name.startswith("contact-a-")
+    here = Contact(P, 1.0, 0.0)
+    zones = [hertz.slip_zones(here.a, 1.0, 0.1, 0.0, **CYLINDER, order=n) for n in (1, 1, 2)]
+    assert zones[0].left.name == zones[1].left.name != zones[2].left.name
+    assert zones[0].left.name.startswith("slip_zones-left-")
+
+
+# ------------------------------------------------------------------ what is refused, at the call
+
+ONES = da.ones(3, chunks=2)
+HERE = Contact(1.0, 1.0, 0.0)
+
+
+def wrong(kind: Any) -> Any:
+    return da.from_array(np.array([1, 2, 3]).astype(kind), chunks=2)
+
+
+@pytest.mark.parametrize(
+    ("kind", "words", "call"),
+    [
+        (
+            ValueError,
+            r"must broadcast to one shape; their shapes are.* P \(3,\)",
+            lambda: wedge.contact(ONES, np.ones(9), **LAW),
+        ),
+        (
+            ValueError,
+            r"shapes are first.a \(3,\), second.a \(4,\)",
+            lambda: wedge.stick_zone(
+                Contact(ONES, 1.0, 0.0), Contact(da.ones(4), 1.0, 0.0), 0.1, 0.0, f=F, **LAW
+            ),
+        ),
+        *(
+            (
+                TypeError,
+                "a must be a real number or an array of such; got Array dask.array",
+                lambda of=of: wedge.load(wrong(of), 1.0, **LAW),
+            )
+            for of in (complex, object, "U3", bool, "M8[s]")
+        ),
+        (
+            TypeError,
+            "dQ must be a real number",
+            lambda: wedge.stick_zone(HERE, HERE, wrong(complex), 0.0, f=F, **LAW),
+        ),
+        (
+            ValueError,
+            r"the last axis of Q is time and must lie in one chunk.*\(5, 5\).*rechunk",
+            lambda: wedge.march(1.0, 0.0, da.ones((4, 10), chunks=(2, 5)), 0.0, f=F, **LAW),
+        ),
+        (
+            ValueError,
+            "order must be 1 to 3; got 7",
+            lambda: wedge.slip_zones(ONES, 1.0, 0.1, 0.0, f=F, order=7, **LAW),
+        ),
+        (
+            TypeError,
+            r"slip_zones\(\) got an unexpected keyword argument 'surplus'",
+            lambda: wedge.slip_zones(ONES, 1.0, 0.1, 0.0, f=F, surplus=1, **LAW),
+        ),
+        (
+            TypeError,
+            "second must be a Contact",
+            lambda: wedge.stick_zone(Contact(ONES, 1.0, 0.0), ONES, 0.1, 0.0, f=F, **LAW),
+        ),
+        (
+            TypeError,
+            "P is lazy, but no Dask array",
+            lambda: wedge.contact(delayed(len)([]), **LAW),
+        ),
+        (
+            TypeError,
+            r"first.a is lazy.*\.to_dask_array",
+            lambda: wedge.stick_zone(
+                Contact(delayed(len)([]), 1.0, 0.0), HERE, 0.1, 0.0, f=F, **LAW
+            ),
+        ),
+    ],
+)
+def test_what_is_refused_is_refused_at_the_call(
+    kind: type[Exception], words: str, call: Callable[[], Any]
+) -> None:
+    with pytest.raises(kind, match=words):
+        call()
+
+
+# ------------------------------------------------------------------ the page that tells of it
+
+PAGE = Path(__file__).parents[2] / "docs" / "arrays.md"
+
+
+def test_the_page_shows_what_happens() -> None:
+    failed, attempted = doctest.testfile(str(PAGE), module_relative=False)
+    assert (failed, attempted) == (0, 10)
+    links = re.findall(r"\]\(([^)#:]+)\)", PAGE.read_text())
+    assert len(links) >= 4
+    assert all((PAGE.parent / link).exists() for link in links)

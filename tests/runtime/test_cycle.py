@@ -1,0 +1,308 @@
+"""What goes into the functions that are solved for, and what comes out, whatever body.
+
+Values are tested in tests/generated; here it is types, shapes, blocks, Dask, and no compiler.
+"""
+
+import importlib
+import inspect
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import dask.array as da
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from derive.codegen.publish import package_files, publish
+from derive.runtime import body as runtime_body
+from derive.runtime.cycle import CYCLE, SOLVED
+from generated import hertz, hyperbola, wedge
+from generated.runtime.types import Contact, Regime
+
+ROOT = Path(__file__).parents[2]
+OWN = {
+    "wedge": {"phi": 0.25},
+    "flat_rounded": {"R": 1.5, "b": 0.5},
+    "hyperbola": {"phi": 0.25, "b": 0.5},
+}
+"""A closed formula with a corner; sums over parts, solved for; quadrature, solved for."""
+NAMES = [function.__name__ for function in (*SOLVED, *CYCLE)]
+EACH = pytest.mark.parametrize(
+    ("body", "name"),
+    [(b, n) for b in OWN for n in NAMES if b != "wedge" or n not in ("contact", "contact_at_tilt")]
+    + [("hyperbola", n) for n in ("load", "tilt", "pressure", "K_N", "L_N")],
+)
+INSTANTS = 4
+
+
+def module(body: str) -> ModuleType:
+    return importlib.import_module(f"generated.{body}")
+
+
+def cases(body: str, name: str, count: int = 7) -> dict[str, Any]:
+    """Values of every argument that has no default: `count` cycles of moderate tension."""
+    of, own = module(body), OWN[body]
+    a, c = 1.25 + 0.25 * np.random.default_rng(3).uniform(size=(2, count))
+    P, M = of.load(a, c, E_star=1.25, **own), of.moment(a, c, E_star=1.25, **own)
+    dQ, here = 0.125 * P, Contact(a, c, of.tilt(a, c, **own))
+    held = {"a": a, "c": c, "P": P, "M": M, "alpha": here.alpha, "x": 0.3 * (c - a) + 0.1 * a}
+    held |= {"first": here, "second": here, "contact": here, "f": 0.5, "E_star": 1.25, **own}
+    held |= {"dQ": dQ, "dsigma": dQ / (a + c), "Q": 0.75 * dQ, "sigma": 0.75 * dQ / (a + c)}
+    if name == "march":
+        held |= {"P": P[:, None], "M": M[:, None], "Q": dQ[:, None] * [0.0, 0.5, 1.0, 0.5]}
+        held |= {"sigma": 0.0}
+    parameters = inspect.signature(getattr(of, name)).parameters.values()
+    wanted = {p.name for p in parameters if p.default is p.empty or p.name in ("dQ", "dsigma", "M")}
+    return {k: v for k, v in held.items() if k in wanted}
+
+
+def each(given: dict[str, Any], change: Callable[[Any], Any]) -> dict[str, Any]:
+    """Every array changed, those of contacts, too."""
+    return {
+        k: Contact(*map(change, v)) if isinstance(v, Contact) else change(v) if np.ndim(v) else v
+        for k, v in given.items()
+    }
+
+
+def fields(result: Any) -> tuple[Any, ...]:
+    return result if isinstance(result, tuple) else (result,)
+
+
+def called(body: str, name: str, given: dict[str, Any]) -> tuple[Any, ...]:
+    with np.errstate(all="raise"):
+        return fields(getattr(module(body), name)(**given))
+
+
+def same(got: tuple[Any, ...], wanted: tuple[Any, ...], rtol: float = 1e-12) -> None:
+    for one, other in zip(got, wanted, strict=True):
+        assert one.shape == other.shape and one.dtype == other.dtype
+        assert_allclose(one, other, rtol=rtol, atol=1e-15)
+
+
+# ------------------------------------------------------------------ types and shapes
+
+
+@EACH
+def test_scalars_give_scalars_and_arrays_give_them_all(body: str, name: str) -> None:
+    given = cases(body, name)
+    whole = called(body, name, given)
+    assert all(np.all(np.isfinite(field)) for field in whole)
+    for i in range(2):
+        alone = called(body, name, each(given, lambda v, i=i: v[i]))
+        for one, field in zip(alone, whole, strict=True):
+            assert_allclose(one, field[i], rtol=1e-13, atol=1e-15)
+            assert type(one) is field.dtype.type or np.ndim(one)
+
+
+@EACH
+def test_it_broadcasts(body: str, name: str) -> None:
+    """Every array as a column against the modulus, or for a march the friction, as a row."""
+    given, row = cases(body, name), np.array([1.0, 1.25])
+    constant = "f" if name == "march" else "phi" if name == "tilt" else "E_star"
+    row = row[:, None, None] if name == "march" else row * given[constant]
+    against = each(given, lambda v: v if name == "march" else v[:, None]) | {constant: row}
+    found = called(body, name, against)
+    for i, value in enumerate(np.ravel(row)):
+        one = called(body, name, given | {constant: value})
+        at = (i,) if name == "march" else (slice(None), i)
+        for field, expected in zip(found, one, strict=True):
+            assert_allclose(field[at], expected, rtol=1e-12, atol=1e-15)
+
+
+@EACH
+def test_nothing_is_none_of_what_there_is(body: str, name: str) -> None:
+    """No elements give no elements, masked ones and constants that are none NaN where they are."""
+    given = cases(body, name)
+    none = called(body, name, each(given, lambda v: v[:0]))
+    assert all(field.shape == (0, *known.shape[1:]) and field.dtype == known.dtype
+               for field, known in zip(none, called(body, name, given), strict=True))  # fmt: skip
+    first = next(iter(given))
+    hidden = [False, True] + 5 * [False]
+    if isinstance(given[first], Contact):
+        masked = given[first]._replace(a=np.ma.array(given[first].a, mask=hidden))
+    else:
+        mask = np.broadcast_to(np.array(hidden)[:, None], (*given[first].shape[:1], 1))
+        masked = np.ma.array(given[first], mask=mask if given[first].ndim > 1 else hidden)
+    found = called(body, name, given | {first: masked})
+    wrong = called(body, name, given | {next(iter(OWN[body])): -1.0})
+    for field, bad in zip(found, wrong, strict=True):
+        if field.dtype == np.float64:
+            assert_array_equal(np.isnan(np.atleast_2d(field.T)[0]), hidden)
+            assert np.all(np.isnan(bad))
+
+
+@pytest.mark.parametrize("kind", [np.int8, np.uint64, np.float32, np.longdouble])
+def test_every_real_type_counts_as_float64(kind: type) -> None:
+    a, dQ = np.array([100, 110], kind), kind(30)
+    law = {"f": 0.5, "E_star": 4.0, "R": 1.0}
+    found = hertz.stick_zone(Contact(a, 100, 0), Contact(a, 100, 0), dQ, kind(2), **law)
+    here = Contact(a.astype(float), 100.0, 0.0)
+    same(found, hertz.stick_zone(here, here, 30.0, 2.0, **law))
+    given = a, kind(100), dQ, kind(2)
+    zones = hertz.slip_zones(*given, **law)
+    same(zones, hertz.slip_zones(*(np.asarray(v, float) for v in given), **law))
+
+
+def test_codes_are_whole_numbers() -> None:
+    zone = wedge.stick_zone(**cases("wedge", "stick_zone"))
+    assert zone.regime.dtype == np.int64 and {*map(Regime, zone.regime)} == {Regime.MODERATE}
+    cycle = wedge.march(**cases("wedge", "march"))
+    assert cycle.regime.dtype == cycle.left.dtype == cycle.right.dtype == np.int64
+
+
+def test_blocks_are_as_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of more cases than are solved in one piece."""
+    assert runtime_body.CASES > 7
+    of = importlib.import_module("generated.runtime.body")
+    for body, name in (("wedge", "stick_zone"), ("flat_rounded", "contact"), ("hyperbola", "K_N")):
+        given = cases(body, name, 1000)
+        whole = called(body, name, given)
+        with monkeypatch.context() as patch:
+            patch.setattr(of, "CASES", 64)
+            same(called(body, name, given), whole)
+
+
+def test_threads_do_not_disturb_each_other() -> None:
+    asked = [(b, n, cases(b, n, 50)) for b in OWN for n in ("stick_zone", "slip_zones", "march")]
+    wanted = [called(*each_) for each_ in asked]
+    with ThreadPoolExecutor(4) as pool:
+        for got, known in zip(pool.map(lambda v: called(*v), asked * 2), wanted * 2, strict=True):
+            same(got, known)
+
+
+# ------------------------------------------------------------------ what is refused
+
+LAW: dict[str, float] = {"E_star": 1.0, "phi": 0.25}
+HERE = Contact(1.0, 1.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("call", "kind", "words"),
+    [
+        (lambda: wedge.stick_zone((1, 1), HERE, 0.1, 0, f=1, **LAW), TypeError,
+         r"first must be a Contact, as contact\(...\) gives it; got \(1, 1\)"),
+        (lambda: wedge.shear(0.2, 1.5, 0.1, 0, f=1, **LAW), TypeError, "contact must be a Contact"),
+        (lambda: wedge.stick_zone(HERE, Contact("1", 1, 0), 0.1, 0, f=1, **LAW), TypeError,
+         "second.a must be a real number or an array of such; got str '1'"),
+        (lambda: wedge.stick_zone(HERE, HERE, 1j, 0, f=1, **LAW), TypeError, "dQ must be a real"),
+        (lambda: wedge.stick_zone(HERE, HERE, 0.1, 0, f=True, **LAW), TypeError, "f must be"),
+        (lambda: wedge.stick_zone(HERE, HERE, 0.1, 0, f=1, **LAW, mixed=1), TypeError,
+         "mixed must be True or False"),
+        (lambda: wedge.slip_zones(1, 1, 0.1, 0, f=1, **LAW, order=1.0), TypeError,
+         "order must be a whole number; got 1.0"),
+        (lambda: wedge.slip_zones(1, 1, 0.1, 0, f=1, **LAW, order=True), TypeError, "whole number"),
+        (lambda: wedge.slip_zones(1, 1, 0.1, 0, f=1, **LAW, order=0), ValueError,
+         "order must be 1 to 3; got 0"),
+        (lambda: wedge.slip_error(1, 1, 0.1, 0, f=1, **LAW, order=3), ValueError,
+         "order must be 1 .* 2; got 3"),
+        (lambda: wedge.march(1, 0, [0, 0.1], 0, f=1, **LAW, order=4), ValueError,
+         "order must be 0 to 3; got 4"),
+        (lambda: wedge.march(1, 0, [0, 0.1], 0, f=[1, 2], **LAW), ValueError,
+         "must not change along the last axis"),
+        (lambda: wedge.march(1, 0, 0.1, 0, f=1, **LAW), ValueError, "two instants or more"),
+        (lambda: wedge.march(1, 0, [], 0, f=1, **LAW), ValueError, "two instants or more"),
+        (lambda: wedge.stick_zone(Contact([1, 2], 1, 0), Contact([1] * 3, 1, 0), 0, 0, f=1, **LAW),
+         ValueError, r"their shapes are first.a \(2,\), second.a \(3,\)"),
+        (lambda: hyperbola.load(np.ones(2), np.ones(3), E_star=1, b=1, phi=0.2), ValueError,
+         r"their shapes are a \(2,\), c \(3,\)"),
+    ],
+)  # fmt: skip
+def test_what_is_refused_is_told(
+    call: Callable[[], Any], kind: type[Exception], words: str
+) -> None:
+    with pytest.raises(kind, match=words):
+        call()
+
+
+# ------------------------------------------------------------------ Dask
+
+
+class Computed(Exception):
+    """A chunk was computed."""
+
+
+def trapped(block: Any) -> Any:
+    raise Computed
+
+
+@EACH
+def test_dask_arrays_stay_lazy_and_give_the_same(body: str, name: str) -> None:
+    given = cases(body, name)
+
+    def lazy(value: Any) -> Any:
+        return da.from_array(value, chunks=(3, *np.shape(value)[1:]))
+
+    found = called(body, name, each(given, lazy))
+    for field, known in zip(found, called(body, name, given), strict=True):
+        assert isinstance(field, da.Array) and field.chunks[0] == (3, 3, 1)
+        assert field.dtype == known.dtype and field.shape == known.shape
+        value = field.compute(scheduler="synchronous")
+        assert value.dtype == known.dtype
+        assert_allclose(value, known, rtol=1e-12, atol=1e-15)
+    raising = each(given, lambda v: lazy(v).map_blocks(trapped, meta=np.empty((0,) * v.ndim)))
+    for field in called(body, name, raising):
+        with pytest.raises(Computed):
+            field.compute(scheduler="synchronous")
+
+
+# ------------------------------------------------------------------ without a compiler
+
+PLAIN = """
+import sys
+from tests.runtime.test_cycle import OWN, NAMES, called, cases
+from generated.runtime.kernels import COMPILED
+assert not COMPILED
+for body in OWN:
+    for name in NAMES:
+        for value in called(body, name, cases(body, name, 2)):
+            print(*map(repr, map(float, value.ravel())))
+"""
+
+
+@pytest.mark.slow
+def test_plain_python_gives_what_is_compiled() -> None:
+    run = subprocess.run(
+        [sys.executable, "-c", PLAIN],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+    )
+    assert run.returncode == 0, run.stderr
+    lines = iter(run.stdout.splitlines())
+    for body in OWN:
+        for name in NAMES:
+            for known in called(body, name, cases(body, name, 2)):
+                found = [float(number) for number in next(lines).split()]
+                assert_allclose(found, known.ravel(), rtol=1e-12, atol=1e-15, err_msg=name)
+
+
+FRESH = """
+import numpy as np
+from copied.roller import contact, stick_zone, Regime
+here = contact(np.pi, 0.0, E_star=4.0, R=1.0)
+zone = stick_zone(here, here, 0.1, 0.0, f=0.5, E_star=4.0, R=1.0)
+assert Regime(zone.regime) is Regime.MODERATE
+print(repr(float(zone.m)))
+"""
+
+
+@pytest.mark.slow
+def test_a_fresh_copy_of_the_package_works_anywhere(tmp_path: Path) -> None:
+    """With NumPy and numba alone; it compiles its own kernels, and says so."""
+    text = (ROOT / "generated" / "hertz.py").read_text()
+    stuck = (ROOT / "generated" / "full_stick.py").read_text()
+    publish(package_files({"roller": text, "full_stick": stuck}), tmp_path / "copied")
+    run = subprocess.run(
+        [sys.executable, "-c", FRESH], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert run.returncode == 0, run.stderr
+    assert_allclose(float(run.stdout), np.sqrt(1 - 0.1 / np.pi), rtol=1e-14)
+    assert run.stderr in ("", "compiling the solvers, once for this installation: some twenty "
+                          "seconds ...\n")  # fmt: skip

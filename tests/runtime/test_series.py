@@ -1,0 +1,172 @@
+"""Series of the slip zones against closed stick zones, theory's second order, and symmetry."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from derive.runtime.slip.series import each_slip_zones
+
+from .laws import flat_rounded, hertz, wedge
+
+F = 0.5
+
+
+def series(case, *rows):
+    """Rows of a, c, dQ, dsigma, f, da, dc, order to zones and errors."""
+    given, out = np.array(rows, dtype=float), np.empty((len(rows), 4))
+    each_slip_zones(case.law, given, np.tile(case.own, (len(rows), 1)), out)
+    return out
+
+
+def state(case, a, c):
+    function = case.functions.state
+    return getattr(function, "py_func", function)(a, c, case.own)
+
+
+def patch(case, load, tilt):
+    """The contact under a load at a tilt, in closed form; all parameters 1."""
+    if case is hertz:
+        h = math.sqrt(16 * load / math.pi)
+        return h / 2 + tilt, h / 2 - tilt
+    root = math.tan(math.pi / 4 * (1 - tilt))
+    return load / root, load * root
+
+
+def moderate(case, now, then, dQ, dsigma):
+    """Theory: the contact at the mean load less dQ/(2 f) and the mean tilt less dsigma/(4 f)."""
+    ends = [state(case, *edges) for edges in (now, then)]
+    load, tilt = ((ends[0][i] + ends[1][i]) / 2 for i in (0, 2))
+    return patch(case, load - dQ / (2 * F), tilt - dsigma / (4 * F))
+
+
+@pytest.mark.parametrize("case", [hertz, wedge], ids=["hertz", "wedge"])
+@pytest.mark.parametrize("moves", [(0.0, 0.0), (0.004, -0.002), (-0.003, -0.003)])
+def test_errors_fall_with_the_power_of_the_order(case, moves):
+    """Constant and varying loads, some tension: 4**-(order + 1) as all changes fall to a fourth."""
+    a, c, errors = 1.5, 1.0, []
+    for part in (1 / 8, 1 / 32):
+        da, dc = (4 * part * move for move in moves)
+        dQ = 0.4 * F * state(case, a, c)[0] * part
+        dsigma = 0.4 * 8 * dQ / (math.pi * (a + c))
+        m, n = moderate(case, (a, c), (a - da, c - dc), dQ, dsigma)
+        found = series(case, *([a, c, dQ, dsigma, F, da, dc, k] for k in (1, 2, 3)))
+        errors.append(np.abs(found[:, 0] - (a - m)) + np.abs(found[:, 1] - (c - n)))
+    powers = np.log(errors[0] / errors[1]) / math.log(4)
+    assert powers == pytest.approx([2, 3, 4], abs=0.25)
+
+
+@pytest.mark.parametrize("tension", [0.5, 3.0, -3.0])
+def test_the_second_order_is_that_of_theory(tension):
+    """f K d - (L_T/2) d + (3/4) f L d**2 = K_T + f K d**2/(8 h) + kappa f K' d'**2/(4 h).
+
+    What is left over is of third order: 10**-3 as the loads fall to a tenth.
+    """
+    a, c = 1.5, 1.0
+    h, left_over = a + c, []
+    load, _, _, *K = state(wedge, a, c)
+    function = wedge.functions.series
+    L = getattr(function, "py_func", function)(a, c, wedge.own)
+    for part in (0.02, 0.002):
+        dQ = part * F * load
+        dsigma = tension * 8 * dQ / (math.pi * h)
+        d = series(wedge, [a, c, dQ, dsigma, F, 0, 0, 2])[0]
+        for i, side in ((0, 1), (1, -1)):
+            pull = dQ / math.pi + side * dsigma * h / 8
+            sense = math.copysign(1, pull)
+            K_T = sense * pull / math.sqrt(h)
+            L_T = sense * (pull / (2 * h) - side * dsigma / 4) / math.sqrt(h)
+            kappa = -1 if abs(tension) > 1 else 1
+            off = F * K[i] * d[i] - L_T / 2 * d[i] + 3 / 4 * F * L[i] * d[i] ** 2 - K_T
+            off -= F * K[i] * d[i] ** 2 / (8 * h)
+            off -= kappa * F * K[1 - i] * d[1 - i] ** 2 / (4 * h)
+            left_over.append(abs(off) / part)
+    assert max(left_over[:2]) < 1e-3
+    assert all(new < old / 80 for old, new in zip(left_over[:2], left_over[2:], strict=True))
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("case", [hertz, wedge], ids=["hertz", "wedge"])
+def test_seen_in_a_mirror(case, order):
+    here = series(case, [1.5, 1.0, 0.05, 0.2, F, 0.01, -0.004, order])
+    mirrored = series(case, [1.0, 1.5, 0.05, -0.2, F, -0.004, 0.01, order])
+    assert np.all(here[:, :2] > 0)
+    assert mirrored[:, [1, 0, 3, 2]] == pytest.approx(here, rel=1e-12, nan_ok=True)
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_both_ends_of_a_half_cycle_see_one_stick_zone(order):
+    now = series(wedge, [1.5, 1.0, 0.1, 0.02, F, 0.01, 0.02, order])[0]
+    then = series(wedge, [1.49, 0.98, 0.1, 0.02, F, -0.01, -0.02, order])[0]
+    assert (1.5 - now[0], 1.0 - now[1]) == pytest.approx((1.49 - then[0], 0.98 - then[1]))
+
+
+def test_the_error_is_what_the_next_order_changes():
+    """On a cylinder by hand: d = h (q/4 + q**2/16 + ...), q = dQ/(2 f P); third order d**3/(4 h**2)
+    more than the second."""
+    found = series(wedge, *([1.5, 1.0, 0.05, 0.3, F, 0, 0, k] for k in (1, 2, 3)))
+    assert found[:2, 2:] == pytest.approx(np.abs(np.diff(found[:, :2], axis=0)))
+    assert np.all(np.isnan(found[2, 2:]))
+    q = 1e-4
+    first, second = series(hertz, *([1, 1, 2 * F * math.pi / 4 * q, 0, F, 0, 0, k] for k in (1, 2)))
+    d = first[0]
+    assert d == pytest.approx(q / 2, rel=1e-14)
+    assert first[2:] == pytest.approx([d**2 / 2] * 2, rel=1e-3)
+    assert second[2:] == pytest.approx([d**3 / 16] * 2, rel=1e-3)
+
+
+def test_what_is_not_known():
+    """A body without further coefficients of its pressure; what slides, and where none slips."""
+    first, second = series(flat_rounded, *([1.5, 1.5, 0.05, 0, F, 0, 0, k] for k in (1, 2)))
+    assert np.all(first[:2] > 0) and np.all(np.isnan(first[2:])) and np.all(np.isnan(second))
+    whole = 2 * F * state(wedge, 1.5, 1.0)[0]
+    for dQ, dsigma, da in (
+        (whole, 0, 0),  # slides
+        (-0.1, 0, 0),
+        (math.nan, 0, 0),
+        (0.1, math.inf, 0),
+        (0.01, 0, 0.5),  # the edge runs ahead of slip
+        (0.01, 0, 3.0),  # no contact there
+    ):
+        rows = ([1.5, 1.0, dQ, dsigma, F, da, 0, k] for k in (1, 2, 3))
+        assert np.all(np.isnan(series(wedge, *rows))), (dQ, dsigma, da)
+    # nothing is left that sticks between both first orders
+    assert np.all(np.isnan(series(wedge, [1.5, 1.0, 0.1, 30, F, 0, 0, 1])))
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_without_any_change_nothing_slips(order):
+    assert np.all(series(wedge, [1.5, 1.0, 0, 0, F, 0, 0, order])[0, :2] == 0)
+
+
+ROWS = [
+    [1.5, 1.0, 0.05, 0.2, F, 0.01, -0.004, 2.0],
+    [1.5, 1.0, 0.05, -0.9, F, 0.0, 0.0, 1.0],
+    [1.2, 1.0, 0.1, 0.0, F, 0.0, 0.0, 3.0],
+    [1.5, 1.0, 0.1, 30.0, F, 0.0, 0.0, 1.0],
+]
+SCRIPT = """
+import json, sys
+from tests.runtime.laws import wedge
+from tests.runtime.test_series import series
+print(json.dumps(series(wedge, *json.loads(sys.argv[1])).tolist()))
+"""
+
+
+def test_it_runs_as_plain_python_too():
+    root = Path(__file__).parents[2]
+    found = subprocess.run(
+        [sys.executable, "-c", SCRIPT, json.dumps(ROWS)],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(root)},
+        cwd=root,
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    )
+    plain = np.array(json.loads(found.stdout))
+    assert plain == pytest.approx(series(wedge, *ROWS), rel=1e-11, nan_ok=True)
