@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from .runtime import cycle, pieces
 from .full_stick import K_T, L_T, stick_margin
+from .runtime import cycle, pieces
 from .runtime.body import Asked, Body, Parameter
 from .runtime.cycle import integrated
-from .runtime.elementary import where
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
 from .runtime.pieces import BESIDE_BREAK, curve_of
 from .runtime.types import Array, Contact, Edges, March, Regime, StickZone, Threshold
@@ -240,14 +239,12 @@ def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
 @kernel(BREAKS)
 def _breaks(own: Array) -> Any:
     """Where the curve is cut."""
-    R, b = own[0], own[1]
     return np.array([0.0])
 
 
 @kernel(BREAKS)
 def _corners(own: Array) -> Any:
     """By how much g' rises there."""
-    R, b = own[0], own[1]
     return np.array([0.0])
 
 

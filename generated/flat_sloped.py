@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .runtime import cycle
 from .full_stick import K_T, L_T, stick_margin
+from .runtime import cycle
 from .runtime.arrays import elementwise
 from .runtime.body import Body, Parameter
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
@@ -367,7 +367,7 @@ def _slope(x: Array, own: Array) -> Any:
 
 def _breaks(own: Array) -> Any:
     """Where the curve changes its formula."""
-    b, phi = own[0], own[1]
+    b = own[0]
     return np.array([-b, b])
 
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .runtime import cycle
 from .full_stick import K_T, L_T, stick_margin
+from .runtime import cycle
 from .runtime.arrays import elementwise
 from .runtime.body import Body, Parameter
 from .runtime.elementary import LEAST, MOST, where

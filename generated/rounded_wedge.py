@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from .runtime import cycle
 from .full_stick import K_T, L_T, stick_margin
+from .runtime import cycle
 from .runtime.arrays import elementwise
 from .runtime.body import Body, Parameter
 from .runtime.elementary import LEAST, MOST, where
-from .runtime.segments import segment, involute, second_term, third_term, part_pressure
+from .runtime.segments import involute, part_pressure, second_term, segment, third_term
 from .runtime.shared import by_position
 from .runtime.types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
@@ -538,7 +538,7 @@ def _slope(x: Array, own: Array) -> Any:
 
 def _breaks(own: Array) -> Any:
     """Where the curve changes its formula."""
-    b, phi = own[0], own[1]
+    b = own[0]
     return np.array([-b, b])
 
 

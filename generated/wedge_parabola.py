@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from .runtime import cycle
 from .full_stick import K_T, L_T, stick_margin
+from .runtime import cycle
 from .runtime.arrays import elementwise
 from .runtime.body import Body, Parameter
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
-from .runtime.segments import segment, involute, root_ratio, second_term, third_term, end_pressure
+from .runtime.segments import end_pressure, involute, root_ratio, second_term, segment, third_term
 from .runtime.shared import by_position
 from .runtime.types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
@@ -418,7 +418,6 @@ def _slope(x: Array, own: Array) -> Any:
 
 def _breaks(own: Array) -> Any:
     """Where the curve changes its formula."""
-    R, phi = own[0], own[1]
     return np.array([0.0])
 
 

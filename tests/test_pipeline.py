@@ -37,7 +37,9 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         for stage in STAGES:
             report(source, stage)
         path = FOLDER / f"{source}.py" if source in library() else Path(source)
-        return Body(Path(source).stem, path.read_text(), "", 0.5, ("forward",), (), VERDICTS, PROOFS)
+        return Body(
+            Path(source).stem, path.read_text(), "", 0.5, ("forward",), (), VERDICTS, PROOFS
+        )
 
     monkeypatch.setattr(derive.pipeline, "build", build)
     return sources

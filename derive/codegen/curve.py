@@ -73,12 +73,7 @@ class CurveText(LawText):
         printer = NumPyPrinter()
         yield "@kernel(BESIDE_BREAK)"
         yield from function_head("_curve", "piece, side, t", "g', g'' and t g''' beside a break.")
-        yield from self._unpacked()
-        for i, piece in enumerate(pieces):
-            for sense, place in ((1, piece.lower), (-1, piece.upper)):
-                if place.is_finite:
-                    yield f"    if piece == {i} and side == {sense}:"
-                    yield from _branch(piece, place, sense)
+        yield from self._unpacked(_branches(pieces))
         yield "    return np.nan, np.nan, np.nan"
         steps = {kink.position: kink.step for kink in slope.kinks}
         jumps = [printer.doprint(steps.get(place, S.Zero)) for place in places]
@@ -88,8 +83,8 @@ class CurveText(LawText):
         ):
             yield "@kernel(BREAKS)"
             yield from function_head(name, "", words)
-            yield from self._unpacked()
-            yield f"    return np.array([{', '.join(map(as_float, values))}])"
+            array = f"np.array([{', '.join(map(as_float, values))}])"
+            yield from self._unpacked([f"    return {array}"])
         for name, arguments, words in (
             ("pressure", "x, a, c", "The pressure at x for E* = 1."),
             ("state", "a, c", "Load, moment, tilt and K_N for E* = 1."),
@@ -109,16 +104,26 @@ class CurveText(LawText):
             self.sheet.geometry.slope.domain, ("<=", ">="), ("-np.inf", "np.inf"), strict=True
         )
         held = [(end, side, slope) for end, side, slope in ends if end.is_finite]
-        yield from self._unpacked() if held else ()
+        lines = []
         for end, side, slope in held:
-            yield f"    if x {side} {NumPyPrinter().doprint(end)}:"
-            yield f"        return {slope}, np.inf"
+            lines.append(f"    if x {side} {NumPyPrinter().doprint(end)}:")
+            lines.append(f"        return {slope}, np.inf")
+        yield from self._unpacked(lines)
 
     def _slope(self) -> Iterator[str]:
         return iter(())
 
     def _breaks(self) -> Iterator[str]:
         return iter(())
+
+
+def _branches(pieces: Sequence[Piece]) -> Iterator[str]:
+    """The curve beside each end of each piece."""
+    for i, piece in enumerate(pieces):
+        for sense, place in ((1, piece.lower), (-1, piece.upper)):
+            if place.is_finite:
+                yield f"    if piece == {i} and side == {sense}:"
+                yield from _branch(piece, place, sense)
 
 
 def _branch(piece: Piece, place: Expr, sense: int) -> Iterator[str]:

@@ -4,7 +4,8 @@ In:  a proven FormulaSheet.
 Out: the text of `_pressure`, `_state`, `_slope`, `_series` and `_breaks`, and of `_BODY`.
 """
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 
 import mpmath
 from mpmath import mpf
@@ -58,10 +59,15 @@ class LawText:
         else:
             yield "    return left, right, np.nan, np.nan"
 
-    def _unpacked(self) -> Iterator[str]:
-        held = ", ".join(f"own[{i}]" for i in range(len(self.names)))
-        if self.names:
-            yield f"    {', '.join(self.names)} = {held}"
+    def _unpacked(self, text: Iterable[str]) -> Iterator[str]:
+        """The parameters that some text holds, by their names; then the text."""
+        lines = list(text)
+        words = set(re.findall(r"\w+", " ".join(lines)))
+        held = [(name, f"own[{i}]") for i, name in enumerate(self.names) if name in words]
+        if held:
+            names, places = zip(*held, strict=True)
+            yield f"    {', '.join(names)} = {', '.join(places)}"
+        yield from lines
 
     def _slope(self) -> Iterator[str]:
         slope = self.sheet.frame.slope
@@ -72,16 +78,15 @@ class LawText:
             total += Piecewise((factor(kink.jump), beyond), (S.Zero, True))
         printer = NumPyPrinter({x})
         yield from function_head("_slope", "x", "g'(x) and g''(x).")
-        yield from self._unpacked()
         values = map(printer.doprint, (total, diff(total, x)))
-        yield f"    return {', '.join(map(as_float, values))}"
+        yield from self._unpacked([f"    return {', '.join(map(as_float, values))}"])
 
     def _breaks(self) -> Iterator[str]:
         places = [kink.position for kink in self.sheet.frame.slope.kinks]
         yield from function_head("_breaks", "", "Where the curve changes its formula.")
-        yield from self._unpacked() if places else ()
         printed = ", ".join(as_float(NumPyPrinter().doprint(place)) for place in places)
-        yield f"    return np.array([{printed}])" if places else "    return np.empty(0)"
+        array = f"np.array([{printed}])" if places else "np.empty(0)"
+        yield from self._unpacked([f"    return {array}"])
 
     def _body(self) -> Iterator[str]:
         functions = ", ".join(f"{name}=_{name}" for name in NAMES)

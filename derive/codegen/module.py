@@ -5,7 +5,7 @@ Out: the text of a module: one function of the contract after the other, then wh
      of the body, then the functions of a cycle, bound to it.
 """
 
-import re
+import ast
 import subprocess
 import textwrap
 from collections.abc import Iterator
@@ -73,8 +73,8 @@ from typing import Any
 
 import numpy as np
 
-from .runtime import {"cycle, pieces" if "pieces." in code else "cycle"}
 from .{FULL_STICK} import {", ".join(stuck)}
+from .runtime import {"cycle, pieces" if "pieces." in code else "cycle"}
 {_imports(code, _KINDS)}
 
 __all__ = {names}
@@ -91,7 +91,7 @@ def full_stick_text(sheet: FormulaSheet) -> str:
     made = (f for f in CONTRACT if not f.geometric)
     code = "\n\n".join(FunctionText(sheet, f, "derive/theory/stick.py").text for f in made)
     return formatted(f'''{MARK}
-"""Full stick: how shear changes next to the edges of a contact that does not slip, whatever body.
+"""Full stick: how shear changes next to the edges of a contact that does not slip.
 """
 
 import numpy as np
@@ -120,8 +120,9 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
 def _imports(code: str, always: tuple[str, ...] = ()) -> str:
     """What the code needs of the modules of runtime/."""
     lines = []
+    used = {node.id for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Name)}
     for module, names in _HELPERS.items():
-        held = [name for name in names if name in always or re.search(rf"\b{name}\b", code)]
+        held = sorted({*names} & {*always, *used}, key=_order)
         if held:
             lines.append(f"from .runtime.{module} import {', '.join(held)}")
     return "\n".join(lines)

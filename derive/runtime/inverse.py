@@ -100,10 +100,8 @@ def _short(goal: Any, a: float, c: float, now: Any) -> Any:
     """
     load, moment, tilt, _, _ = now
     h = a + c
-    if goal.held:
-        off = (goal.tilt - tilt) * h / load
-    else:
-        off = 4 * (goal.place + moment / load) / h
+    arm = goal.place + moment / load
+    off = (goal.tilt - tilt) * h / load if goal.held else 4 * arm / h
     return math.log(goal.load / load), off
 
 

@@ -126,7 +126,7 @@ if COMPILED:
         """Turn the address of a compiled function into that function."""
         function = types.FunctionType(signature)
 
-        @intrinsic
+        @intrinsic  # type: ignore[untyped-decorator]
         def at(_: Any, address: Any) -> Any:
             def code(context: Any, builder: Any, _: Any, given: Any) -> Any:
                 made = cgutils.create_struct_proxy(function)(context, builder)
@@ -168,9 +168,13 @@ else:
         def __call__(self, *_: Any) -> Any:
             return self
 
-    real = whole = truth = vector = matrix = results = _Type()
+    real = whole = truth = vector = matrix = _Type()
     PRESSURE = STATE = SLOPE = SERIES = BREAKS = LAW = LOOP = real
     SIGNATURES = Law(real, real, real, real, real)
+
+    def results(count: int) -> Any:
+        """The same for so many numbers."""
+        return real
 
     def kernel(signature: Any) -> Callable[[Kernel], Kernel]:
         """Leave a function as it is."""

@@ -138,7 +138,7 @@ def contact_at_tilt(asked: Asked, P: Array, alpha: Array = 0.0, *, E_star: Array
     if isinstance(found, Contact):
         return found
     given = numbers_of({"alpha": alpha}, {})["alpha"]
-    return Contact(*found, np.where(np.isnan(found.a), np.nan, given)[()])
+    return Contact(found.a, found.c, np.where(np.isnan(found.a), np.nan, given)[()])
 
 
 # ---------------------------------------------------------------- the stick zone
