@@ -58,6 +58,9 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     return Parameter(name, meaning, unit)
 
 
+MODULES = ("full_stick", "runtime")
+"""What a generated package holds beside its bodies."""
+
 _FOR_X = ", for the place along the contact: `from derive import x` has it"
 
 
@@ -166,6 +169,8 @@ class Geometry:
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not _usable(self.name):
             raise BadName("geometry", str(self.name), "cannot be the name of a module")
+        if self.name in MODULES:
+            raise BadName("geometry", self.name, "is a module of every generated package")
         given = _expression(self.name, self.g)
         plain: dict[Symbol, Quantity] = {}
         for symbol in sorted(given.free_symbols, key=str):

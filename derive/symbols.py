@@ -89,15 +89,8 @@ _USED_BESIDES = (
     # by the generated modules
     *("np", "Any", "LEAST", "MOST", "TINY", "elementwise", "where", "kink_logarithm"),
     *("Asked", "Body", "Parameter", "Curve", "integrated", "cycle", "by_position", "shared"),
-    *(
-        "segment",
-        "involute",
-        "end_pressure",
-        "part_pressure",
-        "second_term",
-        "third_term",
-        "root_ratio",
-    ),
+    *("segment", "involute", "end_pressure", "part_pressure", "root_ratio"),
+    *("second_term", "third_term", "curve_of", "excess", "polynomial", "kernel"),
     *("Array", "exists", "first", "second", "order", "mixed", "own", "asked", "piece", "side"),
     *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure", "pieces"),
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),

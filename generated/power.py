@@ -247,6 +247,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
 def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
     """g', g'' and t g''' beside a break."""
     L, k = own[0], own[1]
+    if not (k > 1):
+        return np.nan, np.nan, np.nan
     if piece == 0 and side == -1:
         s_0 = k - 1
         s_1 = L ** (-s_0)

@@ -73,7 +73,7 @@ class CurveText(LawText):
         printer = NumPyPrinter()
         yield "@kernel(BESIDE_BREAK)"
         yield from function_head("_curve", "piece, side, t", "g', g'' and t g''' beside a break.")
-        yield from self._unpacked(_branches(pieces))
+        yield from self._unpacked([*self._demands(), *_branches(pieces)])
         yield "    return np.nan, np.nan, np.nan"
         steps = {kink.position: kink.step for kink in slope.kinks}
         jumps = [printer.doprint(steps.get(place, S.Zero)) for place in places]
@@ -97,6 +97,12 @@ class CurveText(LawText):
                 yield from self._ends()
             yield "    curve = curve_of(_curve, _breaks, _corners)"
             yield f"    return pieces.{name}(curve, {arguments}, own)"
+
+    def _demands(self) -> Iterator[str]:
+        """What the parameters must meet besides being positive: without it there is no curve."""
+        for demand in self.sheet.geometry.slope.demands:
+            yield f"    if not ({NumPyPrinter().doprint(demand)}):"
+            yield "        return np.nan, np.nan, np.nan"
 
     def _ends(self) -> Iterator[str]:
         """What is beyond the ends of a body whose curve has such."""

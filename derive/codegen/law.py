@@ -11,7 +11,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Ge, Lt, Piecewise, S, diff, factor
 
-from derive.codegen.function import example_of, inside_quotes
+from derive.codegen.function import example_of
 from derive.codegen.printer import NumPyPrinter
 from derive.proof.points import Point, numeric
 from derive.sheet import FormulaSheet
@@ -91,7 +91,7 @@ class LawText:
     def _body(self) -> Iterator[str]:
         functions = ", ".join(f"{name}=_{name}" for name in NAMES)
         parameters = "".join(
-            f'Parameter({q.name!r}, "{inside_quotes(q.meaning)}", {q.unit!r}), '
+            f"Parameter({q.name!r}, {q.meaning!r}, {q.unit!r}), "
             for q in self.sheet.geometry.parameters
         )
         example = ", ".join(f"{k}={v!r}" for k, v in example_values(self.sheet).items())

@@ -71,6 +71,8 @@ _CONSTANTS = {S.Pi: "np.pi", S.Exp1: "np.e", S.EulerGamma: "np.euler_gamma"}
 
 _NOT_EXACT = (Float, UnevaluatedExpr, S.ImaginaryUnit, S.NaN, oo, -oo, S.ComplexInfinity)
 
+_LARGEST_WHOLE = 2**53
+
 _DIGITS = 40
 """Of a number before it is rounded to float64."""
 
@@ -182,8 +184,12 @@ class NumPyPrinter(StrPrinter):
     def _print_UnevaluatedExpr(self, expr: Expr) -> str:
         return self._print(expr.args[0])
 
+    def _print_Integer(self, expr: Basic) -> str:
+        """Whole numbers that no integer of 64 bits holds as numbers of float64."""
+        return str(expr) if abs(expr) < _LARGEST_WHOLE else repr(float(expr))
+
     def _print_Rational(self, expr: Rational) -> str:
-        return f"{expr.p} / {expr.q}"
+        return f"{self._print(S(expr.p))} / {self._print(S(expr.q))}"
 
     def _print_Max(self, expr: Expr) -> str:
         return self._nested("np.maximum", expr)

@@ -23,6 +23,11 @@ _COMPILED = "__pycache__"
 FULL_STICK = "full_stick"
 """The module of what belongs to no body."""
 
+_FOLDERS = {_RUNTIME.name, *(path.name for path in _RUNTIME.rglob("*") if path.is_dir())} - {
+    _COMPILED
+}
+"""Names of the folders that a package has."""
+
 _SUFFIXES = (".pyc", ".nbi", ".nbc")
 """Endings of what lies there; anything else would be lost with it."""
 
@@ -158,14 +163,19 @@ def _entries(folder: Path) -> list[Path]:
     """What a folder and those in it hold, but for what was compiled."""
     found: list[Path] = []
     for path in sorted(folder.iterdir()) if folder.is_dir() else []:
-        if path.is_dir() and not path.is_symlink():
-            kept = _entries(path)
-            if path.name == _COMPILED:
-                kept = [p for p in kept if p.is_symlink() or p.suffix not in _SUFFIXES]
-            found += kept
+        if path.is_symlink() or not path.is_dir():
+            found.append(path)
+        elif path.name == _COMPILED:
+            found += [p for p in sorted(path.iterdir()) if not _is_compiled(p)]
+        elif path.name in _FOLDERS:
+            found += _entries(path) or [path]
         else:
             found.append(path)
     return found
+
+
+def _is_compiled(path: Path) -> bool:
+    return path.is_file() and not path.is_symlink() and path.suffix in _SUFFIXES
 
 
 def _is_ours(path: Path) -> bool:

@@ -40,8 +40,14 @@ LONGEST = 4.0
 SMALLEST = 1e-9
 """A step below this part of the distance is the last: its square is below rounding."""
 
-FINEST = 2.0**-20
+FINEST = 2.0**-10
 """Where a smaller part of a step leads no nearer, Newton's method has lost its way."""
+
+CLOSEST = 1e-9
+"""Closer than this part of the distance to a body's end, no edge is sought;"""
+
+STEEPER = 10.0
+"""nor where a function that rose so many times as fast from there would not be zero at the end."""
 
 EXACT = 1e-13
 """A contact that is off by less, but for the rounding of its edges, is found;"""
@@ -299,9 +305,19 @@ def _next(y: float, bracket: Any, value: float, rate: float) -> Any:
     return middle, abs(middle - y)
 
 
-@kernel(real(LAW, vector, vector, GOAL, real))
-def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float) -> float:
-    """The right edge that meets the second condition with a left one.
+@kernel(truth(real, real, real, real))
+def _in_vain(low: float, high: float, value: float, rate: float) -> bool:
+    """Whether a function with this value and rate at `low` has no root before its end at `high`.
+
+    Places are logarithms of distances, the rate is with the distance.
+    """
+    rest = math.exp(high) - math.exp(low)
+    return high - low < CLOSEST or (rate > 0 and value + STEEPER * rate * rest < 0)
+
+
+@kernel(real(LAW, vector, vector, GOAL, real, real))
+def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float, guess: float) -> float:
+    """The right edge that meets the second condition with a left one; sought from a guess.
 
     Infinity where no contact with this left edge carries anything, NaN where none meets it.
     """
@@ -328,6 +344,8 @@ def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float) -> float:
     if value >= 0:
         return start + math.exp(low)
     y, last = (low + high) / 2, high - low
+    if start + math.exp(low) < guess < start + far:
+        y = math.log(guess - start)
     for _ in range(STEPS):
         value, rate = _turned(law, own, goal, a, start + math.exp(y))
         if value < 0:
@@ -335,6 +353,8 @@ def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float) -> float:
         else:
             high, ends = y, value == math.inf
         y, last = _next(y, (low, high, last), value, rate * math.exp(y))
+        if ends and value < 0 and _in_vain(low, high, value, rate):
+            return math.nan
         if last == 0:
             break
     return math.nan if ends else start + math.exp(y)
@@ -343,11 +363,11 @@ def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float) -> float:
 @kernel(results(2)(LAW, vector, vector, GOAL, real))
 def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
     """The contact by one root inside the other; NaN where there is none."""
-    start, end = -goal.place, math.inf
+    start, end, c = -goal.place, math.inf, math.nan
     for i in range(breaks.size - 1, -1, -1):
         at = -breaks[i]
         if start < at < end:
-            c = _right_edge(law, own, breaks, goal, at)
+            c = _right_edge(law, own, breaks, goal, at, c)
             if _loaded(law, own, goal, at, c)[0] < 0:
                 start = at
             else:
@@ -358,7 +378,7 @@ def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
     else:
         for _ in range(STEPS):
             a = start + far
-            c = _right_edge(law, own, breaks, goal, a)
+            c = _right_edge(law, own, breaks, goal, a, c)
             if not _loaded(law, own, goal, a, c)[0] < 0:
                 break
             far *= growth
@@ -367,17 +387,19 @@ def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
                 return math.nan, math.nan
     low = math.log(max(EPS * abs(start), 1e-40 * far))
     high = math.log(far)
-    y, last = (low + high) / 2, high - low
+    y, last, ends = (low + high) / 2, high - low, False
     a = c = math.nan
     for _ in range(STEPS):
         a = start + math.exp(y)
-        c = _right_edge(law, own, breaks, goal, a)
+        c = _right_edge(law, own, breaks, goal, a, c)
         value, rate = _loaded(law, own, goal, a, c)
         if value < 0:
             low = y
         else:
-            high = y
+            high, ends = y, value == math.inf
         y, last = _next(y, (low, high, last), value, rate * math.exp(y))
+        if ends and value < 0 and _in_vain(low, high, value, rate):
+            return math.nan, math.nan
         if last == 0:
             break
     return a, c
@@ -392,6 +414,8 @@ def level(law: Any, own: Any, alpha: float) -> float:
 
     At a corner if the tilt lies between its slopes; in the middle of a flat.
     """
+    if not abs(alpha) < math.inf:
+        return math.nan
     before, beyond = -math.inf, math.inf  # slopes downward left of the one, upward from the other
     for at in law.breaks(own):
         if law.slope(np.nextafter(at, -math.inf), own)[0] + alpha <= 0:
@@ -450,6 +474,8 @@ def _judged(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
         return math.inf, math.nan
     load, _, tilt, left, right = now
     short, off = _short(goal, a, c, now)
+    if not (abs(short) < math.inf and abs(off) < math.inf):
+        return math.inf, math.nan
     edges = math.pi / 4 * EPS * math.sqrt(h) * (left * abs(a) + right * abs(c)) / load
     given = EPS * (abs(goal.tilt) * h / load if goal.held else abs(goal.place) / h)
     rest = max(abs(short) - 16 * edges, (abs(off) - 16 * (edges + given)) / 16, 0.0)

@@ -27,6 +27,9 @@ from .quadrature import FINEST, both_pressures, reaches, slip_zone
 EXACT = 1e-12
 """Slip zones by two rules that agree to this are exact to rounding by the finer one."""
 
+LAST = 100.0
+"""The finest rule is far better than what it changes: it is taken if it changes so much more."""
+
 SMALL = 1e-9
 """After a step below this, compared with the slip zone, the next one is below rounding,"""
 
@@ -305,10 +308,11 @@ def large_slip(law: Any, own: Any, cycle: Any, agreed: float) -> Any:
             return left, right
         off_left, off_right = abs(left - last_left), abs(right - last_right)
         known = left < math.inf
+        nearly = agreed if level < FINEST else LAST * agreed
         if (
             known
-            and off_left <= agreed * left + rounding
-            and off_right <= agreed * right + rounding
+            and off_left <= nearly * left + rounding
+            and off_right <= nearly * right + rounding
         ):
             return left, right
         last_left, last_right = left, right

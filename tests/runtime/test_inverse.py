@@ -1,0 +1,276 @@
+"""The contact from loads: closed forms, put back, what cannot be, and the fallback alone."""
+
+import math
+
+import numpy as np
+import pytest
+
+from derive.runtime import inverse
+from derive.runtime.inverse import each_contact, each_contact_at_tilt
+from derive.runtime.kernels import BREAKS, LOOP, SLOPE, STATE, Law, handed, kernel, opened
+from tests.runtime.laws import Case, flat_rounded, hertz, wedge
+
+NOTHING = (math.nan, math.nan, math.nan, math.nan, math.nan)
+
+
+# ---------------------------------------------------------------- a cubic body, g = |x|**3/3
+
+
+@kernel(STATE)
+def _cubic_state(a, c, own):
+    h, mid, q = a + c, (c - a) / 2, (a + c) / 2
+    if not h > 0:
+        return NOTHING
+    t = math.acos(min(max(-mid / q, -1.0), 1.0))
+    S, C = math.sin(t), math.cos(t)
+    # from 0 to t less from t to pi: int cos**k, and int sin**2 cos**k
+    I0, I1, I2 = 2 * t - math.pi, 2 * S, t + S * C - math.pi / 2
+    J0, J1 = t - S * C - math.pi / 2, 2 * S**3 / 3
+    J2 = t / 4 - math.sin(4 * t) / 16 - math.pi / 8
+    load = q * q * (mid * J0 + q * J1)
+    moment = -load * mid - q**3 * (mid * J1 + q * J2) / 2
+    alpha = -(mid * mid * I0 + 2 * mid * q * I1 + q * q * I2) / math.pi
+    even, odd = mid * I0 + q * I1, mid * I1 + q * I2
+    scale = math.sqrt(h) / math.pi
+    return load, moment, alpha, scale * (even - odd), scale * (even + odd)
+
+
+@kernel(SLOPE)
+def _cubic_slope(x, own):
+    return x * abs(x), 2 * abs(x)
+
+
+# ---------------------------------------------------------------- a cylinder cut off at x = -1, 1
+
+
+@kernel(STATE)
+def _cut_state(a, c, own):
+    h = a + c
+    if not h > 0:
+        return NOTHING
+    if a > 1 or c > 1:
+        return math.inf, math.nan, math.nan, math.inf, math.inf
+    load, K = math.pi * h * h / 16, math.sqrt(h) / 2
+    return load, load * (a - c) / 2, (a - c) / 2, K, K
+
+
+@kernel(SLOPE)
+def _cut_slope(x, own):
+    return x, 1.0
+
+
+@kernel(BREAKS)
+def _no_breaks(own):
+    return np.empty(0)
+
+
+def _case(state, slope) -> Case:
+    functions = Law(hertz.functions.pressure, state, slope, hertz.functions.series, _no_breaks)
+    return Case(handed(functions), functions, np.ones(2))
+
+
+cubic, cut = _case(_cubic_state, _cubic_slope), _case(_cut_state, _cut_slope)
+wide_flat = flat_rounded._replace(own=np.array([1e12, 1e12]))
+narrow_flat = flat_rounded._replace(own=np.array([1e-12, 3e-12]))
+
+
+@kernel(LOOP)
+def _each_level(law, given, own, out):
+    law = opened(law)
+    for i in range(given.shape[0]):
+        out[i, 0] = inverse.level(law, own[i], given[i, 0])
+
+
+def solved(case, P, second, loop=each_contact, count=3):
+    given = np.stack(np.broadcast_arrays(np.asarray(P, float), second), axis=1)
+    out = np.empty((len(given), count))
+    loop(case.law, given, np.tile(case.own, (len(given), 1)), out)
+    return out.T
+
+
+def at_tilt(case, P, alpha):
+    return solved(case, P, alpha, each_contact_at_tilt, 2)
+
+
+def level(case, *tilts):
+    return solved(case, tilts, 0.0, _each_level, 1)[0]
+
+
+def states(case, a, c):
+    return np.array([case.functions.state(*edges, case.own) for edges in zip(a, c, strict=True)]).T
+
+
+def spread(low, high, count=200, seed=0):
+    """Numbers of either sign, evenly spread in their logarithm."""
+    random = np.random.default_rng(seed)
+    return 10 ** random.uniform(low, high, count) * random.choice([-1, 1], count)
+
+
+# ---------------------------------------------------------------- closed forms
+
+
+def test_of_a_cylinder():
+    P, centre = abs(spread(-12, 12)), spread(-2, 2, seed=1)
+    half = 2 * np.sqrt(P / math.pi)
+    centre *= half
+    a, c, alpha = solved(hertz, P, -P * centre)
+    np.testing.assert_allclose(a / half, 1 - centre / half, atol=1e-12)
+    np.testing.assert_allclose(c / half, 1 + centre / half, atol=1e-12)
+    np.testing.assert_allclose(alpha, -centre, rtol=1e-12)
+    a, c = at_tilt(hertz, P, -centre)
+    np.testing.assert_allclose([a, c] / half, [1 - centre / half, 1 + centre / half], atol=1e-12)
+
+
+def test_of_a_wedge():
+    """P = phi sqrt(a c), M = P (a - c)/4: the nearer edge keeps its digits, too."""
+    P, lean = abs(spread(-12, 12)), spread(-9, 6, seed=1)
+    root = np.hypot(2 * lean, 1.0)
+    far = P * (np.abs(2 * lean) + root)
+    a, c, alpha = solved(wedge, P, P * P * lean)
+    np.testing.assert_allclose(np.maximum(a, c), far, rtol=1e-14)
+    np.testing.assert_allclose(np.minimum(a, c), P * P / far, rtol=1e-12)
+    assert np.array_equal(a > c, lean > 0)
+    np.testing.assert_allclose(alpha, 2 / math.pi * np.arctan(2 * lean), rtol=1e-12, atol=1e-15)
+
+
+@pytest.mark.parametrize("short_of", [0.5, 1e-3, 1e-6, 1e-9])
+def test_of_a_wedge_tilted_nearly_to_its_flank(short_of):
+    """alpha = phi (1 - (4/pi) atan sqrt(c/a)); rounding of alpha counts 1/short_of times."""
+    quotient = math.tan(math.pi / 4 * short_of)
+    a, c = at_tilt(wedge, [1.0, 1e-9, 1e9], 1 - short_of)
+    np.testing.assert_allclose(c / [1.0, 1e-9, 1e9], quotient, rtol=1e-15 / short_of + 1e-13)
+    np.testing.assert_allclose(a * c, np.square([1.0, 1e-9, 1e9]), rtol=1e-12)
+
+
+# ---------------------------------------------------------------- put back
+
+
+@pytest.mark.parametrize("case", [flat_rounded, wide_flat, narrow_flat, cubic])
+def test_the_contact_carries_what_is_asked(case):
+    size = case.own[1]
+    P, centre = abs(spread(-3, 3)) * size, spread(-3, 1, seed=1) * size
+    a, c, alpha = solved(case, P, -P * centre)
+    load, moment, tilt, *_ = states(case, a, c)
+    np.testing.assert_allclose(load, P, rtol=1e-11)
+    np.testing.assert_allclose(-moment / load, centre, rtol=1e-11, atol=1e-12 * size)
+    np.testing.assert_allclose(alpha, tilt, rtol=1e-13, atol=1e-13)
+
+    asked = spread(-3, 0, seed=2)
+    a, c = at_tilt(case, P, asked)
+    load, _, tilt, *_ = states(case, a, c)
+    np.testing.assert_allclose(load, P, rtol=1e-11)
+    np.testing.assert_allclose(tilt, asked, rtol=1e-11, atol=1e-12)
+
+
+def test_a_contact_hangs_on_one_shoulder():
+    """A cylinder alone then: centre b + alpha R away."""
+    R, b = flat_rounded.own
+    P, centre = 0.01, np.array([1.5, -1.5, 40.0])
+    a, c, alpha = solved(flat_rounded, P, -P * centre)
+    assert np.all((c < -b) | (a < -b))
+    np.testing.assert_allclose((c - a) / 2, centre, rtol=1e-12)
+    np.testing.assert_allclose(a + c, 4 * math.sqrt(R * P / math.pi), rtol=1e-10)
+    np.testing.assert_allclose(alpha, -np.sign(centre) * (np.abs(centre) - b) / R, rtol=1e-12)
+
+
+def test_edges_lie_just_beyond_kinks():
+    """P = (2 sqrt(2)/3) b**2 (a/b - 1)**1.5/R to first order; the test's law loses the rest."""
+    P = 2 * math.sqrt(2) / 3 * 1e-5**1.5
+    ((a,), (c,), (alpha,)) = solved(flat_rounded, [P], 0.0)
+    assert a == pytest.approx(c, abs=1e-13) and alpha == pytest.approx(0.0, abs=1e-12)
+    assert a - 1 == pytest.approx(1e-5, rel=1e-5)
+
+
+@pytest.mark.parametrize("case", [wedge, flat_rounded, cubic])
+def test_mirrored(case):
+    P, M = abs(spread(-2, 2, 50)), spread(-2, 1, 50, seed=1)
+    a, c, alpha = solved(case, P, M)
+    other_a, other_c, other_alpha = solved(case, P, -M)
+    size = 1e-12 * (a + c + np.abs(M / P))
+    assert np.all(np.abs(other_a - c) < size) and np.all(np.abs(other_c - a) < size)
+    np.testing.assert_allclose(other_alpha, -alpha, rtol=1e-10, atol=1e-12)
+
+
+# ---------------------------------------------------------------- what cannot be
+
+
+def test_there_is_no_contact():
+    bad = [0.0, -1.0, math.inf, math.nan]
+    for case in (hertz, wedge, flat_rounded):
+        assert np.all(np.isnan(solved(case, bad, 0.1))) and np.all(np.isnan(at_tilt(case, bad, 0)))
+        assert np.all(np.isnan(solved(case, 1.0, [math.inf, math.nan])))
+        assert np.all(np.isnan(at_tilt(case, 1.0, [math.inf, math.nan])))
+    assert np.all(np.isnan(at_tilt(wedge, 1.0, [1.0, -1.0, 2.0, -1e9])))
+    # longer than lengths count; an edge far from the origin is rounded off
+    assert np.all(np.isnan(solved(wedge, [1e76, 1e-76], 0.0)))
+    assert np.all(np.isnan(solved(hertz, 1.0, [1e14])))
+
+
+def test_a_body_ends():
+    random = np.random.default_rng(0)
+    P, centre = 10 ** random.uniform(-6, 0, 300), random.uniform(-1.1, 1.1, 300)
+    half = 2 * np.sqrt(P / math.pi)
+    fits = half + np.abs(centre) < 1
+    assert 100 < fits.sum() < 280
+    for a, c in (solved(cut, P, -P * centre)[:2], at_tilt(cut, P, -centre)):
+        assert np.array_equal(np.isnan(a), ~fits)
+        np.testing.assert_allclose(a[fits], (half - centre)[fits], atol=1e-12)
+        np.testing.assert_allclose(c[fits], (half + centre)[fits], atol=1e-12)
+
+
+def test_level_places():
+    assert level(hertz, 0.25, 0.0, -1e9) == pytest.approx([-0.25, 0.0, 1e9], rel=1e-14)
+    assert level(cubic, 4e-20, -9e20) == pytest.approx([-2e-10, 3e10], rel=1e-13)
+    assert level(flat_rounded, 0.0, 0.5, -7.0) == pytest.approx([0.0, -1.5, 8.0], rel=1e-14)
+    assert np.array_equal(level(wedge, 0.0, 0.9, -0.9, 1.0), np.zeros(4))
+    assert np.all(np.isnan(level(wedge, 1.1, -3.0, math.nan)))
+
+
+# ---------------------------------------------------------------- as plain Python
+
+
+@pytest.fixture
+def plain(monkeypatch):
+    """The module with its kernels as plain Python; and laws so."""
+    for name, value in vars(inverse).copy().items():
+        if hasattr(value, "py_func"):
+            monkeypatch.setattr(inverse, name, value.py_func)
+    return lambda case: Law(*(getattr(f, "py_func", f) for f in case.functions))
+
+
+CASES = [
+    (hertz, 1.0, -3.0),
+    (wedge, 1.0, 0.7),
+    (wedge, 1e-9, 1e-3),
+    (flat_rounded, 0.01, 0.005),
+    (flat_rounded, 0.01, 0.02),
+    (flat_rounded, 20.0, -9.0),
+    (cubic, 3.0, 1.0),
+    (cut, 0.1, 0.03),
+    (cut, 0.1, 0.09),
+]
+
+
+def test_plain_python_gives_the_same(plain):
+    for case, P, M in CASES:
+        given = solved(case, [P], M)[:, 0]
+        found = inverse.contact(plain(case), case.own, P, M)
+        assert found == pytest.approx(given, rel=1e-13, abs=1e-14, nan_ok=True)
+        given = at_tilt(case, [P], M)[:, 0]
+        found = inverse.contact_at_tilt(plain(case), case.own, P, M)
+        assert found == pytest.approx(given, rel=1e-13, abs=1e-14, nan_ok=True)
+
+
+def test_from_brackets_alone_it_is_the_same(plain):
+    """Newton's steps come last then; where a body is left, there is nothing to start them from."""
+    for case, P, M in CASES:
+        law, own = plain(case), case.own
+        breaks = law.breaks(own)
+        by_moment = inverse.Goal(P, -M / P, 0.0, False)
+        by_tilt = inverse.Goal(P, inverse.level(law, own, M), M, True)
+        wanted = solved(case, [P], M)[:2, 0], at_tilt(case, [P], M)[:, 0]
+        for goal, edges in zip((by_moment, by_tilt), wanted, strict=True):
+            if not math.isnan(goal.place):
+                found = inverse._nested(law, own, breaks, goal, P)
+                found = inverse._newton(law, own, breaks, goal, *found)
+                np.testing.assert_allclose(found, edges, rtol=1e-11)
