@@ -305,13 +305,34 @@ def generate(
     help="How the findings are written.",
 )
 @click.option("--explain", metavar="LABEL", help="One claim: the steps and the numbers.")
-def check(file: Path | None, form: str, explain: str | None) -> None:
+@click.option(
+    "--accept",
+    "accepting",
+    is_flag=True,
+    help="Show what was understood of FILE's LaTeX, one by one; write what you accept into it.",
+)
+@click.option(
+    "--draft",
+    "drafted",
+    type=click.Path(path_type=Path),
+    metavar="NEW",
+    help="FILE is a paper in LaTeX: read its displays, and write the claims file NEW.",
+)
+def check(
+    file: Path | None, form: str, explain: str | None, accepting: bool, drafted: Path | None
+) -> None:
     """Check a paper's algebra: what is printed against what follows, claim by claim.
 
     Without FILE the paper by Andresen, Fleury, Moore and Hills (2020); FILE is a claims file of
     one's own in TOML, as in examples/; docs/claims.md lists what it may hold.  Leaves with 1 if a
     verdict is not the one expected.
     """
+    if drafted is not None:
+        _draft(file, drafted)
+        return
+    if accepting:
+        _accept(file, explain)
+        return
     from derive import view
     from derive.paper import report
     from derive.paper.verdict import check as judged
@@ -338,6 +359,54 @@ def check(file: Path | None, form: str, explain: str | None) -> None:
         labels = ", ".join(finding.claim.label for finding in wrong)
         _complain("Not as expected", labels)
         sys.exit(FELL_SHORT)
+
+
+def _draft(file: Path | None, new: Path) -> None:
+    """Read a paper's displays and write them down as claims."""
+    from derive.paper.draft import draft, write
+
+    if file is None:
+        raise click.UsageError("--draft goes with a paper: give FILE, in LaTeX")
+    if new.exists():
+        raise click.UsageError(f"{new} is there already: name a new file by --draft")
+    with _console(stderr=True).status("reading the displays"):
+        made = draft(file)
+    write(made, new)
+    click.echo(f"{made.environments} displays, {len(made.parts)} statements in them")
+    click.echo(f"Wrote {_shown(new.absolute())}: {made.understood} read")
+    for line in made.unread:
+        click.echo(f"not read: {line}")
+
+
+def _accept(file: Path | None, label: str | None) -> None:
+    """Ask for each reading that waits, then write those accepted."""
+    from derive.paper.accept import accept
+    from derive.paper.userfile import open_readings
+
+    if file is None or label is not None:
+        raise click.UsageError("--accept goes with FILE and without --explain: give a claims file")
+    readings = open_readings(file)
+    accepted = []
+    for number, reading in enumerate(readings, 1):
+        click.echo(f"\n{number} of {len(readings)}: {reading.label}")
+        click.echo(f"  LaTeX       {reading.latex.strip()}")
+        click.echo(f"  understood  {reading.understood}")
+        if reading.accepted:
+            click.echo(f"  the file has {reading.accepted}")
+        answer = click.prompt(
+            "Is that what is printed?",
+            type=click.Choice(["y", "n", "q"]),
+            default="n",
+            show_default=True,
+        )
+        if answer == "q":
+            break
+        if answer == "y":
+            accepted.append(reading)
+    if accepted:
+        accept(file, accepted)
+    left = len(readings) - len(accepted)
+    click.echo(f"{len(accepted)} accepted, {left} left")
 
 
 def _paper(file: Path | None, label: str | None) -> "Paper":

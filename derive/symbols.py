@@ -96,7 +96,8 @@ _USED_BESIDES = (
     *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),
     *("Contact", "Edges", "StickZone", "Threshold", "Regime", "March"),
     *("stick_margin", "shear", "shear_change", "slip_error", "slip_range", "slip_terms"),
-    *("closing_tension", "march", "full_stick", "runtime"),
+    *("closing_tension", "march", "history", "steady_cycle", "full_stick", "runtime"),
+    *("History", "SteadyCycle", "public", "tol"),
 )
 
 RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_USED_BESIDES)

@@ -13,8 +13,19 @@ from .runtime import cycle
 from .runtime.arrays import elementwise
 from .runtime.body import Body, Parameter
 from .runtime.elementary import LEAST, MOST, where
+from .runtime.history import public
 from .runtime.shared import by_position
-from .runtime.types import Array, Contact, Edges, March, Regime, StickZone, Threshold
+from .runtime.types import (
+    Array,
+    Contact,
+    Edges,
+    History,
+    March,
+    Regime,
+    SteadyCycle,
+    StickZone,
+    Threshold,
+)
 
 __all__ = [
     "K_N",
@@ -23,13 +34,16 @@ __all__ = [
     "L_T",
     "Contact",
     "Edges",
+    "History",
     "March",
     "Regime",
+    "SteadyCycle",
     "StickZone",
     "Threshold",
     "closing_tension",
     "contact",
     "contact_at_tilt",
+    "history",
     "load",
     "march",
     "moment",
@@ -39,6 +53,7 @@ __all__ = [
     "slip_error",
     "slip_range",
     "slip_zones",
+    "steady_cycle",
     "stick_margin",
     "stick_zone",
     "tension_threshold",
@@ -313,3 +328,5 @@ shear_change = _BODY.bound(cycle.shear_change)
 shear = _BODY.bound(cycle.shear)
 slip_range = _BODY.bound(cycle.slip_range)
 march = _BODY.bound(cycle.march)
+history = _BODY.bound(public.history)
+steady_cycle = _BODY.bound(public.steady_cycle)

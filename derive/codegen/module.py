@@ -24,24 +24,29 @@ from derive.codegen.third import third_text
 from derive.notation import text_of
 from derive.runtime import segments
 from derive.runtime.cycle import CYCLE
+from derive.runtime.history.public import HISTORIES
 from derive.runtime.shared import SHARED
 from derive.sheet import FormulaSheet
+
+_KINDS = (
+    *("Contact", "Edges", "History", "March", "Regime"),
+    *("SteadyCycle", "StickZone", "Threshold"),
+)
+"""Types of results, which a module offers beside its functions."""
 
 _HELPERS = {
     "arrays": ("elementwise",),
     "body": ("Asked", "Body", "Parameter"),
     "cycle": ("integrated",),
     "elementary": ("LEAST", "MOST", "TINY", "kink_logarithm", "where"),
+    "history": ("public",),
     "kernels": ("BREAKS", "PRESSURE", "SERIES", "SLOPE", "STATE", "kernel"),
     "pieces": ("BESIDE_BREAK", "curve_of"),
     "segments": tuple(n for n, f in vars(segments).items() if f in SHARED),
     "shared": ("by_position", "shared"),
-    "types": ("Array", "Contact", "Edges", "March", "Regime", "StickZone", "Threshold"),
+    "types": ("Array", *_KINDS),
 }
 """What the modules of runtime/ offer to a body's."""
-
-_KINDS = ("Contact", "Edges", "March", "Regime", "StickZone", "Threshold")
-"""Types of results, which a module offers beside its functions."""
 
 _TEXTS = {
     Route.FORMULA: FunctionText,
@@ -61,9 +66,16 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     heading = f"{title}\n\n{textwrap.fill(origin, LINE, subsequent_indent=' ' * 4)}"
     solved = [f.name for f in CONTRACT if route_of(sheet, f) is Route.SOLVED]
     bound = [*solved, *(function.__name__ for function in CYCLE)]
-    names = sorted([*(f.name for f in CONTRACT), *bound[len(solved) :], *_KINDS], key=_order)
+    histories = [function.__name__ for function in HISTORIES]
+    names = [*(f.name for f in CONTRACT), *bound[len(solved) :], *histories, *_KINDS]
+    names.sort(key=_order)
     code = "\n\n".join(_functions(sheet, source))
-    cycle = "\n".join(f"{name} = _BODY.bound(cycle.{name})" for name in bound)
+    cycle = "\n".join(
+        [
+            *(f"{name} = _BODY.bound(cycle.{name})" for name in bound),
+            *(f"{name} = _BODY.bound(public.{name})" for name in histories),
+        ]
+    )
     stuck = [f.name for f in CONTRACT if not f.geometric]
     return formatted(f'''{MARK}
 """{inside_quotes(heading)}
@@ -75,7 +87,7 @@ import numpy as np
 
 from .{FULL_STICK} import {", ".join(stuck)}
 from .runtime import {"cycle, pieces" if "pieces." in code else "cycle"}
-{_imports(code, _KINDS)}
+{_imports(code, (*_KINDS, "public"))}
 
 __all__ = {names}
 

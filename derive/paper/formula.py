@@ -67,6 +67,10 @@ class Names:
     calls: Mapping[str, int]
 
 
+class UnknownName(BadFormula):
+    """A formula that holds a name of which nothing is known yet."""
+
+
 def equation(text: str, names: Names) -> tuple[Expr, Relation, Expr]:
     """Both sides, and what stands between them; raises BadFormula."""
     found = list(_RELATION.finditer(text))
@@ -81,6 +85,13 @@ def equation(text: str, names: Names) -> tuple[Expr, Relation, Expr]:
     relation = Relation(_MEANT.get(found[0].group(), found[0].group()))
     left = formula(text[:start], names)
     return left, relation, formula(" " * end + text[end:], names)
+
+
+def unknown(text: str, names: Names) -> list[str]:
+    """All names of a text of which nothing is known."""
+    known = {"pi", _INTEGRAL, *_OF_SYMPY, *names.symbols, *names.calls}
+    found = re.findall(r"(?<![0-9.A-Za-z_])[A-Za-z_][A-Za-z0-9_]*", text)
+    return sorted(set(found) - known)
 
 
 def formula(text: str, names: Names) -> Expr:
@@ -167,7 +178,8 @@ class _Reader:
             return pi
         if token.text not in self.names.symbols:
             known = ", ".join(sorted(self.names.symbols))
-            raise self._refusal(f"nothing says what {token.text} is", f"known are {known}", token)
+            why, remedy = f"nothing says what {token.text} is", f"known are {known}"
+            raise UnknownName(self.names.where, self.text, token.column, why, remedy)
         return self.names.symbols[token.text]
 
     def _call(self, name: Token) -> Expr:

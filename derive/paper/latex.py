@@ -14,6 +14,7 @@ what goes on is that text, which the claims file must accept.
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from importlib.util import find_spec
 
 from sympy import Expr, Symbol, sstr
@@ -22,7 +23,7 @@ from sympy.core.function import AppliedUndef
 from derive.errors import BadClaimsFile, BadFormula
 from derive.paper.claim import Relation
 
-_LONGEST = 400
+_LONGEST = 2000
 """Characters that an equation may have: an ambiguous grammar is slow on long ones."""
 
 _TOKEN = re.compile(
@@ -31,9 +32,11 @@ _TOKEN = re.compile(
 _SPACES = frozenset((r"\,", r"\;", r"\:", r"\!", r"\ ", r"\quad", r"\qquad", r"\left", r"\right"))
 _FUNCTIONS = {
     rf"\{name}": name for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")
-} | {r"\arcsin": "asin", r"\arccos": "acos", r"\arctan": "atan", r"\ln": "log"}
+} | {r"\arcsin": "asin", r"\arccos": "acos", r"\arctan": "atan", r"\ln": "log", r"\sgn": "sign"}
 _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac", r"\nicefrac")
-_COMMANDS = frozenset((*_FUNCTIONS, *_FRACTIONS, r"\sqrt", r"\cdot", r"\times"))
+_COMMANDS = frozenset(
+    (*_FUNCTIONS, *_FRACTIONS, r"\sqrt", r"\cdot", r"\times", r"\int", r"\dd", "_")
+)
 _CLOSING = {"(": ")", "{": "}", "[": "]"}
 _ENDS = frozenset(("+", "-", ")", "}", "]", "|"))
 """What may follow the argument of a function."""
@@ -51,6 +54,7 @@ _RELATIONS = {
     r"\leq": "<=",
     r"\ge": ">=",
     r"\geq": ">=",
+    **dict.fromkeys((r"\sim", r"\simeq", r"\approx", r"\cong"), "~"),
 }
 
 
@@ -108,7 +112,12 @@ class Latex:
             if not found.group().isspace() and found.group() not in _SPACES
         ]
         marked, place = [], 0
+        integrates = any(piece.text == r"\int" for piece in pieces)
         while place < len(pieces):
+            if integrates and pieces[place].text == r"\dd":
+                marked.append(pieces[place])
+                place += 1
+                continue
             length, name = self._longest(pieces, place)
             if length:
                 marked.append(_Piece(f"={name}", pieces[place].column, length))
@@ -121,16 +130,19 @@ class Latex:
     def _longest(self, pieces: list[_Piece], place: int) -> tuple[int, str]:
         """The longest declared symbol that starts here."""
         best = (0, "")
-        for spelling, name in self._tokens_of_spellings():
+        for spelling, name in self._cut:
             length = len(spelling)
             if length > best[0] and [p.text for p in pieces[place : place + length]] == spelling:
                 best = (length, name)
         return best
 
-    def _tokens_of_spellings(self) -> Iterator[tuple[list[str], str]]:
-        for spelling, name in self.spellings.items():
-            found = [t for t in _TOKEN.findall(spelling) if not t.isspace() and t not in _SPACES]
-            yield found, name
+    @cached_property
+    def _cut(self) -> list[tuple[list[str], str]]:
+        """The tokens of every spelling."""
+        return [
+            ([t for t in _TOKEN.findall(spelling) if not t.isspace() and t not in _SPACES], name)
+            for spelling, name in self.spellings.items()
+        ]
 
     def _known(self, piece: _Piece) -> _Piece:
         text = piece.text
@@ -304,13 +316,52 @@ class Latex:
             piece, end = pieces[place], place + 1
             if piece.text in _FUNCTIONS:
                 piece, end = self._application(pieces, place)
+            elif piece.text == r"\int":
+                piece, end = self._integral(pieces, place)
+            elif piece.text in ("_", r"\dd"):
+                raise self._refusal(piece.column, f"{piece.text} cannot stand here", "leave it out")
             made.append(piece)
             place = end
         return made
 
+    def _integral(self, pieces: list[_Piece], place: int) -> tuple[_Piece, int]:
+        r"""An integral, up to its differential, which is written \dd s, and where it ends."""
+        head, limits, at = pieces[place], dict[str, str](), place + 1
+        while at + 1 < len(pieces) and pieces[at].text in ("_", "^") and len(limits) < 2:
+            end = self._group(pieces, at + 1)
+            inner = pieces[at + 1 : end]
+            inner = inner[1:-1] if inner[0].text == "{" else inner
+            if pieces[at].text in limits or not inner:
+                break
+            limits[pieces[at].text] = self._side(inner)
+            at = end
+        if len(limits) != 2:
+            raise self._refusal(head.column, "this integral has not both limits", "write them")
+        depth = 0
+        for end in range(at, len(pieces)):
+            text = pieces[end].text
+            depth += (text in _CLOSING) - (text in _CLOSING.values())
+            if depth < 0 or text == r"\int":
+                break
+            if depth == 0 and text == r"\dd":
+                along = pieces[end + 1] if end + 1 < len(pieces) else _NOTHING
+                if not along.is_mark or along.is_number:
+                    break
+                inside = "1" if end == at else self._side(pieces[at:end])
+                low, high = limits["_"], limits["^"]
+                name = f"=integral({inside}, {along.text[1:]}, {low}, {high})"
+                return _Piece(name, head.column), end + 2
+        why = "where this integral ends is unclear"
+        raise self._refusal(head.column, why, "end it by its differential, as \\mathrm{d}s")
+
     def _application(self, pieces: list[_Piece], place: int) -> tuple[_Piece, int]:
         """A function with its argument, and where it ends."""
-        head, (power, start) = pieces[place], self._power(pieces, place + 1)
+        head = pieces[place]
+        if name := _inverse(pieces[place : place + 6]):
+            power, start = "", place + 6
+        else:
+            name = _FUNCTIONS[head.text]
+            power, start = self._power(pieces, place + 1)
         if start == len(pieces):
             raise self._refusal(len(self.text), f"{head.text} has no argument", "write it")
         end = self._argument(pieces, start)
@@ -319,7 +370,7 @@ class Latex:
             inner = inner[1:-1]
         if not inner:
             raise self._refusal(head.column, f"{head.text} has no argument", "write it")
-        return _Piece(f"={_FUNCTIONS[head.text]}({self._side(inner)}){power}", head.column), end
+        return _Piece(f"={name}({self._side(inner)}){power}", head.column), end
 
     def _power(self, pieces: list[_Piece], place: int) -> tuple[str, int]:
         """The power of a function that stands before its argument: a whole number from 2 on."""
@@ -402,6 +453,17 @@ class Latex:
 
     def _refusal(self, column: int, why: str, remedy: str) -> BadFormula:
         return BadFormula(self.where, self.text, column, why, remedy)
+
+
+_NOTHING = _Piece("", 0)
+
+
+def _inverse(pieces: list[_Piece]) -> str:
+    r"""The function that \sin^{-1} and its like are by custom; empty if these are none."""
+    texts = [piece.text for piece in pieces]
+    if texts[1:] not in (["^", "{", "-", "=1", "}"],):
+        return ""
+    return {r"\sin": "asin", r"\cos": "acos", r"\tan": "atan"}.get(texts[0], "")
 
 
 def _letters(number: int) -> str:

@@ -20,7 +20,7 @@ _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
 
 def printed(claim: Claim) -> str:
     """The printed equation as text; empty for a claim without one."""
-    return "" if claim.unchecked else claim.source or _text(claim, claim.relation)
+    return claim.source if claim.unchecked else claim.source or _text(claim, claim.relation)
 
 
 def _text(equation: Claim | Repair, relation: Relation) -> str:
@@ -129,6 +129,15 @@ def errata(findings: Iterable[Finding]) -> list[Finding]:
     return [finding for finding in findings if finding.verdict in wrong]
 
 
+def reasons(findings: Iterable[Finding]) -> list[str]:
+    """Why claims were not checked, one line each."""
+    return [
+        f"{finding.claim.label}: unchecked, {finding.judged.why}"
+        for finding in findings
+        if finding.verdict == Verdict.UNCHECKED
+    ]
+
+
 def consequence(finding: Finding) -> str:
     """What the error does to a user's numbers; computed when it is asked for."""
     tell = finding.claim.consequence
@@ -172,6 +181,7 @@ def as_json(findings: Iterable[Finding]) -> str:
             "printed": printed(finding.claim),
             "corrected": corrected(finding),
             "evidence": evidence(finding),
+            "reason": finding.judged.why,
             "consequence": consequence(finding) or None,
         }
         for finding in findings
@@ -193,6 +203,8 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
     if told_signs := signs(paper, findings):
         lines += ["", "## Signs, section by section", ""]
         lines += [f"- {line}" for line in told_signs]
+    if open_claims := reasons(findings):
+        lines += ["", "## Not checked", "", *(f"- {line}" for line in open_claims)]
     lines += ["", "## Errata", ""]
     for finding in errata(findings):
         lines += [f"### {finding.claim.place}: {finding.claim.says}", ""]

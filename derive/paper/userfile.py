@@ -18,6 +18,8 @@
     label = "half-width"
     place = "eq. (3)"
     printed = "a**2 = 4*P*R/(pi*E_star)"       # or latex = '...' and understood = "..."
+    part = 1                                   # which statement of a display in LaTeX
+    accepted = true                            # false in a draft: nobody has accepted it yet
     expected = "fails"                         # if it is known
     symbols = { M = "-moment(l, l)" }          # for this claim alone
     conventions = [{ what = "...", symbols = { ... }, contradicts = "..." }]
@@ -26,8 +28,10 @@ The body's parameters, E_star and f are variables from the start; x, s and xi ar
 both sides of zero where [variables] gives them no range of their own.
 """
 
+import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -37,7 +41,7 @@ from sympy import Expr, Integral, Symbol
 from sympy.core.function import AppliedUndef
 
 from derive.derivation import derive_sheet
-from derive.errors import BadClaimsFile, NotAccepted
+from derive.errors import BadClaimsFile, NotAccepted, UserError
 from derive.library import is_in_library, library
 from derive.limit import LimitReached, within
 from derive.paper.bodies import at, formula
@@ -51,9 +55,12 @@ from derive.paper.claim import (
     Range,
     Verdict,
 )
-from derive.paper.formula import Names, equation, usable
+from derive.paper.formula import Names, UnknownName, equation, unknown, usable
 from derive.paper.formula import formula as read_formula
 from derive.paper.latex import Latex
+from derive.paper.lines import heads, line_of
+from derive.paper.mistakes import demand_none
+from derive.paper.statements import statements
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, e, f, x
 
@@ -68,24 +75,59 @@ _SECONDS = 30.0
 _MOST_SECONDS = 86_400
 _PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
 _KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims"})
+_OF_A_PROPOSAL = frozenset({"meaning", "proposal"})
 _OF_A_VARIABLE = frozenset({"meaning", "low", "high"})
 _OF_A_CONVENTION = frozenset({"what", "symbols", "contradicts"})
-_OF_A_CLAIM = frozenset(
-    ("label", "place", "says", "printed", "latex", "understood", "expected", "symbols")
-) | {"conventions", "unchecked"}
+_OF_A_CLAIM = (
+    frozenset(("label", "place", "says", "printed", "latex", "understood", "expected", "symbols"))
+    | {"part", "accepted"}
+    | {"conventions", "unchecked"}
+)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """LaTeX whose reading the file does not accept yet.
+
+    number  of the claim in the file, from 1
+    """
+
+    number: int
+    label: str
+    latex: str
+    understood: str
+    accepted: str
 
 
 def read_claims(path: Path) -> Paper:
-    """The claims of a file; raises BadClaimsFile, BadFormula or NotAccepted."""
-    return _File(str(path), _toml(path)).paper()
+    """The claims of a file.
+
+    Raises BadClaimsFile or BadFormula, and Mistakes where there are several.  A claim that lacks
+    something, an accepted reading or the meaning of a symbol, is there as unchecked.
+    """
+    return _file(path).paper()
 
 
-def _toml(path: Path) -> dict[str, Any]:
+def open_readings(path: Path) -> list[Reading]:
+    """Readings that wait for a person; raises as `read_claims`."""
+    file = _file(path)
+    file.paper()
+    return file.readings
+
+
+def _file(path: Path) -> "_File":
+    text, data = source(path)
+    return _File(str(path), data, text)
+
+
+def source(path: Path) -> tuple[str, dict[str, Any]]:
+    """A claims file as text and as data; raises BadClaimsFile."""
     remedy = "give a claims file as in examples/cattaneo_mindlin.toml"
     try:
         if path.stat().st_size > _LARGEST:
             raise BadClaimsFile(str(path), f"is larger than {_LARGEST} bytes", "split it")
-        return tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+        text = path.read_bytes().decode("utf-8-sig")
+        return text, tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise BadClaimsFile(str(path), f"is no TOML ({error})", remedy) from error
     except UnicodeDecodeError as error:
@@ -97,32 +139,82 @@ def _toml(path: Path) -> dict[str, Any]:
 
 @dataclass
 class _File:
-    """A claims file as it is read."""
+    """A claims file as it is read; mistakes are noted, and told together at the end."""
 
     name: str
     data: Mapping[str, Any]
+    text: str = ""
     ranges: dict[Symbol, Range] = field(default_factory=dict)
     variables: dict[str, Expr] = field(default_factory=dict)
+    mistakes: list[UserError] = field(default_factory=list)
+    readings: list[Reading] = field(default_factory=list)
 
     def paper(self) -> Paper:
         """All claims."""
         for text in _texts(self.data):
             if not text.replace("\n", "").replace("\t", "").isprintable():
-                raise self._bad(f"{text!r} holds a control character", "leave it out")
+                self.mistakes.append(
+                    self._bad(f"{text!r} holds a control character", "leave it out")
+                )
+        demand_none(self.mistakes)
         self._demand_known(self.data, _KEYS, "the file")
-        self.sheet, self.seconds = self._sheet(), self._limit()
+        self.sheet, self.seconds = None, _SECONDS
+        with self._noted():
+            self.sheet = self._sheet()
+        with self._noted():
+            self.seconds = self._limit()
         self.variables = {**_PLACES, "E_star": E_star, "f": f, **self._parameters()}
-        for name, said in self._table("variables").items():
-            self._declare(name, said)
+        with self._noted():
+            for name, said in self._table("variables").items():
+                with self._noted():
+                    self._declare(name, said)
+        self._read_symbols()
+        claims = self._claims()
+        demand_none(self.mistakes)
+        return Paper(str(self.data.get("title", self.name)), claims)
+
+    @contextmanager
+    def _noted(self) -> Iterator[None]:
+        """A block that is left at its first mistake, which is told in the end."""
+        try:
+            yield
+        except UserError as error:
+            self.mistakes.append(error)
+
+    def _read_symbols(self) -> None:
+        """[symbols] and [latex], each mistake in them once; those left empty wait for a person."""
+        self.symbols, self.common = dict[str, Any](), dict[Symbol, Expr]()
+        with self._noted():
+            self.symbols = self._table("symbols")
+        for name, text in self.symbols.items():
+            with self._noted():
+                line = line_of(self.text, "symbols", name)
+                where = f"{self.name}:{line}" if line else self.name
+                self._demand_name(name, ())
+                if name in self._parameters():
+                    why = f"{where}, the symbol {name!r} is a parameter of the body already"
+                    raise self._bad(why, "leave it out, or name the parameter's symbol otherwise")
+                self.common.update(self._meaning(f"{where}, symbols", {name: text}))
+        with self._noted():
+            self._spellings(self._names(self.name, self.symbols))
+
+    def _claims(self) -> tuple[Claim, ...]:
         given = self.data.get("claims", [])
         if not isinstance(given, list) or not given or len(given) > _MOST:
-            raise self._bad("has no [[claims]]", f"write one to {_MOST} of them")
-        claims = tuple(self._claim(number, each) for number, each in enumerate(given, start=1))
-        labels = [claim.label for claim in claims]
-        for label in labels:
-            if labels.count(label) > 1:
-                raise self._bad(f"two claims have the label {label!r}", "name each once")
-        return Paper(str(self.data.get("title", self.name)), claims)
+            self.mistakes.append(self._bad("has no [[claims]]", f"write one to {_MOST} of them"))
+            return ()
+        lines = heads(self.text, len(given))
+        made, labels = list[Claim](), set[str]()
+        for number, each in enumerate(given, start=1):
+            at = f"{self.name}:{lines[number - 1]}" if lines else self.name
+            with self._noted():
+                claim = self._claim(number, each, at)
+                if claim.label in labels:
+                    label = claim.label
+                    raise self._bad(f"{at}, two claims have the label {label!r}", "name each once")
+                labels.add(claim.label)
+                made.append(claim)
+        return tuple(made)
 
     def _sheet(self) -> FormulaSheet | None:
         from derive.library import load_geometry
@@ -159,7 +251,8 @@ class _File:
         return {q.name: q.symbol for q in self.sheet.geometry.parameters}
 
     def _declare(self, name: str, said: object) -> None:
-        where = f"variable {name!r}"
+        line = line_of(self.text, "variables", name)
+        where = f"{self.name}:{line}, variable {name!r}" if line else f"variable {name!r}"
         self._demand_name(name, self.variables.keys() - _PLACES.keys())
         if isinstance(said, str):
             self._drawn(name, SCALE, positive=True)
@@ -179,26 +272,38 @@ class _File:
         if span != SCALE or name in _PLACES:
             self.ranges[symbol] = span
 
-    def _claim(self, number: int, given: object) -> Claim:
+    def _claim(self, number: int, given: object, at: str) -> Claim:
         if not isinstance(given, dict):
-            raise self._bad(f"claim {number} is no table", "write [[claims]] before each")
-        self._demand_known(given, _OF_A_CLAIM, f"claim {number}")
-        label = self._text(given, "label", f"claim {number}")
-        where = f"{self.name}, claim {label!r}"
+            raise self._bad(f"{at}, claim {number} is no table", "write [[claims]] before each")
+        label = self._text(given, "label", f"{at}, claim {number}")
+        where = f"{at}, claim {label!r}"
+        self._demand_known(given, _OF_A_CLAIM, where)
         common: dict[str, Any] = {
             "label": label,
             "place": str(given.get("place", Path(self.name).name)),
             "says": str(given.get("says", label)),
-            "expected": self._verdict(given, where),
         }
+        with self._noted():
+            common["expected"] = self._verdict(given, where)
         if "unchecked" in given:
-            return Claim(unchecked=self._text(given, "unchecked", where), **common)
-        symbols = {**self._table("symbols"), **self._inner(given, "symbols", where)}
+            told = str(given.get("understood", given.get("printed", "")))
+            return Claim(unchecked=self._text(given, "unchecked", where), source=told, **common)
+        own = self._inner(given, "symbols", where)
+        symbols = {**self.symbols, **own}
         names = self._names(where, symbols)
-        left, relation, right = self._in_time(
-            where, lambda: equation(self._printed(given, where, names), names)
-        )
-        meaning = self._meaning(where, symbols)
+        try:
+            left, relation, right = self._in_time(
+                where, lambda: equation(self._printed(given, where, names), names)
+            )
+        except NotAccepted as error:
+            return self._waiting(number, given, common, error)
+        except UnknownName as error:
+            missing = unknown(error.given, names) or ["a name"]
+            return _lacking(given, common, missing)
+        lacking = [n for n in symbols if _awaits(symbols[n]) and _held(n, left, right)]
+        if lacking:
+            return _lacking(given, common, lacking)
+        meaning = {**self.common, **self._meaning(where, own)}
         named = {call: Symbol(str(call)) for call in _calls(left, right)}
         spread_out = any(_calls_along(over) for over in _integrals(left, right))
         left, right = (self._without_calls(side, named, meaning) for side in (left, right))
@@ -221,6 +326,23 @@ class _File:
             **common,
         )
 
+    def _waiting(
+        self, number: int, given: Mapping[str, Any], common: dict[str, Any], error: NotAccepted
+    ) -> Claim:
+        """A claim whose reading nobody has accepted."""
+        self.readings.append(
+            Reading(number, common["label"], given["latex"], error.understood, error.accepted)
+        )
+        said = f"the file accepts {error.accepted}" if error.accepted else "nobody has accepted it"
+        by_hand = "accepted = true"
+        if given.get("accepted") is not False:
+            by_hand = f'understood = "{error.understood}"'
+        why = (
+            f"the LaTeX was understood as {error.understood}, and {said}: see it with --accept, "
+            f"or write {by_hand}"
+        )
+        return Claim(unchecked=why, source=error.understood, **common)
+
     def _names(self, where: str, symbols: Mapping[str, Any]) -> Names:
         """What a printed equation may hold: the source's symbols, and the variables."""
         for name in symbols:
@@ -238,11 +360,25 @@ class _File:
         if "printed" in given:
             return self._text(given, "printed", where)
         spellings = {**{n: n for n in names.symbols}, **_usual(names), **self._spellings(names)}
-        understood = Latex(where, self._text(given, "latex", where), spellings).understood()
+        latex = self._part(given, where)
+        understood = Latex(where, latex, spellings).understood()
         accepted = str(given.get("understood", ""))
+        if given.get("accepted") is False:
+            raise NotAccepted(where, understood, "")
         if not accepted or equation(accepted, names) != equation(understood, names):
             raise NotAccepted(where, understood, accepted)
         return accepted
+
+    def _part(self, given: Mapping[str, Any], where: str) -> str:
+        """The LaTeX of a claim: all of it, or one statement of a display."""
+        latex = self._text(given, "latex", where)
+        if "part" not in given:
+            return latex
+        found, part = statements(where, latex), given["part"]
+        if type(part) is not int or not 1 <= part <= len(found):
+            why = f"{where}: part = {part!r} is no statement of this display"
+            raise self._bad(why, f"write a number from 1 to {len(found)}")
+        return found[part - 1].latex
 
     def _spellings(self, names: Names) -> dict[str, str]:
         found = self._table("latex")
@@ -259,6 +395,7 @@ class _File:
                 self._in_time(f"{where}: {name}", partial(read_formula, str(text), names))
             )
             for name, text in symbols.items()
+            if not _awaits(text)
         }
 
     def _stands_for(self, call: Expr, meaning: Meaning) -> Expr:
@@ -364,7 +501,7 @@ class _File:
             if key not in known:
                 allowed = ", ".join(sorted(known))
                 why = f"{where} has {key!r}, which means nothing here"
-                raise self._bad(why, f"known: {allowed}")
+                self.mistakes.append(self._bad(why, f"known: {allowed}"))
 
     def _demand_name(self, name: str, taken: object) -> None:
         if not usable(name):
@@ -373,7 +510,26 @@ class _File:
             raise self._bad(f"{name!r} is declared twice", "choose another name")
 
     def _bad(self, why: str, remedy: str) -> BadClaimsFile:
-        return BadClaimsFile(self.name, why.removeprefix(f"{self.name}, "), remedy)
+        """A mistake at the place that its text begins with: the file, and a line if it is known."""
+        found = re.match(rf"({re.escape(self.name)}(?::[0-9]+)?), ", why)
+        if found:
+            return BadClaimsFile(found[1], why[found.end() :], remedy)
+        return BadClaimsFile(self.name, why, remedy)
+
+
+def _awaits(meaning: object) -> bool:
+    """Whether a symbol has no meaning yet."""
+    return meaning == "" or (isinstance(meaning, dict) and meaning.keys() <= _OF_A_PROPOSAL)
+
+
+def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str]) -> Claim:
+    """A claim with symbols of which nobody has said what they are."""
+    listed = ", ".join(names)
+    why = f"nothing says what {listed} is: write it in [symbols] or [variables]"
+    if len(names) > 1:
+        why = f"nothing says what {listed} are: write it in [symbols] or [variables]"
+    printed = given.get("understood", given.get("printed", ""))
+    return Claim(unchecked=why, source=str(printed), **common)
 
 
 _EDGES = (Symbol("a", real=True), Symbol("c", real=True))

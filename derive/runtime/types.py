@@ -36,6 +36,8 @@ class Regime(IntEnum):
     UNSOLVED    the iteration did not end, or the phases of a mixed cycle were not found: NaN
     OUT_OF_PHASE  loads of a march that are not in proportion at every instant: NaN at all of them
     NOT_CLOSED  instants of a march that are no cycle: NaN at all of them
+    COMPUTED    solved on elements, with an estimate of the error
+    NO_STICK    every place slips some time in a cycle, which does not slide: m and n are NaN
     """
 
     NONE = 0
@@ -47,6 +49,8 @@ class Regime(IntEnum):
     UNSOLVED = 6
     OUT_OF_PHASE = 7
     NOT_CLOSED = 8
+    COMPUTED = 9
+    NO_STICK = 10
 
 
 class StickZone(NamedTuple):
@@ -80,3 +84,52 @@ class March(NamedTuple):
     left: Array
     right: Array
     regime: Array
+
+
+class History(NamedTuple):
+    """A load history instant by instant.
+
+    a, c       the contact [-a, c]
+    m, n       the ends of all that sticks, [-m, n], in the motion that led here; NaN where nothing
+               does
+    intervals  how many stick intervals there are
+    regime     a code of Regime: FULL_STICK, COMPUTED, SLIDING, NONE, UNSOLVED
+    q, slip    shear and forward slip so far at x, an axis more; None without x
+    work       friction's, so far
+    error      estimated: of the ends in parts of the width, of shear in its mean over f P/(a + c)
+    """
+
+    a: Array
+    c: Array
+    m: Array
+    n: Array
+    intervals: Array
+    regime: Array
+    q: Array
+    slip: Array
+    work: Array
+    error: Array
+
+
+class SteadyCycle(NamedTuple):
+    """What a cycle settles to.
+
+    m, n        the permanent stick zone [-m, n]
+    regime      a code of Regime: an exact one of stick_zone's, COMPUTED, NO_STICK, SLIDING, ...
+    slip_range  how far slip goes to and fro in a cycle at x; None without x
+    q           shear at x at the first instant; None without x
+    work        friction's in a cycle
+    rounds      how often the cycle was repeated
+    drift       change of slip from the last round but one to the last, over the most slip
+    error       estimated, of m and n in parts of the width; 0 where they are exact
+    """
+
+    m: Array
+    n: Array
+    regime: Array
+    slip_range: Array
+    q: Array
+    work: Array
+    rounds: Array
+    drift: Array
+    error: Array

@@ -17,5 +17,6 @@ kernels     what numba is asked for, and what happens without it
 pieces      what a contact carries, by quadrature of g''
 forward     the same for many contacts
 inverse     the contact from loads
+history/    any load history, on elements
 slip/       stick zones, slip zones, shear, a march through a cycle
 """

@@ -19,6 +19,7 @@ MEANINGS = {
     "order": "order of the series: 1, 2 or 3",
     "second": "Contact at its end; the same for constant normal loads",
     "sigma": "differential bulk tension at every instant [Pa]",
+    "tol": "error aimed at: of the contact's width for ends, of f P for shear",
     "x": "position along the interface, right positive [m]",
     "E_star": "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]",
 }
@@ -31,6 +32,8 @@ OTHERWISE = {
         "dQ": "what the shear load has fallen by since then [N/m]",
         "dsigma": "what the tension has fallen by since then [Pa]",
     },
+    "history": {"x": "places at which shear and slip are told, none unless given [m]"},
+    "steady_cycle": {"x": "places at which shear and slip are told, none unless given [m]"},
     "march": {"order": "order of the series; 0 for the exact conditions"},
 }
 """What it is in one function alone."""
@@ -87,6 +90,16 @@ True""",
 {_HERE}>>> zone = stick_zone(here, here, {{dQ}}, 0.0, f=0.5, **law)
 >>> float(slip_range(zone.n, here, here, {{dQ}}, 0.0, f=0.5, **law))
 0.0""",
+    "history": f"""\
+{_LAW}>>> P, M = (of({{edges}}, **law) for of in (load, moment))
+>>> told = history(P, M, np.array([0.0, 1.0, -1.0]) * {{dQ}} / 2, 0.0, f=0.5, **law)
+>>> [Regime(code).name for code in told.regime]
+['FULL_STICK', 'COMPUTED', 'COMPUTED']""",
+    "steady_cycle": f"""\
+{_LAW}>>> P, M = (of({{edges}}, **law) for of in (load, moment))
+>>> steady = steady_cycle(P, M, np.array([0.0, 1.0, 0.0, -1.0]) * {{dQ}} / 2, 0.0, f=0.5, **law)
+>>> f"{{{{load(steady.m, steady.n, **law):.6g}}}}"  # P - dQ/(2 f)
+'{{reduced}}'""",
     "march": f"""\
 {_LAW}>>> P, M = (of({{edges}}, **law) for of in (load, moment))
 >>> Q = np.array([0.0, 1.0, 0.0, -1.0]) * {{dQ}} / 2

@@ -1,0 +1,186 @@
+r"""Which symbols a statement in LaTeX holds, how they are spelled there, and what to call them.
+
+A letter with all that is hung on it is one symbol: K_{N,c}, E^*, \Delta Q, q_1^{(asy)}(x).
+A letter before one symbol in parentheses, before a list, or with a prime, is a function of them
+and is one symbol too: p(x) and p(x, c) are two.  A person sees every spelling in the draft.
+"""
+
+import re
+from collections.abc import Sequence
+
+from derive.paper.formula import usable
+
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|\S")
+_NAMES = """
+alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi rho
+varrho sigma tau upsilon phi varphi chi psi omega ell Gamma Delta Theta Lambda Xi Pi Sigma Upsilon
+Phi Psi Omega
+"""
+_GREEK = frozenset(f"\\{name}" for name in _NAMES.split())
+PROPOSALS = {
+    "P": ("load(a, c)", "normal load"),
+    "M": ("moment(a, c)", "moment"),
+    "alpha": ("tilt(a, c)", "angle of tilt"),
+    "a": ("", "left edge of the contact at x = -a, or half-width"),
+    "c": ("", "right edge of the contact"),
+    "m": ("", "left end of the stick zone"),
+    "n": ("", "right end of the stick zone"),
+    "d": ("", "size of a slip zone, or half-width of the stick zone"),
+    "e": ("", "eccentricity of the stick zone"),
+    "R": ("", "relative radius of curvature"),
+    "phi": ("", "angle of a wedge's face"),
+    "Q": ("", "shear load"),
+    "sigma": ("", "differential bulk tension"),
+    "Delta_Q": ("", "range of the shear load"),
+    "Delta_sigma": ("", "range of the differential bulk tension"),
+    "Delta_q": ("", "change of the shear traction"),
+    "Delta_K_T": ("", "change of the coefficient of 1/sqrt(s) in the shear traction"),
+    "Delta_a": ("", "movement of the edge"),
+    "K_N": ("K_N_left(a, c)", "coefficient of sqrt(s) in the pressure"),
+    "K_T": ("", "coefficient of 1/sqrt(s) in the shear traction"),
+    "p": ("pressure(x, a, c)", "contact pressure"),
+    "q": ("", "shear traction"),
+    "g_prime": ("", "slope of the profile"),
+    "F": ("punch(s, s)", "weight of the flat punches"),
+    "P_prime": ("load_rate(a, c)", "slope of the contact law at fixed tilt"),
+    "a_prime": ("edge_ratio(a, c)", "left edge against right at fixed tilt"),
+    "dQ": ("", "small change of the shear load"),
+    "dP": ("", "small change of the normal load"),
+    "dM": ("", "small change of the moment"),
+    "dsigma": ("", "small change of the bulk tension"),
+    "dP_dc": ("load_rate(a, c)", "slope of the contact law at fixed tilt"),
+}
+"""What the toolkit's own vocabulary suggests: a formula of the body, if any, and words."""
+
+
+def proposal(name: str) -> tuple[str, str]:
+    """A formula and words for a symbol, by its name or the name without index and arguments."""
+    stem = name.partition("_at_")[0]
+    for known in (name, stem, re.sub(r"_(?:[0-9it]|asy|LHS|RHS|star|[ac])(?=_|$)", "", stem)):
+        if known in PROPOSALS:
+            formula, words = PROPOSALS[known]
+            return (
+                formula if known == name or name.removeprefix(known) in ("_at_x", "_at_c") else ""
+            ), words
+    return "", ""
+
+
+def spellings(latex: str) -> dict[str, str]:
+    """LaTeX of every symbol of a statement -> a name for it."""
+    tokens = _TOKEN.findall(latex)
+    integrated = r"\int" in tokens
+    found, place = dict[str, str](), 0
+    while place < len(tokens):
+        end, name = _symbol(tokens, place)
+        if tokens[place] == r"\dd" and integrated:
+            place += 1
+            continue
+        if name and usable(name):
+            found[_spelled(tokens[place:end])] = name
+        place = max(end, place + 1)
+    return found
+
+
+def _spelled(tokens: Sequence[str]) -> str:
+    text = ""
+    for token in tokens:
+        text += " " if re.search(r"\\[A-Za-z]+$", text) and token[0].isalpha() else ""
+        text += token
+    return text
+
+
+def _symbol(tokens: Sequence[str], place: int) -> tuple[int, str]:
+    """Where the symbol that starts here ends, and its name; no name if none starts here."""
+    if place >= len(tokens):
+        return place, ""
+    head = tokens[place]
+    if head == r"\frac":
+        return _derivative(tokens, place)
+    if head in (r"\dd", r"\Delta") and place + 1 < len(tokens):
+        end, name = _symbol(tokens, place + 1)
+        if name and tokens[place + 1] not in (r"\dd", r"\Delta", r"\frac"):
+            return end, ("d" if head == r"\dd" else "Delta_") + name
+    if not (len(head) == 1 and head.isalpha()) and head not in _GREEK:
+        return place, ""
+    name, place = head.removeprefix("\\"), place + 1
+    place, name = _hung(tokens, place, name)
+    return _called(tokens, place, name)
+
+
+def _hung(tokens: Sequence[str], place: int, name: str) -> tuple[int, str]:
+    """Indices, primes, stars and words in the exponent."""
+    while place < len(tokens):
+        if tokens[place] == "'":
+            name, place = f"{name}_prime", place + 1
+            continue
+        if tokens[place] not in "_^":
+            break
+        inner, end = _group(tokens, place + 1)
+        words = [t.removeprefix("\\") for t in inner if t not in "(),"]
+        plain = bool(words) and all(word.isalnum() for word in words)
+        if tokens[place] == "_" and plain:
+            name = f"{name}_{_index(inner)}"
+        elif inner == ["*"]:
+            name = f"{name}_star"
+        elif inner == ["'"]:
+            name = f"{name}_prime"
+        elif plain and (inner[0] == "(" or len(inner) > 1) and all(w.isalpha() for w in words):
+            name = f"{name}_{''.join(words)}"
+        else:
+            break
+        place = end
+    return place, name
+
+
+def _index(inner: Sequence[str]) -> str:
+    parts = "".join(t.removeprefix("\\") for t in inner if t not in "()").split(",")
+    return "_".join(filter(None, parts))
+
+
+def _group(tokens: Sequence[str], place: int) -> tuple[list[str], int]:
+    """What stands in the brackets here, or the one token, and where that ends."""
+    if place >= len(tokens):
+        return [], place
+    closing = {"{": "}", "(": ")"}.get(tokens[place])
+    if closing is None:
+        return [tokens[place]], place + 1
+    depth = 0
+    for end in range(place, len(tokens)):
+        depth += (tokens[end] == tokens[place]) - (tokens[end] == closing)
+        if depth == 0:
+            return list(tokens[place + 1 : end]), end + 1
+    return [], len(tokens)
+
+
+def _called(tokens: Sequence[str], place: int, name: str) -> tuple[int, str]:
+    """The name with its arguments, if it is printed as a function of them."""
+    if place >= len(tokens) or tokens[place] != "(":
+        return place, name
+    inner, end = _group(tokens, place)
+    arguments, depth = [list[str]()], 0
+    for token in inner:
+        depth += (token in "({") - (token in ")}")
+        if token == "," and depth == 0:
+            arguments.append([])
+        else:
+            arguments[-1].append(token)
+    one = [_symbol(argument, 0) for argument in arguments]
+    alone = all(n and e == len(a) for a, (e, n) in zip(arguments, one, strict=True))
+    if not alone or not inner:
+        return place, name
+    return end, f"{name}_at_{'_'.join(n for _, n in one)}"
+
+
+def _derivative(tokens: Sequence[str], place: int) -> tuple[int, str]:
+    """A quotient of two differentials."""
+    over, middle = _group(tokens, place + 1)
+    under, end = _group(tokens, middle)
+    names = []
+    for part in (over, under):
+        if len(part) < 2 or part[0] not in (r"\dd", r"\partial"):
+            return place, ""
+        stop, name = _symbol(part, 1)
+        if not name or stop != len(part):
+            return place, ""
+        names.append(f"d{name}")
+    return end, "_".join(names)

@@ -1,0 +1,9 @@
+"""Any load history: shear on elements, load step by load step.
+
+elements    the mesh, the influence of shear on displacement, pressure and full-stick shear on it
+nearest     the shear within friction that is nearest to a trial one: one convex problem a step
+path        the loads and contacts on the way from instant to instant
+steps       the state, its steps, and what is told of it
+solve       histories and steady cycles on two meshes, and the estimate of their error
+public      the functions that a module offers
+"""

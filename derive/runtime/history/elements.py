@@ -1,0 +1,211 @@
+r"""Elements on the interface: mesh, influence, and element means of what acts on them.
+
+Shear is constant on each element; all conditions hold for means over elements, w_i wide.  With L
+the length of the mesh,
+
+    A_ij = -(1/pi) int_i int_j ln(|x - xi|/(2 L)) dxi dx
+
+is E*/2 times the displacement of element i, integrated over it, by unit shear on element j:
+symmetric and positive definite.  Of a change of Q and sigma under which all sticks, the rate is
+
+    dq/dt = [Q'/pi - (sigma'/4) (x - mid)]/sqrt((a + x)(c - x)),
+
+whose integral over x is closed.  It is integrated along the way of the edges, too, so that what
+comes into contact sticks from then on, and a growing edge makes no slip of its own.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..kernels import LAW, kernel, matrix, real, vector, whole
+
+COSINE, EVEN, PLACE = 0.0, 1.0, 2.0
+"""Kinds of a part of the mesh: crowded at both its ends, even, crowded at one place."""
+
+_TIMES, _SHARES = np.polynomial.legendre.leggauss(5)
+_TIMES, _SHARES = (1 + _TIMES) / 2, _SHARES / 2
+
+_INNER = 0.5 - 0.5 / math.sqrt(3.0)
+"""Gauss's rule of two nodes on (0, 1)."""
+
+
+# ---------------------------------------------------------------- mesh
+
+
+@kernel(real(matrix, real))
+def _elements_before(parts: Any, x: float) -> float:
+    """The sum over all parts of the elements before x; a part is kind, start, end, elements."""
+    total = 0.0
+    for k in range(parts.shape[0]):
+        kind, start, end, count = parts[k]
+        if not end > start:
+            continue
+        u = min(max((x - start) / (end - start), 0.0), 1.0)
+        if kind == COSINE:
+            u = math.acos(1 - 2 * u) / math.pi
+        elif kind == PLACE:
+            away = 2 * u - 1
+            u = (1 + math.copysign(math.sqrt(abs(away)), away)) / 2
+        total += count * u
+    return total
+
+
+@kernel(vector(matrix, real, real, vector))
+def mesh(parts: Any, start: float, end: float, breaks: Any) -> Any:
+    """Ends of the elements: as many in each part as it asks for, one of them at every break."""
+    total = _elements_before(parts, end)
+    count = max(round(total), 8)
+    ends = np.empty(count + 1)
+    ends[0], ends[count] = start, end
+    for i in range(1, count):
+        low, high = ends[i - 1], end
+        for _ in range(48):
+            middle = (low + high) / 2
+            if _elements_before(parts, middle) < i * total / count:
+                low = middle
+            else:
+                high = middle
+        ends[i] = (low + high) / 2
+    for place in breaks:
+        if start < place < end:
+            nearest: Any = min(max(np.argmin(np.abs(ends - place)), 1), count - 1)
+            ends[nearest] = place
+    return ends
+
+
+# ---------------------------------------------------------------- influence
+
+
+@kernel(real(real))
+def _twice(v: float) -> float:
+    """The second integral of ln|v|."""
+    return v * v * (math.log(abs(v)) / 2 - 0.75) if v != 0 else 0.0
+
+
+@kernel(matrix(vector))
+def influence(ends: Any) -> Any:
+    """A."""
+    count = ends.size - 1
+    unit = 2 * (ends[count] - ends[0])
+    A = np.empty((count, count))
+    for i in range(count):
+        for j in range(i + 1):
+            r, s, t, u = ends[i], ends[i + 1], ends[j], ends[j + 1]
+            if min(abs(r - u), abs(t - s)) > 20 * max(s - r, u - t):
+                # far away: the logarithm at four pairs of Gauss's nodes
+                total = 0.0
+                for k in range(4):
+                    x = r + (s - r) * (_INNER if k < 2 else 1 - _INNER)
+                    y = t + (u - t) * (_INNER if k % 2 == 0 else 1 - _INNER)
+                    total += math.log(abs(x - y) / unit)
+                total *= (s - r) * (u - t) / 4
+            else:
+                total = (
+                    _twice((s - t) / unit)
+                    + _twice((r - u) / unit)
+                    - _twice((r - t) / unit)
+                    - _twice((s - u) / unit)
+                ) * unit**2
+            A[i, j] = A[j, i] = -total / math.pi
+    return A
+
+
+@kernel(whole(matrix, whole))
+def factored(A: Any, count: int) -> int:
+    """Cholesky's factor of the leading block, in place: A = U^T U; 0 where there is none."""
+    for k in range(count):
+        if not A[k, k] > 0:
+            return 0
+        root = math.sqrt(A[k, k])
+        for j in range(k, count):
+            A[k, j] /= root
+        for i in range(k + 1, count):
+            by = A[k, i]
+            for j in range(i, count):
+                A[i, j] -= by * A[k, j]
+    return 1
+
+
+@kernel(whole(matrix, whole, vector))
+def resolved(U: Any, count: int, b: Any) -> int:
+    """The solution of U^T U x = b, in place of b."""
+    for k in range(count):
+        b[k] /= U[k, k]
+        for j in range(k + 1, count):
+            b[j] -= U[k, j] * b[k]
+    for k in range(count - 1, -1, -1):
+        total = b[k]
+        for j in range(k + 1, count):
+            total -= U[k, j] * b[j]
+        b[k] = total / U[k, k]
+    return 1
+
+
+@kernel(matrix(matrix))
+def inverse_of(A: Any) -> Any:
+    """The inverse of A; all zero where there is none."""
+    count = A.shape[0]
+    U, B = A.copy(), np.zeros((count, count))
+    if factored(U, count):
+        for i in range(count):
+            B[i, i] = 1.0
+            resolved(U, count, B[i])
+    return B
+
+
+# ---------------------------------------------------------------- what acts on elements
+
+
+@kernel(whole(LAW, vector, vector, real, real, real, vector))
+def mean_pressures(law: Any, own: Any, ends: Any, a: float, c: float, load: float, p: Any) -> int:
+    """Means of the pressure over the elements into p, made to carry the load."""
+    total = 0.0
+    for i in range(p.size):
+        low, high = max(ends[i], -a), min(ends[i + 1], c)
+        p[i] = 0.0
+        if not high > low:
+            continue
+        size = high - low
+        left, right = low + a <= 1e-9 * size, c - high <= 1e-9 * size
+        if left or right:
+            # p = sqrt(s) (k + l s) from an edge, at the nodes of the rule for sqrt(s)
+            for k in range(2):
+                s = size * (0.28994919792569 if k == 0 else 0.82116191318542)
+                weight = 0.27755599823067 if k == 0 else 0.38911066843600
+                at = law.pressure(low + s if left else high - s, a, c, own)
+                p[i] += weight * at * math.sqrt(size / s) * size
+        else:
+            near = law.pressure(low + size * _INNER, a, c, own)
+            far = law.pressure(high - size * _INNER, a, c, own)
+            p[i] = size * (near + far) / 2
+        total += p[i]
+    for i in range(p.size):
+        p[i] *= load / (total * (ends[i + 1] - ends[i])) if total > 0 else 0.0
+    return 1
+
+
+@kernel(real(real, real, real, real, real))
+def _stuck_force(x: float, a: float, c: float, dQ: float, dsigma: float) -> float:
+    """int of the full-stick change from the middle of the contact to x."""
+    half, away = (a + c) / 2, x - (c - a) / 2
+    away = min(max(away, -half), half)
+    angle = math.asin(min(max(away / half, -1.0), 1.0))
+    return dQ / math.pi * angle + dsigma / 4 * math.sqrt(max(half**2 - away**2, 0.0))
+
+
+@kernel(whole(vector, vector, vector, real, real, vector))
+def add_full_stick(ends: Any, before: Any, now: Any, dQ: float, dsigma: float, q: Any) -> int:
+    """Add to q the change under which all sticks, while the edges a, c move evenly."""
+    still = before[0] == now[0] and before[1] == now[1]
+    for k in range(1 if still else _TIMES.size):
+        t = 1.0 if still else _TIMES[k]
+        share = 1.0 if still else _SHARES[k]
+        a, c = before[0] + t * (now[0] - before[0]), before[1] + t * (now[1] - before[1])
+        last = _stuck_force(ends[0], a, c, dQ, dsigma)
+        for i in range(q.size):
+            following = _stuck_force(ends[i + 1], a, c, dQ, dsigma)
+            q[i] += share * (following - last) / (ends[i + 1] - ends[i])
+            last = following
+    return 1

@@ -1,0 +1,176 @@
+"""Load histories and steady cycles of a body: what a person gives, and what is told."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import shape_of
+from ..body import Asked, kernel_of, numbers_of
+from ..chunks import any_lazy
+from ..cycle import march
+from ..types import Array, History, Regime, SteadyCycle
+
+_LOADS = ("P", "M", "Q", "sigma")
+
+
+class _Given(NamedTuple):
+    """Rows for a kernel: histories, parameters; the shape of one and its number of instants."""
+
+    rows: Any
+    own: Any
+    cycles: tuple[int, ...]
+    instants: int
+    E_star: Any
+
+
+def history(
+    asked: Asked,
+    P: Array,
+    M: Array,
+    Q: Array,
+    sigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    x: Array = None,
+    tol: float = 1e-3,
+) -> History:
+    """Any load history: what sticks at every instant, shear, slip and friction's work.
+
+        |q| <= f p, int q dx = Q, and slip only where |q| = f p, against it: one convex problem a
+            step on elements; it begins with the contact under P[0], M[0] and no shear, then Q[0]
+            and sigma[0] are applied
+
+    Arguments broadcast; time lies along the last axis, and between two instants all loads go
+    straight.
+    {arguments}
+
+    Returns History(a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m];
+    error).
+    NaN where there is no contact; m and n where it slides, slip and work from then on.
+    """
+    given = _given(asked, (P, M, Q, sigma), f, E_star, x, tol, False)
+    places = np.shape(x) if x is not None else ()
+    count = math.prod(places) if x is not None else 0
+    out = np.empty((given.rows.shape[0], given.instants * (8 + 2 * count)))
+    kernel_of("history.solve.each_history")(asked.body.law, given.rows, given.own, out)
+    shape = (*given.cycles, given.instants)
+    found = out.reshape((*shape, 8 + 2 * count))
+    a, c, m, n, intervals, regime, work, error = (found[..., i] for i in range(8))
+    q = slip = None
+    if x is not None:
+        q = (found[..., 8 : 8 + count] * given.E_star[..., None, None]).reshape((*shape, *places))
+        slip = found[..., 8 + count :].reshape((*shape, *places))
+    work = work * given.E_star[..., None]
+    intervals = np.nan_to_num(intervals).astype(np.int64)
+    return History(a, c, m, n, intervals, regime.astype(np.int64), q, slip, work, error)
+
+
+def steady_cycle(
+    asked: Asked,
+    P: Array,
+    M: Array,
+    Q: Array,
+    sigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    x: Array = None,
+    tol: float = 1e-3,
+) -> SteadyCycle:
+    """What a closed load history settles to: the permanent stick zone, slip and work a cycle.
+
+        as by stick_zone where that is exact; else the history is repeated until slip repeats, and
+            what sticks is what has not slipped in the last round
+
+    Arguments broadcast; time lies along the last axis, and from the last instant the loads go back
+    to the first.
+    {arguments}
+
+    Returns SteadyCycle(m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift;
+    error).  Slip range, shear and work are computed on elements, where m and n are exact, too.
+    NaN where the contact is lost or slides; m and n where no place sticks all the time.
+    """
+    given = _given(asked, (P, M, Q, sigma), f, E_star, x, tol, True)
+    places = np.shape(x) if x is not None else ()
+    count = math.prod(places) if x is not None else 0
+    out = np.empty((given.rows.shape[0], 7 + 2 * count))
+    kernel_of("history.solve.each_cycle")(asked.body.law, given.rows, given.own, out)
+    found = out.reshape((*given.cycles, 7 + 2 * count))
+    m, n, regime, work, rounds, drift, error = (found[..., i] for i in range(7))
+    exact = march(asked, *_closed((P, M, Q, sigma)), f=f, E_star=E_star)
+    codes = np.broadcast_to(exact.regime, (*given.cycles, given.instants))
+    alike = np.all(codes == codes[..., :1], axis=-1)
+    known = alike & np.isin(codes[..., 0], (Regime.MODERATE, Regime.LARGE, Regime.FULL_STICK))
+    known &= np.all(np.isfinite(exact.m), axis=-1)
+    m = np.where(known, np.min(exact.m, axis=-1), m)
+    n = np.where(known, np.min(exact.n, axis=-1), n)
+    regime = np.where(known, codes[..., 0], regime).astype(np.int64)
+    error = np.where(known, 0.0, error)
+    q = slip = None
+    if x is not None:
+        slip = found[..., 7 : 7 + count].reshape((*given.cycles, *places))
+        q = (found[..., 7 + count :] * given.E_star[..., None]).reshape((*given.cycles, *places))
+    values = (m, n, regime, slip, q, work * given.E_star, rounds, drift, error)
+    return SteadyCycle(*(v if v is None else v[()] for v in values))
+
+
+def _closed(loads: tuple[Array, ...]) -> list[Any]:
+    """Loads whose last instant is the first again."""
+    arrays = [np.atleast_1d(np.asarray(v, dtype=np.float64)) for v in loads]
+    instants = max(v.shape[-1] for v in arrays)
+    full = [np.broadcast_to(v, (*v.shape[:-1], instants)) for v in arrays]
+    if all(np.array_equal(v[..., 0], v[..., -1]) for v in full) and instants > 1:
+        return full
+    return [np.concatenate([v, v[..., :1]], axis=-1) for v in full]
+
+
+def _given(
+    asked: Asked,
+    loads: tuple[Array, ...],
+    f: Array,
+    E_star: Array,
+    x: Array,
+    tol: float,
+    closes: bool,
+) -> _Given:
+    """Check what is given, and lay it out in rows.
+
+    Raises TypeError for what is no real number and for Dask arrays, ValueError for a tolerance that
+    is not positive and for constants that change in time.
+    """
+    if not tol > 0:
+        raise ValueError(f"tol must be positive; got {tol!r:.60}")
+    named = dict(zip(_LOADS, loads, strict=True))
+    numbers = numbers_of(named, {"f": f, "E_star": E_star, **asked.own})
+    if any_lazy(numbers.values()):
+        raise TypeError("a load history takes NumPy arrays; use map_blocks for Dask arrays")
+    if closes:
+        numbers |= dict(zip(_LOADS, _closed(tuple(numbers[k] for k in _LOADS)), strict=True))
+    *cycles, instants = shape_of(numbers) or (1,)
+    shape = (*cycles, instants)
+    held = {}
+    for name in ("f", "E_star", *asked.own):
+        value = np.broadcast_to(numbers[name], shape).reshape(-1, instants)
+        if np.any((value != value[:, :1]) & ~np.isnan(value)):
+            raise ValueError(f"{name} must not change along the last axis, which is time")
+        held[name] = value[:, :1]
+    places = np.ravel(np.zeros(0) if x is None else numbers_of({"x": x}, {})["x"])
+    count = held["f"].shape[0]
+    whole = [np.broadcast_to(numbers[k], shape).reshape(-1, instants) for k in _LOADS]
+    rows = [held["f"], np.full((count, 1), tol), np.full((count, 1), float(places.size))]
+    rows += [v / held["E_star"] for v in whole] + [np.broadcast_to(places, (count, places.size))]
+    own = np.hstack([np.empty((count, 0)), *(held[name] for name in asked.own)])
+    modulus = held["E_star"].reshape(tuple(cycles))
+    return _Given(
+        np.ascontiguousarray(np.hstack(rows)),
+        np.ascontiguousarray(own),
+        tuple(cycles),
+        instants,
+        modulus,
+    )
+
+
+HISTORIES = (history, steady_cycle)
+"""What every body is bound to."""

@@ -1,0 +1,324 @@
+r"""Histories and steady cycles on two meshes, and the estimate of their error.
+
+What is told is that of the fine mesh.  Its error is put at the difference between both, which is
+about twice what the fine one is off, and for ends half an element more, since a front is found
+between two elements.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
+from .elements import influence, inverse_of
+from .path import INSTANT, A, C, path
+from .steps import (
+    BOUND,
+    COMPUTED,
+    FULL_STICK,
+    NONE,
+    SLIP,
+    SLIPPED,
+    UNSOLVED,
+    at_place,
+    mesh_for,
+    step,
+    sticking,
+)
+
+NO_STICK = 10.0
+"""One more code of Regime: something slips everywhere in the cycle, though it never slides."""
+
+SAMPLES = 24
+"""Places at which shear is compared between two meshes."""
+
+FEATURES = 8
+"""a, c, m, n, intervals, regime, work and error of an instant."""
+
+ELEMENTS, FEWEST, MOST = 256.0, 96, 640
+"""Elements at a tolerance of 1e-3, and of any mesh."""
+
+PARTS = 2
+"""Steps between two instants on the fine mesh at least."""
+
+ROUNDS = 40
+"""Most rounds of a cycle."""
+
+REPEATED = 1e-4
+"""Slip of two rounds that differs by less, over the most, is the same."""
+
+THRESHOLD = 1e-5
+"""Slip in a round that is none, over the most; thirty times as much is tried, too."""
+
+
+@kernel(vector(matrix, vector))
+def _pushed(B: Any, w: Any) -> Any:
+    """z = A^-1 w."""
+    z = np.zeros(w.size)
+    for j in range(w.size):
+        for i in range(w.size):
+            z[i] += B[j, i] * w[j]
+    return z
+
+
+@kernel(real(vector, real, real, real, real))
+def _between_elements(ends: Any, m: float, n: float, a: float, c: float) -> float:
+    """How far ends may be off since they lie between elements; a slip zone within the element at
+    an edge is not seen."""
+    off = 0.0
+    for side in range(2):
+        place, edge = (-m, -a) if side == 0 else (n, c)
+        if math.isfinite(place):
+            i = min(max(np.searchsorted(ends, place) - 1, 0), ends.size - 2)
+            off = max(off, (1.0 if place == edge else 0.3) * (ends[i + 1] - ends[i]))
+    return off
+
+
+@kernel(whole(real, whole))
+def elements_for(tol: float, level: int) -> int:
+    """Elements of the coarse mesh, level 0, and of the fine one."""
+    count = ELEMENTS * 1e-3 / max(tol, 1e-6)
+    count = min(max(count, float(FEWEST)), float(MOST))
+    return int(count if level == 1 else count / 2)
+
+
+@kernel(matrix(LAW, vector, real, matrix, vector, real, whole))
+def followed(law: Any, own: Any, f: float, loads: Any, places: Any, tol: float, level: int) -> Any:
+    """A history on one mesh: a row an instant of the features, then q and slip at the places and q
+    at the samples.  The error is that of a front between two elements."""
+    instants, asked = loads.shape[1], places.size
+    found = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
+    found[:, 5] = NONE
+    count = elements_for(tol, level)
+    rows = path(law, own, loads, f, 1.28 / count, PARTS - 1 + level)
+    known = False
+    for k in range(rows.shape[0]):
+        known = known or rows[k, A] + rows[k, C] > 0
+    if not (known and f > 0):
+        return found
+    ends = mesh_for(law, own, rows, count, np.empty(0))
+    x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
+    A_ = influence(ends)
+    B = inverse_of(A_)
+    z = _pushed(B, w)
+    room, state = np.empty_like(A_), np.zeros((5, x.size))
+    lost = False
+    work, regime, m, n, runs, off = 0.0, NONE, math.nan, math.nan, 0.0, 0.0
+    for k in range(rows.shape[0]):
+        row, last = rows[k], rows[max(k - 1, 0)]
+        moves = k == 0
+        for i in range(4):
+            moves = moves or row[i] != last[i]
+            lost = lost or not math.isfinite(row[i])
+        if lost:
+            regime = NONE if regime != UNSOLVED else UNSOLVED
+        elif moves and regime != UNSOLVED:
+            regime, more = step(law, own, f, ends, last, row, A_, B, z, state, room)
+            work += more
+            m, n, runs, off = math.nan, math.nan, 0.0, 0.0
+            if regime == COMPUTED:
+                m, n, runs, slips = sticking(x, state, row[A], row[C])
+                regime = FULL_STICK if slips == 0 else COMPUTED
+                off = _between_elements(ends, m, n, row[A], row[C]) / (row[A] + row[C])
+        if row[INSTANT] < 0:
+            continue
+        told = found[int(row[INSTANT])]
+        told[5] = regime
+        if not lost:
+            told[0], told[1] = row[A], row[C]
+        if regime in (UNSOLVED, NONE):
+            continue
+        told[2], told[3], told[4], told[6], told[7] = m, n, runs, work, off
+        first = FEATURES + 2 * asked
+        for i in range(asked):
+            told[FEATURES + i], slip = at_place(law, own, f, ends, x, state, row, places[i])
+            told[FEATURES + asked + i] = slip if work == work else math.nan
+        for i in range(SAMPLES):
+            u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
+            place = -row[A] + u * (row[A] + row[C])
+            told[first + i], _ = at_place(law, own, f, ends, x, state, row, place)
+    return found
+
+
+@kernel(real(vector, vector, real, whole))
+def _error(fine: Any, coarse: Any, mean: float, first: int) -> float:
+    """Of one instant; `mean` is f P/h."""
+    h = fine[0] + fine[1]
+    if fine[5] != coarse[5] and UNSOLVED in (fine[5], coarse[5]):
+        return math.nan
+    error = 0.0
+    for i in (2, 3):
+        away = abs(fine[i] - coarse[i]) / h
+        if math.isnan(fine[i]) != math.isnan(coarse[i]):
+            away = 1.0
+        error = max(error, away if away == away else 0.0)
+    error += fine[7]
+    shear = total = 0.0
+    for i in range(SAMPLES):
+        weight = math.sin(math.pi * (i + 0.5) / SAMPLES)
+        shear += weight * abs(fine[first + i] - coarse[first + i])
+        total += weight
+    return max(error, shear / total / mean)
+
+
+@kernel(LOOP)
+def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
+    """given: f, tol, the number of places, then P, M, Q and sigma at T instants, then the places.
+
+    out: of each instant its features, then q and slip at the places.
+    """
+    law = opened(law)
+    for row in range(given.shape[0]):
+        f, tol, asked = given[row, 0], given[row, 1], int(given[row, 2])
+        count = (given.shape[1] - 3 - asked) // 4
+        loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
+        places = given[row, 3 + 4 * count :]
+        fine = followed(law, own[row], f, loads, places, tol, 1)
+        coarse = followed(law, own[row], f, loads, places, tol, 0)
+        first = FEATURES + 2 * asked
+        for k in range(count):
+            told = fine[k]
+            mean = f * loads[0, k] / (told[0] + told[1])
+            told[7] = _error(told, coarse[k], mean, first)
+            for i in range(first):
+                out[row, k * first + i] = told[i]
+
+
+# ---------------------------------------------------------------- steady cycles
+
+
+@kernel(results(2)(vector, vector, vector, vector, real))
+def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> Any:
+    """m and n of the longest run of elements that always touch and slip by no more; the way that is
+    slipped rises from there with the power 3/2."""
+    most, start, length, low, high = 0.0, 0, 0.0, -1, -1
+    for i in range(x.size):
+        most = max(most, way[i])
+    inside = False
+    for i in range(x.size):
+        if always[i] > 0 and way[i] <= threshold * most:
+            start = start if inside else i
+            inside = True
+            if ends[i + 1] - ends[start] > length:
+                length, low, high = ends[i + 1] - ends[start], start, i
+        else:
+            inside = False
+    if low < 0 or low == high:
+        return math.nan, math.nan
+    found = np.empty(2)
+    for side in range(2):
+        outward, last = (-1, low) if side == 0 else (1, high)
+        near, far = last + 2 * outward, last + 3 * outward
+        found[side] = ends[last] if side == 0 else ends[last + 1]
+        if 0 <= far < x.size and always[near] > 0 and always[far] > 0:
+            g, G = way[near] ** (2 / 3), way[far] ** (2 / 3)
+            if g < G:
+                root = x[near] - (x[far] - x[near]) * g / (G - g)
+                least, largest = min(x[last], x[near]), max(x[last], x[near])
+                found[side] = min(max(root, least), largest)
+    return -found[0], found[1]
+
+
+@kernel(matrix(LAW, vector, real, matrix, vector, real, whole))
+def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, tol: float, level: int) -> Any:
+    """A cycle on one mesh: m, n, regime, work, rounds, drift, error of a front; then at the places
+    the range of slip and q at the first instant."""
+    asked = places.size
+    told = np.full((1, 7 + 2 * asked), math.nan)
+    found = told[0]
+    found[2] = NONE
+    count = elements_for(tol, level)
+    least = PARTS - 1 + level
+    rows = path(law, own, loads, f, 1.28 / count, least)
+    for k in range(rows.shape[0]):
+        if not (rows[k, A] + rows[k, C] > 0 and f > 0):
+            return told
+    ends = mesh_for(law, own, rows, count, np.empty(0))
+    x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
+    A_ = influence(ends)
+    B = inverse_of(A_)
+    z = _pushed(B, w)
+    room, state = np.empty_like(A_), np.zeros((5, x.size))
+    way, before, always = np.zeros(x.size), np.zeros(x.size), np.ones(x.size)
+    low, high = np.zeros(x.size), np.zeros(x.size)
+    work, drift = 0.0, math.inf
+    for turn in range(ROUNDS + 1):
+        # the first time the loads rise to the first instant, then they go round
+        first, last = (0, least + 1) if turn == 0 else (least + 1, rows.shape[0])
+        way[:], work = 0.0, 0.0
+        low[:] = high[:] = state[SLIP]
+        for k in range(first, last):
+            row, gone = rows[k], rows[max(k - 1, 0)]
+            moves = k == 0
+            for i in range(4):
+                moves = moves or row[i] != gone[i]
+            if not moves:
+                continue
+            code, more = step(law, own, f, ends, gone, row, A_, B, z, state, room)
+            if code != COMPUTED:
+                found[2] = code
+                return told
+            work += more
+            for i in range(x.size):
+                way[i] += abs(state[SLIPPED, i])
+                low[i], high[i] = min(low[i], state[SLIP, i]), max(high[i], state[SLIP, i])
+                if state[BOUND, i] == 0:
+                    always[i] = 0.0
+        most = change = 0.0
+        for i in range(x.size):
+            most, change = max(most, way[i]), max(change, abs(way[i] - before[i]))
+            before[i] = way[i]
+        drift = change / most if most > 0 else 0.0
+        found[4] = turn
+        if turn > 1 and drift <= REPEATED:
+            break
+    found[3], found[5] = work, drift
+    inner_a = inner_c = math.inf
+    for k in range(rows.shape[0]):
+        inner_a, inner_c = min(inner_a, rows[k, A]), min(inner_c, rows[k, C])
+    slips = False
+    for i in range(x.size):
+        slips = slips or way[i] > 0
+    if not slips and inner_a + inner_c > 0:
+        found[0], found[1], found[2], found[6] = inner_a, inner_c, FULL_STICK, 0.0
+    else:
+        m, n = _never_slips(x, ends, always, way, THRESHOLD)
+        found[2] = NO_STICK if math.isnan(m) else COMPUTED
+        found[0], found[1], found[6] = min(m, inner_a), min(n, inner_c), 0.0
+        if found[2] == COMPUTED:
+            wide_m, wide_n = _never_slips(x, ends, always, way, 30 * THRESHOLD)
+            h = inner_a + inner_c
+            off = max(abs(wide_m - m), abs(wide_n - n))
+            off = max(off, _between_elements(ends, m, n, inner_a, inner_c))
+            found[6] = off / h
+    for i in range(asked):
+        if ends[0] <= places[i] <= ends[x.size]:
+            j = np.searchsorted(ends, places[i]) - 1
+            j = min(max(j if places[i] > x[j] else j - 1, 0), x.size - 2)
+            t = min(max((places[i] - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
+            found[7 + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
+        found[7 + asked + i], _ = at_place(law, own, f, ends, x, state, rows[-1], places[i])
+    return told
+
+
+@kernel(LOOP)
+def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
+    """given: as for each_history, the last instant being the first again.
+
+    out: m, n, regime, work, rounds, drift, error; range of slip and q at the places.
+    """
+    law = opened(law)
+    for row in range(given.shape[0]):
+        f, tol, asked = given[row, 0], given[row, 1], int(given[row, 2])
+        count = (given.shape[1] - 3 - asked) // 4
+        loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
+        places = given[row, 3 + 4 * count :]
+        fine = repeated(law, own[row], f, loads, places, tol, 1)[0]
+        coarse = repeated(law, own[row], f, loads, places, tol, 0)[0]
+        if fine[2] == COMPUTED:
+            away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
+            fine[6] += away / (fine[0] + fine[1])
+        elif fine[2] != coarse[2]:
+            fine[6] = math.nan
+        out[row] = fine

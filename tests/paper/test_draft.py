@@ -1,0 +1,170 @@
+"""A paper in LaTeX read into a claims file: numbers, labels, statements, and what is refused."""
+
+import json
+import time
+import tomllib
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from derive.cli import main
+from derive.errors import BadFormula
+from derive.paper.displays import displays
+from derive.paper.latex import Latex
+from derive.paper.spellings import spellings
+from derive.paper.statements import statements
+
+pytest.importorskip("lark")
+
+PAPER = r"""
+\documentclass{article}
+\newcommand{\dif}{\mathrm{d}}
+\begin{document}
+% \begin{equation} a = 1 \end{equation}
+\begin{equation}\label{law}
+P = \int_{-a}^{a} p(x)\,\dif x = \frac{a^2 \pi E^*}{4 R}\;\text{,}
+\end{equation}
+\begin{align}
+a &= b, \label{first}\\
+c &\simeq d + \ldots \nonumber\\
+K_T &= \frac{\pm Q}{\pi}
+\end{align}
+\begin{subequations}\begin{align} m &= n \\ n &= m \end{align}\end{subequations}
+\[ u = v \]
+\begin{equation} \sum_i a_i = b \end{equation}
+\end{document}
+"""
+
+
+def run(*arguments: str, answers: str = "") -> Result:
+    return CliRunner().invoke(main, ["check", *arguments], input=answers, catch_exceptions=False)
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "paper.tex"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_displays_are_numbered_as_latex_numbers_them(tmp_path: Path) -> None:
+    found, environments = displays(written(tmp_path, PAPER))
+    assert environments == 5
+    assert [(each.number, each.label) for each in found] == [
+        ("1", "law"),
+        ("2", "first"),
+        ("", ""),
+        ("3", ""),
+        ("4a", ""),
+        ("4b", ""),
+        ("", ""),
+        ("5", ""),
+    ]
+    assert found[0].line == 6
+
+
+def test_a_paper_is_drafted_accepted_and_judged(tmp_path: Path) -> None:
+    new = tmp_path / "draft.toml"
+    done = run(str(written(tmp_path, PAPER)), "--draft", str(new))
+    assert done.exit_code == 0, done.output
+    assert "eq. (5), paper.tex" in done.output
+    data = tomllib.loads(new.read_text())
+    claims = {claim["label"]: claim for claim in data["claims"]}
+    assert claims["law/1"]["understood"] == "P = integral(p_at_x, x, -a, a)"
+    assert claims["law/2"]["accepted"] is False
+    assert {"P", "p_at_x", "K_T", "Q"} <= data["symbols"].keys()
+    assert data["symbols"]["P"]["proposal"] == "load(a, c)"
+    assert "understood" not in claims["(5)"]
+    told = json.loads(run(str(new), "--format", "json").stdout)
+    assert {each["verdict"] for each in told} == {"unchecked"}
+    assert all(each["reason"] for each in told)
+    assert run(str(new), "--accept", answers="y\n" * 20).exit_code == 0
+    text = new.read_text().replace(
+        "[variables]", 'body = "hertz"\n[variables]\na = "half-width"', 1
+    )
+    lines = [line for line in text.splitlines() if not line.startswith(("a = {", "R = "))]
+    known = ['P = "load(a, a)"' if line.startswith("P = {") else line for line in lines]
+    new.write_text("\n".join(known))
+    verdicts = {
+        c["label"]: c["verdict"] for c in json.loads(run(str(new), "--format", "json").stdout)
+    }
+    assert verdicts["law/2"] == "holds"
+    assert verdicts["law/1"] == "unchecked"
+
+
+def test_a_draft_replaces_nothing(tmp_path: Path) -> None:
+    paper = written(tmp_path, PAPER)
+    assert run(str(paper), "--draft", str(paper)).exit_code == 2
+    assert paper.read_text() == PAPER
+
+
+@pytest.mark.parametrize(
+    ("latex", "found"),
+    [
+        (r"a = b = c", ["a = b", "a = c"]),
+        (r"a \leq b = c.", [r"a \leq b", "b = c"]),
+        (r"a = b \quad\text{and}\quad c = d;", ["a = b", "c = d"]),
+        (r"a \pm b = \mp c", ["a + b = - c", "a - b = c"]),
+        (r"a &= b \nonumber\\ &+ c", ["a = b + c"]),
+        (r"a = b \; \mbox{for} \; 0<x<c", ["a = b"]),
+    ],
+)
+def test_statements(latex: str, found: list[str]) -> None:
+    texts = [" ".join(each.latex.split()) for each in statements("here", latex)]
+    assert texts == found
+
+
+@pytest.mark.parametrize(
+    ("latex", "understood"),
+    [
+        (r"c = \sin^{-1}\left(\frac{a}{b}\right)", "c = asin(a/b)"),
+        (r"c = \int_0^a \frac{F(s)}{\sqrt{s}}\,\mbox{d}s", "c = integral(F_at_s/sqrt(s), s, 0, a)"),
+        (r"F(c) = \frac{\mbox{d}P}{\mbox{d}c}", "F_at_c = dP_dc"),
+        (r"K_{N}^{\text{LHS}} = E^{*} a'(c)", "K_N_LHS = E_star*a_prime_at_c"),
+    ],
+)
+def test_what_is_understood(latex: str, understood: str) -> None:
+    (one,) = statements("here", latex)
+    assert Latex("here", one.latex, spellings(one.latex)).understood() == understood
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "{" * 5000 + "a = b",
+        "a = " + "{" * 300 + "b" + "}" * 300,
+        "a = b}",
+        "a = " + "b + " * 3000 + "c",
+        r"a = \left( b",
+        r"\int \int \int = a",
+        "a = " + r"\frac" * 500,
+        r"_ = ^",
+    ],
+)
+def test_hostile_latex_is_told_and_does_not_hang(body: str, tmp_path: Path) -> None:
+    start = time.monotonic()
+    text = rf"\begin{{document}}\begin{{equation}}{body}\end{{equation}}"
+    done = run(str(written(tmp_path, text)), "--draft", str(tmp_path / "new.toml"))
+    assert done.exit_code == 0
+    assert "not read: eq. (1)" in done.output
+    assert time.monotonic() - start < 30
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        (r"\begin{equation} a = b", "is not closed"),
+        ("no mathematics", "no displayed equation"),
+        ("$$a$$" * 600, "more than 500 displays"),
+        ("x" * 5_000_001, "larger than"),
+    ],
+)
+def test_a_file_that_cannot_be_drafted(text: str, part: str, tmp_path: Path) -> None:
+    done = run(str(written(tmp_path, text)), "--draft", str(tmp_path / "new.toml"))
+    assert (done.exit_code, part in done.output) == (2, True), done.output
+    assert not (tmp_path / "new.toml").exists()
+
+
+def test_brackets_that_do_not_fit() -> None:
+    with pytest.raises(BadFormula, match="closes nothing"):
+        statements("here", "a = b)")

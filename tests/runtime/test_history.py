@@ -1,0 +1,313 @@
+"""Load histories and steady cycles: against closed forms, exact zones, the independent solver."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from derive.runtime.body import Asked, Body, Parameter
+from derive.runtime.history import public
+from derive.runtime.kernels import COMPILED
+from derive.runtime.types import Regime
+from tests.reference.friction import Friction
+from tests.reference.kernel import Surface
+from tests.reference.mesh import graded
+from tests.reference.normal import Body as Profile
+from tests.reference.normal import press
+
+from .laws import flat_rounded, hertz, wedge
+
+F = 0.5
+LOAD = math.pi / 4
+"""P at which Hertz's half-width is 1, with R = E* = 1."""
+COMPUTED, NO_STICK = 9, 10
+T = np.linspace(0, 2 * np.pi, 33)
+
+
+def call(function, case, *loads, f=F, E_star=1.0, **given):
+    names = ["R", "b"][: case.own.size]
+    parameters = tuple(Parameter(name, "", "m") for name in names)
+    body = Body(case.functions._asdict(), parameters, "", {})
+    own = given.pop("own", dict(zip(names, case.own, strict=True)))
+    asked = Asked(body, function, own)
+    return function(asked, *loads, f=f, E_star=E_star, **given)
+
+
+def history(case, *loads, **given):
+    return call(public.history, case, *loads, **given)
+
+
+def steady_cycle(case, *loads, **given):
+    return call(public.steady_cycle, case, *loads, **given)
+
+
+def covered(found, m, n, at=slice(None)):
+    """Whether the ends are within the stated error, and that is small."""
+    h = (found.a + found.c)[at]
+    off = np.maximum(abs(found.m[at] - m), abs(found.n[at] - n)) / h
+    return np.all(off <= found.error[at]) and np.all(found.error[at] < 8e-3)
+
+
+# ---------------------------------------------------------------- closed forms
+
+
+def test_cattaneo_and_mindlin_first_loading():
+    """n = a sqrt(1 - Q/(f P)), q = f (p - p of [-n, n])."""
+    Q, x = np.linspace(0.05, 0.95, 19) * F * LOAD, np.linspace(-0.97, 0.97, 41)
+    found = history(hertz, LOAD, 0.0, Q, 0.0, x=x)
+    n = np.sqrt(1 - Q / (F * LOAD))
+    assert np.all(found.regime == COMPUTED) and np.all(found.intervals == 1)
+    assert covered(found, n, n)
+    assert np.median(abs(found.n - n)) / 2 < 1e-3
+    stuck = np.sqrt(np.maximum(n[:, None] ** 2 - x**2, 0))
+    q = F / 2 * (np.sqrt(1 - x**2) - stuck)
+    assert np.mean(abs(found.q - q)) < 1e-3 * F * LOAD / 2
+    # forward slip is 2 f times the gap beside the patch, halved for a first rise
+    ratio = np.maximum(abs(x) / n[:, None], 1)
+    gap = n[:, None] ** 2 / 2 * (ratio * np.sqrt(ratio**2 - 1) - np.arccosh(ratio))
+    assert np.max(abs(found.slip - F * gap)) < 0.01 * np.max(F * gap)
+
+
+def test_finer_when_asked():
+    Q = np.linspace(0.2, 0.8, 7) * F * LOAD
+    n = np.sqrt(1 - Q / (F * LOAD))
+    coarse, fine = (history(hertz, LOAD, 0.0, Q, 0.0, tol=tol) for tol in (4e-3, 5e-4))
+    assert np.max(abs(fine.n - n)) < np.max(abs(coarse.n - n)) / 3
+    assert np.max(fine.error) < np.min(coarse.error)
+
+
+@pytest.mark.parametrize("part", [0.5, 0.9])
+def test_what_grows_in_proportion_sticks(part):
+    """Q = part f P from nothing: q = part f p, and nothing slips."""
+    P, x = np.linspace(0, 1, 9) * LOAD, np.linspace(-0.9, 0.9, 19)
+    found = history(hertz, P, 0.0, part * F * P, 0.0, x=x)
+    assert found.regime[0] == Regime.NONE
+    assert found.m[1:] == pytest.approx(found.a[1:], rel=0.01)
+    assert np.mean(abs(found.q[-1] - part * F / 2 * np.sqrt(1 - x**2))) < 1e-3 * F / 2
+    assert found.work[-1] < 1e-6 * F * LOAD
+
+
+def test_sliding_and_back():
+    """Where it has slid q = f p; then it sticks as after a reversal from there."""
+    Q = np.array([0.5, 1.2, 0.5, -0.2]) * F * LOAD
+    found = history(hertz, LOAD, 0.0, Q, 0.0, x=[0.0, 0.5])
+    assert found.regime.tolist() == [COMPUTED, Regime.SLIDING, COMPUTED, COMPUTED]
+    assert np.isnan(found.m[1]) and found.intervals[1] == 0
+    assert found.q[1] == pytest.approx(F / 2 * np.sqrt([1, 0.75]), rel=1e-9)
+    n = np.sqrt(1 - (1 - Q[2:] / (F * LOAD)) / 2)
+    assert covered(found, n, n, slice(2, None))
+    assert np.all(np.isnan(found.work[1:])) and np.all(np.isnan(found.slip[1:]))
+
+
+def test_what_does_not_exist_is_nan():
+    found = history(hertz, [LOAD, -1.0, LOAD, np.nan, LOAD], 0.0, 0.1, 0.0, x=0.0)
+    assert found.regime.tolist() == [COMPUTED, 0, Regime.FULL_STICK, 0, 0]
+    for told in (found.m, found.n, found.q, found.slip, found.work, found.error):
+        assert np.all(np.isnan(told[[1, 3, 4]]))
+    assert np.all(np.isnan(history(hertz, LOAD, 0.0, [0.1, 0.2], 0.0, f=-1.0).m))
+
+
+# ---------------------------------------------------------------- the independent solver
+
+
+def reference(body, P, M, Q, sigma, edges, count, steps):
+    """x, then q, f p and the places at every instant, by tests/reference."""
+    places = [-edges[0].max(), -edges[0].min(), edges[1].min(), edges[1].max()]
+    margin = 0.03 * (places[-1] - places[0])
+    breaks = [places[0] - margin, *places, 0.0, places[-1] + margin, *body.kinks]
+    surface = Surface(graded(breaks, count))
+    friction = Friction(surface, F, None, None, [])
+    loads = np.column_stack(np.broadcast_arrays(P, M, Q, sigma))
+    start = loads[:1] * [1, 1, 0, 0]
+    told, way = [], np.vstack([start, loads])
+    q, guess, where = np.zeros_like(surface.x), None, None
+    for first, second in pairwise(way):
+        # the last step is short: what sticks at the instant is what sticks in it
+        parts = [0, *np.linspace(0, 1, steps + 1)[1:-1], 1 - 0.05 / steps, 1]
+        for before, part in pairwise(parts):
+            now = first + part * (second - first)
+            dsigma = (part - before) * (second - first)[3]
+            contact = press(body, surface, now[0], now[1], guess)
+            guess = contact.places
+            q, _, where = friction._step(q, contact, now[2], dsigma, where)
+        told.append((q, F * contact.p, where))
+    return surface.x, told
+
+
+def ends(x, q, bound, where):
+    """The ends of one stick interval: (f p - |q|)^2 is linear there."""
+    inside = np.flatnonzero((bound > 0) & (where == 0))
+    found = []
+    for last, out in ((inside[0], -1), (inside[-1], 1)):
+        near, far = last - out, last - 2 * out
+        g, G = (bound[[near, far]] - where[last + out] * q[[near, far]]) ** 2
+        end = x[near] + (x[near] - x[far]) * g / (G - g)
+        found.append(np.clip(end, *sorted((x[last], x[last + out]))))
+    return -found[0], found[1], np.all(np.diff(inside) == 1)
+
+
+@pytest.mark.parametrize(
+    ("case", "body", "loads"),
+    [
+        (
+            hertz,
+            Profile(lambda x: x**2 / 2),
+            ([0.8, 1.0, 0.9, 0.6, 0.9], [0.02, 0.0, -0.03, 0.0, 0.01], [0.1, 0.3, 0.1, -0.1, 0.2]),
+        ),
+        (
+            wedge,
+            Profile(np.abs, kinks=(0.0,)),
+            ([1.0, 1.0, 1.0, 1.0, 1.0], [0.05] * 5, [0.3, -0.2, 0.1, -0.1, 0.25]),
+        ),
+    ],
+    ids=["Hertz, all vary", "wedge, constant normal loads"],
+)
+def test_out_of_phase_as_by_the_independent_solver(case, body, loads):
+    P, M, Q = map(np.array, loads)
+    sigma = np.array([0.1, 0.3, -0.2, -0.1, 0.3]) * F
+    plain = history(case, P, M, Q, sigma)
+    x, told = reference(body, P, M, Q, sigma, (plain.a, plain.c), 64, 16)
+    found = history(case, P, M, Q, sigma, x=x)
+    compared = 0
+    for i, (q, bound, where) in enumerate(told):
+        mean, h = F * P[i] / (plain.a + plain.c)[i], (plain.a + plain.c)[i]
+        assert np.trapezoid(abs(found.q[i] - q), x) < 3e-3 * mean * h
+        m, n, single = ends(x, q, bound, where)
+        if single and found.intervals[i] == 1:
+            for end, other in ((-found.m[i], -m), (found.n[i], n)):
+                element = np.diff(x)[np.searchsorted(x, other) - 1]
+                assert abs(end - other) < found.error[i] * h + element
+            compared += 1
+    assert compared >= 3
+
+
+def test_normal_load_out_of_phase_with_shear():
+    """P leads Q by a quarter: 0.8014 of the half-width at the mean load by another solver."""
+    P, Q = LOAD * (1 + 0.2 * np.sin(T)), 0.3 * F * LOAD * np.cos(T)
+    found = steady_cycle(hertz, P, 0.0, Q, 0.0)
+    assert found.regime == COMPUTED
+    assert found.m == pytest.approx(found.n, rel=1e-9)
+    assert abs(found.m - 0.8014) < 2 * found.error < 6e-3
+
+
+# ---------------------------------------------------------------- steady cycles
+
+
+CYCLES = [
+    (hertz, LOAD, 0.0, 0.3, 0.0, 0.0),
+    (hertz, LOAD, 0.02, 0.2, 0.6, 0.1),
+    (wedge, 1.0, 0.1, 0.15, 1.0, 0.0),
+    (flat_rounded, 1.0, 0.05, 0.3, 0.1, 0.05),
+]
+
+
+@pytest.mark.parametrize(("case", "P", "M", "dQ", "dsigma", "normal"), CYCLES)
+def test_what_is_computed_is_as_exact_as_stated(case, P, M, dQ, dsigma, normal, monkeypatch):
+    way = np.array([-0.5, 0.5])
+    given = P * (1 + normal * way), M, 2 * dQ * F * P * way, dsigma * way
+    exact = steady_cycle(case, *given)
+    assert exact.regime in (Regime.MODERATE, Regime.LARGE) and exact.error == 0
+    refused = exact._replace(regime=np.full(3, 3), m=np.full(3, np.nan))
+    monkeypatch.setattr(public, "march", lambda *_, **__: refused)
+    found = steady_cycle(case, *given)
+    assert found.regime == COMPUTED and found.drift < 1e-3
+    h = exact.m + exact.n
+    assert max(abs(found.m - exact.m), abs(found.n - exact.n)) < found.error * h < 0.01 * h
+
+
+def test_work_of_a_cycle_is_what_friction_takes_where_it_slips():
+    """2 int f p slip_range dx at constant loads, slip_range = 2 f times the gap beside [-n, n]."""
+    n = math.sqrt(0.7)
+    x = np.sin(np.linspace(-np.pi / 2, np.pi / 2, 4001))
+    ratio = np.maximum(abs(x) / n, 1)
+    slip = 2 * F * n**2 / 2 * (ratio * np.sqrt(ratio**2 - 1) - np.arccosh(ratio))
+    work = 2 * np.trapezoid(F / 2 * np.sqrt(1 - x**2) * slip, x)
+    found = steady_cycle(hertz, LOAD, 0.0, 0.3 * F * LOAD * np.sin(T), 0.0, x=x[::400])
+    assert found.work == pytest.approx(work, rel=0.02)
+    assert found.slip_range == pytest.approx(slip[::400], abs=0.02 * slip.max())
+
+
+def test_cycles_that_stick_nowhere_or_slide():
+    P = LOAD * np.array([1.0, 1.0])
+    assert steady_cycle(hertz, P, [-0.9, 0.9], 0.0, 0.0).regime in (COMPUTED, NO_STICK)
+    apart = steady_cycle(hertz, P, [-2.0, 2.0], [-0.1, 0.1], 0.0)
+    assert apart.regime == NO_STICK and np.isnan(apart.m)
+    assert steady_cycle(hertz, P, 0.0, [-0.5, 0.5], 0.0).regime == Regime.SLIDING
+    assert steady_cycle(hertz, P, 0.0, 0.1, 0.0).regime == Regime.FULL_STICK
+    assert steady_cycle(hertz, -P, 0.0, 0.1, 0.0).regime == Regime.NONE
+
+
+# ---------------------------------------------------------------- symmetry, shapes, text
+
+
+@pytest.mark.parametrize("case", [hertz, wedge, flat_rounded])
+def test_mirrored_loads_mirror_the_answer(case):
+    """Mirrored, and shear turned round: P, -M, -Q, sigma."""
+    P, M = 1 + 0.2 * np.sin(T), 0.05 * np.cos(T)
+    Q, sigma = 0.15 * np.sin(T + 1), 0.2 * np.cos(T + 2)
+    here, there = (history(case, P, s * M, s * Q, sigma, x=[0.3 * s]) for s in (1, -1))
+    assert there.m == pytest.approx(here.n, abs=3e-3)
+    assert there.q == pytest.approx(-here.q, abs=3e-3)
+    assert there.work == pytest.approx(here.work, rel=0.01)
+
+
+def test_any_units():
+    P, Q = LOAD * (1 + 0.2 * np.sin(T)), 0.3 * F * LOAD * np.cos(T)
+    size, E_star = 1e-3, 1e11
+    here = history(hertz, P, 0.0, Q, 0.1 * np.sin(T), x=[0.5])
+    there = history(
+        hertz,
+        P * E_star * size,
+        0.0,
+        Q * E_star * size,
+        0.1 * E_star * np.sin(T),
+        x=[0.5 * size],
+        E_star=E_star,
+        own={"R": size},
+    )
+    assert there.m == pytest.approx(here.m * size, rel=1e-6)
+    assert there.q == pytest.approx(here.q * E_star, rel=1e-6)
+    assert there.slip == pytest.approx(here.slip * size, rel=1e-5, abs=1e-12)
+    assert there.work[-1] == pytest.approx(here.work[-1] * E_star * size**2, rel=1e-5)
+
+
+def test_arguments_broadcast():
+    Q = 0.1 * np.sin(T[:5])
+    found = history(hertz, [[LOAD], [1.0]], 0.0, Q, 0.0, x=np.zeros((2, 3)), tol=4e-3)
+    assert found.m.shape == found.error.shape == (2, 5)
+    assert found.q.shape == found.slip.shape == (2, 5, 2, 3)
+    assert found.n[1] == pytest.approx(history(hertz, 1.0, 0.0, Q, 0.0, tol=4e-3).n, rel=1e-12)
+    assert steady_cycle(hertz, [[LOAD], [1.0]], 0.0, Q, 0.0, tol=4e-3).m.shape == (2,)
+    with pytest.raises(ValueError, match="last axis"):
+        history(hertz, 1.0, 0.0, Q, 0.0, f=np.linspace(0.4, 0.5, 5))
+    with pytest.raises(ValueError, match="tol"):
+        history(hertz, 1.0, 0.0, Q, 0.0, tol=0.0)
+
+
+SHORT = """
+import json
+from tests.runtime.test_history import F, LOAD, hertz, history
+found = history(hertz, [LOAD, 0.9 * LOAD], 0.0, [0.1, -0.05], [0.0, 0.1], x=[0.5], tol=1.0)
+print(json.dumps([found.m.tolist(), found.n.tolist(), found.q.tolist(), found.work.tolist()]))
+"""
+
+
+@pytest.mark.skipif(not COMPILED, reason="nothing is compiled")
+def test_plain_python_gives_the_same():
+    told = []
+    for off in ("0", "1"):
+        environment = os.environ | {"NUMBA_DISABLE_JIT": off}
+        root = Path(__file__).parents[2]
+        command = [sys.executable, "-c", SHORT]
+        run = subprocess.run(
+            command, cwd=root, env=environment, capture_output=True, text=True, check=True
+        )
+        told.append(json.loads(run.stdout))
+    for here, there in zip(*told, strict=True):
+        assert np.array(here) == pytest.approx(np.array(there), rel=1e-9)
