@@ -337,6 +337,7 @@ _BODY = Body(
         threshold="0.152789",
         slip="['0.0763944', '0.0763944']",
     ),
+    "k > 1",
 )
 
 contact = _BODY.bound(cycle.contact)

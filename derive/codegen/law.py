@@ -100,6 +100,8 @@ class LawText:
         yield f"    ({parameters}),"
         yield f"    {self.source!r},"
         yield f"    dict({example}),"
+        if demands := " and ".join(map(str, self.sheet.geometry.slope.demands)):
+            yield f"    {demands!r},"
         yield ")"
 
 

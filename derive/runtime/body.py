@@ -37,6 +37,7 @@ class Body:
     parameters  of the geometry, in the order in which those functions find them
     origin      the file that g(x) came from
     example     what the examples of its functions hold, by name
+    demands     what its parameters must meet besides being positive, in words
     """
 
     def __init__(
@@ -45,9 +46,10 @@ class Body:
         parameters: tuple[Parameter, ...],
         origin: str,
         example: Mapping[str, str],
+        demands: str = "",
     ) -> None:
         self.functions, self.parameters = functions, parameters
-        self.origin, self.example = origin, example
+        self.origin, self.example, self.demands = origin, example, demands
         self.names = tuple(p.name for p in parameters)
         self._names = frozenset(self.names)
         self._lock = threading.Lock()
@@ -88,6 +90,9 @@ class Body:
         width = max(map(len, arguments))
         lines = [f"    {a:{width}}  {meanings[a]}" for a in arguments]
         text = cleandoc(function.__doc__ or "").replace("{arguments}", "\n".join(lines))
+        if self.demands:
+            positive = "parameters are positive"
+            text = text.replace(positive, f"{positive}, {self.demands}")
         example = words.EXAMPLES[name].format_map(self.example)
         return f"{text}\n\nDerived from {self.origin}.\n\n{example}"
 

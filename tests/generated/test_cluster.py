@@ -66,6 +66,10 @@ def test_processes_give_what_numpy_gives(client: Client, name: str) -> None:
         np.testing.assert_allclose(value, known, rtol=1e-12, atol=1e-15)
 
 
+COMPILING = "compiling the solvers, once for this installation: some twenty seconds ...\n"
+"""What a worker says that comes first."""
+
+
 def counted(block: Any, folder: str) -> Any:
     """The block as it is, and a file that says so."""
     number = len([*Path(folder).iterdir()])
@@ -140,7 +144,7 @@ def test_the_monte_carlo_counts_what_numpy_counts(monte_carlo: Any, tmp_path: Pa
             f"--out={tmp_path / 'slip.csv'}",
         )
         assert done.returncode == 0, done.stderr
-        assert done.stderr == ""
+        assert done.stderr.replace(COMPILING, "") == ""
         rows = np.genfromtxt(tmp_path / "slip.csv", delimiter=",", skip_header=1)
         assert_array_equal(rows[:, 2], wanted.left)
         assert_array_equal(rows[:, 3], wanted.right)

@@ -14,6 +14,7 @@ import pytest
 from derive.library import library, load_geometry
 from derive.runtime.body import Body, Parameter, kernel_of
 from derive.runtime.cycle import CYCLE, SOLVED
+from derive.runtime.history.public import HISTORIES
 from derive.runtime.words import EXAMPLES, MEANINGS
 from generated import hertz, wedge
 
@@ -82,8 +83,9 @@ def test_signatures_are_those_of_the_contract() -> None:
 
 
 def test_there_is_an_example_and_a_meaning_of_everything() -> None:
-    assert EXAMPLES.keys() == {function.__name__ for function in (*SOLVED, *CYCLE)}
-    for function in (*SOLVED, *CYCLE):
+    functions = (*SOLVED, *CYCLE, *HISTORIES)
+    assert EXAMPLES.keys() == {function.__name__ for function in functions}
+    for function in functions:
         assert {*[*inspect.signature(function).parameters][1:]} <= MEANINGS.keys()
 
 

@@ -245,7 +245,7 @@ def _slipped(
         across = y + stuck
         if side == other:
             summed = math.sqrt(y * (there + stuck)) + math.sqrt(there * across)
-            logarithm = math.log(summed * summed / max(stuck * abs(y - there), TINY * summed**2))
+            logarithm = -math.log(max(stuck * abs(y - there) / (summed * summed), TINY))
             smooth = root + (y + across) * arc
         else:
             summed = math.sqrt(across * (there + stuck)) + math.sqrt(there * y)

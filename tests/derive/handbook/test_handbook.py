@@ -38,10 +38,13 @@ VOID = {"meta", "link", "br", "img", "hr", "input"}
 OUTSIDE = re.compile(r"""(?:src|href)=["'](?!#|[\w-]+\.html)|url\(|@import|<script|<iframe""")
 
 
+STUCK = (Path(__file__).parents[3] / "generated" / "full_stick.py").read_text(encoding="utf-8")
+
+
 def body_of(sheet: FormulaSheet, text: str) -> Body:
     proofs = tuple((name, "proved: a stand-in for a proof") for name in sheet)
     verdicts = tuple((name, Verdict.PROVED) for name in sheet)
-    return Body(sheet.geometry.name, text, "", 0.0, ("forward",), (), verdicts, proofs)
+    return Body(sheet.geometry.name, text, STUCK, 0.0, ("forward",), (), verdicts, proofs)
 
 
 def made(name: str) -> tuple[FormulaSheet, Body]:
@@ -118,7 +121,7 @@ def test_nothing_of_the_sheet_is_missing(pages: Path, name: str) -> None:
     assert text.count("a stand-in for a proof") == len(sheet)
     for function in re.findall(r"^def (\w+)", body.text, re.M):
         assert f'<span class="nf">{function}</span>' in text
-    assert text.count("<polyline") == 1 + len(pictures(sheet, body.text).labels)
+    assert text.count("<polyline") == 1 + len(pictures(sheet, body).labels)
 
 
 def test_the_same_body_gives_the_same_bytes() -> None:
@@ -227,7 +230,7 @@ def test_what_is_kept_gives_the_same_page(
 ) -> None:
     """Without the seconds that proofs take."""
     monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
-    monkeypatch.setattr(derive.codegen.trial, "demand_right", lambda sheet, text: None)
+    monkeypatch.setattr(derive.codegen.trial, "demand_right", lambda *_: None)
     monkeypatch.setattr(derive.parallel, "cores", lambda: 1)
     first, second = twice(name, tmp_path)
     assert first == second
