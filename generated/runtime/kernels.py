@@ -119,7 +119,9 @@ if COMPILED:
 
     @cache
     def _tell() -> None:
-        """Say, once, what a person is waiting for."""
+        """Say, once, what a person at a terminal is waiting for."""
+        if not sys.stderr.isatty():
+            return
         text = "compiling the solvers, once for this installation: some twenty seconds ..."
         print(text, file=sys.stderr, flush=True)
 
