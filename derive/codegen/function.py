@@ -270,13 +270,6 @@ def _is_drawn_in(sheet: FormulaSheet) -> bool:
     return bool(sheet["pressure"].expr.xreplace({w: S.One}).has(x))
 
 
-def own_parameters(sheet: FormulaSheet) -> tuple[str, str]:
-    """The body's parameters as a function takes them, keyword-only, and as it hands them on."""
-    names = [q.name for q in sheet.geometry.parameters]
-    taken = "".join(f", {name}: Array" for name in names)
-    return (f", *{taken}" if names else ""), "".join(f", {name}={name}" for name in names)
-
-
 def local(sheet: FormulaSheet, name: str) -> str:
     """The name of a local variable, which gives way to a parameter of the same name."""
     while name in {q.name for q in sheet.geometry.parameters}:
