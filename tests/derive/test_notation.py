@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
 from rich.console import Console
-from sympy import Expr, Rational, Symbol, lambdify, parse_expr, pi, sqrt, symbols
+from sympy import Expr, Gt, Rational, Symbol, lambdify, parse_expr, pi, sqrt, symbols
 
 from derive.notation import gathered, is_half_power, latex_of, text_of
 from derive.symbols import QUANTITIES, E_star, P, alpha, dQ, dsigma
@@ -142,3 +142,9 @@ def test_the_latex_of_a_sheet_has_one_row_a_formula(name: str) -> None:
     defined = body.definitions | body.computed_definitions
     assert len(rows) == 3 + len(body) + len(defined)
     assert all(row.count("&=") == 1 for row in rows[1:-1])
+
+
+def test_a_condition_that_assumptions_make_true_is_written_out() -> None:
+    force = Symbol("P", positive=True)
+    assert latex_of(Gt(force, 0, evaluate=False)) == "P > 0"
+    assert text_of(Gt(force, 0, evaluate=False)) == "P > 0"
