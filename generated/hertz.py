@@ -46,7 +46,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
         M       moment per unit depth, M = -int p x dx [N]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
-    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless True, with lengths of 1e-75 to 1e75 m.
+    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
 
     a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 49 digits at 24
     points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 49 digits at 24
@@ -61,7 +61,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     c = half - e
     alpha = e / R
     h = a + c  # contact width [m]
-    exists = (True) & (h > LEAST) & (h < MOST)
+    exists = (P > 0) & (h > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
@@ -77,7 +77,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
         alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
-    Returns Contact(a [m], c [m], alpha as given).  NaN unless True, with lengths of 1e-75 to 1e75
+    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0, with lengths of 1e-75 to 1e75
     m.
 
     a and c numerical: put back into load(a, c), tilt(a, c); 49 digits at 24 points.  Derived from
@@ -90,7 +90,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     a = alpha * R + half
     c = half - alpha * R
     h = a + c  # contact width [m]
-    exists = (True) & (h > LEAST) & (h < MOST)
+    exists = (P > 0) & (h > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 

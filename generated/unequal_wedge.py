@@ -48,7 +48,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
-    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless True, with lengths of 1e-75 to 1e75 m.
+    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
 
     a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 46 digits at 24
     points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 46 digits at 24
@@ -74,7 +74,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
         - phi_2 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, lean)
     ) / np.pi
     h = a + c  # contact width [m]
-    exists = (True) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
@@ -93,7 +93,7 @@ def contact_at_tilt(
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
-    Returns Contact(a [m], c [m], alpha as given).  NaN unless True and alpha > -phi_2 and alpha <
+    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0 and alpha > -phi_2 and alpha <
     phi_1, with lengths of 1e-75 to 1e75 m.
 
     a and c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.  Derived from
@@ -112,7 +112,7 @@ def contact_at_tilt(
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (True) & (alpha > -phi_2) & (alpha < phi_1) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (alpha > -phi_2) & (alpha < phi_1) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 

@@ -46,7 +46,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
         M       moment per unit depth, M = -int p x dx [N]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
-    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless True, with lengths of 1e-75 to 1e75 m.
+    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
 
     a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 44 digits at 24
     points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 48 digits at 24
@@ -69,7 +69,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     c = np.maximum(-leaning, near)
     alpha = (2 * phi / np.pi) * np.arctan(lean / base)
     h = a + c  # contact width [m]
-    exists = (True) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
@@ -85,7 +85,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
         alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
-    Returns Contact(a [m], c [m], alpha as given).  NaN unless True and alpha > -phi and alpha <
+    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0 and alpha > -phi and alpha <
     phi, with lengths of 1e-75 to 1e75 m.
 
     a and c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.  Derived from
@@ -108,7 +108,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
-    exists = (True) & (alpha > -phi) & (alpha < phi) & (np.minimum(a, c) > LEAST) & (h < MOST)
+    exists = (P > 0) & (alpha > -phi) & (alpha < phi) & (np.minimum(a, c) > LEAST) & (h < MOST)
     return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
