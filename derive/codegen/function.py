@@ -28,9 +28,7 @@ from derive.units import Dimension, dimension_of, parse_unit
 
 LINE = 100
 
-_SHAPES = (
-    "Arguments broadcast, results are float64 of their shape; NaN unless constants are positive."
-)
+_SHAPES = "Arguments broadcast, results are float64 of their shape"
 
 _width = Symbol("h")
 """Contact width by its name, where code is checked for it."""
@@ -154,7 +152,10 @@ class FunctionText:
             lines += textwrap.wrap(
                 equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
             )
-        lines += ["", _SHAPES]
+        lines += [
+            "",
+            f"{_SHAPES}; NaN unless constants are positive." if self.keywords else f"{_SHAPES}.",
+        ]
         given = self._given
         width = max(map(len, given))
         for name, meaning in given.items():
@@ -171,12 +172,14 @@ class FunctionText:
     @property
     def _given(self) -> dict[str, str]:
         """What the arguments mean, both edges at once."""
-        quantities = self.sheet.geometry.quantities
-        given = [quantities[str(s)] for s in (*self.function.arguments, *self.keywords)]
-        found = {q.name: f"{q.meaning} [{q.unit}]" for q in given}
-        both = {"a": "a, c", "c": ""} if {"a", "c"} <= found.keys() else {}
-        found |= {"a": "edges of the contact at x = -a and x = c [m]"} if both else {}
-        return {both.get(name, name): told for name, told in found.items() if both.get(name, name)}
+        found = {}
+        for symbol in (*self.function.arguments, *self.keywords):
+            q = self.sheet.geometry.quantities[str(symbol)]
+            if symbol == a:
+                found["a, c"] = f"edges of the contact at x = -a and x = c [{q.unit}]"
+            elif symbol != c:
+                found[q.name] = f"{q.meaning} [{q.unit}]"
+        return found
 
     @property
     def _equations(self) -> Iterator[str]:

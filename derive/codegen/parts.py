@@ -7,6 +7,7 @@ Out: the Program of that function, compared with the sheet's formulas before it 
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 
 from sympy import Expr
 
@@ -17,6 +18,7 @@ from derive.errors import NotProven
 from derive.proof.points import contacts
 from derive.sheet import FormulaSheet
 from derive.theory.edges import Edge, pressure_series
+from derive.theory.frame import Frame
 from derive.theory.segments import Parts, definitions_of
 
 THIRD = {"left": "third_left", "right": "third_right"}
@@ -36,7 +38,7 @@ def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
     >>> parts_program(sheet, {"": "load"}).outputs[""]
     E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
     """
-    program, common = _program(sheet, fields), common_steps(sheet)
+    program, common = _program(Parts(sheet.frame), fields, _taken(sheet)), common_steps(sheet)
     source = {field: _derived(sheet, name) for field, name in fields.items()}
     proof = prove_equal(program, source, contacts(sheet))
     if not proof.holds:
@@ -48,14 +50,14 @@ def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
 
 def common_steps(sheet: FormulaSheet) -> tuple[Step, ...]:
     """The steps that every function holds, if they are more than the contact's width."""
-    first, *others = (program.steps for program in _programs(sheet))
+    first, *others = (program.steps for program in _programs(sheet.frame, _taken(sheet)))
     common = tuple(step for step in first if all(step in steps for steps in others))
     return common if len(common) > 1 else ()
 
 
 def functions_called(sheet: FormulaSheet) -> dict[Expr, Expr]:
     """The functions that any of the programs calls, and what they are."""
-    programs = _programs(sheet)
+    programs = _programs(sheet.frame, _taken(sheet))
     return definitions_of(
         expr
         for program in programs
@@ -63,20 +65,24 @@ def functions_called(sheet: FormulaSheet) -> dict[Expr, Expr]:
     )
 
 
-def _programs(sheet: FormulaSheet) -> list[Program]:
+@lru_cache(maxsize=2)
+def _programs(frame: Frame, taken: tuple[str, ...]) -> tuple[Program, ...]:
     """Those of all functions of the contract."""
-    parts = Parts(sheet.frame)
+    parts = Parts(frame)
     made = (f.formulas for f in CONTRACT if f.formulas[0] in parts.formulas)
-    return [_program(sheet, {name: name for name in names}) for names in made]
+    return tuple(_program(parts, {name: name for name in names}, taken) for names in made)
 
 
-def _program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
-    parts = Parts(sheet.frame)
+def _program(parts: Parts, fields: Mapping[str, str], taken: tuple[str, ...]) -> Program:
     outputs = {field: parts.formulas[name] for field, name in fields.items()}
     steps = tuple(Step(d.symbol, d.expr, d.meaning) for d in parts.definitions)
     needed = Program(outputs, steps).ordered().steps
-    program = Program(outputs, tuple(step for step in steps if step in needed))
-    return program.renamed(q.name for q in sheet.geometry.parameters)
+    return Program(outputs, tuple(step for step in steps if step in needed)).renamed(taken)
+
+
+def _taken(sheet: FormulaSheet) -> tuple[str, ...]:
+    """Names that no step may bear."""
+    return tuple(q.name for q in sheet.geometry.parameters)
 
 
 def _derived(sheet: FormulaSheet, name: str) -> Expr:

@@ -568,7 +568,7 @@ class Parts:
         corners = self._jumps(edge, lambda r: r * (15 + r**2 * (20 + 8 * r**2)))
         return here + curved + E_star / (40 * pi * h ** Rational(5, 2)) * corners
 
-    @property
+    @cached_property
     def definitions(self) -> tuple[Definition, ...]:
         """What the symbols of the formulas stand for, each after those that it holds."""
         found = [Definition(h, a + c, "contact width")]
