@@ -15,7 +15,7 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
         K_T_left = (dQ/pi + dsigma*(a + c)/8)/sqrt(a + c)
         K_T_right = (dQ/pi - dsigma*(a + c)/8)/sqrt(a + c)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+    Arguments broadcast, results are float64 of their shape.
         a, c    edges of the contact at x = -a and x = c [m]
         dQ      change of the shear load over the half-cycle that raises it [N/m]
         dsigma  change of the differential bulk tension over the same half-cycle [Pa]
@@ -43,7 +43,7 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
         L_T_left = (dQ/pi - 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
         L_T_right = (dQ/pi + 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+    Arguments broadcast, results are float64 of their shape.
         a, c    edges of the contact at x = -a and x = c [m]
         dQ      change of the shear load over the half-cycle that raises it [N/m]
         dsigma  change of the differential bulk tension over the same half-cycle [Pa]
