@@ -4,13 +4,11 @@
 g(x) = b**2*(cosh(x/b) - 1)/R, from derive/geometries/catenary.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
-from .runtime.body import Asked, Body, Parameter
+from .runtime.body import Asked, Body, Example, Parameter
 from .runtime.cycle import integrated
 from .runtime.history import public
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
@@ -66,17 +37,14 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
 
         alpha = -Integral(b*sinh(xi/b)/(R*sqrt((a + xi)*(c - xi))), (xi, -a, c))/pi
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a  left edge of the contact at x = -a [m]
-        c  right edge of the contact at x = c [m]
-        R  relative radius of curvature at the apex [m]
-        b  distance over which the flanks steepen [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        R     relative radius of curvature at the apex [m]
+        b     distance over which the flanks steepen [m]
+    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns alpha [rad].
-    NaN unless a + c > 0 and R > 0 and b > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    alpha numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.
-    Derived from derive/geometries/catenary.py.
+    alpha numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived
+    from derive/geometries/catenary.py.
 
     >>> f"{tilt(1.5, 1.0, R=1.0, b=1.0):.6g}"
     '0.361354'
@@ -90,19 +58,15 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 
         P = E_star*Integral(sqrt((a + xi)*(c - xi))*cosh(xi/b)/R, (xi, -a, c))/2
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature at the apex [m]
         b       distance over which the flanks steepen [m]
+    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns P [N/m].
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and b > 0; nor where lengths leave 1e-75 to 1e75
-    m.
-
-    P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.
-    Derived from derive/geometries/catenary.py.
+    P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
+    derive/geometries/catenary.py.
 
     >>> f"{load(1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '1.52958'
@@ -117,19 +81,15 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
         M = -E_star*Integral(sqrt((a + xi)*(c - xi))*(-a/2 + c/2 + xi)*cosh(xi/b)/R, (xi, -a,
             c))/4
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature at the apex [m]
         b       distance over which the flanks steepen [m]
+    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns M [N].
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and b > 0; nor where lengths leave 1e-75 to 1e75
-    m.
-
-    M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.
-    Derived from derive/geometries/catenary.py.
+    M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
+    from derive/geometries/catenary.py.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.45122'
@@ -146,20 +106,16 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
             Integral(log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c
             - xi)) - sqrt((a + xi)*(c - x)))))*cosh(xi/b)/(2*R), (xi, x, c)))/pi
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature at the apex [m]
         b       distance over which the flanks steepen [m]
+    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns p [Pa].
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and b > 0; nor where lengths leave 1e-75 to 1e75
-    m.
-
-    p numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.
-    Derived from derive/geometries/catenary.py.
+    p numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived from
+    derive/geometries/catenary.py.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.585715'
@@ -176,22 +132,17 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         K_N_right = E_star*Integral(sqrt((a + xi)*(c - xi))*cosh(xi/b)/(R*(c - xi)), (xi, -a,
             c))/(pi*sqrt(a + c))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature at the apex [m]
         b       distance over which the flanks steepen [m]
-
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and b > 0; nor where lengths leave 1e-75 to 1e75
-    m.
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 40
-        digits at 24 points.
-    K_N_right numerical: quadrature of the defining integral of g(x), next to the right edge; 40
-        digits at 24 points.
-    Derived from derive/geometries/catenary.py.
+    digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
+    the right edge; 40 digits at 24 points.  Derived from derive/geometries/catenary.py.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0, b=1.0)]
     ['1.31724', '1.01557']
@@ -210,22 +161,17 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
             + 3*c - xi)/(c - xi)**2, (xi, -a, c))/(6*pi*(a + c)**(3/2)) - cosh(c/b)/(4*R*sqrt(a
             + c)))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature at the apex [m]
         b       distance over which the flanks steepen [m]
-
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and E_star > 0 and R > 0 and b > 0; nor where lengths leave 1e-75 to 1e75
-    m.
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 37
-        digits at 24 points.
-    L_N_right numerical: quadrature of the defining integral of g(x), next to the right edge; 37
-        digits at 24 points.
-    Derived from derive/geometries/catenary.py.
+    digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
+    the right edge; 37 digits at 24 points.  Derived from derive/geometries/catenary.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0, b=1.0)]
     ['-0.824249', '-0.46346']
@@ -235,7 +181,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
 
 @kernel(BESIDE_BREAK)
-def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
+def _curve(piece: Array, side: Array, t: Array, own: Array) -> tuple[Array, ...]:
     """g', g'' and t g''' beside a break."""
     R, b = own[0], own[1]
     if piece == 0 and side == -1:
@@ -252,40 +198,40 @@ def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
 
 
 @kernel(BREAKS)
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve is cut."""
     return np.array([0.0])
 
 
 @kernel(BREAKS)
-def _corners(own: Array) -> Any:
+def _corners(own: Array) -> Array:
     """By how much g' rises there."""
     return np.array([0.0])
 
 
 @kernel(PRESSURE)
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.pressure(curve, x, a, c, own)
 
 
 @kernel(STATE)
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.state(curve, a, c, own)
 
 
 @kernel(SLOPE)
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x); infinite beyond the body's ends."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.slope(curve, x, own)
 
 
 @kernel(SERIES)
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.series(curve, a, c, own)
@@ -293,22 +239,15 @@ def _series(a: Array, c: Array, own: Array) -> Any:
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("R", "relative radius of curvature at the apex", "m"),
-        Parameter("b", "distance over which the flanks steepen", "m"),
-    ),
     "derive/geometries/catenary.py",
-    dict(
-        law="E_star=1.0, R=1.0, b=1.0",
-        edges="1.5, 1.0",
-        load="1.52958",
-        moment="0.45122",
-        alpha="0.361354",
-        dQ="0.19",
-        reduced="1.33958",
-        threshold="0.193532",
-        slip="['0.0580761', '0.0753273']",
+    Example(
+        "E_star=1.0, R=1.0, b=1.0",
+        (1.5, 1.0),
+        (1.5295769601907596, 0.45122039256069024, 0.36135401690532115),
+        (1.3172448330064785, 1.015573997247141),
     ),
+    Parameter("R", "relative radius of curvature at the apex", "m"),
+    Parameter("b", "distance over which the flanks steepen", "m"),
 )
 
 contact = _BODY.bound(cycle.contact)

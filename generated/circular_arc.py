@@ -4,13 +4,11 @@
 g(x) = R - sqrt(R**2 - x**2), from derive/geometries/circular_arc.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
-from .runtime.body import Asked, Body, Parameter
+from .runtime.body import Asked, Body, Example, Parameter
 from .runtime.cycle import integrated
 from .runtime.history import public
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
@@ -66,16 +37,13 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
 
         alpha = -Integral(xi*sqrt(1/((R**2 - xi**2)*(a + xi)*(c - xi))), (xi, -a, c))/pi
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a  left edge of the contact at x = -a [m]
-        c  right edge of the contact at x = c [m]
-        R  radius of the arc [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        R     radius of the arc [m]
+    Returns alpha [rad].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
 
-    Returns alpha [rad].
-    NaN unless a + c > 0 and a < R and c < R and R > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    alpha numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.
-    Derived from derive/geometries/circular_arc.py.
+    alpha numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived
+    from derive/geometries/circular_arc.py.
 
     >>> f"{tilt(0.75, 0.5, R=1.0):.6g}"
     '0.18925'
@@ -90,18 +58,14 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         P = E_star*Integral(sqrt((a + xi)*(c - xi)/(R**2 - xi**2))*(xi**2/(R**2 - xi**2) + 1),
             (xi, -a, c))/2
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the arc [m]
+    Returns P [N/m].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
 
-    Returns P [N/m].
-    NaN unless a + c > 0 and a < R and c < R and E_star > 0 and R > 0; nor where lengths leave 1e-75
-    to 1e75 m.
-
-    P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.
-    Derived from derive/geometries/circular_arc.py.
+    P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
+    derive/geometries/circular_arc.py.
 
     >>> f"{load(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.386889'
@@ -116,18 +80,14 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         M = -E_star*Integral(sqrt((a + xi)*(c - xi)/(R**2 - xi**2))*(xi**2/(R**2 - xi**2) +
             1)*(-a/2 + c/2 + xi), (xi, -a, c))/4
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the arc [m]
+    Returns M [N].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
 
-    Returns M [N].
-    NaN unless a + c > 0 and a < R and c < R and E_star > 0 and R > 0; nor where lengths leave 1e-75
-    to 1e75 m.
-
-    M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.
-    Derived from derive/geometries/circular_arc.py.
+    M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
+    from derive/geometries/circular_arc.py.
 
     >>> f"{moment(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.0597185'
@@ -145,19 +105,15 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
             1)*log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c - xi))
             - sqrt((a + xi)*(c - x)))))/(2*sqrt(R**2 - xi**2)), (xi, x, c)))/pi
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the arc [m]
+    Returns p [Pa].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
 
-    Returns p [Pa].
-    NaN unless a + c > 0 and a < R and c < R and E_star > 0 and R > 0; nor where lengths leave 1e-75
-    to 1e75 m.
-
-    p numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.
-    Derived from derive/geometries/circular_arc.py.
+    p numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived from
+    derive/geometries/circular_arc.py.
 
     >>> f"{pressure(0.5, 0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0'
@@ -174,21 +130,16 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         K_N_right = E_star*Integral(sqrt((a + xi)*(c - xi)/(R**2 - xi**2))*(xi**2/(R**2 - xi**2)
             + 1)/(c - xi), (xi, -a, c))/(pi*sqrt(a + c))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the arc [m]
-
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and a < R and c < R and E_star > 0 and R > 0; nor where lengths leave 1e-75
-    to 1e75 m.
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and a < R and c < R,
+    with lengths of 1e-75 to 1e75 m.
 
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 40
-        digits at 24 points.
-    K_N_right numerical: quadrature of the defining integral of g(x), next to the right edge; 40
-        digits at 24 points.
-    Derived from derive/geometries/circular_arc.py.
+    digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
+    the right edge; 40 digits at 24 points.  Derived from derive/geometries/circular_arc.py.
 
     >>> [f"{v:.6g}" for v in K_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['1.09433', '0.711794']
@@ -209,21 +160,16 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
             (c**2/(R**2 - c**2) + 1)/sqrt(R**2 - c**2))*(2*a + 3*c - xi)/(c - xi)**2, (xi, -a,
             c))/(6*pi*(a + c)**(3/2)))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the arc [m]
-
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and a < R and c < R and E_star > 0 and R > 0; nor where lengths leave 1e-75
-    to 1e75 m.
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and a < R and c <
+    R, with lengths of 1e-75 to 1e75 m.
 
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 35
-        digits at 24 points.
-    L_N_right numerical: quadrature of the defining integral of g(x), next to the right edge; 34
-        digits at 24 points.
-    Derived from derive/geometries/circular_arc.py.
+    digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
+    the right edge; 34 digits at 24 points.  Derived from derive/geometries/circular_arc.py.
 
     >>> [f"{v:.6g}" for v in L_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['-2.63694', '-0.70202']
@@ -233,7 +179,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 
 
 @kernel(BESIDE_BREAK)
-def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
+def _curve(piece: Array, side: Array, t: Array, own: Array) -> tuple[Array, ...]:
     """g', g'' and t g''' beside a break."""
     R = own[0]
     if piece == 0 and side == -1:
@@ -260,33 +206,33 @@ def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
 
 
 @kernel(BREAKS)
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve is cut."""
     return np.array([0.0])
 
 
 @kernel(BREAKS)
-def _corners(own: Array) -> Any:
+def _corners(own: Array) -> Array:
     """By how much g' rises there."""
     return np.array([0.0])
 
 
 @kernel(PRESSURE)
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.pressure(curve, x, a, c, own)
 
 
 @kernel(STATE)
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.state(curve, a, c, own)
 
 
 @kernel(SLOPE)
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x); infinite beyond the body's ends."""
     R = own[0]
     if x <= -R:
@@ -298,7 +244,7 @@ def _slope(x: Array, own: Array) -> Any:
 
 
 @kernel(SERIES)
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.series(curve, a, c, own)
@@ -306,19 +252,14 @@ def _series(a: Array, c: Array, own: Array) -> Any:
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (Parameter("R", "radius of the arc", "m"),),
     "derive/geometries/circular_arc.py",
-    dict(
-        law="E_star=1.0, R=1.0",
-        edges="0.75, 0.5",
-        load="0.386889",
-        moment="0.0597185",
-        alpha="0.18925",
-        dQ="0.048",
-        reduced="0.338889",
-        threshold="0.0977848",
-        slip="['0.0249756', '0.0383983']",
+    Example(
+        "E_star=1.0, R=1.0",
+        (0.75, 0.5),
+        (0.38688897215418216, 0.059718468244543424, 0.18924985208366807),
+        (1.0943332784547632, 0.7117939001227501),
     ),
+    Parameter("R", "radius of the arc", "m"),
 )
 
 contact = _BODY.bound(cycle.contact)

@@ -2,20 +2,30 @@
 """Flat punch with rounded (parabolic) edges.
 
 g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
-"""
 
-from typing import Any
+In the formulas below
+    h = a + c
+    t_1 = edge_angle(a - b, b + c)
+    t_3 = edge_angle(-b + c, a + b)
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    segment(t) = t - sin(t)*cos(t)
+    involute(t) = -t*cos(t) + sin(t)
+    second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 + 2*sin(t/2)/far, far >
+        0), (0, True))
+    end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 + v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) +
+        v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+"""
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
-from .runtime.segments import end_pressure, involute, second_term, segment, third_term
-from .runtime.shared import by_position
+from .runtime.segments import edge_angle, end_pressure, involute, second_term, segment, third_term
+from .runtime.shared import by_position, shared
 from .runtime.types import (
     Array,
     Contact,
@@ -28,38 +38,21 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
+
+
+@shared
+def _angles(a: Array, c: Array, b: Array) -> tuple[Array, ...]:
+    """What all formulas hold, as defined above, and whether there is such a contact."""
+    h = a + c  # contact width [m]
+    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
+    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
+    return h, t_1, t_3, exists
 
 
 @elementwise
@@ -68,45 +61,28 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
 
         alpha = (h*involute(t_1)/(2*R) - h*involute(t_3)/(2*R) + t_1*Max(0, -b - c)/R -
             t_3*Max(0, -a - b)/R)/pi
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        involute(t) = -t*cos(t) + sin(t)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a  left edge of the contact at x = -a [m]
-        c  right edge of the contact at x = c [m]
-        R  radius of the rounded edges [m]
-        b  half-width of the flat [m]
-
-    Returns alpha [rad].
-    NaN unless a + c > 0 and (a > b) | (c > b) and R > 0 and b > 0; nor where lengths leave 1e-75 to
-    1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        R     radius of the rounded edges [m]
+        b     half-width of the flat [m]
+    Returns alpha [rad].  NaN unless a + c > 0 and (a > b) | (c > b), with lengths of 1e-75 to 1e75
+    m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/flat_rounded.py.
+    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{tilt(3.0, 2.0, R=1.0, b=1.0):.6g}"
     '0.367875'
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return where(
-        exists,
-        (
-            h * involute(t_1) / (2 * R)
-            + t_1 * np.maximum(-b - c, 0.0) / R
-            - h * involute(t_3) / (2 * R)
-            - t_3 * np.maximum(-a - b, 0.0) / R
-        )
-        / np.pi,
-        np.nan,
-    )
+    h, t_1, t_3, exists = _angles(a, c, b)
+    alpha = (
+        h * involute(t_1) / (2 * R)
+        + t_1 * np.maximum(-b - c, 0.0) / R
+        - h * involute(t_3) / (2 * R)
+        - t_3 * np.maximum(-a - b, 0.0) / R
+    ) / np.pi
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -114,82 +90,52 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        segment(t) = t - sin(t)*cos(t)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the rounded edges [m]
         b       half-width of the flat [m]
-
-    Returns P [N/m].
-    NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.
+    Returns P [N/m].  NaN unless a + c > 0 and (a > b) | (c > b), with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Derived from derive/geometries/flat_rounded.py.
+    Symbols and source: see the module's docstring.
 
     >>> f"{load(3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '2.53246'
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return where(exists, (E_star / (16 * R)) * h**2 * (segment(t_1) + segment(t_3)), np.nan)
+    h, t_1, t_3, exists = _angles(a, c, b)
+    P = (E_star / (16 * R)) * h**2 * (segment(t_1) + segment(t_3))
+    return where(exists, P, np.nan)
 
 
 @elementwise
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = E_star*h**2*(-h*(-sin(t_1)**3 + sin(t_3)**3)/(3*R) + (a - c)*(segment(t_1) +
-            segment(t_3))/R)/32
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        segment(t) = t - sin(t)*cos(t)
+        M = E_star*h**2*(-h*(-sin(t_1)**3 + sin(t_3)**3)/3 + (a - c)*(segment(t_1) +
+            segment(t_3)))/(32*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the rounded edges [m]
         b       half-width of the flat [m]
-
-    Returns M [N].
-    NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.
+    Returns M [N].  NaN unless a + c > 0 and (a > b) | (c > b), with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-        at 24 points.
-    Derived from derive/geometries/flat_rounded.py.
+    at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{moment(3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '1.82431'
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return where(
-        exists,
-        (E_star / 32)
+    h, t_1, t_3, exists = _angles(a, c, b)
+    M = (
+        (E_star / (32 * R))
         * h**2
-        * (
-            (a - c) * (segment(t_1) + segment(t_3)) / R
-            - h * (np.sin(t_3) ** 3 - np.sin(t_1) ** 3) / (3 * R)
-        ),
-        np.nan,
+        * ((a - c) * (segment(t_1) + segment(t_3)) - h * (np.sin(t_3) ** 3 - np.sin(t_1) ** 3) / 3)
     )
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -197,48 +143,31 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     """Contact pressure at x; zero outside [-a, c].
 
         p = E_star*h*(end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x))/(pi*R)
-        h = a + c
-        cos_x = sqrt(Max(0, c - x)/h)
         sin_x = sqrt(Max(0, a + x)/h)
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 +
-            v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) + v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+        cos_x = sqrt(Max(0, c - x)/h)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the rounded edges [m]
         b       half-width of the flat [m]
-
-    Returns p [Pa].
-    NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.
+    Returns p [Pa].  NaN unless a + c > 0 and (a > b) | (c > b), with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/flat_rounded.py.
+    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.392783'
     """
     x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
-    h = a + c  # contact width [m]
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return where(
-        exists,
-        (E_star * h / (np.pi * R))
-        * (end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x)),
-        np.nan,
+    h, t_1, t_3, exists = _angles(a, c, b)
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # of half the angle of x [-]
+    p = (E_star * h / (np.pi * R)) * (
+        end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x)
     )
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -247,47 +176,25 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
         K_N_left = E_star*sqrt(h)*(t_1/2 + sin(t_1)/2 + segment(t_3/2))/(pi*R)
         K_N_right = E_star*sqrt(h)*(t_3/2 + sin(t_3)/2 + segment(t_1/2))/(pi*R)
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        segment(t) = t - sin(t)*cos(t)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the rounded edges [m]
         b       half-width of the flat [m]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and (a > b) | (c >
+    b), with lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/flat_rounded.py.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in K_N(3.0, 2.0, E_star=1.0, R=1.0, b=1.0)]
     ['0.88135', '0.753378']
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star / (np.pi * R)) * (t_1 / 2 + np.sin(t_1) / 2 + segment(t_3 / 2)) * np.sqrt(h),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star / (np.pi * R)) * (t_3 / 2 + np.sin(t_3) / 2 + segment(t_1 / 2)) * np.sqrt(h),
-            np.nan,
-        ),
-    )
+    h, t_1, t_3, exists = _angles(a, c, b)
+    K_N_left = (E_star / (np.pi * R)) * (t_1 / 2 + np.sin(t_1) / 2 + segment(t_3 / 2)) * np.sqrt(h)
+    K_N_right = (E_star / (np.pi * R)) * (t_3 / 2 + np.sin(t_3) / 2 + segment(t_1 / 2)) * np.sqrt(h)
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -298,169 +205,104 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
             sin_1*sin_2) + (-k_left + 1/R)*second_term(t_3, 0, sin_2))/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right/(4*sqrt(h)) + E_star*(-k_right*second_term(t_2, sin_1*sin_2,
             cos_1*cos_2) + (-k_right + 1/R)*second_term(t_1, 0, cos_1))/(3*pi*sqrt(h))
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        k_left = Piecewise((1/R, a - b > 0), (0, a + b > 0), (1/R, True))
         sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
         sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
         t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
             sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
+        k_left = Piecewise((1/R, a - b > 0), (0, a + b > 0), (1/R, True))
         k_right = Piecewise((1/R, b - c < 0), (0, b + c > 0), (1/R, True))
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
-            2*sin(t/2)/far, far > 0), (0, True))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       radius of the rounded edges [m]
         b       half-width of the flat [m]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and (a > b) | (c >
+    b), with lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and (a > b) | (c > b) and E_star > 0 and R > 0 and b > 0; nor where lengths
-    leave 1e-75 to 1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
-        digits at 24 points.
-    Derived from derive/geometries/flat_rounded.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in L_N(3.0, 2.0, E_star=1.0, R=1.0, b=1.0)]
     ['-0.148383', '-0.196186']
     """
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    k_left = where(a - b > 0, 1 / R, where(a + b > 0, 0, 1 / R))  # g'' at the left edge [m**(-1)]
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    h, t_1, t_3, exists = _angles(a, c, b)
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)  # of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)  # of half the angle of x = -b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)  # of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)  # of half the angle of x = b [-]
     # angle of part 2 [-]
     t_2 = 2 * np.arctan2(
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
         h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
     )
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    k_right = where(b - c < 0, 1 / R, where(b + c > 0, 0, 1 / R))  # g'' at the right edge [m**(-1)]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star / (3 * np.pi))
-            * (
-                (1 / R - k_left) * second_term(t_3, 0, sin_2)
-                - k_left * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
-            )
-            / np.sqrt(h)
-            - (E_star / 4) * k_left / np.sqrt(h),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star / (3 * np.pi))
-            * (
-                (1 / R - k_right) * second_term(t_1, 0, cos_1)
-                - k_right * second_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
-            )
-            / np.sqrt(h)
-            - (E_star / 4) * k_right / np.sqrt(h),
-            np.nan,
-        ),
-    )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
     k_left = where(a - b > 0, 1 / R, where(a + b > 0, 0, 1 / R))  # g'' at the left edge [m**(-1)]
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
     k_right = where(b - c < 0, 1 / R, where(b + c > 0, 0, 1 / R))  # g'' at the right edge [m**(-1)]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star / (20 * np.pi))
-            * (
-                (1 / R - k_left) * third_term(t_3, 0, sin_2)
-                - k_left * third_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
-            )
-            / (h * np.sqrt(h))
-            - (E_star / 16) * k_left / (h * np.sqrt(h)),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star / (20 * np.pi))
-            * (
-                (1 / R - k_right) * third_term(t_1, 0, cos_1)
-                - k_right * third_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
-            )
-            / (h * np.sqrt(h))
-            - (E_star / 16) * k_right / (h * np.sqrt(h)),
-            np.nan,
-        ),
-    )
+    L_N_left = (E_star / (3 * np.pi)) * (
+        (1 / R - k_left) * second_term(t_3, 0, sin_2)
+        - k_left * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
+    ) / np.sqrt(h) - (E_star / 4) * k_left / np.sqrt(h)
+    L_N_right = (E_star / (3 * np.pi)) * (
+        (1 / R - k_right) * second_term(t_1, 0, cos_1)
+        - k_right * second_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
+    ) / np.sqrt(h) - (E_star / 4) * k_right / np.sqrt(h)
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0], own[1])
     load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
     return load, moment, _tilt(a, c, own[0], own[1]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0], own[1])
-    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
-    return left, right, third_left, third_right
+    R, b = own[0], own[1]
+    second = _L_N(a, c, 1.0, R, b)
+    h, t_1, t_3, _ = _angles(a, c, b)
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)  # of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)  # of half the angle of x = -b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)  # of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)  # of half the angle of x = b [-]
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    )
+    k_left = where(a - b > 0, 1 / R, where(a + b > 0, 0, 1 / R))  # g'' at the left edge [m**(-1)]
+    k_right = where(b - c < 0, 1 / R, where(b + c > 0, 0, 1 / R))  # g'' at the right edge [m**(-1)]
+    third_left = (
+        (1 / R - k_left) * third_term(t_3, 0, sin_2)
+        - k_left * third_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
+    ) / (20 * np.pi * h * np.sqrt(h)) - k_left / (16 * h * np.sqrt(h))
+    third_right = (
+        (1 / R - k_right) * third_term(t_1, 0, cos_1)
+        - k_right * third_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
+    ) / (20 * np.pi * h * np.sqrt(h)) - k_right / (16 * h * np.sqrt(h))
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     R, b = own[0], own[1]
-    return where(b <= x, (x - b) / R, 0) + where(b < -x, (b + x) / R, 0), where(
-        b <= x, 1 / R, 0
-    ) + where(b < -x, 1 / R, 0)
+    slope = where(b < -x, (b + x) / R, where(b > x, 0, (x - b) / R))
+    curvature = where(b < -x, 1 / R, where(b > x, 0, 1 / R))
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     b = own[1]
     return np.array([-b, b])
@@ -468,22 +310,15 @@ def _breaks(own: Array) -> Any:
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("R", "radius of the rounded edges", "m"),
-        Parameter("b", "half-width of the flat", "m"),
-    ),
     "derive/geometries/flat_rounded.py",
-    dict(
-        law="E_star=1.0, R=1.0, b=1.0",
-        edges="3.0, 2.0",
-        load="2.53246",
-        moment="1.82431",
-        alpha="0.367875",
-        dQ="0.32",
-        reduced="2.21246",
-        threshold="0.162975",
-        slip="['0.10337', '0.120929']",
+    Example(
+        "E_star=1.0, R=1.0, b=1.0",
+        (3.0, 2.0),
+        (2.532460069661756, 1.8243082395558003, 0.36787499024188197),
+        (0.8813504753998516, 0.7533784903745364),
     ),
+    Parameter("R", "radius of the rounded edges", "m"),
+    Parameter("b", "half-width of the flat", "m"),
 )
 
 contact = _BODY.bound(cycle.contact)

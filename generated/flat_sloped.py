@@ -2,19 +2,22 @@
 """Flat punch with sloped sides: a truncated wedge.
 
 g(x) = phi*Max(0, -b + Abs(x)), from derive/geometries/flat_sloped.py.
-"""
 
-from typing import Any
+In the formulas below
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+    kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
+"""
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
 from .runtime.history import public
-from .runtime.segments import root_ratio
+from .runtime.segments import edge_angle, root_ratio
 from .runtime.shared import by_position
 from .runtime.types import (
     Array,
@@ -28,38 +31,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 @elementwise
@@ -67,33 +43,28 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
         alpha = (phi*t_1 - phi*t_3)/pi
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
+        t_1 = edge_angle(a - b, b + c)
+        t_3 = edge_angle(-b + c, a + b)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a    left edge of the contact at x = -a [m]
-        c    right edge of the contact at x = c [m]
-        b    half-width of the flat [m]
-        phi  slope of the sides [rad]
-
-    Returns alpha [rad].
-    NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and b > 0 and phi > 0; nor
-    where lengths leave 1e-75 to 1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        b     half-width of the flat [m]
+        phi   slope of the sides [rad]
+    Returns alpha [rad].  NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b, with
+    lengths of 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/flat_sloped.py.
+    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{tilt(3.0, 2.0, b=1.0, phi=0.125):.6g}"
     '0.0175923'
     """
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
+    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
+    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    alpha = (t_1 * phi - t_3 * phi) / np.pi
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    return where(exists, (t_1 * phi - t_3 * phi) / np.pi, np.nan)
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -103,31 +74,26 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         P = E_star*phi*sqrt(Max(0, a - b)*Max(0, b + c))/2 + E_star*phi*sqrt(Max(0, a +
             b)*Max(0, -b + c))/2
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the flat [m]
         phi     slope of the sides [rad]
-
-    Returns P [N/m].
-    NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns P [N/m].  NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b, with lengths
+    of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Derived from derive/geometries/flat_sloped.py.
+    Symbols and source: see the module's docstring.
 
     >>> f"{load(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.278093'
     """
+    P = (E_star * phi / 2) * np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0)) + (
+        E_star * phi / 2
+    ) * np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    return where(
-        exists,
-        (E_star * phi / 2) * np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0))
-        + (E_star * phi / 2) * np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0)),
-        np.nan,
-    )
+    return where(exists, P, np.nan)
 
 
 @elementwise
@@ -137,36 +103,28 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         M = E_star*phi*sqrt(Max(0, a - b)*Max(0, b + c))*(a + 2*b - c)/8 +
             E_star*phi*sqrt(Max(0, a + b)*Max(0, -b + c))*(a - 2*b - c)/8
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the flat [m]
         phi     slope of the sides [rad]
-
-    Returns M [N].
-    NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns M [N].  NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b, with lengths
+    of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
-        at 24 points.
-    Derived from derive/geometries/flat_sloped.py.
+    at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{moment(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0835698'
     """
+    M = (E_star * phi / 8) * (a - 2 * b - c) * np.sqrt(
+        np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0)
+    ) + (E_star * phi / 8) * (a + 2 * b - c) * np.sqrt(
+        np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0)
+    )
     h = a + c  # contact width [m]
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    return where(
-        exists,
-        (E_star * phi / 8)
-        * (a - 2 * b - c)
-        * np.sqrt(np.maximum(a + b, 0.0) * np.maximum(c - b, 0.0))
-        + (E_star * phi / 8)
-        * (a + 2 * b - c)
-        * np.sqrt(np.maximum(a - b, 0.0) * np.maximum(b + c, 0.0)),
-        np.nan,
-    )
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -177,45 +135,34 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
             -b + x)/(2*pi) + E_star*phi*kink_logarithm((2*a + 2*x)*Max(0, b + c)/h, (2*c -
             2*x)*Max(0, a - b)/h, b + x)/(2*pi)
         h = a + c
-        kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the flat [m]
         phi     slope of the sides [rad]
-
-    Returns p [Pa].
-    NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns p [Pa].  NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b, with lengths
+    of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/flat_sloped.py.
+    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0637272'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
-    return where(
-        exists,
-        (E_star * phi / (2 * np.pi))
-        * kink_logarithm(
-            (np.maximum(c - b, 0.0) / h) * (2 * a + 2 * x),
-            (np.maximum(a + b, 0.0) / h) * (2 * c - 2 * x),
-            x - b,
-        )
-        + (E_star * phi / (2 * np.pi))
-        * kink_logarithm(
-            (np.maximum(b + c, 0.0) / h) * (2 * a + 2 * x),
-            (np.maximum(a - b, 0.0) / h) * (2 * c - 2 * x),
-            b + x,
-        ),
-        np.nan,
+    p = (E_star * phi / (2 * np.pi)) * kink_logarithm(
+        (np.maximum(c - b, 0.0) / h) * (2 * a + 2 * x),
+        (np.maximum(a + b, 0.0) / h) * (2 * c - 2 * x),
+        x - b,
+    ) + (E_star * phi / (2 * np.pi)) * kink_logarithm(
+        (np.maximum(b + c, 0.0) / h) * (2 * a + 2 * x),
+        (np.maximum(a - b, 0.0) / h) * (2 * c - 2 * x),
+        b + x,
     )
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST) & (x == x)
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -224,41 +171,35 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
         K_N_left = E_star*phi*(cot_1 + cot_2)/(pi*sqrt(h))
         K_N_right = E_star*phi*(tan_1 + tan_2)/(pi*sqrt(h))
-        cot_1 = root_ratio(b + c, a - b)
-        cot_2 = root_ratio(-b + c, a + b)
         h = a + c
         tan_1 = root_ratio(a - b, b + c)
+        cot_1 = root_ratio(b + c, a - b)
         tan_2 = root_ratio(a + b, -b + c)
-        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+        cot_2 = root_ratio(-b + c, a + b)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the flat [m]
         phi     slope of the sides [rad]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and (a > b) | (c >
+    b) and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/flat_sloped.py.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in K_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0306902', '0.0501169']
     """
-    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of the kink x = -b [-]
-    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of the kink x = b [-]
     h = a + c  # contact width [m]
-    tan_1 = root_ratio(a - b, b + c)  # tangent of half the angle of the kink x = -b [-]
-    tan_2 = root_ratio(a + b, c - b)  # tangent of half the angle of the kink x = b [-]
+    tan_1 = root_ratio(a - b, b + c)  # of half the angle of x = -b [-]
+    cot_1 = root_ratio(b + c, a - b)  # of half the angle of x = -b [-]
+    tan_2 = root_ratio(a + b, c - b)  # of half the angle of x = b [-]
+    cot_2 = root_ratio(c - b, a + b)  # of half the angle of x = b [-]
+    K_N_left = (E_star * phi / np.pi) * (cot_1 + cot_2) / np.sqrt(h)
+    K_N_right = (E_star * phi / np.pi) * (tan_1 + tan_2) / np.sqrt(h)
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    return Edges(
-        where(exists, (E_star * phi / np.pi) * (cot_1 + cot_2) / np.sqrt(h), np.nan),
-        where(exists, (E_star * phi / np.pi) * (tan_1 + tan_2) / np.sqrt(h), np.nan),
-    )
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -267,120 +208,98 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
         L_N_left = E_star*phi*(cot_1*(2*cot_1**2 + 3) + cot_2*(2*cot_2**2 + 3))/(6*pi*h**(3/2))
         L_N_right = E_star*phi*(tan_1*(2*tan_1**2 + 3) + tan_2*(2*tan_2**2 + 3))/(6*pi*h**(3/2))
-        cot_1 = root_ratio(b + c, a - b)
-        cot_2 = root_ratio(-b + c, a + b)
         h = a + c
         tan_1 = root_ratio(a - b, b + c)
+        cot_1 = root_ratio(b + c, a - b)
         tan_2 = root_ratio(a + b, -b + c)
-        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+        cot_2 = root_ratio(-b + c, a + b)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the flat [m]
         phi     slope of the sides [rad]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and (a > b) | (c >
+    b) and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b and E_star > 0 and b > 0 and
-    phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    Derived from derive/geometries/flat_sloped.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 46 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in L_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.00539662', '0.0151476']
     """
-    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of the kink x = -b [-]
-    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of the kink x = b [-]
     h = a + c  # contact width [m]
-    tan_1 = root_ratio(a - b, b + c)  # tangent of half the angle of the kink x = -b [-]
-    tan_2 = root_ratio(a + b, c - b)  # tangent of half the angle of the kink x = b [-]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star * phi / (6 * np.pi))
-            * (cot_1 * (2 * cot_1**2 + 3) + cot_2 * (2 * cot_2**2 + 3))
-            / (h * np.sqrt(h)),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star * phi / (6 * np.pi))
-            * (tan_1 * (2 * tan_1**2 + 3) + tan_2 * (2 * tan_2**2 + 3))
-            / (h * np.sqrt(h)),
-            np.nan,
-        ),
+    tan_1 = root_ratio(a - b, b + c)  # of half the angle of x = -b [-]
+    cot_1 = root_ratio(b + c, a - b)  # of half the angle of x = -b [-]
+    tan_2 = root_ratio(a + b, c - b)  # of half the angle of x = b [-]
+    cot_2 = root_ratio(c - b, a + b)  # of half the angle of x = b [-]
+    L_N_left = (
+        (E_star * phi / (6 * np.pi))
+        * (cot_1 * (2 * cot_1**2 + 3) + cot_2 * (2 * cot_2**2 + 3))
+        / (h * np.sqrt(h))
     )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of the kink x = -b [-]
-    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of the kink x = b [-]
-    h = a + c  # contact width [m]
-    tan_1 = root_ratio(a - b, b + c)  # tangent of half the angle of the kink x = -b [-]
-    tan_2 = root_ratio(a + b, c - b)  # tangent of half the angle of the kink x = b [-]
-    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star * phi / (40 * np.pi))
-            * (
-                cot_1 * (4 * cot_1**2 * (2 * cot_1**2 + 5) + 15)
-                + cot_2 * (4 * cot_2**2 * (2 * cot_2**2 + 5) + 15)
-            )
-            / (h**2 * np.sqrt(h)),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star * phi / (40 * np.pi))
-            * (
-                tan_1 * (4 * tan_1**2 * (2 * tan_1**2 + 5) + 15)
-                + tan_2 * (4 * tan_2**2 * (2 * tan_2**2 + 5) + 15)
-            )
-            / (h**2 * np.sqrt(h)),
-            np.nan,
-        ),
+    L_N_right = (
+        (E_star * phi / (6 * np.pi))
+        * (tan_1 * (2 * tan_1**2 + 3) + tan_2 * (2 * tan_2**2 + 3))
+        / (h * np.sqrt(h))
     )
+    exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0], own[1])
     load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
     return load, moment, _tilt(a, c, own[0], own[1]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0], own[1])
-    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
-    return left, right, third_left, third_right
+    b, phi = own[0], own[1]
+    second = _L_N(a, c, 1.0, b, phi)
+    h = a + c  # contact width [m]
+    tan_1 = root_ratio(a - b, b + c)  # of half the angle of x = -b [-]
+    cot_1 = root_ratio(b + c, a - b)  # of half the angle of x = -b [-]
+    tan_2 = root_ratio(a + b, c - b)  # of half the angle of x = b [-]
+    cot_2 = root_ratio(c - b, a + b)  # of half the angle of x = b [-]
+    third_left = (
+        (phi / (40 * np.pi))
+        * (
+            cot_1 * (4 * cot_1**2 * (2 * cot_1**2 + 5) + 15)
+            + cot_2 * (4 * cot_2**2 * (2 * cot_2**2 + 5) + 15)
+        )
+        / (h**2 * np.sqrt(h))
+    )
+    third_right = (
+        (phi / (40 * np.pi))
+        * (
+            tan_1 * (4 * tan_1**2 * (2 * tan_1**2 + 5) + 15)
+            + tan_2 * (4 * tan_2**2 * (2 * tan_2**2 + 5) + 15)
+        )
+        / (h**2 * np.sqrt(h))
+    )
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     b, phi = own[0], own[1]
-    return where(b < -x, -phi, 0) + where(b <= x, phi, 0), 0.0
+    slope = where(b < -x, -phi, where(b > x, 0, phi))
+    curvature = 0.0
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     b = own[0]
     return np.array([-b, b])
@@ -388,22 +307,15 @@ def _breaks(own: Array) -> Any:
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("b", "half-width of the flat", "m"),
-        Parameter("phi", "slope of the sides", "rad"),
-    ),
     "derive/geometries/flat_sloped.py",
-    dict(
-        law="E_star=1.0, b=1.0, phi=0.125",
-        edges="3.0, 2.0",
-        load="0.278093",
-        moment="0.0835698",
-        alpha="0.0175923",
-        dQ="0.035",
-        reduced="0.243093",
-        threshold="0.0178254",
-        slip="['0.324686', '0.198829']",
+    Example(
+        "E_star=1.0, b=1.0, phi=0.125",
+        (3.0, 2.0),
+        (0.2780931089239487, 0.08356983169296148, 0.017592318481269825),
+        (0.030690219910185234, 0.05011691924917253),
     ),
+    Parameter("b", "half-width of the flat", "m"),
+    Parameter("phi", "slope of the sides", "rad"),
 )
 
 contact = _BODY.bound(cycle.contact)

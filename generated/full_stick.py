@@ -15,29 +15,25 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
         K_T_left = (dQ/pi + dsigma*(a + c)/8)/sqrt(a + c)
         K_T_right = (dQ/pi - dsigma*(a + c)/8)/sqrt(a + c)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape.
+        a, c    edges of the contact at x = -a and x = c [m]
         dQ      change of the shear load over the half-cycle that raises it [N/m]
         dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+    Returns Edges(left [Pa*sqrt(m)], right [Pa*sqrt(m)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa*sqrt(m)], right [Pa*sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_T_left proved: limit of the full-stick change at the edge.
-    K_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/theory/stick.py.
+    K_T_left and K_T_right proved: limit of the full-stick change at the edge.  Derived from
+    derive/theory/stick.py.
 
     >>> [f"{v:.6g}" for v in K_T(1.5, 1.0, 0.25, 0.125)]
     ['0.0750345', '0.0256239']
     """
     h = a + c  # contact width [m]
     root = np.sqrt(h)
+    K_T_left = (dQ / np.pi + dsigma * h / 8) / root
+    K_T_right = (dQ / np.pi - dsigma * h / 8) / root
     exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, (dQ / np.pi + dsigma * h / 8) / root, np.nan),
-        where(exists, (dQ / np.pi - dsigma * h / 8) / root, np.nan),
-    )
+    return Edges(where(exists, K_T_left, np.nan), where(exists, K_T_right, np.nan))
 
 
 @elementwise
@@ -47,29 +43,25 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
         L_T_left = (dQ/pi - 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
         L_T_right = (dQ/pi + 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape.
+        a, c    edges of the contact at x = -a and x = c [m]
         dQ      change of the shear load over the half-cycle that raises it [N/m]
         dsigma  change of the differential bulk tension over the same half-cycle [Pa]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_T_left proved: limit of the full-stick change at the edge.
-    L_T_right proved: limit of the full-stick change at the edge.
-    Derived from derive/theory/stick.py.
+    L_T_left and L_T_right proved: limit of the full-stick change at the edge.  Derived from
+    derive/theory/stick.py.
 
     >>> [f"{v:.6g}" for v in L_T(1.5, 1.0, 0.25, 0.125)]
     ['-0.00475733', '0.024889']
     """
     h = a + c  # contact width [m]
     root = 2 * h * np.sqrt(h)
+    L_T_left = (dQ / np.pi - 3 * dsigma * h / 8) / root
+    L_T_right = (dQ / np.pi + 3 * dsigma * h / 8) / root
     exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, (dQ / np.pi - 3 * dsigma * h / 8) / root, np.nan),
-        where(exists, (dQ / np.pi + 3 * dsigma * h / 8) / root, np.nan),
-    )
+    return Edges(where(exists, L_T_left, np.nan), where(exists, L_T_right, np.nan))
 
 
 @elementwise
@@ -81,36 +73,23 @@ def stick_margin(
         S_left = f*Abs((4*dM - dP*(a - 3*c))/(a + c)) - Abs(dQ + pi*dsigma*(a + c)/8)
         S_right = f*Abs((4*dM - dP*(3*a - c))/(a + c)) - Abs(dQ - pi*dsigma*(a + c)/8)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         dP      change of the normal load over the same half-cycle [N/m]
         dM      change of the moment over the same half-cycle [N]
         dQ      change of the shear load over the half-cycle that raises it [N/m]
         dsigma  change of the differential bulk tension over the same half-cycle [Pa]
         f       coefficient of friction [-]
+    Returns Edges(left [N/m], right [N/m]).  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [N/m], right [N/m]).
-    NaN unless a + c > 0 and f > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    S_left proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    S_right proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.
-    Derived from derive/theory/stick.py.
+    S_left and S_right proved: f K_N dedge/2 - |K_T| as the edges move by flat punches.  Derived
+    from derive/theory/stick.py.
 
     >>> [f"{v:.6g}" for v in stick_margin(1.5, 1.0, 0.5, 0.25, 0.25, 0.125, f=0.5)]
     ['-0.0227185', '0.0227185']
     """
     h = a + c  # contact width [m]
+    S_left = f * np.abs(4 * dM - dP * (a - 3 * c)) / h - np.abs(dQ + (np.pi / 8) * dsigma * h)
+    S_right = f * np.abs(4 * dM - dP * (3 * a - c)) / h - np.abs(dQ - (np.pi / 8) * dsigma * h)
     exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            f * np.abs(4 * dM - dP * (a - 3 * c)) / h - np.abs(dQ + (np.pi / 8) * dsigma * h),
-            np.nan,
-        ),
-        where(
-            exists,
-            f * np.abs(4 * dM - dP * (3 * a - c)) / h - np.abs(dQ - (np.pi / 8) * dsigma * h),
-            np.nan,
-        ),
-    )
+    return Edges(where(exists, S_left, np.nan), where(exists, S_right, np.nan))

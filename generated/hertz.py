@@ -4,14 +4,12 @@
 g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 @elementwise
@@ -70,19 +41,16 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
         alpha = e/R
         e = M/P
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
+    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    a proved: put back symbolically; put back into load(a, c), moment(a, c); 49 digits at 24 points.
-    c proved: put back symbolically; put back into load(a, c), moment(a, c); 49 digits at 24 points.
-    alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 49 digits at 24 points.
-    Derived from derive/geometries/hertz.py.
+    a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 49 digits at 24
+    points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 49 digits at 24
+    points.  Derived from derive/geometries/hertz.py.
 
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, R=1.0)]
     ['1.37838', '0.878379', '0.25']
@@ -91,9 +59,10 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     half = 2 * np.sqrt((R / (np.pi * E_star)) * P)  # half the contact width [m]
     a = e + half
     c = half - e
+    alpha = e / R
     h = a + c  # contact width [m]
     exists = (P > 0) & (h > LEAST) & (h < MOST)
-    return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, e / R, np.nan))
+    return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
 @elementwise
@@ -103,18 +72,16 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
         a = R*alpha + 2*sqrt(P*R/(pi*E_star))
         c = -R*alpha + 2*sqrt(P*R/(pi*E_star))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         P       normal load per unit depth [N/m]
         alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
+    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0, with lengths of 1e-75 to 1e75
+    m.
 
-    Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    a numerical: put back into load(a, c), tilt(a, c); 49 digits at 24 points.
-    c numerical: put back into load(a, c), tilt(a, c); 49 digits at 24 points.
-    Derived from derive/geometries/hertz.py.
+    a and c numerical: put back into load(a, c), tilt(a, c); 49 digits at 24 points.  Derived from
+    derive/geometries/hertz.py.
 
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, R=1.0)]
     ['1.15963', '1.09713', '0.03125']
@@ -133,24 +100,21 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
 
         alpha = (a - c)/(2*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a  left edge of the contact at x = -a [m]
-        c  right edge of the contact at x = c [m]
-        R  relative radius of curvature [m]
-
-    Returns alpha [rad].
-    NaN unless a + c > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        R     relative radius of curvature [m]
+    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 50 digits at 24 points.
-    Derived from derive/geometries/hertz.py.
+    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/hertz.py.
 
     >>> f"{tilt(1.5, 1.0, R=1.0):.6g}"
     '0.25'
     """
+    alpha = (a - c) / (2 * R)
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
-    return where(exists, (a - c) / (2 * R), np.nan)
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -159,14 +123,11 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
         P = pi*E_star*(a + c)**2/(16*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
-
-    Returns P [N/m].
-    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/hertz.py.
@@ -175,8 +136,9 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     '1.22718'
     """
     h = a + c  # contact width [m]
+    P = (np.pi * E_star / (16 * R)) * h**2
     exists = (h > LEAST) & (h < MOST)
-    return where(exists, (np.pi * E_star / (16 * R)) * h**2, np.nan)
+    return where(exists, P, np.nan)
 
 
 @elementwise
@@ -185,25 +147,22 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
         M = pi*E_star*(a - c)*(a + c)**2/(32*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
-
-    Returns M [N].
-    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-        at 24 points.
-    Derived from derive/geometries/hertz.py.
+    at 24 points.  Derived from derive/geometries/hertz.py.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, R=1.0):.6g}"
     '0.306796'
     """
     h = a + c  # contact width [m]
+    M = (np.pi * E_star / (32 * R)) * h**2 * (a - c)
     exists = (h > LEAST) & (h < MOST)
-    return where(exists, (np.pi * E_star / (32 * R)) * h**2 * (a - c), np.nan)
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -212,27 +171,24 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
         p = E_star*sqrt((a + x)*(c - x))/(2*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
-
-    Returns p [Pa].
-    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 50 digits at 24 points.
-    Derived from derive/geometries/hertz.py.
+    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/hertz.py.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0):.6g}"
     '0.5'
     """
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
+    p = (E_star / (2 * R)) * w
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
-    return where(exists, (E_star / (2 * R)) * w, np.nan)
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -242,17 +198,14 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         K_N_left = E_star*sqrt(a + c)/(2*R)
         K_N_right = E_star*sqrt(a + c)/(2*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/hertz.py.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0)]
@@ -260,8 +213,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (E_star / (2 * R)) * np.sqrt(h)
+    K_N_left = scale
+    K_N_right = scale
     exists = (h > LEAST) & (h < MOST)
-    return Edges(where(exists, scale, np.nan), where(exists, scale, np.nan))
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -271,88 +226,77 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         L_N_left = -E_star/(4*R*sqrt(a + c))
         L_N_right = -E_star/(4*R*sqrt(a + c))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature [m]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and E_star > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 48
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 48
-        digits at 24 points.
-    Derived from derive/geometries/hertz.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 48 digits at 24 points.  Derived from derive/geometries/hertz.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0)]
     ['-0.158114', '-0.158114']
     """
     h = a + c  # contact width [m]
     scale = -((E_star / (4 * R)) / np.sqrt(h))
+    L_N_left = scale
+    L_N_right = scale
     exists = (h > LEAST) & (h < MOST)
-    return Edges(where(exists, scale, np.nan), where(exists, scale, np.nan))
-
-
-def _third(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    h = a + c  # contact width [m]
-    scale = -((E_star / (16 * R)) / (h * np.sqrt(h)))
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(where(exists, scale, np.nan), where(exists, scale, np.nan))
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0])
     load, moment = _load(a, c, 1.0, own[0]), _moment(a, c, 1.0, own[0])
     return load, moment, _tilt(a, c, own[0]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0])
-    third_left, third_right = _T_N(a, c, 1.0, own[0])
-    return left, right, third_left, third_right
+    R = own[0]
+    second = _L_N(a, c, 1.0, R)
+    h = a + c  # contact width [m]
+    scale = -(1 / (16 * R * h * np.sqrt(h)))
+    third_left = scale
+    third_right = scale
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     R = own[0]
-    return x / R, 1 / R
+    slope = x / R
+    curvature = 1 / R
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     return np.empty(0)
 
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (Parameter("R", "relative radius of curvature", "m"),),
     "derive/geometries/hertz.py",
-    dict(
-        law="E_star=1.0, R=1.0",
-        edges="1.5, 1.0",
-        load="1.22718",
-        moment="0.306796",
-        alpha="0.25",
-        dQ="0.15",
-        reduced="1.07718",
-        threshold="0.152789",
-        slip="['0.0763944', '0.0763944']",
+    Example(
+        "E_star=1.0, R=1.0",
+        (1.5, 1.0),
+        (1.227184630308513, 0.30679615757712825, 0.25),
+        (0.7905694150420949, 0.7905694150420949),
     ),
+    Parameter("R", "relative radius of curvature", "m"),
 )
 
 stick_zone = _BODY.bound(cycle.stick_zone)

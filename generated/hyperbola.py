@@ -4,13 +4,11 @@
 g(x) = phi*sqrt(b**2 + x**2), from derive/geometries/hyperbola.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
-from .runtime.body import Asked, Body, Parameter
+from .runtime.body import Asked, Body, Example, Parameter
 from .runtime.cycle import integrated
 from .runtime.history import public
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
@@ -66,17 +37,14 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 
         alpha = -Integral(phi*xi*sqrt(1/((a + xi)*(b**2 + xi**2)*(c - xi))), (xi, -a, c))/pi
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a    left edge of the contact at x = -a [m]
-        c    right edge of the contact at x = c [m]
-        b    distance from the apex over which the flanks bend [m]
-        phi  slope of the flanks far from the apex [rad]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        b     distance from the apex over which the flanks bend [m]
+        phi   slope of the flanks far from the apex [rad]
+    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns alpha [rad].
-    NaN unless a + c > 0 and b > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    alpha numerical: quadrature of the defining integral of g(x); 38 digits at 24 points.
-    Derived from derive/geometries/hyperbola.py.
+    alpha numerical: quadrature of the defining integral of g(x); 38 digits at 24 points.  Derived
+    from derive/geometries/hyperbola.py.
 
     >>> f"{tilt(1.5, 1.0, b=1.0, phi=0.125):.6g}"
     '0.0160854'
@@ -91,19 +59,15 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         P = E_star*Integral(-phi*sqrt((a + xi)*(c - xi)/(b**2 + xi**2))*(xi**2/(b**2 + xi**2) -
             1), (xi, -a, c))/2
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       distance from the apex over which the flanks bend [m]
         phi     slope of the flanks far from the apex [rad]
+    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns P [N/m].
-    NaN unless a + c > 0 and E_star > 0 and b > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75
-    m.
-
-    P numerical: (E*/2) I_1 of g(x) by quadrature; 36 digits at 24 points.
-    Derived from derive/geometries/hyperbola.py.
+    P numerical: (E*/2) I_1 of g(x) by quadrature; 36 digits at 24 points.  Derived from
+    derive/geometries/hyperbola.py.
 
     >>> f"{load(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.10313'
@@ -118,19 +82,15 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         M = -E_star*Integral(-phi*sqrt((a + xi)*(c - xi)/(b**2 + xi**2))*(xi**2/(b**2 + xi**2) -
             1)*(-a/2 + c/2 + xi), (xi, -a, c))/4
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       distance from the apex over which the flanks bend [m]
         phi     slope of the flanks far from the apex [rad]
+    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns M [N].
-    NaN unless a + c > 0 and E_star > 0 and b > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75
-    m.
-
-    M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 36 digits at 24 points.
-    Derived from derive/geometries/hyperbola.py.
+    M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 36 digits at 24 points.  Derived
+    from derive/geometries/hyperbola.py.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0193152'
@@ -148,20 +108,16 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
             1)*log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c - xi))
             - sqrt((a + xi)*(c - x)))))/(2*sqrt(b**2 + xi**2)), (xi, x, c)))/pi
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       distance from the apex over which the flanks bend [m]
         phi     slope of the flanks far from the apex [rad]
+    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns p [Pa].
-    NaN unless a + c > 0 and E_star > 0 and b > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75
-    m.
-
-    p numerical: quadrature of the defining integral of g(x); 38 digits at 24 points.
-    Derived from derive/geometries/hyperbola.py.
+    p numerical: quadrature of the defining integral of g(x); 38 digits at 24 points.  Derived from
+    derive/geometries/hyperbola.py.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0451244'
@@ -178,22 +134,17 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         K_N_right = E_star*Integral(-phi*sqrt((a + xi)*(c - xi)/(b**2 + xi**2))*(xi**2/(b**2 +
             xi**2) - 1)/(c - xi), (xi, -a, c))/(pi*sqrt(a + c))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       distance from the apex over which the flanks bend [m]
         phi     slope of the flanks far from the apex [rad]
-
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and E_star > 0 and b > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75
-    m.
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
-        digits at 24 points.
-    K_N_right numerical: quadrature of the defining integral of g(x), next to the right edge; 36
-        digits at 24 points.
-    Derived from derive/geometries/hyperbola.py.
+    digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
+    the right edge; 36 digits at 24 points.  Derived from derive/geometries/hyperbola.py.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0427744', '0.0591275']
@@ -214,22 +165,17 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
             + phi*(c**2/(b**2 + c**2) - 1)/sqrt(b**2 + c**2))*(2*a + 3*c - xi)/(c - xi)**2, (xi,
             -a, c))/(6*pi*(a + c)**(3/2)))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       distance from the apex over which the flanks bend [m]
         phi     slope of the flanks far from the apex [rad]
-
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and E_star > 0 and b > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75
-    m.
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
-        digits at 24 points.
-    L_N_right numerical: quadrature of the defining integral of g(x), next to the right edge; 36
-        digits at 24 points.
-    Derived from derive/geometries/hyperbola.py.
+    digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
+    the right edge; 36 digits at 24 points.  Derived from derive/geometries/hyperbola.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0101019', '0.0123675']
@@ -239,7 +185,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
 
 @kernel(BESIDE_BREAK)
-def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
+def _curve(piece: Array, side: Array, t: Array, own: Array) -> tuple[Array, ...]:
     """g', g'' and t g''' beside a break."""
     b, phi = own[0], own[1]
     if piece == 0 and side == -1:
@@ -260,40 +206,40 @@ def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
 
 
 @kernel(BREAKS)
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve is cut."""
     return np.array([0.0])
 
 
 @kernel(BREAKS)
-def _corners(own: Array) -> Any:
+def _corners(own: Array) -> Array:
     """By how much g' rises there."""
     return np.array([0.0])
 
 
 @kernel(PRESSURE)
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.pressure(curve, x, a, c, own)
 
 
 @kernel(STATE)
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.state(curve, a, c, own)
 
 
 @kernel(SLOPE)
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x); infinite beyond the body's ends."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.slope(curve, x, own)
 
 
 @kernel(SERIES)
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.series(curve, a, c, own)
@@ -301,22 +247,15 @@ def _series(a: Array, c: Array, own: Array) -> Any:
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("b", "distance from the apex over which the flanks bend", "m"),
-        Parameter("phi", "slope of the flanks far from the apex", "rad"),
-    ),
     "derive/geometries/hyperbola.py",
-    dict(
-        law="E_star=1.0, b=1.0, phi=0.125",
-        edges="1.5, 1.0",
-        load="0.10313",
-        moment="0.0193152",
-        alpha="0.0160854",
-        dQ="0.013",
-        reduced="0.0901298",
-        threshold="0.0132417",
-        slip="['0.122368', '0.0885246']",
+    Example(
+        "E_star=1.0, b=1.0, phi=0.125",
+        (1.5, 1.0),
+        (0.10312984565808857, 0.019315211296009945, 0.0160853671625117),
+        (0.04277441054746589, 0.05912752938677417),
     ),
+    Parameter("b", "distance from the apex over which the flanks bend", "m"),
+    Parameter("phi", "slope of the flanks far from the apex", "rad"),
 )
 
 contact = _BODY.bound(cycle.contact)

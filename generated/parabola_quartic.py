@@ -4,14 +4,12 @@
 g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 @elementwise
@@ -67,31 +38,26 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
 
         alpha = (a - c)*(8*L**3 + 5*R*a**2 + 2*R*a*c + 5*R*c**2)/(16*L**3*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a  left edge of the contact at x = -a [m]
-        c  right edge of the contact at x = c [m]
-        L  distance at which the quartic alone has slope one [m]
-        R  relative radius of curvature at the apex [m]
-
-    Returns alpha [rad].
-    NaN unless a + c > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        L     distance at which the quartic alone has slope one [m]
+        R     relative radius of curvature at the apex [m]
+    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 50 digits at 24 points.
-    Derived from derive/geometries/parabola_quartic.py.
+    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
 
     >>> f"{tilt(1.5, 1.0, L=1.0, R=1.0):.6g}"
     '0.851562'
     """
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
+    alpha = (
         (a - c)
         * (8 * (L * L**2) + (5 * R) * a**2 + (2 * R) * a * c + (5 * R) * c**2)
-        / (16 * (L * L**2) * R),
-        np.nan,
+        / (16 * (L * L**2) * R)
     )
+    h = a + c  # contact width [m]
+    exists = (h > LEAST) & (h < MOST)
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -100,16 +66,12 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
         P = pi*E_star*(a + c)**2*(16*L**3 + 15*R*a**2 - 18*R*a*c + 15*R*c**2)/(256*L**3*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance at which the quartic alone has slope one [m]
         R       relative radius of curvature at the apex [m]
-
-    Returns P [N/m].
-    NaN unless a + c > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75
-    m.
+    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/parabola_quartic.py.
@@ -118,14 +80,13 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     '2.89539'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
+    P = (
         (np.pi * E_star / (256 * (L * L**2) * R))
         * h**2
-        * (16 * (L * L**2) + (15 * R) * a**2 + (15 * R) * c**2 - (18 * R) * a * c),
-        np.nan,
+        * (16 * (L * L**2) + (15 * R) * a**2 + (15 * R) * c**2 - (18 * R) * a * c)
     )
+    exists = (h > LEAST) & (h < MOST)
+    return where(exists, P, np.nan)
 
 
 @elementwise
@@ -134,34 +95,28 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
         M = pi*E_star*(a - c)*(a + c)**2*(8*L**3 + 9*R*a**2 - 6*R*a*c + 9*R*c**2)/(256*L**3*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance at which the quartic alone has slope one [m]
         R       relative radius of curvature at the apex [m]
-
-    Returns M [N].
-    NaN unless a + c > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75
-    m.
+    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-        at 24 points.
-    Derived from derive/geometries/parabola_quartic.py.
+    at 24 points.  Derived from derive/geometries/parabola_quartic.py.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
     '1.08337'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
+    M = (
         (np.pi * E_star / (256 * (L * L**2) * R))
         * h**2
         * (a - c)
-        * (8 * (L * L**2) + (9 * R) * a**2 + (9 * R) * c**2 - (6 * R) * a * c),
-        np.nan,
+        * (8 * (L * L**2) + (9 * R) * a**2 + (9 * R) * c**2 - (6 * R) * a * c)
     )
+    exists = (h > LEAST) & (h < MOST)
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -171,31 +126,23 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
         p = E_star*sqrt((a + x)*(c - x))*(8*L**3 + 3*R*a**2 - 2*R*a*c - 4*R*a*x + 3*R*c**2 +
             4*R*c*x + 8*R*x**2)/(16*L**3*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance at which the quartic alone has slope one [m]
         R       relative radius of curvature at the apex [m]
-
-    Returns p [Pa].
-    NaN unless a + c > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75
-    m.
+    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 50 digits at 24 points.
-    Derived from derive/geometries/parabola_quartic.py.
+    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
     '0.984375'
     """
     x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
+    p = (
         (E_star / (16 * (L * L**2) * R))
         * w
         * (
@@ -206,9 +153,11 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
             + (8 * R) * x**2
             - 2 * a * c * R
             - (4 * a * R) * x
-        ),
-        np.nan,
+        )
     )
+    h = a + c  # contact width [m]
+    exists = (h > LEAST) & (h < MOST)
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -218,19 +167,15 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         K_N_left = E_star*sqrt(a + c)*(8*L**3 + 15*R*a**2 - 6*R*a*c + 3*R*c**2)/(16*L**3*R)
         K_N_right = E_star*sqrt(a + c)*(8*L**3 + 3*R*a**2 - 6*R*a*c + 15*R*c**2)/(16*L**3*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance at which the quartic alone has slope one [m]
         R       relative radius of curvature at the apex [m]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75
-    m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/parabola_quartic.py.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0, R=1.0)]
@@ -238,19 +183,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (E_star / (16 * (L * L**2) * R)) * np.sqrt(h)
+    K_N_left = scale * (8 * (L * L**2) + (15 * R) * a**2 + (3 * R) * c**2 - (6 * R) * a * c)
+    K_N_right = scale * (8 * (L * L**2) + (3 * R) * a**2 + (15 * R) * c**2 - (6 * R) * a * c)
     exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            scale * (8 * (L * L**2) + (15 * R) * a**2 + (3 * R) * c**2 - (6 * R) * a * c),
-            np.nan,
-        ),
-        where(
-            exists,
-            scale * (8 * (L * L**2) + (3 * R) * a**2 + (15 * R) * c**2 - (6 * R) * a * c),
-            np.nan,
-        ),
-    )
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -260,117 +196,83 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         L_N_left = -E_star*(8*L**3 + 55*R*a**2 + 26*R*a*c - 5*R*c**2)/(32*L**3*R*sqrt(a + c))
         L_N_right = E_star*(-8*L**3 + 5*R*a**2 - 26*R*a*c - 55*R*c**2)/(32*L**3*R*sqrt(a + c))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance at which the quartic alone has slope one [m]
         R       relative radius of curvature at the apex [m]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and E_star > 0 and L > 0 and R > 0; nor where lengths leave 1e-75 to 1e75
-    m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    Derived from derive/geometries/parabola_quartic.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 46 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, L=1.0, R=1.0)]
     ['-3.27592', '-1.7936']
     """
     h = a + c  # contact width [m]
     scale = (E_star / ((L * L**2) * R)) / np.sqrt(h)
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            scale
-            * ((5 * R / 32) * c**2 - (L * L**2) / 4 - (55 * R / 32) * a**2 - (13 * R / 16) * a * c),
-            np.nan,
-        ),
-        where(
-            exists,
-            scale
-            * ((5 * R / 32) * a**2 - (L * L**2) / 4 - (13 * R / 16) * a * c - (55 * R / 32) * c**2),
-            np.nan,
-        ),
+    L_N_left = scale * (
+        (5 * R / 32) * c**2 - (L * L**2) / 4 - (55 * R / 32) * a**2 - (13 * R / 16) * a * c
     )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    h = a + c  # contact width [m]
-    scale = (E_star / (128 * (L * L**2) * R)) / (h * np.sqrt(h))
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            scale * ((129 * R) * a**2 + (198 * R) * a * c + (45 * R) * c**2 - 8 * (L * L**2)),
-            np.nan,
-        ),
-        where(
-            exists,
-            scale * ((45 * R) * a**2 + (198 * R) * a * c + (129 * R) * c**2 - 8 * (L * L**2)),
-            np.nan,
-        ),
+    L_N_right = scale * (
+        (5 * R / 32) * a**2 - (L * L**2) / 4 - (13 * R / 16) * a * c - (55 * R / 32) * c**2
     )
+    exists = (h > LEAST) & (h < MOST)
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0], own[1])
     load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
     return load, moment, _tilt(a, c, own[0], own[1]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0], own[1])
-    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
-    return left, right, third_left, third_right
+    L, R = own[0], own[1]
+    second = _L_N(a, c, 1.0, L, R)
+    h = a + c  # contact width [m]
+    scale = 1 / (128 * (L * L**2) * R * h * np.sqrt(h))
+    third_left = scale * ((129 * R) * a**2 + (198 * R) * a * c + (45 * R) * c**2 - 8 * (L * L**2))
+    third_right = scale * ((45 * R) * a**2 + (198 * R) * a * c + (129 * R) * c**2 - 8 * (L * L**2))
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     L, R = own[0], own[1]
-    return x / R + (x * x**2) / (L * L**2), 1 / R + (3 / (L * L**2)) * x**2
+    slope = x / R + (x * x**2) / (L * L**2)
+    curvature = 1 / R + (3 / (L * L**2)) * x**2
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     return np.empty(0)
 
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("L", "distance at which the quartic alone has slope one", "m"),
-        Parameter("R", "relative radius of curvature at the apex", "m"),
-    ),
     "derive/geometries/parabola_quartic.py",
-    dict(
-        law="E_star=1.0, L=1.0, R=1.0",
-        edges="1.5, 1.0",
-        load="2.89539",
-        moment="1.08337",
-        alpha="0.851562",
-        dQ="0.36",
-        reduced="2.53539",
-        threshold="0.366693",
-        slip="['0.0410286', '0.0706878']",
+    Example(
+        "E_star=1.0, L=1.0, R=1.0",
+        (1.5, 1.0),
+        (2.895388737134148, 1.083373931444234, 0.8515625),
+        (3.5328570734693616, 2.0505394202654337),
     ),
+    Parameter("L", "distance at which the quartic alone has slope one", "m"),
+    Parameter("R", "relative radius of curvature at the apex", "m"),
 )
 
 contact = _BODY.bound(cycle.contact)

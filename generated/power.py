@@ -4,13 +4,11 @@
 g(x) = L**(1 - k)*Abs(x)**k/k, from derive/geometries/power.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle, pieces
-from .runtime.body import Asked, Body, Parameter
+from .runtime.body import Asked, Body, Example, Parameter
 from .runtime.cycle import integrated
 from .runtime.history import public
 from .runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, kernel
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
@@ -68,17 +39,14 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
             c)) - Integral(L*(-xi)**k/(L**k*xi*sqrt((a + xi)*(c - xi))), (xi, -a, Max(-a, Min(0,
             c)))))/pi
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a  left edge of the contact at x = -a [m]
-        c  right edge of the contact at x = c [m]
-        L  distance from the apex at which the flanks have slope one [m]
-        k  exponent, above one [-]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        L     distance from the apex at which the flanks have slope one [m]
+        k     exponent, above one [-]
+    Returns alpha [rad].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
 
-    Returns alpha [rad].
-    NaN unless a + c > 0 and k > 1 and L > 0 and k > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    alpha numerical: quadrature of the defining integral of g(x); 39 digits at 24 points.
-    Derived from derive/geometries/power.py.
+    alpha numerical: quadrature of the defining integral of g(x); 39 digits at 24 points.  Derived
+    from derive/geometries/power.py.
 
     >>> f"{tilt(1.5, 1.0, L=1.0, k=2.0):.6g}"
     '0.25'
@@ -94,19 +62,15 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
             Min(0, c)), c)) + Integral(L*(-xi)**k*sqrt((a + xi)*(c - xi))*(k - 1)/(L**k*xi**2),
             (xi, -a, Max(-a, Min(0, c)))))/2
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
         k       exponent, above one [-]
+    Returns P [N/m].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
 
-    Returns P [N/m].
-    NaN unless a + c > 0 and k > 1 and E_star > 0 and L > 0 and k > 0; nor where lengths leave 1e-75
-    to 1e75 m.
-
-    P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.
-    Derived from derive/geometries/power.py.
+    P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
+    derive/geometries/power.py.
 
     >>> f"{load(1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '1.22718'
@@ -123,19 +87,15 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
             xi)*(c - xi))*(k - 1)*(-a/2 + c/2 + xi)/(L**k*xi**2), (xi, -a, Max(-a, Min(0,
             c)))))/4
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
         k       exponent, above one [-]
+    Returns M [N].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
 
-    Returns M [N].
-    NaN unless a + c > 0 and k > 1 and E_star > 0 and L > 0 and k > 0; nor where lengths leave 1e-75
-    to 1e75 m.
-
-    M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.
-    Derived from derive/geometries/power.py.
+    M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
+    from derive/geometries/power.py.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '0.306796'
@@ -158,20 +118,16 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
             x)))/(sqrt((a + x)*(c - xi)) - sqrt((a + xi)*(c - x)))))/(2*L**k*xi**2), (xi, x,
             Max(x, Min(0, c)))))/pi
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
         k       exponent, above one [-]
+    Returns p [Pa].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
 
-    Returns p [Pa].
-    NaN unless a + c > 0 and k > 1 and E_star > 0 and L > 0 and k > 0; nor where lengths leave 1e-75
-    to 1e75 m.
-
-    p numerical: quadrature of the defining integral of g(x); 39 digits at 24 points.
-    Derived from derive/geometries/power.py.
+    p numerical: quadrature of the defining integral of g(x); 39 digits at 24 points.  Derived from
+    derive/geometries/power.py.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '0.5'
@@ -190,22 +146,17 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
             xi)), (xi, Max(-a, Min(0, c)), c)) + Integral(L*(-xi)**k*sqrt((a + xi)*(c - xi))*(k
             - 1)/(L**k*xi**2*(c - xi)), (xi, -a, Max(-a, Min(0, c)))))/(pi*sqrt(a + c))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
         k       exponent, above one [-]
-
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and k > 1 and E_star > 0 and L > 0 and k > 0; nor where lengths leave 1e-75
-    to 1e75 m.
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and k > 1, with
+    lengths of 1e-75 to 1e75 m.
 
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 39
-        digits at 24 points.
-    K_N_right numerical: quadrature of the defining integral of g(x), next to the right edge; 39
-        digits at 24 points.
-    Derived from derive/geometries/power.py.
+    digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
+    the right edge; 39 digits at 24 points.  Derived from derive/geometries/power.py.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0, k=2.0)]
     ['0.790569', '0.790569']
@@ -234,22 +185,17 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
             True)))*(2*a + 3*c - xi)/(c - xi)**2, (xi, -a, Max(-a, Min(0, c)))))/(6*pi*(a +
             c)**(3/2)))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
         k       exponent, above one [-]
-
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and k > 1 and E_star > 0 and L > 0 and k > 0; nor where lengths leave 1e-75
-    to 1e75 m.
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and k > 1, with
+    lengths of 1e-75 to 1e75 m.
 
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
-        digits at 24 points.
-    L_N_right numerical: quadrature of the defining integral of g(x), next to the right edge; 35
-        digits at 24 points.
-    Derived from derive/geometries/power.py.
+    digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
+    the right edge; 35 digits at 24 points.  Derived from derive/geometries/power.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, L=1.0, k=2.0)]
     ['-0.158114', '-0.158114']
@@ -259,7 +205,7 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
 
 
 @kernel(BESIDE_BREAK)
-def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
+def _curve(piece: Array, side: Array, t: Array, own: Array) -> tuple[Array, ...]:
     """g', g'' and t g''' beside a break."""
     L, k = own[0], own[1]
     if not (k > 1):
@@ -280,40 +226,40 @@ def _curve(piece: Array, side: Array, t: Array, own: Array) -> Any:
 
 
 @kernel(BREAKS)
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve is cut."""
     return np.array([0.0])
 
 
 @kernel(BREAKS)
-def _corners(own: Array) -> Any:
+def _corners(own: Array) -> Array:
     """By how much g' rises there."""
     return np.array([0.0])
 
 
 @kernel(PRESSURE)
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.pressure(curve, x, a, c, own)
 
 
 @kernel(STATE)
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.state(curve, a, c, own)
 
 
 @kernel(SLOPE)
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x); infinite beyond the body's ends."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.slope(curve, x, own)
 
 
 @kernel(SERIES)
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N for E* = 1."""
     curve = curve_of(_curve, _breaks, _corners)
     return pieces.series(curve, a, c, own)
@@ -321,23 +267,16 @@ def _series(a: Array, c: Array, own: Array) -> Any:
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("L", "distance from the apex at which the flanks have slope one", "m"),
-        Parameter("k", "exponent, above one", "-"),
-    ),
     "derive/geometries/power.py",
-    dict(
-        law="E_star=1.0, L=1.0, k=2.0",
-        edges="1.5, 1.0",
-        load="1.22718",
-        moment="0.306796",
-        alpha="0.25",
-        dQ="0.15",
-        reduced="1.07718",
-        threshold="0.152789",
-        slip="['0.0763944', '0.0763944']",
+    Example(
+        "E_star=1.0, L=1.0, k=2.0",
+        (1.5, 1.0),
+        (1.227184630308513, 0.30679615757712825, 0.25),
+        (0.7905694150420948, 0.7905694150420948),
     ),
-    "k > 1",
+    Parameter("L", "distance from the apex at which the flanks have slope one", "m"),
+    Parameter("k", "exponent, above one", "-"),
+    demands="k > 1",
 )
 
 contact = _BODY.bound(cycle.contact)

@@ -4,14 +4,12 @@
 g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 @elementwise
@@ -67,24 +38,21 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
 
         alpha = (a - c)*(5*a**2 + 2*a*c + 5*c**2)/(16*L**3)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a  left edge of the contact at x = -a [m]
-        c  right edge of the contact at x = c [m]
-        L  distance from the apex at which the flanks have slope one [m]
-
-    Returns alpha [rad].
-    NaN unless a + c > 0 and L > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        L     distance from the apex at which the flanks have slope one [m]
+    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 50 digits at 24 points.
-    Derived from derive/geometries/quartic.py.
+    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/quartic.py.
 
     >>> f"{tilt(1.5, 1.0, L=1.0):.6g}"
     '0.601562'
     """
+    alpha = (a - c) * (5 * a**2 + 2 * a * c + 5 * c**2) / (16 * (L * L**2))
     h = a + c  # contact width [m]
     exists = (h > LEAST) & (h < MOST)
-    return where(exists, (a - c) * (5 * a**2 + 2 * a * c + 5 * c**2) / (16 * (L * L**2)), np.nan)
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -93,14 +61,11 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
         P = 3*pi*E_star*(a + c)**2*(5*a**2 - 6*a*c + 5*c**2)/(256*L**3)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
-
-    Returns P [N/m].
-    NaN unless a + c > 0 and E_star > 0 and L > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/quartic.py.
@@ -109,12 +74,9 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     '1.6682'
     """
     h = a + c  # contact width [m]
+    P = (3 * np.pi * E_star / (256 * (L * L**2))) * h**2 * (5 * a**2 + 5 * c**2 - 6 * a * c)
     exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
-        (3 * np.pi * E_star / (256 * (L * L**2))) * h**2 * (5 * a**2 + 5 * c**2 - 6 * a * c),
-        np.nan,
-    )
+    return where(exists, P, np.nan)
 
 
 @elementwise
@@ -123,32 +85,27 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
         M = 3*pi*E_star*(a - c)*(a + c)**2*(3*a**2 - 2*a*c + 3*c**2)/(256*L**3)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
-
-    Returns M [N].
-    NaN unless a + c > 0 and E_star > 0 and L > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-        at 24 points.
-    Derived from derive/geometries/quartic.py.
+    at 24 points.  Derived from derive/geometries/quartic.py.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0):.6g}"
     '0.776578'
     """
     h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
+    M = (
         (3 * np.pi * E_star / (256 * (L * L**2)))
         * h**2
         * (a - c)
-        * (3 * a**2 + 3 * c**2 - 2 * a * c),
-        np.nan,
+        * (3 * a**2 + 3 * c**2 - 2 * a * c)
     )
+    exists = (h > LEAST) & (h < MOST)
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -158,34 +115,29 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
         p = E_star*sqrt((a + x)*(c - x))*(3*a**2 - 2*a*c - 4*a*x + 3*c**2 + 4*c*x +
             8*x**2)/(16*L**3)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
-
-    Returns p [Pa].
-    NaN unless a + c > 0 and E_star > 0 and L > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 50 digits at 24 points.
-    Derived from derive/geometries/quartic.py.
+    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/quartic.py.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0):.6g}"
     '0.484375'
     """
     x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
-    h = a + c  # contact width [m]
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
+    p = (
         (E_star / (16 * (L * L**2)))
         * w
-        * (3 * a**2 + 3 * c**2 + (4 * c) * x + 8 * x**2 - 2 * a * c - (4 * a) * x),
-        np.nan,
+        * (3 * a**2 + 3 * c**2 + (4 * c) * x + 8 * x**2 - 2 * a * c - (4 * a) * x)
     )
+    h = a + c  # contact width [m]
+    exists = (h > LEAST) & (h < MOST)
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -195,17 +147,14 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
         K_N_left = 3*E_star*sqrt(a + c)*(5*a**2 - 2*a*c + c**2)/(16*L**3)
         K_N_right = 3*E_star*sqrt(a + c)*(a**2 - 2*a*c + 5*c**2)/(16*L**3)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and E_star > 0 and L > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/quartic.py.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0)]
@@ -213,11 +162,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (3 * E_star / (16 * (L * L**2))) * np.sqrt(h)
+    K_N_left = scale * (5 * a**2 + c**2 - 2 * a * c)
+    K_N_right = scale * (a**2 + 5 * c**2 - 2 * a * c)
     exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, scale * (5 * a**2 + c**2 - 2 * a * c), np.nan),
-        where(exists, scale * (a**2 + 5 * c**2 - 2 * a * c), np.nan),
-    )
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -227,94 +175,77 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
         L_N_left = -E_star*(55*a**2 + 26*a*c - 5*c**2)/(32*L**3*sqrt(a + c))
         L_N_right = E_star*(5*a**2 - 26*a*c - 55*c**2)/(32*L**3*sqrt(a + c))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         L       distance from the apex at which the flanks have slope one [m]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and E_star > 0 and L > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    Derived from derive/geometries/quartic.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 46 digits at 24 points.  Derived from derive/geometries/quartic.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, L=1.0)]
     ['-3.11781', '-1.63549']
     """
     h = a + c  # contact width [m]
     scale = (E_star / (L * L**2)) / np.sqrt(h)
+    L_N_left = scale * (5 * c**2 / 32 - 55 * a**2 / 32 - 13 * a * c / 16)
+    L_N_right = scale * (5 * a**2 / 32 - 13 * a * c / 16 - 55 * c**2 / 32)
     exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, scale * (5 * c**2 / 32 - 55 * a**2 / 32 - 13 * a * c / 16), np.nan),
-        where(exists, scale * (5 * a**2 / 32 - 13 * a * c / 16 - 55 * c**2 / 32), np.nan),
-    )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    h = a + c  # contact width [m]
-    scale = (3 * E_star / (128 * (L * L**2))) / (h * np.sqrt(h))
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, scale * (43 * a**2 + 66 * a * c + 15 * c**2), np.nan),
-        where(exists, scale * (15 * a**2 + 66 * a * c + 43 * c**2), np.nan),
-    )
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0])
     load, moment = _load(a, c, 1.0, own[0]), _moment(a, c, 1.0, own[0])
     return load, moment, _tilt(a, c, own[0]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0])
-    third_left, third_right = _T_N(a, c, 1.0, own[0])
-    return left, right, third_left, third_right
+    L = own[0]
+    second = _L_N(a, c, 1.0, L)
+    h = a + c  # contact width [m]
+    scale = (3 / (128 * (L * L**2))) / (h * np.sqrt(h))
+    third_left = scale * (43 * a**2 + 66 * a * c + 15 * c**2)
+    third_right = scale * (15 * a**2 + 66 * a * c + 43 * c**2)
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     L = own[0]
-    return (x * x**2) / (L * L**2), (3 / (L * L**2)) * x**2
+    slope = (x * x**2) / (L * L**2)
+    curvature = (3 / (L * L**2)) * x**2
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     return np.empty(0)
 
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (Parameter("L", "distance from the apex at which the flanks have slope one", "m"),),
     "derive/geometries/quartic.py",
-    dict(
-        law="E_star=1.0, L=1.0",
-        edges="1.5, 1.0",
-        load="1.6682",
-        moment="0.776578",
-        alpha="0.601562",
-        dQ="0.21",
-        reduced="1.4582",
-        threshold="0.213904",
-        slip="['0.030833', '0.0671072']",
+    Example(
+        "E_star=1.0, L=1.0",
+        (1.5, 1.0),
+        (1.6682041068256348, 0.7765777738671058, 0.6015625),
+        (2.7422876584272666, 1.2599700052233387),
     ),
+    Parameter("L", "distance from the apex at which the flanks have slope one", "m"),
 )
 
 contact = _BODY.bound(cycle.contact)

@@ -3,20 +3,46 @@
 
 g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), from
     derive/geometries/rounded_wedge.py.
-"""
 
-from typing import Any
+In the formulas below
+    h = a + c
+    sin_1 = sqrt(Min(h, Max(0, a - b))/h)
+    cos_1 = sqrt(Min(h, Max(0, b + c))/h)
+    sin_2 = sqrt(Min(h, Max(0, a + b))/h)
+    cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
+    t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 + sin_1*sin_2)*(cos_1*sin_2 +
+        cos_2*sin_1))
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    involute(t) = -t*cos(t) + sin(t)
+    part_area(t, across) = 2*across**2*sin(t) + t - sin(t)
+    part_arm(t, u_1, v_1, u_2, v_2) = 8*(u_1*u_2 - v_1*v_2)*(u_1**2*v_1**2 + u_1*u_2*v_1*v_2 +
+        u_2**2*v_2**2)*sin(t/2)
+    part_weight(t, far) = 2*far*sin(t/2) + t/2 - sin(t/2)*cos(t/2)
+    second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 + 2*sin(t/2)/far, far >
+        0), (0, True))
+    part_pressure(t, start, end, u_1, v_1, u_2, v_2, u, v) = end*log((u*v_2 + u_2*v)/Abs(u*v_2 -
+        u_2*v))/2 - start*log((u*v_1 + u_1*v)/Abs(u*v_1 - u_1*v))/2 + t*u*v/2
+"""
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
-from .runtime.segments import involute, part_pressure, second_term, segment, third_term
-from .runtime.shared import by_position
+from .runtime.segments import (
+    edge_angle,
+    involute,
+    part_area,
+    part_arm,
+    part_pressure,
+    part_weight,
+    second_term,
+    third_term,
+)
+from .runtime.shared import by_position, shared
 from .runtime.types import (
     Array,
     Contact,
@@ -29,38 +55,28 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
+
+
+@shared
+def _angles(a: Array, c: Array, b: Array) -> tuple[Array, ...]:
+    """What all formulas hold, as defined above, and whether there is such a contact."""
+    h = a + c  # contact width [m]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)  # of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)  # of half the angle of x = -b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)  # of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)  # of half the angle of x = b [-]
+    # angle of part 2 [-]
+    t_2 = 2 * np.arctan2(
+        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
+        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    )
+    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
+    return h, sin_1, cos_1, sin_2, cos_2, t_2, exists
 
 
 @elementwise
@@ -69,186 +85,88 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 
         alpha = (phi*t_1 - phi*t_3 - h*phi*(-cos_1*cos_2 + sin_1*sin_2)*involute(t_2/2)/b -
             phi*t_2*(Max(-a, -b) + Min(b, c))/(2*b))/pi
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
-        involute(t) = -t*cos(t) + sin(t)
+        t_1 = edge_angle(a - b, b + c)
+        t_3 = edge_angle(-b + c, a + b)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a    left edge of the contact at x = -a [m]
-        c    right edge of the contact at x = c [m]
-        b    half-width of the rounded apex [m]
-        phi  slope of the flanks [rad]
-
-    Returns alpha [rad].
-    NaN unless a + c > 0 and a > -b and c > -b and b > 0 and phi > 0; nor where lengths leave 1e-75
-    to 1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        b     half-width of the rounded apex [m]
+        phi   slope of the flanks [rad]
+    Returns alpha [rad].  NaN unless a + c > 0 and a > -b and c > -b, with lengths of 1e-75 to 1e75
+    m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 47 digits at 24 points.
-    Derived from derive/geometries/rounded_wedge.py.
+    integral of g(x); 47 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{tilt(3.0, 2.0, b=1.0, phi=0.125):.6g}"
     '0.0165156'
     """
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    return where(
-        exists,
-        (
-            t_1 * phi
-            - t_3 * phi
-            - (phi / b) * h * (sin_1 * sin_2 - cos_1 * cos_2) * involute(t_2 / 2)
-            - (phi / (2 * b)) * t_2 * (np.maximum(-a, -b) + np.minimum(b, c))
-        )
-        / np.pi,
-        np.nan,
-    )
+    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
+    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    alpha = (
+        t_1 * phi
+        - t_3 * phi
+        - (phi / b) * h * (sin_1 * sin_2 - cos_1 * cos_2) * involute(t_2 / 2)
+        - (phi / (2 * b)) * t_2 * (np.maximum(-a, -b) + np.minimum(b, c))
+    ) / np.pi
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*h**2*phi*((cos_1*sin_2 + cos_2*sin_1)**2*sin(t_2) + segment(t_2/2))/(8*b)
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        segment(t) = t - sin(t)*cos(t)
+        P = E_star*h**2*phi*part_area(t_2, cos_1*sin_2 + cos_2*sin_1)/(16*b)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the rounded apex [m]
         phi     slope of the flanks [rad]
-
-    Returns P [N/m].
-    NaN unless a + c > 0 and a > -b and c > -b and E_star > 0 and b > 0 and phi > 0; nor where
-    lengths leave 1e-75 to 1e75 m.
+    Returns P [N/m].  NaN unless a + c > 0 and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 49 digits at 24 points.
-    Derived from derive/geometries/rounded_wedge.py.
+    Symbols and source: see the module's docstring.
 
     >>> f"{load(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.297035'
     """
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    return where(
-        exists,
-        (E_star * phi / (8 * b))
-        * h**2
-        * ((cos_1 * sin_2 + cos_2 * sin_1) ** 2 * np.sin(t_2) + segment(t_2 / 2)),
-        np.nan,
-    )
+    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    P = (E_star * phi / (16 * b)) * h**2 * part_area(t_2, cos_1 * sin_2 + cos_2 * sin_1)
+    return where(exists, P, np.nan)
 
 
 @elementwise
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = E_star*h**2*(-8*h*phi*(-cos_1*cos_2 + sin_1*sin_2)*(cos_1**2*sin_1**2 +
-            cos_1*cos_2*sin_1*sin_2 + cos_2**2*sin_2**2)*sin(t_2/2)/(3*b) + 2*phi*(a -
-            c)*((cos_1*sin_2 + cos_2*sin_1)**2*sin(t_2) + segment(t_2/2))/b)/32
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        segment(t) = t - sin(t)*cos(t)
+        M = E_star*h**2*phi*(-h*part_arm(t_2, sin_1, cos_1, sin_2, cos_2)/3 + (a -
+            c)*part_area(t_2, cos_1*sin_2 + cos_2*sin_1))/(32*b)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the rounded apex [m]
         phi     slope of the flanks [rad]
-
-    Returns M [N].
-    NaN unless a + c > 0 and a > -b and c > -b and E_star > 0 and b > 0 and phi > 0; nor where
-    lengths leave 1e-75 to 1e75 m.
+    Returns M [N].  NaN unless a + c > 0 and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 46 digits
-        at 24 points.
-    Derived from derive/geometries/rounded_wedge.py.
+    at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{moment(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0787576'
     """
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    return where(
-        exists,
-        (E_star / 32)
+    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    M = (
+        (E_star * phi / (32 * b))
         * h**2
         * (
-            (2 * phi / b)
-            * (a - c)
-            * ((cos_1 * sin_2 + cos_2 * sin_1) ** 2 * np.sin(t_2) + segment(t_2 / 2))
-            - (8 * phi / (3 * b))
-            * h
-            * (sin_1 * sin_2 - cos_1 * cos_2)
-            * (cos_1**2 * sin_1**2 + cos_1 * cos_2 * sin_1 * sin_2 + cos_2**2 * sin_2**2)
-            * np.sin(t_2 / 2)
-        ),
-        np.nan,
+            (a - c) * part_area(t_2, cos_1 * sin_2 + cos_2 * sin_1)
+            - h * part_arm(t_2, sin_1, cos_1, sin_2, cos_2) / 3
+        )
     )
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -257,128 +175,58 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
 
         p = E_star*h*phi*part_pressure(t_2, -(b + x)/h, (b - x)/h, sin_1, cos_1, sin_2, cos_2,
             sin_x, cos_x)/(pi*b)
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        cos_x = sqrt(Max(0, c - x)/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
         sin_x = sqrt(Max(0, a + x)/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        part_pressure(t, start, end, u_1, v_1, u_2, v_2, u, v) = end*log((u*v_2 +
-            u_2*v)/Abs(u*v_2 - u_2*v))/2 - start*log((u*v_1 + u_1*v)/Abs(u*v_1 - u_1*v))/2 +
-            t*u*v/2
+        cos_x = sqrt(Max(0, c - x)/h)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the rounded apex [m]
         phi     slope of the flanks [rad]
-
-    Returns p [Pa].
-    NaN unless a + c > 0 and a > -b and c > -b and E_star > 0 and b > 0 and phi > 0; nor where
-    lengths leave 1e-75 to 1e75 m.
+    Returns p [Pa].  NaN unless a + c > 0 and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/rounded_wedge.py.
+    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0941076'
     """
     x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
+    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # of half the angle of x [-]
+    p = (E_star * h * phi / (np.pi * b)) * part_pressure(
+        t_2, -((b + x) / h), (b - x) / h, sin_1, cos_1, sin_2, cos_2, sin_x, cos_x
     )
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    return where(
-        exists,
-        (E_star * h * phi / (np.pi * b))
-        * part_pressure(t_2, -((b + x) / h), (b - x) / h, sin_1, cos_1, sin_2, cos_2, sin_x, cos_x),
-        np.nan,
-    )
+    return where(exists, p, np.nan)
 
 
 @elementwise
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*sqrt(h)*phi*(2*cos_1*cos_2*sin(t_2/2) + segment(t_2/2))/(pi*b)
-        K_N_right = E_star*sqrt(h)*phi*(2*sin_1*sin_2*sin(t_2/2) + segment(t_2/2))/(pi*b)
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        segment(t) = t - sin(t)*cos(t)
+        K_N_left = E_star*sqrt(h)*phi*part_weight(t_2, cos_1*cos_2)/(pi*b)
+        K_N_right = E_star*sqrt(h)*phi*part_weight(t_2, sin_1*sin_2)/(pi*b)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the rounded apex [m]
         phi     slope of the flanks [rad]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and a > -b and c >
+    -b, with lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and a > -b and c > -b and E_star > 0 and b > 0 and phi > 0; nor where
-    lengths leave 1e-75 to 1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/rounded_wedge.py.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in K_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0295854', '0.0455819']
     """
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star * phi / (np.pi * b))
-            * (2 * cos_1 * cos_2 * np.sin(t_2 / 2) + segment(t_2 / 2))
-            * np.sqrt(h),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star * phi / (np.pi * b))
-            * (2 * sin_1 * sin_2 * np.sin(t_2 / 2) + segment(t_2 / 2))
-            * np.sqrt(h),
-            np.nan,
-        ),
-    )
+    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    K_N_left = (E_star * phi / (np.pi * b)) * part_weight(t_2, cos_1 * cos_2) * np.sqrt(h)
+    K_N_right = (E_star * phi / (np.pi * b)) * part_weight(t_2, sin_1 * sin_2) * np.sqrt(h)
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -389,169 +237,86 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
             (-k_left + phi/b)*second_term(t_2, cos_1*cos_2, sin_1*sin_2))/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right/(4*sqrt(h)) + E_star*(-k_right*second_term(t_1, 0, cos_1) +
             (-k_right + phi/b)*second_term(t_2, sin_1*sin_2, cos_1*cos_2))/(3*pi*sqrt(h))
-        h = a + c
-        cos_1 = sqrt(Min(h, Max(0, b + c))/h)
-        cos_2 = sqrt(Min(h, Max(0, -b + c))/h)
+        t_1 = edge_angle(a - b, b + c)
+        t_3 = edge_angle(-b + c, a + b)
         k_left = Piecewise((0, a - b > 0), (phi/b, a + b > 0), (0, True))
-        sin_1 = sqrt(Min(h, Max(0, a - b))/h)
-        sin_2 = sqrt(Min(h, Max(0, a + b))/h)
-        t_2 = 2*atan2(Max(0, Min(2*b, h, a + b, b + c)), h*(cos_1*cos_2 +
-            sin_1*sin_2)*(cos_1*sin_2 + cos_2*sin_1))
-        t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))
         k_right = Piecewise((0, b - c < 0), (phi/b, b + c > 0), (0, True))
-        t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))
-        second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
-            2*sin(t/2)/far, far > 0), (0, True))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         b       half-width of the rounded apex [m]
         phi     slope of the flanks [rad]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and a > -b and c >
+    -b, with lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and a > -b and c > -b and E_star > 0 and b > 0 and phi > 0; nor where
-    lengths leave 1e-75 to 1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    Derived from derive/geometries/rounded_wedge.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 46 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in L_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.00457246', '0.0105478']
     """
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
+    h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
+    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
+    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
     k_left = where(a - b > 0, 0, where(a + b > 0, phi / b, 0))  # g'' at the left edge [m**(-1)]
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
     k_right = where(b - c < 0, 0, where(b + c > 0, phi / b, 0))  # g'' at the right edge [m**(-1)]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star / (3 * np.pi))
-            * (
-                (phi / b - k_left) * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
-                - k_left * second_term(t_3, 0, sin_2)
-            )
-            / np.sqrt(h)
-            - (E_star / 4) * k_left / np.sqrt(h),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star / (3 * np.pi))
-            * (
-                (phi / b - k_right) * second_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
-                - k_right * second_term(t_1, 0, cos_1)
-            )
-            / np.sqrt(h)
-            - (E_star / 4) * k_right / np.sqrt(h),
-            np.nan,
-        ),
-    )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    h = a + c  # contact width [m]
-    # cosine of half the angle of the kink x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
-    # cosine of half the angle of the kink x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
-    k_left = where(a - b > 0, 0, where(a + b > 0, phi / b, 0))  # g'' at the left edge [m**(-1)]
-    # sine of half the angle of the kink x = -b [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
-    # sine of half the angle of the kink x = b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(
-        np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
-        h * (cos_1 * cos_2 + sin_1 * sin_2) * (cos_1 * sin_2 + cos_2 * sin_1),
-    )
-    # angle of part 3 [-]
-    t_3 = 2 * np.arctan2(np.sqrt(np.maximum(c - b, 0.0)), np.sqrt(np.maximum(a + b, 0.0)))
-    k_right = where(b - c < 0, 0, where(b + c > 0, phi / b, 0))  # g'' at the right edge [m**(-1)]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))
-    exists = (h > LEAST) & (a > -b) & (c > -b) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star / (20 * np.pi))
-            * (
-                (phi / b - k_left) * third_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
-                - k_left * third_term(t_3, 0, sin_2)
-            )
-            / (h * np.sqrt(h))
-            - (E_star / 16) * k_left / (h * np.sqrt(h)),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star / (20 * np.pi))
-            * (
-                (phi / b - k_right) * third_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
-                - k_right * third_term(t_1, 0, cos_1)
-            )
-            / (h * np.sqrt(h))
-            - (E_star / 16) * k_right / (h * np.sqrt(h)),
-            np.nan,
-        ),
-    )
+    L_N_left = (E_star / (3 * np.pi)) * (
+        (phi / b - k_left) * second_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
+        - k_left * second_term(t_3, 0, sin_2)
+    ) / np.sqrt(h) - (E_star / 4) * k_left / np.sqrt(h)
+    L_N_right = (E_star / (3 * np.pi)) * (
+        (phi / b - k_right) * second_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
+        - k_right * second_term(t_1, 0, cos_1)
+    ) / np.sqrt(h) - (E_star / 4) * k_right / np.sqrt(h)
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0], own[1])
     load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
     return load, moment, _tilt(a, c, own[0], own[1]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0], own[1])
-    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
-    return left, right, third_left, third_right
+    b, phi = own[0], own[1]
+    second = _L_N(a, c, 1.0, b, phi)
+    h, sin_1, cos_1, sin_2, cos_2, t_2, _ = _angles(a, c, b)
+    t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
+    t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
+    k_left = where(a - b > 0, 0, where(a + b > 0, phi / b, 0))  # g'' at the left edge [m**(-1)]
+    k_right = where(b - c < 0, 0, where(b + c > 0, phi / b, 0))  # g'' at the right edge [m**(-1)]
+    third_left = (
+        (phi / b - k_left) * third_term(t_2, cos_1 * cos_2, sin_1 * sin_2)
+        - k_left * third_term(t_3, 0, sin_2)
+    ) / (20 * np.pi * h * np.sqrt(h)) - k_left / (16 * h * np.sqrt(h))
+    third_right = (
+        (phi / b - k_right) * third_term(t_2, sin_1 * sin_2, cos_1 * cos_2)
+        - k_right * third_term(t_1, 0, cos_1)
+    ) / (20 * np.pi * h * np.sqrt(h)) - k_right / (16 * h * np.sqrt(h))
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     b, phi = own[0], own[1]
-    return where(b <= x, -((phi / b) * (x - b)), 0) + where(b < -x, -((phi / b) * (b + x)), 0) + (
-        phi / b
-    ) * x, where(b <= x, -(phi / b), 0) + where(b < -x, -(phi / b), 0) + phi / b
+    slope = where(b < -x, -phi, where(b > x, (phi / b) * x, phi))
+    curvature = where(b < -x, 0, where(b > x, phi / b, 0))
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     b = own[0]
     return np.array([-b, b])
@@ -559,22 +324,15 @@ def _breaks(own: Array) -> Any:
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("b", "half-width of the rounded apex", "m"),
-        Parameter("phi", "slope of the flanks", "rad"),
-    ),
     "derive/geometries/rounded_wedge.py",
-    dict(
-        law="E_star=1.0, b=1.0, phi=0.125",
-        edges="3.0, 2.0",
-        load="0.297035",
-        moment="0.0787576",
-        alpha="0.0165156",
-        dQ="0.037",
-        reduced="0.260035",
-        threshold="0.0188439",
-        slip="['0.356056', '0.231102']",
+    Example(
+        "E_star=1.0, b=1.0, phi=0.125",
+        (3.0, 2.0),
+        (0.297034806446537, 0.0787576276326532, 0.01651562621976474),
+        (0.029585439168755424, 0.04558193729691981),
     ),
+    Parameter("b", "half-width of the rounded apex", "m"),
+    Parameter("phi", "slope of the flanks", "rad"),
 )
 
 contact = _BODY.bound(cycle.contact)

@@ -2,20 +2,30 @@
 """Cylinder whose radius changes at its lowest point.
 
 g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geometries/two_radii.py.
-"""
 
-from typing import Any
+In the formulas below
+    h = a + c
+    t_1 = edge_angle(a, c)
+    t_2 = edge_angle(c, a)
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    segment(t) = t - sin(t)*cos(t)
+    involute(t) = -t*cos(t) + sin(t)
+    second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 + 2*sin(t/2)/far, far >
+        0), (0, True))
+    end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 + v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) +
+        v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+"""
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, where
 from .runtime.history import public
-from .runtime.segments import end_pressure, involute, second_term, segment, third_term
-from .runtime.shared import by_position
+from .runtime.segments import edge_angle, end_pressure, involute, second_term, segment, third_term
+from .runtime.shared import by_position, shared
 from .runtime.types import (
     Array,
     Contact,
@@ -28,38 +38,21 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
+
+
+@shared
+def _angles(a: Array, c: Array) -> tuple[Array, ...]:
+    """What all formulas hold, as defined above, and whether there is such a contact."""
+    h = a + c  # contact width [m]
+    t_1 = edge_angle(a, c)  # angle of part 1 [-]
+    t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists = (h > LEAST) & (h < MOST)
+    return h, t_1, t_2, exists
 
 
 @elementwise
@@ -68,44 +61,27 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
 
         alpha = (-h*involute(t_2)/(2*R_2) - t_2*Max(0, -a)/R_2 + h*involute(t_1)/(2*R_1) +
             t_1*Max(0, -c)/R_1)/pi
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        involute(t) = -t*cos(t) + sin(t)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a    left edge of the contact at x = -a [m]
-        c    right edge of the contact at x = c [m]
-        R_1  relative radius of curvature on the left [m]
-        R_2  relative radius of curvature on the right [m]
-
-    Returns alpha [rad].
-    NaN unless a + c > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        R_1   relative radius of curvature on the left [m]
+        R_2   relative radius of curvature on the right [m]
+    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 50 digits at 24 points.
-    Derived from derive/geometries/two_radii.py.
+    integral of g(x); 50 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{tilt(1.5, 1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.25'
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
-        (
-            h * involute(t_1) / (2 * R_1)
-            + t_1 * np.maximum(-c, 0.0) / R_1
-            - h * involute(t_2) / (2 * R_2)
-            - t_2 * np.maximum(-a, 0.0) / R_2
-        )
-        / np.pi,
-        np.nan,
-    )
+    h, t_1, t_2, exists = _angles(a, c)
+    alpha = (
+        h * involute(t_1) / (2 * R_1)
+        + t_1 * np.maximum(-c, 0.0) / R_1
+        - h * involute(t_2) / (2 * R_2)
+        - t_2 * np.maximum(-a, 0.0) / R_2
+    ) / np.pi
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -113,35 +89,23 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*h**2*(segment(t_2)/R_2 + segment(t_1)/R_1)/16
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        segment(t) = t - sin(t)*cos(t)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R_1     relative radius of curvature on the left [m]
         R_2     relative radius of curvature on the right [m]
-
-    Returns P [N/m].
-    NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.
+    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Derived from derive/geometries/two_radii.py.
+    Symbols and source: see the module's docstring.
 
     >>> f"{load(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '1.22718'
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (h < MOST)
-    return where(exists, (E_star / 16) * h**2 * (segment(t_2) / R_2 + segment(t_1) / R_1), np.nan)
+    h, t_1, t_2, exists = _angles(a, c)
+    P = (E_star / 16) * h**2 * (segment(t_2) / R_2 + segment(t_1) / R_1)
+    return where(exists, P, np.nan)
 
 
 @elementwise
@@ -150,45 +114,30 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
 
         M = E_star*h**2*(-h*(sin(t_2)**3/R_2 - sin(t_1)**3/R_1)/3 + (a - c)*(segment(t_2)/R_2 +
             segment(t_1)/R_1))/32
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        segment(t) = t - sin(t)*cos(t)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R_1     relative radius of curvature on the left [m]
         R_2     relative radius of curvature on the right [m]
-
-    Returns M [N].
-    NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.
+    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
-        at 24 points.
-    Derived from derive/geometries/two_radii.py.
+    at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.306796'
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
+    h, t_1, t_2, exists = _angles(a, c)
+    M = (
         (E_star / 32)
         * h**2
         * (
             (a - c) * (segment(t_2) / R_2 + segment(t_1) / R_1)
             - h * (np.sin(t_2) ** 3 / R_2 - np.sin(t_1) ** 3 / R_1) / 3
-        ),
-        np.nan,
+        )
     )
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -197,48 +146,31 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
 
         p = E_star*h*(end_pressure(t_2, cos_x, sin_x)/R_2 + end_pressure(t_1, sin_x,
             cos_x)/R_1)/pi
-        h = a + c
-        cos_x = sqrt(Max(0, c - x)/h)
         sin_x = sqrt(Max(0, a + x)/h)
-        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 +
-            v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) + v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+        cos_x = sqrt(Max(0, c - x)/h)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R_1     relative radius of curvature on the left [m]
         R_2     relative radius of curvature on the right [m]
-
-    Returns p [Pa].
-    NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.
+    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 50 digits at 24 points.
-    Derived from derive/geometries/two_radii.py.
+    integral of g(x); 50 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.5'
     """
     x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
-    h = a + c  # contact width [m]
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (h < MOST)
-    return where(
-        exists,
-        (E_star * h / np.pi)
-        * (end_pressure(t_2, cos_x, sin_x) / R_2 + end_pressure(t_1, sin_x, cos_x) / R_1),
-        np.nan,
+    h, t_1, t_2, exists = _angles(a, c)
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # of half the angle of x [-]
+    p = (E_star * h / np.pi) * (
+        end_pressure(t_2, cos_x, sin_x) / R_2 + end_pressure(t_1, sin_x, cos_x) / R_1
     )
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -247,51 +179,29 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
 
         K_N_left = E_star*sqrt(h)*(segment(t_2/2)/R_2 + (t_1 + sin(t_1))/(2*R_1))/pi
         K_N_right = E_star*sqrt(h)*((t_2 + sin(t_2))/(2*R_2) + segment(t_1/2)/R_1)/pi
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        segment(t) = t - sin(t)*cos(t)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R_1     relative radius of curvature on the left [m]
         R_2     relative radius of curvature on the right [m]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/two_radii.py.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0)]
     ['0.790569', '0.790569']
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star / np.pi)
-            * (segment(t_2 / 2) / R_2 + (t_1 + np.sin(t_1)) / (2 * R_1))
-            * np.sqrt(h),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star / np.pi)
-            * ((t_2 + np.sin(t_2)) / (2 * R_2) + segment(t_1 / 2) / R_1)
-            * np.sqrt(h),
-            np.nan,
-        ),
+    h, t_1, t_2, exists = _angles(a, c)
+    K_N_left = (
+        (E_star / np.pi) * (segment(t_2 / 2) / R_2 + (t_1 + np.sin(t_1)) / (2 * R_1)) * np.sqrt(h)
     )
+    K_N_right = (
+        (E_star / np.pi) * ((t_2 + np.sin(t_2)) / (2 * R_2) + segment(t_1 / 2) / R_1) * np.sqrt(h)
+    )
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -302,155 +212,97 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
             sin_1)/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right/(4*sqrt(h)) + E_star*(-k_right + 1/R_1)*second_term(t_1, 0,
             cos_1)/(3*pi*sqrt(h))
-        h = a + c
-        k_left = Piecewise((1/R_1, a > 0), (1/R_2, True))
         sin_1 = sqrt(Min(h, Max(0, a))/h)
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
         cos_1 = sqrt(Min(h, Max(0, c))/h)
+        k_left = Piecewise((1/R_1, a > 0), (1/R_2, True))
         k_right = Piecewise((1/R_2, c > 0), (1/R_1, True))
-        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
-        second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
-            2*sin(t/2)/far, far > 0), (0, True))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R_1     relative radius of curvature on the left [m]
         R_2     relative radius of curvature on the right [m]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
+    1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and E_star > 0 and R_1 > 0 and R_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
-        digits at 24 points.
-    Derived from derive/geometries/two_radii.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0)]
     ['-0.158114', '-0.158114']
     """
-    h = a + c  # contact width [m]
+    h, t_1, t_2, exists = _angles(a, c)
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # of half the angle of x = 0 [-]
     k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [m**(-1)]
-    # sine of half the angle of the kink x = 0 [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    # cosine of half the angle of the kink x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)
     k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [m**(-1)]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star / (3 * np.pi)) * (1 / R_2 - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(h)
-            - (E_star / 4) * k_left / np.sqrt(h),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star / (3 * np.pi)) * (1 / R_1 - k_right) * second_term(t_1, 0, cos_1) / np.sqrt(h)
-            - (E_star / 4) * k_right / np.sqrt(h),
-            np.nan,
-        ),
-    )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    h = a + c  # contact width [m]
-    k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [m**(-1)]
-    # sine of half the angle of the kink x = 0 [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    # cosine of half the angle of the kink x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)
-    k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [m**(-1)]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    exists = (h > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star / (20 * np.pi))
-            * (1 / R_2 - k_left)
-            * third_term(t_2, 0, sin_1)
-            / (h * np.sqrt(h))
-            - (E_star / 16) * k_left / (h * np.sqrt(h)),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star / (20 * np.pi))
-            * (1 / R_1 - k_right)
-            * third_term(t_1, 0, cos_1)
-            / (h * np.sqrt(h))
-            - (E_star / 16) * k_right / (h * np.sqrt(h)),
-            np.nan,
-        ),
-    )
+    L_N_left = (E_star / (3 * np.pi)) * (1 / R_2 - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(
+        h
+    ) - (E_star / 4) * k_left / np.sqrt(h)
+    L_N_right = (E_star / (3 * np.pi)) * (1 / R_1 - k_right) * second_term(t_1, 0, cos_1) / np.sqrt(
+        h
+    ) - (E_star / 4) * k_right / np.sqrt(h)
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0], own[1])
     load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
     return load, moment, _tilt(a, c, own[0], own[1]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0], own[1])
-    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
-    return left, right, third_left, third_right
+    R_1, R_2 = own[0], own[1]
+    second = _L_N(a, c, 1.0, R_1, R_2)
+    h, t_1, t_2, _ = _angles(a, c)
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [m**(-1)]
+    k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [m**(-1)]
+    third_left = (1 / R_2 - k_left) * third_term(t_2, 0, sin_1) / (
+        20 * np.pi * h * np.sqrt(h)
+    ) - k_left / (16 * h * np.sqrt(h))
+    third_right = (1 / R_1 - k_right) * third_term(t_1, 0, cos_1) / (
+        20 * np.pi * h * np.sqrt(h)
+    ) - k_right / (16 * h * np.sqrt(h))
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     R_1, R_2 = own[0], own[1]
-    return where(x >= 0, ((R_1 - R_2) / (R_1 * R_2)) * x, 0) + x / R_1, where(
-        x >= 0, (R_1 - R_2) / (R_1 * R_2), 0
-    ) + 1 / R_1
+    slope = where(x < 0, x / R_1, x / R_2)
+    curvature = where(x < 0, 1 / R_1, 1 / R_2)
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     return np.array([0.0])
 
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("R_1", "relative radius of curvature on the left", "m"),
-        Parameter("R_2", "relative radius of curvature on the right", "m"),
-    ),
     "derive/geometries/two_radii.py",
-    dict(
-        law="E_star=1.0, R_1=1.0, R_2=1.0",
-        edges="1.5, 1.0",
-        load="1.22718",
-        moment="0.306796",
-        alpha="0.25",
-        dQ="0.15",
-        reduced="1.07718",
-        threshold="0.152789",
-        slip="['0.0763944', '0.0763944']",
+    Example(
+        "E_star=1.0, R_1=1.0, R_2=1.0",
+        (1.5, 1.0),
+        (1.227184630308513, 0.3067961575771282, 0.25),
+        (0.7905694150420948, 0.7905694150420948),
     ),
+    Parameter("R_1", "relative radius of curvature on the left", "m"),
+    Parameter("R_2", "relative radius of curvature on the right", "m"),
 )
 
 contact = _BODY.bound(cycle.contact)

@@ -4,14 +4,12 @@
 g(x) = Piecewise((-phi_1*x, x < 0), (phi_2*x, True)), from derive/geometries/unequal_wedge.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 @elementwise
@@ -71,21 +42,17 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
             phi_2*atan2(2*P/(E_star*(phi_1 + phi_2)), 2*e))/pi
         e = M/P
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
+    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and phi_1 > 0 and phi_2 > 0; nor where lengths leave 1e-75 to
-    1e75 m.
-
-    a proved: put back symbolically; put back into load(a, c), moment(a, c); 46 digits at 24 points.
-    c proved: put back symbolically; put back into load(a, c), moment(a, c); 47 digits at 24 points.
-    alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 46 digits at 24 points.
-    Derived from derive/geometries/unequal_wedge.py.
+    a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 46 digits at 24
+    points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 46 digits at 24
+    points.  Derived from derive/geometries/unequal_wedge.py.
 
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi_1=0.125, phi_2=0.125)]
     ['8.51561', '7.51561', '0.00496713']
@@ -102,21 +69,13 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
     near = base * (2 * P / ((phi_1 + phi_2) * (E_star * far)))  # the nearer edge [m]
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
+    alpha = (
+        phi_1 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, -lean)
+        - phi_2 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, lean)
+    ) / np.pi
     h = a + c  # contact width [m]
     exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
-    return Contact(
-        where(exists, a, np.nan),
-        where(exists, c, np.nan),
-        where(
-            exists,
-            (
-                phi_1 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, -lean)
-                - phi_2 * np.arctan2((2 / (E_star * (phi_1 + phi_2))) * P, lean)
-            )
-            / np.pi,
-            np.nan,
-        ),
-    )
+    return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
 @elementwise
@@ -128,20 +87,17 @@ def contact_at_tilt(
         a = -2*P/(E_star*(phi_1 + phi_2)*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2))))
         c = -2*P*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2)))/(E_star*(phi_1 + phi_2))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         P       normal load per unit depth [N/m]
         alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
+    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0 and alpha > -phi_2 and alpha <
+    phi_1, with lengths of 1e-75 to 1e75 m.
 
-    Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and alpha > -phi_2 and alpha < phi_1 and E_star > 0 and phi_1 > 0 and phi_2 >
-    0; nor where lengths leave 1e-75 to 1e75 m.
-
-    a numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.
-    c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.
-    Derived from derive/geometries/unequal_wedge.py.
+    a and c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.  Derived from
+    derive/geometries/unequal_wedge.py.
 
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi_1=0.125, phi_2=0.125)]
     ['11.9728', '5.34543', '0.03125']
@@ -167,29 +123,24 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
         alpha = (-phi_1*theta_1 + pi*phi_1 - phi_2*theta_1)/pi
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a      left edge of the contact at x = -a [m]
-        c      right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c   edges of the contact at x = -a and x = c [m]
         phi_1  slope of the left flank [rad]
         phi_2  slope of the right flank [rad]
-
-    Returns alpha [rad].
-    NaN unless a > 0 and c > 0 and phi_1 > 0 and phi_2 > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns alpha [rad].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 47 digits at 24 points.
-    Derived from derive/geometries/unequal_wedge.py.
+    integral of g(x); 47 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
 
     >>> f"{tilt(1.5, 1.0, phi_1=0.125, phi_2=0.125):.6g}"
     '0.0160236'
     """
     # angle of the contact beyond the kink x = 0 [-]
     theta_1 = 2 * np.arctan2(np.sqrt(c), np.sqrt(a))
+    alpha = ((2 * phi_1) * np.arctan(np.sqrt(a / c)) - theta_1 * phi_2) / np.pi
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return where(
-        exists, ((2 * phi_1) * np.arctan(np.sqrt(a / c)) - theta_1 * phi_2) / np.pi, np.nan
-    )
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -198,16 +149,12 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
 
         P = E_star*sqrt(a*c)*(phi_1 + phi_2)/2
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
-
-    Returns P [N/m].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi_1 > 0 and phi_2 > 0; nor where lengths leave
-    1e-75 to 1e75 m.
+    Returns P [N/m].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 49 digits at 24 points.
     Derived from derive/geometries/unequal_wedge.py.
@@ -215,9 +162,10 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
     >>> f"{load(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125):.6g}"
     '0.153093'
     """
+    P = (E_star * (phi_1 + phi_2) / 2) * np.sqrt(a * c)
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return where(exists, (E_star * (phi_1 + phi_2) / 2) * np.sqrt(a * c), np.nan)
+    return where(exists, P, np.nan)
 
 
 @elementwise
@@ -226,27 +174,23 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
 
         M = E_star*sqrt(a*c)*(a - c)*(phi_1 + phi_2)/8
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
-
-    Returns M [N].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi_1 > 0 and phi_2 > 0; nor where lengths leave
-    1e-75 to 1e75 m.
+    Returns M [N].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-        at 24 points.
-    Derived from derive/geometries/unequal_wedge.py.
+    at 24 points.  Derived from derive/geometries/unequal_wedge.py.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125):.6g}"
     '0.0191366'
     """
+    M = (E_star * (phi_1 + phi_2) / 8) * (a - c) * np.sqrt(a * c)
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return where(exists, (E_star * (phi_1 + phi_2) / 8) * (a - c) * np.sqrt(a * c), np.nan)
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -258,21 +202,16 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
         u_1 = c*(a + x)
         v_1 = a*(c - x)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
-
-    Returns p [Pa].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi_1 > 0 and phi_2 > 0; nor where lengths leave
-    1e-75 to 1e75 m.
+    Returns p [Pa].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/unequal_wedge.py.
+    integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125):.6g}"
     '0.0567155'
@@ -281,8 +220,9 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
     right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
     logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
+    p = (E_star * (phi_1 + phi_2) / (2 * np.pi)) * logarithm_1
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return where(exists, (E_star * (phi_1 + phi_2) / (2 * np.pi)) * logarithm_1, np.nan)
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -292,19 +232,15 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
         K_N_left = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*a)
         K_N_right = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*c)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a > 0 and c > 0, with lengths
+    of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi_1 > 0 and phi_2 > 0; nor where lengths leave
-    1e-75 to 1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/unequal_wedge.py.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125)]
@@ -312,8 +248,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
     """
     h = a + c  # contact width [m]
     scale = (E_star * (phi_1 + phi_2) / np.pi) / np.sqrt(a * c * h)
+    K_N_left = c * scale
+    K_N_right = a * scale
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return Edges(where(exists, c * scale, np.nan), where(exists, a * scale, np.nan))
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -323,99 +261,79 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
         L_N_left = E_star*sqrt(a*c)*(3*a + 2*c)*(phi_1 + phi_2)/(6*pi*a**2*(a + c)**(3/2))
         L_N_right = E_star*sqrt(a*c)*(2*a + 3*c)*(phi_1 + phi_2)/(6*pi*c**2*(a + c)**(3/2))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi_1   slope of the left flank [rad]
         phi_2   slope of the right flank [rad]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a > 0 and c > 0, with
+    lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi_1 > 0 and phi_2 > 0; nor where lengths leave
-    1e-75 to 1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 46
-        digits at 24 points.
-    Derived from derive/geometries/unequal_wedge.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 46 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125)]
     ['0.0118715', '0.0246562']
     """
     h = a + c  # contact width [m]
     scale = (E_star * (phi_1 + phi_2) / (6 * np.pi)) / np.sqrt(a * c * h)
+    L_N_left = scale * (c / h + 2 * c / a)
+    L_N_right = scale * (a / h + 2 * a / c)
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, scale * (c / h + 2 * c / a), np.nan),
-        where(exists, scale * (a / h + 2 * a / c), np.nan),
-    )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    h = a + c  # contact width [m]
-    scale = (E_star * (phi_1 + phi_2) / (40 * np.pi)) / (h * np.sqrt(a * c * h))
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, scale * (3 * a * c / h + 4 * c + 8 * c * h / a) / a, np.nan),
-        where(exists, scale * (3 * a * c / h + 4 * a + 8 * a * h / c) / c, np.nan),
-    )
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0], own[1])
     load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
     return load, moment, _tilt(a, c, own[0], own[1]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0], own[1])
-    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
-    return left, right, third_left, third_right
+    phi_1, phi_2 = own[0], own[1]
+    second = _L_N(a, c, 1.0, phi_1, phi_2)
+    h = a + c  # contact width [m]
+    scale = ((phi_1 + phi_2) / (40 * np.pi)) / (h * np.sqrt(a * c * h))
+    third_left = scale * (3 * a * c / h + 4 * c + 8 * c * h / a) / a
+    third_right = scale * (3 * a * c / h + 4 * a + 8 * a * h / c) / c
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     phi_1, phi_2 = own[0], own[1]
-    return where(x >= 0, phi_1 + phi_2, 0) - phi_1, 0.0
+    slope = where(x < 0, -phi_1, phi_2)
+    curvature = 0.0
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     return np.array([0.0])
 
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("phi_1", "slope of the left flank", "rad"),
-        Parameter("phi_2", "slope of the right flank", "rad"),
-    ),
     "derive/geometries/unequal_wedge.py",
-    dict(
-        law="E_star=1.0, phi_1=0.125, phi_2=0.125",
-        edges="1.5, 1.0",
-        load="0.153093",
-        moment="0.0191366",
-        alpha="0.0160236",
-        dQ="0.019",
-        reduced="0.134093",
-        threshold="0.0193532",
-        slip="['0.186161', '0.124107']",
+    Example(
+        "E_star=1.0, phi_1=0.125, phi_2=0.125",
+        (1.5, 1.0),
+        (0.15309310892394862, 0.019136638615493577, 0.01602355421224372),
+        (0.041093629604099985, 0.06164044440614998),
     ),
+    Parameter("phi_1", "slope of the left flank", "rad"),
+    Parameter("phi_2", "slope of the right flank", "rad"),
 )
 
 stick_zone = _BODY.bound(cycle.stick_zone)

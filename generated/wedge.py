@@ -4,14 +4,12 @@
 g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 """
 
-from typing import Any
-
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
 from .runtime.history import public
 from .runtime.shared import by_position
@@ -27,38 +25,11 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 
 
 @elementwise
@@ -70,19 +41,16 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
         alpha = phi*(pi - 2*atan2(P/(E_star*phi), 2*e))/pi
         e = M/P
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         P       normal load per unit depth [N/m]
         M       moment per unit depth, M = -int p x dx [N]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
+    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
 
-    Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    a proved: put back symbolically; put back into load(a, c), moment(a, c); 45 digits at 24 points.
-    c proved: put back symbolically; put back into load(a, c), moment(a, c); 44 digits at 24 points.
-    alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 48 digits at 24 points.
-    Derived from derive/geometries/wedge.py.
+    a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 44 digits at 24
+    points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 48 digits at 24
+    points.  Derived from derive/geometries/wedge.py.
 
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi=0.125)]
     ['8.51561', '7.51561', '0.00496713']
@@ -99,13 +67,10 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     near = base * (P / (phi * (E_star * far)))  # the nearer edge [m]
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
+    alpha = (2 * phi / np.pi) * np.arctan(lean / base)
     h = a + c  # contact width [m]
     exists = (P > 0) & (np.minimum(a, c) > LEAST) & (h < MOST)
-    return Contact(
-        where(exists, a, np.nan),
-        where(exists, c, np.nan),
-        where(exists, (2 * phi / np.pi) * np.arctan(lean / base), np.nan),
-    )
+    return Contact(where(exists, a, np.nan), where(exists, c, np.nan), where(exists, alpha, np.nan))
 
 
 @elementwise
@@ -115,19 +80,16 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
         a = -P/(E_star*phi*tan(pi*(alpha - phi)/(4*phi)))
         c = -P*tan(pi*(alpha - phi)/(4*phi))/(E_star*phi)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         P       normal load per unit depth [N/m]
         alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
+    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0 and alpha > -phi and alpha <
+    phi, with lengths of 1e-75 to 1e75 m.
 
-    Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0 and alpha > -phi and alpha < phi and E_star > 0 and phi > 0; nor where lengths
-    leave 1e-75 to 1e75 m.
-
-    a numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.
-    c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.
-    Derived from derive/geometries/wedge.py.
+    a and c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.  Derived from
+    derive/geometries/wedge.py.
 
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi=0.125)]
     ['11.9728', '5.34543', '0.03125']
@@ -157,24 +119,21 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
         alpha = phi*(pi - 2*theta_1)/pi
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a    left edge of the contact at x = -a [m]
-        c    right edge of the contact at x = c [m]
-        phi  slope of the flanks [rad]
-
-    Returns alpha [rad].
-    NaN unless a > 0 and c > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        phi   slope of the flanks [rad]
+    Returns alpha [rad].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/wedge.py.
+    integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/wedge.py.
 
     >>> f"{tilt(1.5, 1.0, phi=0.125):.6g}"
     '0.0160236'
     """
+    alpha = (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c)))
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return where(exists, (2 * phi / np.pi) * np.arctan((a - c) / (2 * np.sqrt(a * c))), np.nan)
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -183,14 +142,11 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
 
         P = E_star*phi*sqrt(a*c)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
-
-    Returns P [N/m].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns P [N/m].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/wedge.py.
@@ -198,9 +154,10 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     >>> f"{load(1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.153093'
     """
+    P = (E_star * phi) * np.sqrt(a * c)
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return where(exists, (E_star * phi) * np.sqrt(a * c), np.nan)
+    return where(exists, P, np.nan)
 
 
 @elementwise
@@ -209,25 +166,22 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
 
         M = E_star*phi*sqrt(a*c)*(a - c)/4
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
-
-    Returns M [N].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns M [N].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-        at 24 points.
-    Derived from derive/geometries/wedge.py.
+    at 24 points.  Derived from derive/geometries/wedge.py.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.0191366'
     """
+    M = (E_star * phi / 4) * (a - c) * np.sqrt(a * c)
     h = a + c  # contact width [m]
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return where(exists, (E_star * phi / 4) * (a - c) * np.sqrt(a * c), np.nan)
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -239,19 +193,15 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
         u_1 = c*(a + x)
         v_1 = a*(c - x)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
-
-    Returns p [Pa].
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Returns p [Pa].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/wedge.py.
+    integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/wedge.py.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.0567155'
@@ -260,8 +210,9 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
     right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
     logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
+    p = (E_star * phi / np.pi) * logarithm_1
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return where(exists, (E_star * phi / np.pi) * logarithm_1, np.nan)
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -271,17 +222,14 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
         K_N_left = 2*E_star*phi*sqrt(a*c/(a + c))/(pi*a)
         K_N_right = 2*E_star*phi*sqrt(a*c/(a + c))/(pi*c)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a > 0 and c > 0, with lengths
+    of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/wedge.py.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, phi=0.125)]
@@ -289,8 +237,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     """
     h = a + c  # contact width [m]
     scale = (2 * E_star * phi / np.pi) / np.sqrt(a * c * h)
+    K_N_left = c * scale
+    K_N_right = a * scale
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return Edges(where(exists, c * scale, np.nan), where(exists, a * scale, np.nan))
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -300,94 +250,77 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
         L_N_left = E_star*phi*sqrt(a*c)*(3*a + 2*c)/(3*pi*a**2*(a + c)**(3/2))
         L_N_right = E_star*phi*sqrt(a*c)*(2*a + 3*c)/(3*pi*c**2*(a + c)**(3/2))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         phi     slope of the flanks [rad]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a > 0 and c > 0, with
+    lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a > 0 and c > 0 and E_star > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 45
-        digits at 24 points.
-    Derived from derive/geometries/wedge.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 45 digits at 24 points.  Derived from derive/geometries/wedge.py.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, phi=0.125)]
     ['0.0118715', '0.0246562']
     """
     h = a + c  # contact width [m]
     scale = (E_star * phi / (3 * np.pi)) / np.sqrt(a * c * h)
+    L_N_left = scale * (c / h + 2 * c / a)
+    L_N_right = scale * (a / h + 2 * a / c)
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, scale * (c / h + 2 * c / a), np.nan),
-        where(exists, scale * (a / h + 2 * a / c), np.nan),
-    )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    h = a + c  # contact width [m]
-    scale = (E_star * phi / (20 * np.pi)) / (h * np.sqrt(a * c * h))
-    exists = (np.minimum(a, c) > LEAST) & (h < MOST)
-    return Edges(
-        where(exists, scale * (3 * a * c / h + 4 * c + 8 * c * h / a) / a, np.nan),
-        where(exists, scale * (3 * a * c / h + 4 * a + 8 * a * h / c) / c, np.nan),
-    )
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0])
     load, moment = _load(a, c, 1.0, own[0]), _moment(a, c, 1.0, own[0])
     return load, moment, _tilt(a, c, own[0]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0])
-    third_left, third_right = _T_N(a, c, 1.0, own[0])
-    return left, right, third_left, third_right
+    phi = own[0]
+    second = _L_N(a, c, 1.0, phi)
+    h = a + c  # contact width [m]
+    scale = (phi / (20 * np.pi)) / (h * np.sqrt(a * c * h))
+    third_left = scale * (3 * a * c / h + 4 * c + 8 * c * h / a) / a
+    third_right = scale * (3 * a * c / h + 4 * a + 8 * a * h / c) / c
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     phi = own[0]
-    return where(x >= 0, 2 * phi, 0) - phi, 0.0
+    slope = where(x < 0, -phi, phi)
+    curvature = 0.0
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     return np.array([0.0])
 
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (Parameter("phi", "slope of the flanks", "rad"),),
     "derive/geometries/wedge.py",
-    dict(
-        law="E_star=1.0, phi=0.125",
-        edges="1.5, 1.0",
-        load="0.153093",
-        moment="0.0191366",
-        alpha="0.0160236",
-        dQ="0.019",
-        reduced="0.134093",
-        threshold="0.0193532",
-        slip="['0.186161', '0.124107']",
+    Example(
+        "E_star=1.0, phi=0.125",
+        (1.5, 1.0),
+        (0.15309310892394862, 0.019136638615493577, 0.01602355421224372),
+        (0.041093629604099985, 0.06164044440614998),
     ),
+    Parameter("phi", "slope of the flanks", "rad"),
 )
 
 stick_zone = _BODY.bound(cycle.stick_zone)

@@ -2,20 +2,39 @@
 """Wedge on the left, parabola on the right.
 
 g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/wedge_parabola.py.
-"""
 
-from typing import Any
+In the formulas below
+    h = a + c
+    t_2 = edge_angle(c, a)
+    edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
+    segment(t) = t - sin(t)*cos(t)
+    involute(t) = -t*cos(t) + sin(t)
+    root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+    kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
+    second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 + 2*sin(t/2)/far, far >
+        0), (0, True))
+    end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 + v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) +
+        v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+"""
 
 import numpy as np
 
 from .full_stick import K_T, L_T, stick_margin
 from .runtime import cycle
 from .runtime.arrays import elementwise
-from .runtime.body import Body, Parameter
+from .runtime.body import Body, Example, Parameter
 from .runtime.elementary import LEAST, MOST, kink_logarithm, where
 from .runtime.history import public
-from .runtime.segments import end_pressure, involute, root_ratio, second_term, segment, third_term
-from .runtime.shared import by_position
+from .runtime.segments import (
+    edge_angle,
+    end_pressure,
+    involute,
+    root_ratio,
+    second_term,
+    segment,
+    third_term,
+)
+from .runtime.shared import by_position, shared
 from .runtime.types import (
     Array,
     Contact,
@@ -28,38 +47,20 @@ from .runtime.types import (
     Threshold,
 )
 
-__all__ = [
-    "K_N",
-    "K_T",
-    "L_N",
-    "L_T",
-    "Contact",
-    "Edges",
-    "History",
-    "March",
-    "Regime",
-    "SteadyCycle",
-    "StickZone",
-    "Threshold",
-    "closing_tension",
-    "contact",
-    "contact_at_tilt",
-    "history",
-    "load",
-    "march",
-    "moment",
-    "pressure",
-    "shear",
-    "shear_change",
-    "slip_error",
-    "slip_range",
-    "slip_zones",
-    "steady_cycle",
-    "stick_margin",
-    "stick_zone",
-    "tension_threshold",
-    "tilt",
-]
+__all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "Regime"]
+__all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
+__all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
+__all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
+
+
+@shared
+def _angles(a: Array, c: Array) -> tuple[Array, ...]:
+    """What all formulas hold, as defined above, and whether there is such a contact."""
+    h = a + c  # contact width [m]
+    t_2 = edge_angle(c, a)  # angle of part 2 [-]
+    exists = (h > LEAST) & (c > 0) & (h < MOST)
+    return h, t_2, exists
 
 
 @elementwise
@@ -67,38 +68,24 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
         alpha = (phi*t_1 - h*involute(t_2)/(2*R) - t_2*Max(0, -a)/R)/pi
-        h = a + c
-        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        involute(t) = -t*cos(t) + sin(t)
+        t_1 = edge_angle(a, c)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a    left edge of the contact at x = -a [m]
-        c    right edge of the contact at x = c [m]
-        R    relative radius of curvature on the right [m]
-        phi  slope of the left flank [rad]
-
-    Returns alpha [rad].
-    NaN unless a + c > 0 and c > 0 and R > 0 and phi > 0; nor where lengths leave 1e-75 to 1e75 m.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c  edges of the contact at x = -a and x = c [m]
+        R     relative radius of curvature on the right [m]
+        phi   slope of the left flank [rad]
+    Returns alpha [rad].  NaN unless a + c > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-        integral of g(x); 48 digits at 24 points.
-    Derived from derive/geometries/wedge_parabola.py.
+    integral of g(x); 48 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{tilt(1.5, 1.0, R=1.0, phi=0.125):.6g}"
     '-0.21036'
     """
-    h = a + c  # contact width [m]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    return where(
-        exists,
-        (t_1 * phi - h * involute(t_2) / (2 * R) - t_2 * np.maximum(-a, 0.0) / R) / np.pi,
-        np.nan,
-    )
+    h, t_2, exists = _angles(a, c)
+    t_1 = edge_angle(a, c)  # angle of part 1 [-]
+    alpha = (t_1 * phi - h * involute(t_2) / (2 * R) - t_2 * np.maximum(-a, 0.0) / R) / np.pi
+    return where(exists, alpha, np.nan)
 
 
 @elementwise
@@ -106,77 +93,52 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
         P = E_star*phi*sqrt(Max(0, a)*Max(0, c))/2 + E_star*h**2*segment(t_2)/(16*R)
-        h = a + c
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        segment(t) = t - sin(t)*cos(t)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature on the right [m]
         phi     slope of the left flank [rad]
-
-    Returns P [N/m].
-    NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.
+    Returns P [N/m].  NaN unless a + c > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Derived from derive/geometries/wedge_parabola.py.
+    Symbols and source: see the module's docstring.
 
     >>> f"{load(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.534937'
     """
-    h = a + c  # contact width [m]
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    return where(
-        exists,
-        (E_star * phi / 2) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0))
-        + (E_star / (16 * R)) * h**2 * segment(t_2),
-        np.nan,
-    )
+    h, t_2, exists = _angles(a, c)
+    P = (E_star * phi / 2) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0)) + (
+        E_star / (16 * R)
+    ) * h**2 * segment(t_2)
+    return where(exists, P, np.nan)
 
 
 @elementwise
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = E_star*h**2*(-h*sin(t_2)**3/(3*R) + (a - c)*segment(t_2)/R)/32 +
-            E_star*phi*sqrt(Max(0, a)*Max(0, c))*(a - c)/8
-        h = a + c
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        segment(t) = t - sin(t)*cos(t)
+        M = E_star*phi*sqrt(Max(0, a)*Max(0, c))*(a - c)/8 + E_star*h**2*(-h*sin(t_2)**3/3 + (a
+            - c)*segment(t_2))/(32*R)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature on the right [m]
         phi     slope of the left flank [rad]
-
-    Returns M [N].
-    NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.
+    Returns M [N].  NaN unless a + c > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
-        at 24 points.
-    Derived from derive/geometries/wedge_parabola.py.
+    at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '-0.0289272'
     """
-    h = a + c  # contact width [m]
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    return where(
-        exists,
-        (E_star / 32) * h**2 * ((a - c) * segment(t_2) / R - h * np.sin(t_2) ** 3 / (3 * R))
-        + (E_star * phi / 8) * (a - c) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0)),
-        np.nan,
-    )
+    h, t_2, exists = _angles(a, c)
+    M = (E_star * phi / 8) * (a - c) * np.sqrt(np.maximum(a, 0.0) * np.maximum(c, 0.0)) + (
+        E_star / (32 * R)
+    ) * h**2 * ((a - c) * segment(t_2) - h * np.sin(t_2) ** 3 / 3)
+    return where(exists, M, np.nan)
 
 
 @elementwise
@@ -185,51 +147,32 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
 
         p = E_star*phi*kink_logarithm((2*a + 2*x)*Max(0, c)/h, (2*c - 2*x)*Max(0, a)/h,
             x)/(2*pi) + E_star*h*end_pressure(t_2, cos_x, sin_x)/(pi*R)
-        h = a + c
-        cos_x = sqrt(Max(0, c - x)/h)
         sin_x = sqrt(Max(0, a + x)/h)
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
-        kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
-        end_pressure(t, u, v) = t*u*v/2 + (-u**2*cos(t/2)**2 +
-            v**2*sin(t/2)**2)*log(Abs((u*cos(t/2) + v*sin(t/2))/(u*cos(t/2) - v*sin(t/2))))/2
+        cos_x = sqrt(Max(0, c - x)/h)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature on the right [m]
         phi     slope of the left flank [rad]
-
-    Returns p [Pa].
-    NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.
+    Returns p [Pa].  NaN unless a + c > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
 
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-        integral of g(x); 49 digits at 24 points.
-    Derived from derive/geometries/wedge_parabola.py.
+    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.359742'
     """
     x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
-    h = a + c  # contact width [m]
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST) & (x == x)
-    return where(
-        exists,
-        (E_star * phi / (2 * np.pi))
-        * kink_logarithm(
-            (np.maximum(c, 0.0) / h) * (2 * a + 2 * x),
-            (np.maximum(a, 0.0) / h) * (2 * c - 2 * x),
-            x,
-        )
-        + (E_star * h / (np.pi * R)) * end_pressure(t_2, cos_x, sin_x),
-        np.nan,
-    )
+    h, t_2, exists = _angles(a, c)
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # of half the angle of x [-]
+    p = (E_star * phi / (2 * np.pi)) * kink_logarithm(
+        (np.maximum(c, 0.0) / h) * (2 * a + 2 * x), (np.maximum(a, 0.0) / h) * (2 * c - 2 * x), x
+    ) + (E_star * h / (np.pi * R)) * end_pressure(t_2, cos_x, sin_x)
+    exists = exists & (x == x)
+    return where(exists, p, np.nan)
 
 
 @elementwise
@@ -238,51 +181,33 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
         K_N_left = E_star*cot_1*phi/(pi*sqrt(h)) + E_star*sqrt(h)*segment(t_2/2)/(pi*R)
         K_N_right = E_star*phi*tan_1/(pi*sqrt(h)) + E_star*sqrt(h)*(t_2 + sin(t_2))/(2*pi*R)
-        cot_1 = root_ratio(c, a)
-        h = a + c
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
         tan_1 = root_ratio(a, c)
-        segment(t) = t - sin(t)*cos(t)
-        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
+        cot_1 = root_ratio(c, a)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature on the right [m]
         phi     slope of the left flank [rad]
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and c > 0, with
+    lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).
-    NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.
-
-    K_N_left proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/wedge_parabola.py.
+    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
+    Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125)]
     ['0.118599', '0.621996']
     """
-    cot_1 = root_ratio(c, a)  # cotangent of half the angle of the kink x = 0 [-]
-    h = a + c  # contact width [m]
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    tan_1 = root_ratio(a, c)  # tangent of half the angle of the kink x = 0 [-]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star * phi / np.pi) * cot_1 / np.sqrt(h)
-            + (E_star / (np.pi * R)) * segment(t_2 / 2) * np.sqrt(h),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star * phi / np.pi) * tan_1 / np.sqrt(h)
-            + (E_star / (2 * np.pi * R)) * (t_2 + np.sin(t_2)) * np.sqrt(h),
-            np.nan,
-        ),
-    )
+    h, t_2, exists = _angles(a, c)
+    tan_1 = root_ratio(a, c)  # of half the angle of x = 0 [-]
+    cot_1 = root_ratio(c, a)  # of half the angle of x = 0 [-]
+    K_N_left = (E_star * phi / np.pi) * cot_1 / np.sqrt(h) + (E_star / (np.pi * R)) * segment(
+        t_2 / 2
+    ) * np.sqrt(h)
+    K_N_right = (E_star * phi / np.pi) * tan_1 / np.sqrt(h) + (E_star / (2 * np.pi * R)) * (
+        t_2 + np.sin(t_2)
+    ) * np.sqrt(h)
+    return Edges(where(exists, K_N_left, np.nan), where(exists, K_N_right, np.nan))
 
 
 @elementwise
@@ -293,167 +218,120 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
             + E_star*(-k_left + 1/R)*second_term(t_2, 0, sin_1)/(3*pi*sqrt(h))
         L_N_right = -E_star*k_right*second_term(t_1, 0, cos_1)/(3*pi*sqrt(h)) -
             E_star*k_right/(4*sqrt(h)) + E_star*phi*tan_1*(2*tan_1**2 + 3)/(6*pi*h**(3/2))
-        cot_1 = root_ratio(c, a)
-        h = a + c
-        k_left = Piecewise((0, a > 0), (1/R, True))
         sin_1 = sqrt(Min(h, Max(0, a))/h)
-        t_2 = 2*atan2(sqrt(Max(0, c)), sqrt(Max(0, a)))
         cos_1 = sqrt(Min(h, Max(0, c))/h)
-        k_right = Piecewise((1/R, c > 0), (0, True))
-        t_1 = 2*atan2(sqrt(Max(0, a)), sqrt(Max(0, c)))
         tan_1 = root_ratio(a, c)
-        root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
-        second_term(t, near, far) = Piecewise((-3*t/4 + (-far + near)*sin(t/2)/2 +
-            2*sin(t/2)/far, far > 0), (0, True))
+        cot_1 = root_ratio(c, a)
+        t_1 = edge_angle(a, c)
+        k_left = Piecewise((0, a > 0), (1/R, True))
+        k_right = Piecewise((1/R, c > 0), (0, True))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
-        a       left edge of the contact at x = -a [m]
-        c       right edge of the contact at x = c [m]
+    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
+        a, c    edges of the contact at x = -a and x = c [m]
         E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
         R       relative radius of curvature on the right [m]
         phi     slope of the left flank [rad]
+    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and c > 0, with
+    lengths of 1e-75 to 1e75 m.
 
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).
-    NaN unless a + c > 0 and c > 0 and E_star > 0 and R > 0 and phi > 0; nor where lengths leave
-    1e-75 to 1e75 m.
-
-    L_N_left proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
-        digits at 24 points.
-    L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to the edge; 47
-        digits at 24 points.
-    Derived from derive/geometries/wedge_parabola.py.
+    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
+    the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125)]
     ['0.0301586', '-0.204532']
     """
-    cot_1 = root_ratio(c, a)  # cotangent of half the angle of the kink x = 0 [-]
-    h = a + c  # contact width [m]
+    h, t_2, exists = _angles(a, c)
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    tan_1 = root_ratio(a, c)  # of half the angle of x = 0 [-]
+    cot_1 = root_ratio(c, a)  # of half the angle of x = 0 [-]
+    t_1 = edge_angle(a, c)  # angle of part 1 [-]
     k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [m**(-1)]
-    # sine of half the angle of the kink x = 0 [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    # cosine of half the angle of the kink x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)
     k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [m**(-1)]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    tan_1 = root_ratio(a, c)  # tangent of half the angle of the kink x = 0 [-]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star * phi / (6 * np.pi)) * cot_1 * (2 * cot_1**2 + 3) / (h * np.sqrt(h))
-            + (E_star / (3 * np.pi)) * (1 / R - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(h)
-            - (E_star / 4) * k_left / np.sqrt(h),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star * phi / (6 * np.pi)) * tan_1 * (2 * tan_1**2 + 3) / (h * np.sqrt(h))
-            - (E_star / (3 * np.pi)) * k_right * second_term(t_1, 0, cos_1) / np.sqrt(h)
-            - (E_star / 4) * k_right / np.sqrt(h),
-            np.nan,
-        ),
+    L_N_left = (
+        (E_star * phi / (6 * np.pi)) * cot_1 * (2 * cot_1**2 + 3) / (h * np.sqrt(h))
+        + (E_star / (3 * np.pi)) * (1 / R - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(h)
+        - (E_star / 4) * k_left / np.sqrt(h)
     )
-
-
-def _third(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
-    """Coefficients of s**(5/2) in the pressure next to the edges."""
-    cot_1 = root_ratio(c, a)  # cotangent of half the angle of the kink x = 0 [-]
-    h = a + c  # contact width [m]
-    k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [m**(-1)]
-    # sine of half the angle of the kink x = 0 [-]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)
-    # angle of part 2 [-]
-    t_2 = 2 * np.arctan2(np.sqrt(np.maximum(c, 0.0)), np.sqrt(np.maximum(a, 0.0)))
-    # cosine of half the angle of the kink x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)
-    k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [m**(-1)]
-    # angle of part 1 [-]
-    t_1 = 2 * np.arctan2(np.sqrt(np.maximum(a, 0.0)), np.sqrt(np.maximum(c, 0.0)))
-    tan_1 = root_ratio(a, c)  # tangent of half the angle of the kink x = 0 [-]
-    exists = (h > LEAST) & (c > LEAST) & (h < MOST)
-    return Edges(
-        where(
-            exists,
-            (E_star * phi / (40 * np.pi))
-            * cot_1
-            * (4 * cot_1**2 * (2 * cot_1**2 + 5) + 15)
-            / (h**2 * np.sqrt(h))
-            + (E_star / (20 * np.pi))
-            * (1 / R - k_left)
-            * third_term(t_2, 0, sin_1)
-            / (h * np.sqrt(h))
-            - (E_star / 16) * k_left / (h * np.sqrt(h)),
-            np.nan,
-        ),
-        where(
-            exists,
-            (E_star * phi / (40 * np.pi))
-            * tan_1
-            * (4 * tan_1**2 * (2 * tan_1**2 + 5) + 15)
-            / (h**2 * np.sqrt(h))
-            - (E_star / (20 * np.pi)) * k_right * third_term(t_1, 0, cos_1) / (h * np.sqrt(h))
-            - (E_star / 16) * k_right / (h * np.sqrt(h)),
-            np.nan,
-        ),
+    L_N_right = (
+        (E_star * phi / (6 * np.pi)) * tan_1 * (2 * tan_1**2 + 3) / (h * np.sqrt(h))
+        - (E_star / (3 * np.pi)) * k_right * second_term(t_1, 0, cos_1) / np.sqrt(h)
+        - (E_star / 4) * k_right / np.sqrt(h)
     )
+    return Edges(where(exists, L_N_left, np.nan), where(exists, L_N_right, np.nan))
 
 
 _load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)
 _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
-_T_N = by_position(_third)
 
 
-def _pressure(x: Array, a: Array, c: Array, own: Array) -> Any:
+def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
     """The pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
-def _state(a: Array, c: Array, own: Array) -> Any:
+def _state(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """Load, moment, tilt and K_N for E* = 1."""
     left, right = _K_N(a, c, 1.0, own[0], own[1])
     load, moment = _load(a, c, 1.0, own[0], own[1]), _moment(a, c, 1.0, own[0], own[1])
     return load, moment, _tilt(a, c, own[0], own[1]), left, right
 
 
-def _series(a: Array, c: Array, own: Array) -> Any:
+def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     """L_N and the coefficients of s**(5/2) for E* = 1."""
-    left, right = _L_N(a, c, 1.0, own[0], own[1])
-    third_left, third_right = _T_N(a, c, 1.0, own[0], own[1])
-    return left, right, third_left, third_right
+    R, phi = own[0], own[1]
+    second = _L_N(a, c, 1.0, R, phi)
+    h, t_2, _ = _angles(a, c)
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    tan_1 = root_ratio(a, c)  # of half the angle of x = 0 [-]
+    cot_1 = root_ratio(c, a)  # of half the angle of x = 0 [-]
+    t_1 = edge_angle(a, c)  # angle of part 1 [-]
+    k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [m**(-1)]
+    k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [m**(-1)]
+    third_left = (
+        (phi / (40 * np.pi))
+        * cot_1
+        * (4 * cot_1**2 * (2 * cot_1**2 + 5) + 15)
+        / (h**2 * np.sqrt(h))
+        + (1 / R - k_left) * third_term(t_2, 0, sin_1) / (20 * np.pi * h * np.sqrt(h))
+        - k_left / (16 * h * np.sqrt(h))
+    )
+    third_right = (
+        (phi / (40 * np.pi))
+        * tan_1
+        * (4 * tan_1**2 * (2 * tan_1**2 + 5) + 15)
+        / (h**2 * np.sqrt(h))
+        - k_right * third_term(t_1, 0, cos_1) / (20 * np.pi * h * np.sqrt(h))
+        - k_right / (16 * h * np.sqrt(h))
+    )
+    return second.left, second.right, third_left, third_right
 
 
-def _slope(x: Array, own: Array) -> Any:
+def _slope(x: Array, own: Array) -> tuple[Array, ...]:
     """g'(x) and g''(x)."""
     R, phi = own[0], own[1]
-    return where(x >= 0, (R * phi + x) / R, 0) - phi, where(x >= 0, 1 / R, 0)
+    slope = where(x < 0, -phi, x / R)
+    curvature = where(x < 0, 0, 1 / R)
+    return slope, curvature
 
 
-def _breaks(own: Array) -> Any:
+def _breaks(own: Array) -> Array:
     """Where the curve changes its formula."""
     return np.array([0.0])
 
 
 _BODY = Body(
     dict(pressure=_pressure, state=_state, slope=_slope, series=_series, breaks=_breaks),
-    (
-        Parameter("R", "relative radius of curvature on the right", "m"),
-        Parameter("phi", "slope of the left flank", "rad"),
-    ),
     "derive/geometries/wedge_parabola.py",
-    dict(
-        law="E_star=1.0, R=1.0, phi=0.125",
-        edges="1.5, 1.0",
-        load="0.534937",
-        moment="-0.0289272",
-        alpha="-0.21036",
-        dQ="0.067",
-        reduced="0.467937",
-        threshold="0.0682456",
-        slip="['0.22746', '0.0433708']",
+    Example(
+        "E_star=1.0, R=1.0, phi=0.125",
+        (1.5, 1.0),
+        (0.5349368773455335, -0.028927208895312008, -0.2103601777229599),
+        (0.11859881717662224, 0.621995779826847),
     ),
+    Parameter("R", "relative radius of curvature on the right", "m"),
+    Parameter("phi", "slope of the left flank", "rad"),
 )
 
 contact = _BODY.bound(cycle.contact)

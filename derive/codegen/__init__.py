@@ -7,8 +7,8 @@ parts     formulas of bodies of lines and parabolas as sums over the parts of a 
 printer   SymPy -> NumPy source
 contract  which functions a module has
 function  the text of one function that has a formula
-summed    the same for a sum over parts
-third     the text of the third coefficient of the pressure next to the edges
+summed    the same for a sum over parts, and of what all such functions hold
+third     the third coefficient of the pressure next to the edges
 law       the text of what the solvers need of a body
 cuts      where a body without closed formulas is cut for quadrature
 curve     the text of such a body: its curve, and the functions that are integrated over it

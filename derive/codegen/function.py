@@ -6,6 +6,7 @@ Out: Python source, not formatted yet.
 
 import textwrap
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import product
 
 import mpmath
@@ -20,11 +21,14 @@ from derive.codegen.rewrite import prove_equal, stable_program
 from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
+from derive.proof.verdict import Proof
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
 from derive.units import Dimension, dimension_of, parse_unit
 
 LINE = 100
+
+_SHAPES = "Arguments broadcast, results are float64 of their shape"
 
 _width = Symbol("h")
 """Contact width by its name, where code is checked for it."""
@@ -37,8 +41,6 @@ def inside_quotes(text: str) -> str:
 
 class FunctionText:
     """The text of one function of one body."""
-
-    width = LINE - 4
 
     def __init__(self, sheet: FormulaSheet, function: Function, source: str) -> None:
         self.sheet, self.function, self.source = sheet, function, source
@@ -103,39 +105,36 @@ class FunctionText:
 
     @property
     def _code(self) -> Iterator[str]:
-        arguments = {*self.function.arguments}
-        varying = {x} if x in arguments else arguments
-        for step in self.program.steps:
-            if step.expr.free_symbols & varying:
-                varying.add(step.symbol)
-        printer = NumPyPrinter(varying)
-        units = self._units()
+        arguments = self.function.arguments
         if x in arguments and _is_drawn_in(self.sheet):
             yield "    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]"
-        for step in self.program.steps:
-            note = f"  # {step.meaning} [{units[step.symbol]}]" if step.meaning else ""
-            yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
-        values = {name: printer.doprint(expr) for name, expr in self.program.outputs.items()}
-        if self.function.kind == "Contact":
-            yield f"    a = {values['a']}"
-            yield f"    c = {values['c']}"
-            values |= {"a": "a", "c": "c"}
-        yield from self._ending(values)
+        printer = printer_of(self.program, {x} if x in arguments else {*arguments})
+        yield from self._steps(printer)
+        yield from self._ending({n: printer.doprint(e) for n, e in self.program.outputs.items()})
+
+    def _steps(self, printer: NumPyPrinter) -> Iterator[str]:
+        yield from step_lines(self.sheet, self.program, printer)
 
     def _ending(self, values: dict[str, str]) -> Iterator[str]:
-        """Where the state exists, and the result that is NaN elsewhere."""
-        printer = NumPyPrinter()
+        """The results by their names, where the state exists, and NaN elsewhere."""
+        names = {}
+        for field, source in self.function.fields:
+            symbol = self.sheet[source].symbol if isinstance(source, str) else source
+            names[field] = local(self.sheet, str(symbol))
+            if values[field] != names[field]:
+                yield f"    {names[field]} = {values[field]}"
+        yield from self._existing()
+        found = ", ".join(f"where(exists, {name}, np.nan)" for name in names.values())
+        kind = self.function.kind
+        yield f"    return {kind}({found})" if kind else f"    return {found}"
+
+    def _existing(self) -> Iterator[str]:
+        """Whether the state exists; a contact that is returned is held to what one given is."""
         if "h" not in (str(step.symbol) for step in self.program.steps):
             yield "    h = a + c  # contact width [m]"
-        checks = [printer.doprint(condition) for condition in _one_check(self._checked)]
-        checks += self._further_checks
+        contact = self.sheet["tilt"].conditions if self.function.kind == "Contact" else ()
+        checks = [*checks_of((*self.conditions, *contact)), *self._further_checks]
         yield f"    exists = {' & '.join(f'({check})' for check in checks)}"
-        found = ", ".join(f"where(exists, {value}, np.nan)" for value in values.values())
-        yield (
-            f"    return {self.function.kind}({found})"
-            if self.function.kind
-            else f"    return {found}"
-        )
 
     @property
     def _further_checks(self) -> Iterator[str]:
@@ -144,67 +143,52 @@ class FunctionText:
         if self.function.name == "pressure" and any(corners):
             yield "x == x"
 
-    @property
-    def _checked(self) -> list[Boolean]:
-        """The conditions that the code checks; `elementwise` checks the constants.
-
-        Lengths end where their products would leave float64; a contact that is returned meets the
-        conditions of one that is given.
-        """
-        positive = {Gt(symbol, 0, evaluate=False) for symbol in self.keywords}
-        found = [cond for cond in self.conditions if cond not in positive]
-        if self.function.kind == "Contact":
-            found += self.sheet["tilt"].conditions
-        least = {cond: Gt(cond.lhs, LEAST) for cond in (a > 0, c > 0, h > 0)}
-        checks = [least.get(cond, cond) for cond in dict.fromkeys(_without_width(found))]
-        return [cond.xreplace({h: _width}) for cond in [*checks, Lt(h, MOST)]]
-
-    def _units(self) -> dict[Symbol, str]:
-        known: dict[Symbol, Dimension] = {**self.sheet.dimensions, TINY: parse_unit("m")}
-        units = {}
-        for step in self.program.steps:
-            found = dimension_of(step.expr, known) or Dimension()
-            known[step.symbol] = found
-            units[step.symbol] = "-" if str(found) == "1" else str(found)
-        return units
-
     # ------------------------------------------------------------------ docstring
 
     @property
     def _docstring(self) -> str:
-        quantities = self.sheet.geometry.quantities
-        given = [quantities[str(s)] for s in (*self.function.arguments, *self.keywords)]
-        width = max(len(q.name) for q in given)
         lines = [self.function.summary, ""]
         for equation in self._equations:
             lines += textwrap.wrap(
                 equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
             )
-        lines += ["", "Arguments broadcast; results are float64 of the broadcast shape."]
-        for q in given:
+        lines += [
+            "",
+            f"{_SHAPES}; NaN unless constants are positive." if self.keywords else f"{_SHAPES}.",
+        ]
+        given = self._given
+        width = max(map(len, given))
+        for name, meaning in given.items():
             lines += textwrap.wrap(
-                f"{q.name:{width}}  {q.meaning} [{q.unit}]",
+                f"{name:{width}}  {meaning}",
                 LINE - 4,
                 initial_indent="    ",
                 subsequent_indent=" " * (width + 6),
             )
-        lines += ["", *textwrap.wrap(f"Returns {self._returns}.", LINE - 4)]
-        lines += textwrap.wrap(f"NaN unless {self._existence}.", LINE - 4)
-        lines += ["", *self._proofs, "", *self._doctest]
+        lines += textwrap.wrap(f"Returns {self._returns}.  {self._existence}", LINE - 4)
+        lines += ["", *textwrap.wrap(self._proofs, LINE - 4), "", *self._doctest]
         return f'"""{inside_quotes(chr(10).join(lines))}\n"""'
 
     @property
-    def _sources(self) -> tuple[str, ...]:
-        return self.function.formulas
+    def _given(self) -> dict[str, str]:
+        """What the arguments mean, both edges at once."""
+        found = {}
+        for symbol in (*self.function.arguments, *self.keywords):
+            q = self.sheet.geometry.quantities[str(symbol)]
+            if symbol == a:
+                found["a, c"] = f"edges of the contact at x = -a and x = c [{q.unit}]"
+            elif symbol != c:
+                found[q.name] = f"{q.meaning} [{q.unit}]"
+        return found
 
     @property
     def _equations(self) -> Iterator[str]:
         held: set[Symbol] = set()
-        for name in self._sources:
+        for name in self.function.formulas:
             formula, shown = self.sheet[name], self.sheet.shown(name)
             held |= shown.free_symbols
             yield f"{formula.symbol} = {text_of(shown)}"
-        for symbol, definition in self.sheet.defined_in(*self._sources).items():
+        for symbol, definition in self.sheet.defined_in(*self.function.formulas).items():
             yield f"{symbol} = {text_of(definition)}"
         if any(str(symbol) == "e" for symbol in held):
             yield "e = M/P"
@@ -221,18 +205,25 @@ class FunctionText:
 
     @property
     def _existence(self) -> str:
-        needed = " and ".join(map(str, _without_width(self.conditions)))
-        return f"{needed}; nor where lengths leave 1e-75 to 1e75 m"
+        needed = map(str, _without_constants(self.conditions))
+        return f"NaN unless {' and '.join(needed)}, with lengths of 1e-75 to 1e75 m."
 
     @property
-    def _proofs(self) -> Iterator[str]:
-        for name in self._sources:
-            yield from textwrap.wrap(
-                f"{self.sheet[name].symbol} {self.sheet[name].proof}.",
-                LINE - 4,
-                subsequent_indent="    ",
-            )
-        yield f"Derived from {self.source}."
+    def _proofs(self) -> str:
+        """How each formula was proven, those of one proof together, and where it came from."""
+        told: dict[Proof, list[str]] = {}
+        digits: dict[Proof, int] = {}
+        for formula in (self.sheet[name] for name in self.function.formulas):
+            assert formula.proof is not None
+            kind = replace(formula.proof, digits=0)
+            told.setdefault(kind, []).append(str(formula.symbol))
+            digits[kind] = min(formula.proof.digits, digits.get(kind, formula.proof.digits))
+        proofs = (f"{' and '.join(s)} {replace(k, digits=digits[k])}." for k, s in told.items())
+        return f"{'  '.join(proofs)}  {self._origin}"
+
+    @property
+    def _origin(self) -> str:
+        return f"Derived from {self.source}."
 
     @property
     def _doctest(self) -> Iterator[str]:
@@ -253,16 +244,30 @@ class FunctionText:
             yield repr(shown[0])
 
 
-class BareText(FunctionText):
-    """The text of a function for the module alone: no check of arguments, and no example."""
+def printer_of(program: Program, arguments: set[Symbol]) -> NumPyPrinter:
+    """A printer that knows what varies along an array: the arguments, and what holds them."""
+    varying = {*arguments}
+    for step in program.steps:
+        if step.expr.free_symbols & varying:
+            varying.add(step.symbol)
+    return NumPyPrinter(varying)
 
-    @property
-    def _decorators(self) -> Iterator[str]:
-        return iter(())
 
-    @property
-    def _docstring(self) -> str:
-        return f'"""{self.function.summary}"""'
+def step_lines(
+    sheet: FormulaSheet, program: Program, printer: NumPyPrinter, given: int = 0
+) -> Iterator[str]:
+    """The code of a program's steps, each with its meaning and unit.
+
+    given: how many of the first are there already.
+    """
+    known: dict[Symbol, Dimension] = {**sheet.dimensions, TINY: parse_unit("m")}
+    for number, step in enumerate(program.steps):
+        found = dimension_of(step.expr, known) or Dimension()
+        known[step.symbol] = found
+        unit = "-" if str(found) == "1" else str(found)
+        note = f"  # {step.meaning} [{unit}]" if step.meaning else ""
+        if number >= given:
+            yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
 
 
 def _is_drawn_in(sheet: FormulaSheet) -> bool:
@@ -277,20 +282,31 @@ def local(sheet: FormulaSheet, name: str) -> str:
     return name
 
 
-def _without_width(conditions: Iterable[Boolean]) -> list[Boolean]:
-    """The conditions without h > 0, where a > 0 and c > 0 already say it."""
-    held = list(conditions)
+def checks_of(conditions: Iterable[Boolean]) -> list[str]:
+    """The conditions that code checks; `elementwise` checks the constants.
+
+    Lengths end where their products would leave float64.
+    """
+    held = _without_constants(conditions)
+    if {a > 0, c > 0} <= {*held}:  # both edges against LEAST at once: one operation less on arrays
+        held = [cond for cond in held if cond not in (a > 0, c > 0)] + [Min(a, c) > LEAST]
+    least = [Gt(_width, LEAST) if cond == (h > 0) else cond for cond in held]
+    return [NumPyPrinter().doprint(cond) for cond in (*least, Lt(_width, MOST))]
+
+
+def _without_constants(conditions: Iterable[Boolean]) -> list[Boolean]:
+    """The conditions that are not of one constant alone; a > 0 and c > 0 say that h > 0."""
+    held = [cond for cond in dict.fromkeys(conditions) if not _is_of_a_constant(cond)]
     spanning = {a > 0, c > 0} <= {*held}
     return [cond for cond in held if not (spanning and cond == (h > 0))]
 
 
-def _one_check(conditions: list[Boolean]) -> list[Boolean]:
-    """The conditions with both edges held against LEAST at once: one operation less on arrays."""
-    pair = [a > LEAST, c > LEAST]
-    if not {*pair} <= {*conditions}:
-        return conditions
-    others = [cond for cond in conditions if cond not in pair]
-    return [*others[:-1], Min(a, c) > LEAST, others[-1]]
+def _is_of_a_constant(condition: Boolean) -> bool:
+    """Whether a condition says that a constant is positive."""
+    if not isinstance(condition, Gt):
+        return False
+    symbol, least = condition.args
+    return bool(symbol.is_Symbol and symbol.is_positive and symbol != P and least == 0)
 
 
 def _noted(line: str, note: str) -> Iterator[str]:

@@ -7,12 +7,13 @@ Out: the text of `_pressure`, `_state`, `_slope`, `_series` and `_breaks`, and o
 import re
 from collections.abc import Iterable, Iterator
 
-import mpmath
-from mpmath import mpf
-from sympy import Expr, Ge, Lt, Piecewise, S, diff, factor
+from sympy import Expr, Lt, Piecewise, S, count_ops, diff, expand, factor
 
-from derive.codegen.function import example_of
+from derive.codegen.function import example_of, local, printer_of, step_lines
+from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
+from derive.codegen.summed import summed_steps
+from derive.codegen.third import third_program
 from derive.proof.points import Point, numeric
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
@@ -20,15 +21,15 @@ from derive.symbols import E_star, a, c, x
 NAMES = ("pressure", "state", "slope", "series", "breaks")
 """What a law consists of, in the order of runtime/kernels.py."""
 
+_OF_SEVERAL = ("_state", "_slope", "_series", "_curve")
+"""Functions that return several numbers."""
+
 
 class LawText:
-    """The text of one body's law.
+    """The text of one body's law."""
 
-    third: whether the module has `_third`, the coefficients of s**(5/2).
-    """
-
-    def __init__(self, sheet: FormulaSheet, source: str, third: bool) -> None:
-        self.sheet, self.source, self.third = sheet, source, third
+    def __init__(self, sheet: FormulaSheet, source: str) -> None:
+        self.sheet, self.source = sheet, source
         self.names = [q.name for q in sheet.geometry.parameters]
 
     @property
@@ -41,23 +42,33 @@ class LawText:
         """Pressure, state and series by the formulas above, compiled for numbers."""
         yield "_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)"
         yield "_p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)"
-        if self.third:
-            yield "_T_N = by_position(_third)"
         yield from function_head("_pressure", "x, a, c", "The pressure at x for E* = 1.")
         yield f"    return _p(x, a, c, 1.0, {own})"
         yield from function_head("_state", "a, c", "Load, moment, tilt and K_N for E* = 1.")
         yield f"    left, right = _K_N(a, c, 1.0, {own})"
         yield f"    load, moment = _load(a, c, 1.0, {own}), _moment(a, c, 1.0, {own})"
         yield f"    return load, moment, _tilt(a, c, {own}), left, right"
-        yield from function_head(
-            "_series", "a, c", "L_N and the coefficients of s**(5/2) for E* = 1."
+        yield from self._series()
+
+    def _series(self) -> Iterator[str]:
+        program = third_program(self.sheet)
+        printer = printer_of(program, {a, c})
+        steps = summed_steps if carried_by(self.sheet) is Route.PARTS else step_lines
+        given = ", ".join(self.names)
+        third = {
+            local(self.sheet, f"third_{side}"): printer.doprint(value)
+            for side, value in program.outputs.items()
+        }
+        words = "L_N and the coefficients of s**(5/2) for E* = 1."
+        yield from function_head("_series", "a, c", words)
+        yield from self._unpacked(
+            [
+                f"    second = _L_N(a, c, 1.0, {given})",
+                *steps(self.sheet, program, printer),
+                *(f"    {name} = {value}" for name, value in third.items()),
+                f"    return second.left, second.right, {', '.join(third)}",
+            ]
         )
-        yield f"    left, right = _L_N(a, c, 1.0, {own})"
-        if self.third:
-            yield f"    third_left, third_right = _T_N(a, c, 1.0, {own})"
-            yield "    return left, right, third_left, third_right"
-        else:
-            yield "    return left, right, np.nan, np.nan"
 
     def _unpacked(self, text: Iterable[str]) -> Iterator[str]:
         """The parameters that some text holds, by their names; then the text."""
@@ -70,16 +81,15 @@ class LawText:
         yield from lines
 
     def _slope(self) -> Iterator[str]:
-        slope = self.sheet.frame.slope
-        total: Expr = slope.base
-        for kink in slope.kinks:
-            compare = Ge if kink.side > 0 else Lt
-            beyond = compare(x, kink.position, evaluate=False)
-            total += Piecewise((factor(kink.jump), beyond), (S.Zero, True))
-        printer = NumPyPrinter({x})
+        pieces = self.sheet.frame.slope.pieces
+        printer, values = NumPyPrinter({x}), {}
+        for name, order in (("slope", 0), ("curvature", 1)):
+            cases = [(_shorter(diff(p.slope, x, order)), Lt(x, p.upper)) for p in pieces]
+            cases[-1] = (cases[-1][0], S.true)
+            values[local(self.sheet, name)] = as_float(printer.doprint(Piecewise(*cases)))
+        lines = [f"    {name} = {value}" for name, value in values.items()]
         yield from function_head("_slope", "x", "g'(x) and g''(x).")
-        values = map(printer.doprint, (total, diff(total, x)))
-        yield from self._unpacked([f"    return {', '.join(map(as_float, values))}"])
+        yield from self._unpacked([*lines, f"    return {', '.join(values)}"])
 
     def _breaks(self) -> Iterator[str]:
         places = [kink.position for kink in self.sheet.frame.slope.kinks]
@@ -89,52 +99,39 @@ class LawText:
         yield from self._unpacked([f"    return {array}"])
 
     def _body(self) -> Iterator[str]:
-        functions = ", ".join(f"{name}=_{name}" for name in NAMES)
-        parameters = "".join(
-            f"Parameter({q.name!r}, {q.meaning!r}, {q.unit!r}), "
-            for q in self.sheet.geometry.parameters
-        )
-        example = ", ".join(f"{k}={v!r}" for k, v in example_values(self.sheet).items())
         yield "_BODY = Body("
-        yield f"    dict({functions}),"
-        yield f"    ({parameters}),"
+        yield f"    dict({', '.join(f'{name}=_{name}' for name in NAMES)}),"
         yield f"    {self.source!r},"
-        yield f"    dict({example}),"
+        yield f"    Example{example_values(self.sheet)},"
+        for q in self.sheet.geometry.parameters:
+            yield f"    Parameter({q.name!r}, {q.meaning!r}, {q.unit!r}),"
         if demands := " and ".join(map(str, self.sheet.geometry.slope.demands)):
-            yield f"    {demands!r},"
+            yield f"    demands={demands!r},"
         yield ")"
+
+
+def _shorter(polynomial: Expr) -> Expr:
+    """By factors, as (x - b)/R, or by terms, as x/R + x**3/L**3."""
+    return min(factor(polynomial), expand(polynomial), key=count_ops)
 
 
 def function_head(name: str, arguments: str, words: str) -> Iterator[str]:
     """The first lines of a function of numbers."""
     given = f"{arguments}, own" if arguments else "own"
     typed = ", ".join(f"{argument}: Array" for argument in given.split(", "))
-    yield f"def {name}({typed}) -> Any:"
+    result = "tuple[Array, ...]" if name in _OF_SEVERAL else "Array"
+    yield f"def {name}({typed}) -> {result}:"
     yield f'    """{words}"""'
 
 
-def example_values(sheet: FormulaSheet) -> dict[str, str]:
-    """A contact in plain numbers for the docstrings; f = 1/2, so that dQ/(2 f) is dQ."""
+def example_values(sheet: FormulaSheet) -> tuple[object, ...]:
+    """A contact in plain numbers for the docstrings, as runtime/body.py has it."""
     point: Point = example_of(sheet, sheet["load"].conditions)
-    load, moment, tilt, *K = (
-        numeric(sheet.flat(name))(point)
-        for name in ("load", "moment", "tilt", "K_N_left", "K_N_right")
-    )
-    h = point[a] + point[c]
-    dQ = mpf(f"{float(load / 8):.2g}")
-    scale = mpmath.pi * mpmath.sqrt(h) / 2
+    names = ("load", "moment", "tilt", "K_N_left", "K_N_right")
+    *carried, left, right = (float(numeric(sheet.flat(name))(point)) for name in names)
     constants = [E_star, *(q.symbol for q in sheet.geometry.parameters)]
-    return {
-        "law": ", ".join(f"{s}={float(point[s])!r}" for s in constants),
-        "edges": f"{float(point[a])!r}, {float(point[c])!r}",
-        "load": f"{float(load):.6g}",
-        "moment": f"{float(moment):.6g}",
-        "alpha": f"{float(tilt):.6g}",
-        "dQ": repr(float(dQ)),
-        "reduced": f"{float(load - dQ):.6g}",
-        "threshold": f"{float(8 * dQ / (mpmath.pi * h)):.6g}",
-        "slip": str([f"{float(dQ / (scale * k)):.6g}" for k in K]),
-    }
+    law = ", ".join(f"{s}={float(point[s])!r}" for s in constants)
+    return law, (float(point[a]), float(point[c])), tuple(carried), (left, right)
 
 
 def as_float(printed: str) -> str:

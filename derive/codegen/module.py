@@ -19,8 +19,7 @@ from derive.codegen.law import LawText
 from derive.codegen.mark import MARK
 from derive.codegen.plan import Route, carried_by, route_of
 from derive.codegen.publish import FULL_STICK
-from derive.codegen.summed import SummedText
-from derive.codegen.third import third_text
+from derive.codegen.summed import SummedText, angles_text, definitions_text
 from derive.notation import text_of
 from derive.runtime import segments
 from derive.runtime.cycle import CYCLE
@@ -36,7 +35,7 @@ _KINDS = (
 
 _HELPERS = {
     "arrays": ("elementwise",),
-    "body": ("Asked", "Body", "Parameter"),
+    "body": ("Asked", "Body", "Example", "Parameter"),
     "cycle": ("integrated",),
     "elementary": ("LEAST", "MOST", "TINY", "kink_logarithm", "where"),
     "history": ("public",),
@@ -61,14 +60,10 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     Raises NotProven if any formula of the sheet, or any rewritten form, is not proven.
     """
     sheet.demand_proven()
-    origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
-    title = textwrap.fill(sheet.geometry.title, LINE - 4)
-    heading = f"{title}\n\n{textwrap.fill(origin, LINE, subsequent_indent=' ' * 4)}"
     solved = [f.name for f in CONTRACT if route_of(sheet, f) is Route.SOLVED]
     bound = [*solved, *(function.__name__ for function in CYCLE)]
     histories = [function.__name__ for function in HISTORIES]
     names = [*(f.name for f in CONTRACT), *bound[len(solved) :], *histories, *_KINDS]
-    names.sort(key=_order)
     code = "\n\n".join(_functions(sheet, source))
     cycle = "\n".join(
         [
@@ -78,10 +73,8 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     )
     stuck = [f.name for f in CONTRACT if not f.geometric]
     return formatted(f'''{MARK}
-"""{inside_quotes(heading)}
+"""{inside_quotes(_heading(sheet, source))}
 """
-
-from typing import Any
 
 import numpy as np
 
@@ -89,13 +82,38 @@ from .{FULL_STICK} import {", ".join(stuck)}
 from .runtime import {"cycle, pieces" if "pieces." in code else "cycle"}
 {_imports(code, (*_KINDS, "public"))}
 
-__all__ = {names}
+{_offered(names)}
 
 
 {code}
 
 {cycle}
 ''')
+
+
+def _heading(sheet: FormulaSheet, source: str) -> str:
+    """The module's docstring: the body, its profile, what several of its formulas hold."""
+    origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
+    paragraphs = [textwrap.fill(sheet.geometry.title, LINE - 4)]
+    paragraphs.append(textwrap.fill(origin, LINE, subsequent_indent=" " * 4))
+    if carried_by(sheet) is Route.PARTS:
+        lines = [
+            textwrap.fill(line, LINE, initial_indent=" " * 4, subsequent_indent=" " * 8)
+            for line in definitions_text(sheet)
+        ]
+        paragraphs.append("\n".join(["In the formulas below", *lines]))
+    return "\n\n".join(paragraphs)
+
+
+def _offered(names: list[str]) -> str:
+    """`__all__`, in lines that type checkers read."""
+    lines: list[list[str]] = [[]]
+    for name in sorted(names, key=_order):
+        if len(str([*lines[-1], name])) > LINE - len("__all__ += "):
+            lines.append([])
+        lines[-1].append(name)
+    first, *others = map(str, lines)
+    return "\n".join([f"__all__ = {first}", *(f"__all__ += {other}" for other in others)])
 
 
 def full_stick_text(sheet: FormulaSheet) -> str:
@@ -117,16 +135,15 @@ import numpy as np
 
 def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
     """The text of every function that has a formula, and of the body's law."""
+    carried = carried_by(sheet)
+    if carried is Route.PARTS and (angles := angles_text(sheet)):
+        yield angles
     for function in CONTRACT:
         route = route_of(sheet, function)
         if function.geometric and route is not Route.SOLVED:
             yield _TEXTS[route](sheet, function, source).text
-    route = carried_by(sheet)
-    third = third_text(sheet, route, source)
-    if third:
-        yield third
-    made = CurveText if route is Route.QUADRATURE else LawText
-    yield made(sheet, source, bool(third)).text
+    made = CurveText if carried is Route.QUADRATURE else LawText
+    yield made(sheet, source).text
 
 
 def _imports(code: str, always: tuple[str, ...] = ()) -> str:

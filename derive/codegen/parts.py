@@ -1,29 +1,34 @@
 """Functions of a body of straight lines and parabolas, as sums over the parts of a contact.
 
 In:  a FormulaSheet, and which of its formulas a function returns.
-Out: the Program of that function, compared with the sheet's formulas before it is used, and its
-     equations for the reader.
+Out: the Program of that function, compared with the sheet's formulas before it is used; the steps
+     that all these programs begin with.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
 
 from sympy import Expr
 
+from derive.codegen.contract import CONTRACT
 from derive.codegen.program import Program, Step
 from derive.codegen.rewrite import prove_equal
 from derive.errors import NotProven
-from derive.notation import text_of
 from derive.proof.points import contacts
 from derive.sheet import FormulaSheet
 from derive.theory.edges import Edge, pressure_series
+from derive.theory.frame import Frame
 from derive.theory.segments import Parts, definitions_of
+
+THIRD = {"left": "third_left", "right": "third_right"}
+"""The fields of a program that gives the coefficients of s**(5/2) in the pressure."""
 
 
 def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
-    """The program of a function whose fields are formulas of the sheet.
+    """The program of a function; it begins with the steps that all have in common.
 
-    fields: by the field's name that of a formula, or third_left or third_right, the coefficients of
-        s**(5/2) in the pressure.
+    fields: by the field's name that of a formula of the sheet; or THIRD.
 
     Raises NotProven if it is not what the sheet says.
 
@@ -33,35 +38,56 @@ def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
     >>> parts_program(sheet, {"": "load"}).outputs[""]
     E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
     """
-    parts = Parts(sheet.frame)
-    outputs = {field: parts.formulas[name] for field, name in fields.items()}
-    steps = tuple(Step(d.symbol, d.expr, d.meaning) for d in parts.definitions)
-    program = Program(outputs, steps).ordered()
+    program, common = _program(Parts(sheet.frame), fields, _taken(sheet)), common_steps(sheet)
     source = {field: _derived(sheet, name) for field, name in fields.items()}
     proof = prove_equal(program, source, contacts(sheet))
     if not proof.holds:
         names = ", ".join(fields.values())
         raise NotProven(f"{names} of {sheet.geometry.name!r}, part by part: {proof}")
-    return program.renamed(q.name for q in sheet.geometry.parameters)
+    own = (step for step in program.steps if step not in common)
+    return replace(program, steps=(*common, *own))
 
 
-def equations(program: Program, heads: Mapping[str, str]) -> Iterator[str]:
-    """What a program computes, line by line: its outputs, its steps, the functions that it calls.
+def common_steps(sheet: FormulaSheet) -> tuple[Step, ...]:
+    """The steps that every function holds, if they are more than the contact's width."""
+    first, *others = (program.steps for program in _programs(sheet.frame, _taken(sheet)))
+    common = tuple(step for step in first if all(step in steps for steps in others))
+    return common if len(common) > 1 else ()
 
-    heads: what stands on the left of each output.
-    """
-    for name, expr in program.outputs.items():
-        yield f"{heads[name]} = {text_of(expr)}"
-    for step in program.steps:
-        yield f"{step.symbol} = {text_of(step.expr)}"
-    held = (*program.outputs.values(), *(step.expr for step in program.steps))
-    for call, definition in definitions_of(held).items():
-        yield f"{call} = {text_of(definition)}"
+
+def functions_called(sheet: FormulaSheet) -> dict[Expr, Expr]:
+    """The functions that any of the programs calls, and what they are."""
+    programs = _programs(sheet.frame, _taken(sheet))
+    return definitions_of(
+        expr
+        for program in programs
+        for expr in (*program.outputs.values(), *(step.expr for step in program.steps))
+    )
+
+
+@lru_cache(maxsize=2)
+def _programs(frame: Frame, taken: tuple[str, ...]) -> tuple[Program, ...]:
+    """Those of all functions of the contract."""
+    parts = Parts(frame)
+    made = (f.formulas for f in CONTRACT if f.formulas[0] in parts.formulas)
+    return tuple(_program(parts, {name: name for name in names}, taken) for names in made)
+
+
+def _program(parts: Parts, fields: Mapping[str, str], taken: tuple[str, ...]) -> Program:
+    outputs = {field: parts.formulas[name] for field, name in fields.items()}
+    steps = tuple(Step(d.symbol, d.expr, d.meaning) for d in parts.definitions)
+    needed = Program(outputs, steps).ordered().steps
+    return Program(outputs, tuple(step for step in steps if step in needed)).renamed(taken)
+
+
+def _taken(sheet: FormulaSheet) -> tuple[str, ...]:
+    """Names that no step may bear."""
+    return tuple(q.name for q in sheet.geometry.parameters)
 
 
 def _derived(sheet: FormulaSheet, name: str) -> Expr:
     """A formula by the sheet's own derivation, the frame's symbols written out."""
-    if name.startswith("third_"):
+    if name in THIRD.values():
         edge = Edge[name.removeprefix("third_").upper()]
         return sheet.frame.flat(pressure_series(sheet.frame, edge, 3)[2])
     return sheet.flat(name)

@@ -1,14 +1,23 @@
-"""The text of a function that is a sum over the parts of a contact: what is printed is what runs.
+"""The text of functions that are sums over the parts of a contact: what is printed is what runs.
 
 In:  a proven FormulaSheet and a Function of the contract.
-Out: Python source, not formatted yet.
+Out: Python source, not formatted yet: one function, or `_angles`, which gives what all of them
+     hold; and the lines that define this in the module's docstring.
 """
 
 from collections.abc import Iterator
 
-from derive.codegen.function import FunctionText
-from derive.codegen.parts import equations, parts_program
+from derive.codegen.function import FunctionText, checks_of, printer_of, step_lines
+from derive.codegen.parts import common_steps, functions_called, parts_program
+from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
+from derive.notation import text_of
+from derive.sheet import FormulaSheet
+from derive.symbols import a, c
+
+NAME = "_angles"
+
+_WORDS = "What all formulas hold, as defined above, and whether there is such a contact."
 
 
 class SummedText(FunctionText):
@@ -20,11 +29,70 @@ class SummedText(FunctionText):
     def _demand_equal(self) -> None:
         """Compared when it was made."""
 
+    def _steps(self, printer: NumPyPrinter) -> Iterator[str]:
+        yield from summed_steps(self.sheet, self.program, printer, "exists")
+
+    def _existing(self) -> Iterator[str]:
+        if not common_steps(self.sheet):
+            yield from super()._existing()
+        elif checks := [*self._further_checks]:
+            yield f"    exists = exists & ({' & '.join(checks)})"
+
     @property
     def _equations(self) -> Iterator[str]:
-        heads = {
-            field: str(self.sheet[name].symbol)
-            for field, name in self.function.fields
-            if isinstance(name, str)
-        }
-        yield from equations(self.program, heads)
+        for field, name in self.function.fields:
+            yield f"{self.sheet[str(name)].symbol} = {text_of(self.program.outputs[field])}"
+        for step in self.program.steps[len(common_steps(self.sheet)) :]:
+            yield f"{step.symbol} = {text_of(step.expr)}"
+
+    @property
+    def _origin(self) -> str:
+        return "Symbols and source: see the module's docstring."
+
+
+def summed_steps(
+    sheet: FormulaSheet, program: Program, printer: NumPyPrinter, exists: str = "_"
+) -> Iterator[str]:
+    """The code of a program's steps; what all functions hold comes from `_angles`."""
+    common = common_steps(sheet)
+    if common:
+        names = ", ".join(str(step.symbol) for step in common)
+        yield f"    {names}, {exists} = {NAME}({', '.join(_arguments(sheet))})"
+    yield from step_lines(sheet, program, printer, len(common))
+
+
+def angles_text(sheet: FormulaSheet) -> str:
+    """`_angles` of a body; nothing where its functions have nothing in common."""
+    common = common_steps(sheet)
+    if not common:
+        return ""
+    conditions = sheet["tilt"].conditions
+    exists = " & ".join(f"({check})" for check in checks_of(conditions))
+    typed = ", ".join(f"{argument}: Array" for argument in _arguments(sheet))
+    program = Program({}, common)
+    return "\n".join(
+        [
+            "@shared",
+            f"def {NAME}({typed}) -> tuple[Array, ...]:",
+            f'    """{_WORDS}"""',
+            *step_lines(sheet, program, printer_of(program, {a, c})),
+            f"    exists = {exists}",
+            f"    return {', '.join(str(step.symbol) for step in common)}, exists",
+        ]
+    )
+
+
+def definitions_text(sheet: FormulaSheet) -> Iterator[str]:
+    """What all formulas hold, and the functions that they call, line by line."""
+    for step in common_steps(sheet):
+        yield f"{step.symbol} = {text_of(step.expr)}"
+    for call, definition in functions_called(sheet).items():
+        yield f"{call} = {text_of(definition)}"
+
+
+def _arguments(sheet: FormulaSheet) -> list[str]:
+    """Of `_angles`."""
+    exprs = [*(step.expr for step in common_steps(sheet)), *sheet["tilt"].conditions]
+    held = set().union(*(expr.free_symbols for expr in exprs))
+    given = (a, c, *(q.symbol for q in sheet.geometry.parameters))
+    return [str(symbol) for symbol in given if symbol in held]

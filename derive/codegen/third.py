@@ -1,69 +1,41 @@
 """The third coefficient of the pressure next to the edges, of s**(5/2).
 
 In:  a proven FormulaSheet.
-Out: the text of `_third`, for series of the slip zones to order 3; none for a body that is
-     integrated.
+Out: the Program that gives it for E* = 1, for series of the slip zones to order 3.
 """
 
-from sympy import Expr
+from sympy import Expr, S
 
-from derive.codegen.contract import Function
-from derive.codegen.function import BareText
-from derive.codegen.parts import parts_program
-from derive.codegen.plan import Route
+from derive.codegen.parts import THIRD, parts_program
+from derive.codegen.plan import Route, carried_by
 from derive.codegen.program import Program
-from derive.codegen.rewrite import prove_equal
+from derive.codegen.rewrite import prove_equal, stable_program
 from derive.errors import NotProven
+from derive.proof.points import contacts
 from derive.sheet import FormulaSheet
-from derive.symbols import a, c
+from derive.symbols import E_star, a, c
 from derive.theory.edges import Edge, pressure_series
 from derive.theory.slip import pressure_next
 
-NAME = "_third"
 
-_THIRD = Function(
-    NAME,
-    (a, c),
-    (("left", "L_N_left"), ("right", "L_N_right")),
-    "Coefficients of s**(5/2) in the pressure next to the edges.",
-    kind="Edges",
-)
-"""Its conditions are those of L_N."""
-
-
-def third_text(sheet: FormulaSheet, route: Route, source: str) -> str:
-    """`_third` of one body; nothing for one that is integrated.
+def third_program(sheet: FormulaSheet) -> Program:
+    """The coefficients at both edges: the pressure expanded once more, or a sum over parts.
 
     Raises NotProven if the expanded pressure is not what L_N and K_N say.
     """
-    if route is Route.QUADRATURE:
-        return ""
-    made = _Summed if route is Route.PARTS else _Expanded
-    return made(sheet, _THIRD, source).text
+    summed = carried_by(sheet) is Route.PARTS
+    program = parts_program(sheet, THIRD) if summed else _expanded(sheet)
+    return program.mapped(lambda expr: expr.xreplace({E_star: S.One}))
 
 
-class _Expanded(BareText):
-    """The pressure expanded once more."""
-
-    def _expressions(self) -> dict[str, Expr]:
-        return {edge.name.lower(): pressure_series(self.sheet.frame, edge, 3)[2] for edge in Edge}
-
-    def _demand_equal(self) -> None:
-        """The code against the other route: how L_N changes as the edge alone moves."""
-        super()._demand_equal()
-        proof = prove_equal(self.program, _from_motion(self.sheet), self._points())
-        if not proof.holds:
-            raise NotProven(f"{NAME} of {self.sheet.geometry.name!r}: {proof}")
-
-
-class _Summed(BareText):
-    """The same as a sum over the parts of a contact, compared when it was made."""
-
-    def _made(self) -> Program:
-        return parts_program(self.sheet, {"left": "third_left", "right": "third_right"})
-
-    def _demand_equal(self) -> None:
-        """Compared when it was made."""
+def _expanded(sheet: FormulaSheet) -> Program:
+    """Compared with the other route: how L_N changes as the edge alone moves."""
+    series = {edge.name.lower(): pressure_series(sheet.frame, edge, 3)[2] for edge in Edge}
+    program = stable_program(sheet, series, {})
+    proof = prove_equal(program, _from_motion(sheet), contacts(sheet))
+    if not proof.holds:
+        raise NotProven(f"the third coefficient of {sheet.geometry.name!r}: {proof}")
+    return program
 
 
 def _from_motion(sheet: FormulaSheet) -> dict[str, Expr]:

@@ -77,6 +77,56 @@ def involute(t: Array) -> Array:
 
 
 @shared
+def edge_angle(within: Array, beyond: Array) -> Array:
+    """2 atan2(sqrt(within), sqrt(beyond)), neither below zero: the angle of a part at an edge.
+
+    >>> float(edge_angle(1.0, -1.0))
+    3.141592653589793
+    """
+    return 2 * np.arctan2(np.sqrt(np.maximum(within, 0.0)), np.sqrt(np.maximum(beyond, 0.0)))
+
+
+@shared
+def part_area(t: Array, across: Array) -> Array:
+    """int w ds over h**2/8, of a part between two kinks: 2 segment(t/2) + 2 sin(t) across**2.
+
+    t: the angle that the part opens, 0 <= t <= pi.
+    across: the sine of half the sum of the angles of its ends.
+
+    >>> f"{part_area(np.pi, 1.0):.6g}"
+    '3.14159'
+    """
+    return 2 * segment(t / 2) + 2 * np.sin(t) * (across * across)
+
+
+@shared
+def part_arm(t: Array, sine_1: Array, cosine_1: Array, sine_2: Array, cosine_2: Array) -> Array:
+    """int w (s - mid) ds over h**3/24, of a part between two kinks.
+
+    t: the angle that the part opens; then sines and cosines of half the angles of its ends.
+
+    >>> float(part_arm(np.pi, 0.0, 1.0, 1.0, 0.0))
+    0.0
+    """
+    first, last = sine_1 * cosine_1, sine_2 * cosine_2
+    squares = first * first + first * last + last * last
+    return 8 * np.sin(t / 2) * (sine_1 * sine_2 - cosine_1 * cosine_2) * squares
+
+
+@shared
+def part_weight(t: Array, far: Array) -> Array:
+    """int w/A ds over h, of a part between two kinks: segment(t/2) + 2 sin(t/2) far.
+
+    t: the angle that the part opens.
+    far: the product of the cosines of half the angles of its ends; of the sines for the right edge.
+
+    >>> float(part_weight(np.pi, 0.0)) / (np.pi / 2)
+    1.0
+    """
+    return segment(t / 2) + 2 * np.sin(t / 2) * far
+
+
+@shared
 def excess(y: Array) -> Array:
     """artanh(y) - y, 0 <= y <= 1/2.
 

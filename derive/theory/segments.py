@@ -82,7 +82,7 @@ class Named(Function):
         return rf"\operatorname{{{name}}}{power}{{\left({arguments} \right)}}"
 
 
-_t, _near, _far = symbols("t near far", real=True)
+_t, _near, _far, _across = symbols("t near far across", real=True)
 _sine, _cosine, _start, _end = symbols("u v start end", positive=True)
 _ends = symbols("u_1 v_1 u_2 v_2", positive=True)
 _A, _B, _d = symbols("A B d", real=True)
@@ -110,6 +110,67 @@ class involute(Named):
     def definition(t: Expr) -> Expr:
         """In elementary functions."""
         return sin(t) - t * cos(t)
+
+
+class edge_angle(Named):
+    """2 atan2(sqrt(A), sqrt(B)), neither below zero: A and B are lengths to either side of a place.
+
+    The angle of a part that ends at an edge.
+    """
+
+    nargs = 2
+    of_a_quotient = True
+    letters = (_A, _B)
+
+    @staticmethod
+    def definition(within: Expr, beyond: Expr) -> Expr:
+        """In elementary functions."""
+        return 2 * atan2(sqrt(Max(0, within)), sqrt(Max(0, beyond)))
+
+
+class part_area(Named):
+    """int w ds over h**2/8, of a part between two kinks.
+
+    across: the sine of half the sum of the angles of its ends.
+    """
+
+    nargs = 2
+    letters = (_t, _across)
+
+    @staticmethod
+    def definition(t: Expr, across: Expr) -> Expr:
+        """In elementary functions."""
+        return t - sin(t) + 2 * sin(t) * across**2
+
+
+class part_arm(Named):
+    """int w (s - mid) ds over h**3/24, of a part between two kinks."""
+
+    nargs = 5
+    letters = (_t, *_ends)
+
+    @staticmethod
+    def definition(t: Expr, *halves: Expr) -> Expr:
+        """In elementary functions."""
+        sine_1, cosine_1, sine_2, cosine_2 = halves
+        first, last = sine_1 * cosine_1, sine_2 * cosine_2
+        squares = first**2 + first * last + last**2
+        return 8 * sin(t / 2) * (sine_1 * sine_2 - cosine_1 * cosine_2) * squares
+
+
+class part_weight(Named):
+    """int w/A ds over h, of a part between two kinks; B in place of A for the right edge.
+
+    far: the product of the cosines of half the angles of its ends; of the sines for B.
+    """
+
+    nargs = 2
+    letters = (_t, _far)
+
+    @staticmethod
+    def definition(t: Expr, far: Expr) -> Expr:
+        """In elementary functions."""
+        return segment(t / 2).written_out + 2 * sin(t / 2) * far
 
 
 class root_ratio(Named):
@@ -205,8 +266,8 @@ class part_pressure(Named):
 
 
 FUNCTIONS = (
-    *(segment, involute, root_ratio, kink_logarithm, second_term, third_term),
-    *(end_pressure, part_pressure),
+    *(edge_angle, segment, involute, part_area, part_arm, part_weight, root_ratio),
+    *(kink_logarithm, second_term, third_term, end_pressure, part_pressure),
 )
 """All of them; the runtime has each under its name."""
 
@@ -306,8 +367,8 @@ class Part:
         kink = before or behind
         if kink is None:
             return pi  # all of the contact
-        left, right = (sqrt(Max(0, distance)) for distance in (kink.left, kink.right))
-        return 2 * (atan2(right, left) if before else atan2(left, right))
+        sides = (kink.left, kink.right)
+        return edge_angle(*reversed(sides)) if before else edge_angle(*sides)
 
     # ------------------------------------------------------------------ its integrals
 
@@ -316,16 +377,14 @@ class Part:
         """int w ds over h**2/8."""
         if not self.is_inner:
             return segment(self.t)
-        return 2 * segment(self.t / 2) + 2 * sin(self.t) * self.across**2
+        return part_area(self.t, self.across)
 
     @property
     def arm(self) -> Expr:
         """int w (s - mid) ds over h**3/24."""
         if not self.is_inner:
             return (-1 if self.before is None else 1) * sin(self.t) ** 3
-        first, last = (sine * cosine for sine, cosine in (self.begins, self.ends))
-        squares = first**2 + first * last + last**2
-        return 8 * sin(self.t / 2) * (self.near - self.far) * squares
+        return part_arm(self.t, *self.begins, *self.ends)
 
     @property
     def lean(self) -> Expr:
@@ -343,10 +402,9 @@ class Part:
     def weight(self, edge: Edge) -> Expr:
         """int w/A ds over h for the left edge, int w/B ds over h for the right one."""
         touched = self.before if edge is Edge.LEFT else self.behind
-        half = segment(self.t / 2)
         if self.is_inner:
-            return half + 2 * sin(self.t / 2) * (self.far if edge is Edge.LEFT else self.near)
-        return (self.t + sin(self.t)) / 2 if touched is None else half
+            return part_weight(self.t, self.far if edge is Edge.LEFT else self.near)
+        return (self.t + sin(self.t)) / 2 if touched is None else segment(self.t / 2)
 
     def beyond(self, edge: Edge, term: Callable[..., Expr]) -> Expr:
         """A part's share in the pressure's next term at an edge that it does not touch."""
@@ -472,7 +530,7 @@ class Parts:
         corners = (
             E_star * J * _root(k) * (a - c - 2 * k.kink.position) / 8 for J, k in self.corners
         )
-        return E_star * h**2 / 32 * curved + Add(*corners)
+        return factor_terms(E_star * h**2 / 32 * curved) + Add(*corners)
 
     @property
     def pressure(self) -> Expr:
@@ -510,26 +568,24 @@ class Parts:
         corners = self._jumps(edge, lambda r: r * (15 + r**2 * (20 + 8 * r**2)))
         return here + curved + E_star / (40 * pi * h ** Rational(5, 2)) * corners
 
-    @property
+    @cached_property
     def definitions(self) -> tuple[Definition, ...]:
         """What the symbols of the formulas stand for, each after those that it holds."""
         found = [Definition(h, a + c, "contact width")]
         for k in self.frame.kinks:
-            at = f"half the angle of the kink x = {k.kink.position}"
+            at = f"of half the angle of x = {k.kink.position}"
             halves, tangents = _sine_and_cosine(k), _tangents(k)
-            sides, words = (k.left, k.right), ("sine", "cosine", "tangent", "cotangent")
+            sides = (k.left, k.right)
             clipped = (sqrt(Min(h, Max(0, distance)) / h) for distance in sides)
             ratios = (root_ratio(*sides), root_ratio(*reversed(sides)))
-            for symbol, expr, word in zip(
-                (*halves, *tangents), (*clipped, *ratios), words, strict=True
-            ):
-                found.append(Definition(symbol, expr, f"{word} of {at}"))
+            for symbol, expr in zip((*halves, *tangents), (*clipped, *ratios), strict=True):
+                found.append(Definition(symbol, expr, at))
         found += [
             Definition(part.t, part.angle, f"angle of part {part.number}") for part in self.parts
         ]
         found += [
-            Definition(sin_x, sqrt(Max(0, a + x) / h), "sine of half the angle of x"),
-            Definition(cos_x, sqrt(Max(0, c - x) / h), "cosine of half the angle of x"),
+            Definition(sin_x, sqrt(Max(0, a + x) / h), "of half the angle of x"),
+            Definition(cos_x, sqrt(Max(0, c - x) / h), "of half the angle of x"),
         ]
         for edge in Edge:
             symbol, at = self.bend_at(edge), f"g'' at the {edge.name.lower()} edge"

@@ -31,22 +31,49 @@ class Parameter(NamedTuple):
     unit: str
 
 
+class Example(NamedTuple):
+    """A contact in plain numbers, for E* = 1: what the docstrings' examples are made of.
+
+    law      E* and the parameters, as a call has them
+    edges    a and c
+    carried  load, moment and tilt
+    K_N      at the left and the right edge
+    """
+
+    law: str
+    edges: tuple[float, float]
+    carried: tuple[float, float, float]
+    K_N: tuple[float, float]
+
+    @property
+    def words(self) -> dict[str, str]:
+        """What stands in the examples, by name; f = 1/2, so that dQ/(2 f) is dQ."""
+        load, moment, tilt = self.carried
+        dQ, h = float(f"{load / 8:.2g}"), sum(self.edges)
+        numbers = dict(load=load, moment=moment, alpha=tilt, reduced=load - dQ)
+        numbers |= dict(threshold=8 * dQ / (math.pi * h))
+        found = {name: f"{value:.6g}" for name, value in numbers.items()}
+        slip = [f"{2 * dQ / (math.pi * math.sqrt(h) * k):.6g}" for k in self.K_N]
+        edges = ", ".join(map(repr, self.edges))
+        return found | dict(law=self.law, edges=edges, dQ=repr(dQ), slip=str(slip))
+
+
 class Body:
     """A body: functions of one contact for E* = 1, written for numbers, and what belongs to them.
 
     functions   pressure, state, slope, series and breaks, as `kernels.Law` describes them
-    parameters  of the geometry, in the order in which those functions find them
     origin      the file that g(x) came from
-    example     what the examples of its functions hold, by name
+    example     what the examples of its functions are made of
+    parameters  of the geometry, in the order in which those functions find them
     demands     what its parameters must meet besides being positive, in words
     """
 
     def __init__(
         self,
         functions: Mapping[str, Callable[..., Any]],
-        parameters: tuple[Parameter, ...],
         origin: str,
-        example: Mapping[str, str],
+        example: Example,
+        *parameters: Parameter,
         demands: str = "",
     ) -> None:
         self.functions, self.parameters = functions, parameters
@@ -94,7 +121,7 @@ class Body:
         if self.demands:
             positive = "parameters are positive"
             text = text.replace(positive, f"{positive}, {self.demands}")
-        example = words.EXAMPLES[name].format_map(self.example)
+        example = words.EXAMPLES[name].format_map(self.example.words)
         return f"{text}\n\nDerived from {self.origin}.\n\n{example}"
 
 

@@ -11,11 +11,13 @@ import pytest
 from mpmath import mpf
 from sympy import Expr
 
-from derive.codegen.parts import equations, parts_program
+from derive.codegen.parts import common_steps, parts_program
 from derive.codegen.printer import NumPyPrinter
+from derive.codegen.summed import definitions_text
 from derive.derivation import derive_sheet
 from derive.errors import NotProven
 from derive.library import load_geometry
+from derive.notation import text_of
 from derive.proof.points import Point, holds, numeric
 from derive.runtime import elementary, segments
 from derive.sheet import FormulaSheet
@@ -104,20 +106,28 @@ def test_digits_are_kept_beside_kinks(name: str) -> None:
 
 
 def test_what_is_printed_is_what_runs() -> None:
-    program = parts_program(sheet_of("flat_rounded"), {"": "load"})
-    assert [*equations(program, {"": "P"})] == [
-        "P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)",
+    sheet = sheet_of("flat_rounded")
+    program = parts_program(sheet, {"": "load"})
+    (load,) = program.outputs.values()
+    assert text_of(load) == "E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)"
+    assert (
+        NumPyPrinter().doprint(load) == "E_star * h**2 * (segment(t_1) + segment(t_3)) / (16 * R)"
+    )
+    assert program.steps == common_steps(sheet)
+    assert [*definitions_text(sheet)][:5] == [
         "h = a + c",
-        "t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))",
-        "t_3 = 2*atan2(sqrt(Max(0, -b + c)), sqrt(Max(0, a + b)))",
+        "t_1 = edge_angle(a - b, b + c)",
+        "t_3 = edge_angle(-b + c, a + b)",
+        "edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))",
         "segment(t) = t - sin(t)*cos(t)",
     ]
-    printed = [NumPyPrinter().doprint(expr) for expr in program.outputs.values()]
-    assert printed == ["E_star * h**2 * (segment(t_1) + segment(t_3)) / (16 * R)"]
-    step = next(step for step in program.steps if str(step.symbol) == "t_1")
-    assert NumPyPrinter().doprint(step.expr) == (
-        "2 * np.arctan2(np.sqrt(np.maximum(a - b, 0.0)), np.sqrt(np.maximum(b + c, 0.0)))"
-    )
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_every_program_begins_with_the_common_steps(name: str) -> None:
+    common = common_steps(sheet_of(name))
+    for fields in FIELDS:
+        assert parts_program(sheet_of(name), fields).steps[: len(common)] == common
 
 
 def test_a_sum_that_is_not_the_sheet_s_formula_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -207,15 +207,7 @@ ROOTS = [
     sqrt(kept(p) / q),
     sqrt(kept(p * q)),
     sqrt(x**2 + y**2),
-    sqrt(x**2 + 4 * y**2),
-    sqrt(x**2 + y**4),
-    sqrt(x**2 + 1),
-    sqrt(x**2 + 2),
-    sqrt(x**2 + y**2 + z**2),
-    sqrt((x - y) ** 2 + 9 * z**2),
-    sqrt(p**2 + q),
     sqrt(1 - t**2),
-    sqrt(9 * p**2 - t**2),
     (x**2 + y**2) ** Rational(3, 2),
     1 / sqrt(x**2 + y**2),
 ]
@@ -269,19 +261,9 @@ NODES += [
     *(sqrt(p / E), sqrt(1 + sqrt(2)) * x, 1 / sqrt(p + E), 2 * kept(E - 1) * x, *FUNCTIONS[-8:]),
 ]
 
-# The printer may learn these; until then it refuses them.
-OTHER_FUNCTIONS = [
-    -oo,
-    sec(x),
-    floor(x),
-    ceiling(x),
-    Mod(x, y),
-    Heaviside(x),
-    ITE(x > 0, y > 1, z > 2),
-    Implies(x > 0, y > 0),
-]
-
 UNKNOWN: list[Basic] = [
+    *(sec(x), floor(x), ceiling(x), Mod(x, y), Heaviside(x), Float(0.1)),
+    *(ITE(x > 0, y > 1, z > 2), Implies(x > 0, y > 0)),
     I,
     nan,
     zoo,
@@ -349,15 +331,6 @@ def test_a_number_beyond_float64_is_refused(number: Expr) -> None:
         NumPyPrinter().doprint(number * x)
 
 
-@pytest.mark.parametrize("value", [0.1, 1 / 3, 2 / 3, 1e-300, 123456.789])
-def test_a_float_keeps_all_its_digits_or_is_refused(value: float) -> None:
-    try:
-        text = NumPyPrinter().doprint(Float(value))
-    except CannotPrint:
-        return
-    assert float(eval(text)) == value  # noqa: S307
-
-
 @pytest.mark.parametrize(
     ("left", "right"), list(product((x, Rational(3, 4), x + y), repeat=2)), ids=str
 )
@@ -378,20 +351,11 @@ def test_conditions_in_words_are_joined() -> None:
 
 
 def test_infinity_is_numpy_s() -> None:
-    assert eval(NumPyPrinter().doprint(oo), {"np": np}) == np.inf  # noqa: S307
+    assert [NumPyPrinter().doprint(expr) for expr in (oo, -oo)] == ["np.inf", "-np.inf"]
 
 
 def test_symbols_are_local_variables() -> None:
     assert NumPyPrinter().doprint(Symbol("E_star", positive=True)) == "E_star"
-
-
-@pytest.mark.parametrize("expr", OTHER_FUNCTIONS, ids=str)
-def test_what_may_be_learnt_is_right_or_refused(expr: Expr) -> None:
-    try:
-        got = computed(expr, (), False)
-    except CannotPrint:
-        return
-    assert all(map(agrees, got, meant(expr)))
 
 
 @pytest.mark.parametrize("expr", UNKNOWN, ids=lambda expr: f"{type(expr).__name__}: {expr}")

@@ -117,7 +117,7 @@ def test_a_body_of_one_s_own() -> None:
     functions = {name: getattr(hertz, f"_{name}") for name in ("pressure", "state", "slope")}
     functions |= {name: getattr(hertz, f"_{name}") for name in ("series", "breaks")}
     example = hertz._BODY.example
-    body = Body(functions, (Parameter("R", "a radius", "m"),), "here.py", example)
+    body = Body(functions, "here.py", example, Parameter("R", "a radius", "m"))
     assert "law" not in vars(body)
     contact = body.bound(SOLVED[0])
     assert "R       a radius [m]" in contact.__doc__ and "Derived from here.py." in contact.__doc__

@@ -55,6 +55,34 @@ def test_functions_of_an_angle_keep_their_digits(name: str) -> None:
     assert function(0.0) == 0
 
 
+def test_what_a_part_between_kinks_carries() -> None:
+    """s = mid - (h/2) cos(2 v): w ds = (h**2/2) sin(2 v)**2 dv and w/A ds = 2 h cos(v)**2 dv."""
+    rng = Random(7)
+
+    def integrals(v: mpf) -> tuple[mpf, ...]:
+        """From the left edge; of w ds, of w (s - mid) ds and of w/A ds."""
+        double = mpmath.sin(2 * v)
+        return 2 * v - mpmath.sin(4 * v) / 2, -(double**3), v + double / 2
+
+    with mpmath.workdps(DIGITS):
+        for _ in range(1000):
+            low, high, _ = halves(rng)
+            t = float(2 * (high - low))
+            ends = [g(v) for v in (low, high) for g in (mpmath.sin, mpmath.cos)]
+            across, far = float(mpmath.sin(low + high)), float(ends[1] * ends[3])
+            pairs = zip(integrals(high), integrals(low), strict=True)
+            area, arm, weight = (upper - lower for upper, lower in pairs)
+            assert abs(segments.part_area(t, across) / area - 1) < 3e-15
+            assert abs(segments.part_arm(t, *map(float, ends)) - arm) < 3e-15 * area
+            assert abs(segments.part_weight(t, far) / weight - 1) < 3e-15
+
+
+def test_the_angle_of_a_part_at_an_edge() -> None:
+    """An angle of 60 degrees has a half of 30, whose tangent is 1/sqrt(3)."""
+    assert segments.edge_angle(1.0, 3.0) == pytest.approx(np.pi / 3, rel=1e-15)
+    assert segments.edge_angle(-1.0, 3.0) == 0 and segments.edge_angle(2.0, 0.0) == np.pi
+
+
 def test_the_pressure_of_a_part_at_an_edge() -> None:
     rng = Random(2)
 
@@ -135,10 +163,13 @@ def test_a_place_on_a_kink_has_a_pressure() -> None:
     assert abs(at / beside - 1) < 1e-10
 
 
-NAMES = ("segment", "involute", "root_ratio", "second_term", "third_term", "end_pressure")
+NAMES = (
+    *("segment", "involute", "edge_angle", "part_area", "part_arm", "part_weight", "root_ratio"),
+    *("second_term", "third_term", "end_pressure", "part_pressure"),
+)
 
 
-@pytest.mark.parametrize("name", [*NAMES, "part_pressure"])
+@pytest.mark.parametrize("name", NAMES)
 def test_arrays_have_the_values_of_numbers(name: str) -> None:
     function = getattr(segments, name)
     count = function.__code__.co_argcount
@@ -155,7 +186,7 @@ def same(value: float) -> float:
 
 
 @pytest.mark.skipif(not COMPILED, reason="numba compiles nothing here")
-@pytest.mark.parametrize("name", [*NAMES, "part_pressure"])
+@pytest.mark.parametrize("name", NAMES)
 def test_compiled_for_numbers_they_have_the_same_values(name: str) -> None:
     import numba
 

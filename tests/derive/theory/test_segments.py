@@ -76,7 +76,7 @@ def test_what_the_rounded_edges_of_a_punch_carry_is_two_segments() -> None:
     assert sheet.computed_as("load").startswith("P(a, c) = E_star*h**2*(segment(t_1)")
     shown = str(sheet)
     for line in (
-        "t_1 = 2*atan2(sqrt(Max(0, a - b)), sqrt(Max(0, b + c)))",
+        "t_1 = edge_angle(a - b, b + c)",
         "segment(t) = t - sin(t)*cos(t)",
     ):
         assert f"    {line}\n" in shown
