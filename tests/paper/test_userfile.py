@@ -144,7 +144,7 @@ BAD = {
     "attribute": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = R.__class__"\n', "attributes"),
     "text": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = \'R\'"\n', "quotes"),
     "large power": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = 9**9**9**9"\n', "too large"),
-    "deep": (HEAD + f'[[claims]]\nlabel = "x"\nprinted = "A = {"(" * 60}R"\n', "too deep"),
+    "deep": (HEAD + f'[[claims]]\nlabel = "x"\nprinted = "A = {"(" * 60}R"\n', "nested deeper than"),
     "unknown body": ('body = "sphere"\n' + CIRCLE, "not in the library"),
     "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "no verdict"),
     "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "cannot be a name"),
