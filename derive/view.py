@@ -108,6 +108,7 @@ _DIFF = {"+": "green", "-": "red", "@": "cyan"}
 
 _VERDICTS = {
     "holds": "green",
+    "by definition": "green",
     "numerical": "yellow",
     "convention": "magenta",
     "fails": "bold red",

@@ -25,7 +25,9 @@ _MACRO = re.compile(
     r"\s*(?:\[([1-9])\])?\s*(?=\{)|\\def\s*(\\[A-Za-z]+)\s*(?=\{)"
 )
 _INLINE = re.compile(r"(?<![\\$])\$([^$]+)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
-_RELATION = re.compile(r"[^\s{(]\s*(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))\s*[^\s})]")
+_RELATION = re.compile(
+    r"[^\s{(]\s*(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))\s*[^\s})]"
+)
 _LONGEST_LINE = 300
 """Characters of a statement in the text."""
 _EXPANDED = 20_000
@@ -175,9 +177,9 @@ class _Numbers:
         return str(self.count)
 
 
-def _bodies(name: str, text: str, start: int) -> Iterator[
-    tuple[str, str, int, _Numbers, tuple[int, int]]
-]:
+def _bodies(
+    name: str, text: str, start: int
+) -> Iterator[tuple[str, str, int, _Numbers, tuple[int, int]]]:
     """What stands in each display, its kind, where, the counter, and where all of it stands."""
     numbers, place = _Numbers(), start
     while found := _START.search(text, place):

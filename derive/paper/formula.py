@@ -43,7 +43,7 @@ from derive.writing.grammar import Call, Name, Node, parse
 from derive.writing.limits import fault
 from derive.writing.meaning import Meaning, walk
 from derive.writing.tokens import LONGEST
-from derive.writing.vocabulary import FUNCTIONS, MANY, Words
+from derive.writing.vocabulary import FUNCTIONS, Words
 from derive.writing.vocabulary import Function as Known
 
 _DEEPEST = 40

@@ -56,6 +56,7 @@ _ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong", r"\propto", r"\t
 _RELATIONS = frozenset(("=", "<", ">", r"\le", r"\leq", r"\ge", r"\geq", r"\equiv")) | _ROUGHLY
 _ORDERED = frozenset(("<", ">", r"\le", r"\leq", r"\ge", r"\geq"))
 _AND = frozenset(("and", "or", "so that", "with", "hence", "thus", "therefore", "i.e", "where"))
+_FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac")
 _OPENING, _CLOSING = frozenset(("(", "{", "[", r"\begin{cases}")), frozenset(")}]")
 _CLOSED = _CLOSING | {r"\end{cases}"}
 
@@ -195,25 +196,16 @@ def _may_be_variable(token: str) -> bool:
 def _out_of_numerators(tokens: list[str]) -> list[str]:
     r"""\frac{g \dd s}{h} as \frac{g}{h} \dd s."""
     for place in range(len(tokens) - 1, -1, -1):
-        if tokens[place] not in (r"\frac", r"\dfrac", r"\tfrac") or tokens[place + 1 : place + 2] != [
-            "{"
-        ]:
+        if tokens[place] not in _FRACTIONS or tokens[place + 1 : place + 2] != ["{"]:
             continue
         middle = _end(tokens, place + 1, 1)
-        over = tokens[place + 2 : middle]
+        over, end = tokens[place + 2 : middle], _end(tokens, middle + 1, 1)
         if over[-2:-1] != [r"\dd"] or tokens[middle + 1 : middle + 2] != ["{"]:
             continue
-        end = _end(tokens, middle + 1, 1)
         if tokens[middle + 2 : middle + 3] == [r"\dd"]:
             continue
-        rest = over[:-2] or ["1"]
-        tokens = [
-            *tokens[: place + 2],
-            *rest,
-            *tokens[middle : end + 1],
-            *over[-2:],
-            *tokens[end + 1 :],
-        ]
+        head, under = tokens[: place + 2], tokens[middle : end + 1]
+        tokens = [*head, *(over[:-2] or ["1"]), *under, *over[-2:], *tokens[end + 1 :]]
     return tokens
 
 

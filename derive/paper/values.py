@@ -48,6 +48,10 @@ class Undecided(Exception):
     """Digits were lost faster than they could be added, or no number came out at all."""
 
 
+class Undefined(Undecided):
+    """No number comes out here, as of a division by zero; other places may have one."""
+
+
 class Care(Enum):
     """How an integral is computed.
 
@@ -70,7 +74,9 @@ def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf], care: Care = Care.TWICE
         value = +mpmath.mpmathify(function(*given, *found))  # pi itself has no digits as yet
     except NotComputed as error:
         raise Undecided(str(error)) from error
-    except (ArithmeticError, MemoryError, ValueError, TypeError) as error:
+    except (ArithmeticError, ValueError) as error:
+        raise Undefined(f"no number comes out ({type(error).__name__}: {error})") from error
+    except (MemoryError, TypeError) as error:
         raise Undecided(f"no number comes out ({type(error).__name__}: {error})") from error
     if mpmath.isfinite(value) and value != 0 and abs(mpmath.mag(value)) > _FARTHEST:
         raise Undecided("a number is too large or too small to go on with")
@@ -155,18 +161,18 @@ def _quadrature(over: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Va
 @cache
 def _separated(over: Integral) -> tuple[Expr, Integral]:
     variable = over.limits[-1][0]
-    factor, core = _inside(over).as_independent(variable, as_Add=False)
+    factor, core = integrand(over).as_independent(variable, as_Add=False)
     return factor, Integral(core, over.limits[-1])
 
 
-def _inside(over: Integral) -> Expr:
+def integrand(over: Integral) -> Expr:
     """What the outermost integral is over: SymPy writes nested ones as one with several limits."""
     return Integral(over.function, *over.limits[:-1]) if len(over.limits) > 1 else over.function
 
 
 def _computed(core: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Value:
     variable, low, high = core.limits[-1]
-    inside = _inside(core)
+    inside = integrand(core)
     with mpmath.workdps(_INSIDE * mpmath.mp.dps):  # or a root would not vanish at its end
         start, end = evaluated(low, numbers), evaluated(high, numbers)
         if isinstance(start, mpc) or isinstance(end, mpc):

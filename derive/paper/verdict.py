@@ -7,10 +7,10 @@ printed one was: the same points, the same steps.
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import islice, product
 from typing import TypeVar
 
 import mpmath
@@ -29,6 +29,7 @@ from derive.paper.claim import (
     Point,
     Range,
     Relation,
+    Rounded,
     Verdict,
 )
 from derive.paper.draw import (
@@ -41,14 +42,18 @@ from derive.paper.draw import (
     variables,
 )
 from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
+from derive.paper.quadrature import Value
 from derive.paper.repair import KINDS, Edit, edits, plain_edits
-from derive.paper.values import Care, Undecided
+from derive.paper.tending import Approach
+from derive.paper.values import Care, Undecided, Undefined, evaluated
 from derive.paper.zero import constant, vanishes, vanishes_at
 
 Result = TypeVar("Result")
 
 _SCREENED = 3
 """Points at which a repair is looked at before it is judged in full."""
+_MORE_DRAWN = 4
+"""How often points are drawn anew where a side was no real number."""
 _OFF = 6
 """Points on either side of a bound."""
 
@@ -69,7 +74,7 @@ class Judged:
     @property
     def good(self) -> bool:
         """Whether the two sides agree."""
-        return self.verdict in (Verdict.HOLDS, Verdict.NUMERICAL)
+        return self.verdict in (Verdict.HOLDS, Verdict.NUMERICAL, Verdict.DEFINITION)
 
 
 @dataclass(frozen=True)
@@ -120,6 +125,9 @@ def check(claim: Claim) -> Finding:
     """The verdict of one claim; what stops its judging makes it unchecked, with the reason."""
     if claim.unchecked:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, claim.unchecked))
+    if claim.defined:
+        why = "the file says what its symbols are in these words: nothing is compared"
+        return Finding(claim, Verdict.DEFINITION, Judged(Verdict.DEFINITION, why))
     judged, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
     if judged is None:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, stopped))
@@ -147,8 +155,11 @@ def _attempted(claim: Claim, work: Callable[[LookAtClock], Result]) -> tuple[Res
 
 
 def judge_as_printed(claim: Claim, look: LookAtClock = _no_clock) -> Judged:
-    """The printed sides under the claim's own meaning."""
-    return judge(claim, claim.left, claim.right, claim.meaning, look)
+    """The printed sides under the claim's own meaning; constants to the digits printed."""
+    judged = judge(claim, claim.left, claim.right, claim.meaning, look)
+    if judged.verdict == Verdict.FAILS and claim.rounded is not None and claim.toward is None:
+        return _to_the_digits(claim, claim.rounded, look) or judged
+    return judged
 
 
 def _mended(claim: Claim, judged: Judged, look: LookAtClock) -> Finding:
@@ -170,9 +181,45 @@ def judge(
     left, right = claim.sides(left, right)
     judging = _Judging(claim, left, right, meaning, look)
     try:
-        return judging.whole()
+        return judging.whole() if claim.toward is None else judging.limit(claim.toward)
     except Undecided as error:
         return Judged(Verdict.UNCHECKED, str(error), tuple(judging.found))
+
+
+def _to_the_digits(claim: Claim, rounded: Rounded, look: LookAtClock) -> Judged | None:
+    """What holds if each constant is one that rounds to the printed one; None if nothing does."""
+    corners = [
+        dict(zip(rounded.bounds, ends, strict=True)) for ends in product(*rounded.bounds.values())
+    ]
+    ours = dict(claim.meaning)
+    sides = [side.xreplace(ours) for side in (rounded.left, rounded.right)]
+    count = 0
+    for point in points(claim):
+        look()
+        try:
+            with mpmath.workdps(DIGITS):
+                gaps = [_gap_at(sides, point, corner) for corner in corners]
+        except Undefined:
+            continue
+        if any(mpmath.im(gap) != 0 for gap in gaps):
+            continue
+        if min(gaps) > 0 or max(gaps) < 0:
+            return None
+        count += 1
+    if count < LEAST and variables(claim):
+        return None
+    constants = ", ".join(str(mpmath.nstr(mpf(high + low) / 2, 10)) for low, high in _ends(rounded))
+    why = f"true at {count} points to the digits printed of {constants}"
+    return Judged(Verdict.NUMERICAL, why)
+
+
+def _ends(rounded: Rounded) -> list[tuple[float, float]]:
+    return [(float(low), float(high)) for low, high in rounded.bounds.values()]
+
+
+def _gap_at(sides: list[Expr], point: Point, corner: Mapping[Symbol, Rational]) -> Value:
+    numbers = point | {symbol: mpf(end.p) / end.q for symbol, end in corner.items()}
+    return evaluated(sides[0], numbers) - evaluated(sides[1], numbers)
 
 
 class _Judging:
@@ -180,8 +227,8 @@ class _Judging:
 
     found     what was found so far
     equal     whether both sides are shown to be equal everywhere; None if nobody has asked
-    left_out  further points at which no number came out
-    unreal    points at which neither side is real, and the sides are on different branches
+    left_out  points at which no number came out
+    unreal    points at which a side is not real, and the sides differ: no counter-example
     """
 
     def __init__(
@@ -197,13 +244,17 @@ class _Judging:
     def whole(self) -> Judged:
         """The verdict; raises Undecided."""
         for point in self._first_points():
-            if not self._stands_at(self._pair(point)):
+            try:
+                stands = self._stands_at(self._pair(point))
+            except Undefined:
+                self.left_out += 1
+                continue
+            if not stands:
                 return self._fails()
-        if self.unreal and len(self.found) < LEAST:
-            why = f"neither side is real at {self.unreal} points: say where the variables are"
-            return self._judged(Verdict.UNCHECKED, why)
         if len(self.found) < LEAST and variables(self.claim) and not self.claim.cases:
-            return self._judged(Verdict.UNCHECKED, f"only {len(self.found)} points were drawn")
+            return self._judged(Verdict.UNCHECKED, self._too_few())
+        if not self.found:
+            return self._judged(Verdict.UNCHECKED, "a side is no real number")
         for point in further(self.claim, self._in_ours()):
             try:
                 stands = self._stands_at(self._pair(point))
@@ -226,13 +277,34 @@ class _Judging:
                 return self._judged(Verdict.FAILS, wrong)
         return self._proven()
 
+    def _too_few(self) -> str:
+        """Why no more points could be looked at."""
+        told = [f"both sides are real numbers at {len(self.found)} points only"]
+        if self.unreal:
+            told.append(f"one is not real at {self.unreal}")
+        if self.left_out:
+            told.append(f"no number comes out at {self.left_out}")
+        if self.claim.conditions:
+            listed = " and ".join(map(str, self.claim.conditions))
+            told.append(f"points were asked for where {listed}")
+        return f"{', '.join(told)}: say where the variables are, by low, high and require"
+
     def _first_points(self) -> Iterator[Point]:
-        """Points of a moderate size; more of them where neither side was real."""
+        """Points of a moderate size; more of them where a side was no real number."""
         yield from points(self.claim)
-        if self.unreal and not self.claim.cases:
-            for point in points(self.claim, seed="more"):
-                if len(self.found) < LEAST:
-                    yield point
+        if (self.unreal or self.left_out) and not self.claim.cases:
+            for n in range(_MORE_DRAWN):
+                for point in points(self.claim, seed=f"more{n or ''}"):
+                    if len(self.found) < LEAST:
+                        yield point
+
+    def limit(self, toward: tuple[Expr, Expr]) -> Judged:
+        """Whether left over right tends to 1, or their difference is of the order printed."""
+        table = dict(self.meaning)
+        sides = [side.xreplace(table) for side in (self.left, self.right)]
+        approaching = Approach(self.claim, sides, toward)
+        verdict, why = approaching.judged(self.look)
+        return self._judged(Verdict(verdict), why)
 
     def _pair(self, point: Point, meaning: Meaning | None = None) -> Pair:
         """Both sides at one point; a printed integral is written in our symbols first."""
@@ -250,8 +322,11 @@ class _Judging:
 
     def _stands_at(self, pair: Pair) -> bool:
         relation = self.claim.relation
+        if self.claim.is_inequality and mpmath.im(pair.left - pair.right) != 0:
+            self.unreal += 1
+            return True
         if not self.claim.is_inequality:
-            if not pair.agree and mpmath.im(pair.left) != 0 and mpmath.im(pair.right) != 0:
+            if not pair.agree and (mpmath.im(pair.left) != 0 or mpmath.im(pair.right) != 0):
                 self.unreal += 1
                 return True
             self.found.append(pair)
@@ -314,7 +389,7 @@ class _Judging:
         if self.claim.cases:
             return f"in {count} {'case' if count == 1 else 'cases'}"
         left_out = f"; no number at {self.left_out} more" if self.left_out else ""
-        left_out += f"; neither side is real at {self.unreal} more" if self.unreal else ""
+        left_out += f"; a side is not real at {self.unreal} more" if self.unreal else ""
         return f"at {count} points" + (f" ({told}{left_out})" if told else "")
 
     def _fails(self) -> Judged:

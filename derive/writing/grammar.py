@@ -278,9 +278,7 @@ class _Parser:
             if known.least == known.most > 1 or known.most == MANY:
                 number = f"{'at most ' * (known.most == MANY)}{known.most} arguments"
             remedy = "leave out the rest" if len(arguments) > known.most else "write all of them"
-            raise self._refusal(
-                f"{name} takes {number}, here are {len(arguments)}", remedy, column
-            )
+            raise self._refusal(f"{name} takes {number}, here are {len(arguments)}", remedy, column)
         return Call(column, name, arguments)
 
     def _arguments(self) -> tuple[Node, ...]:

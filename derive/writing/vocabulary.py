@@ -42,7 +42,6 @@ FUNCTIONS = {name: Function(name) for name in _OF_ONE} | {
 }
 
 
-
 @dataclass(frozen=True)
 class Words:
     """What the names of a text may be.

@@ -15,8 +15,6 @@ from derive.paper.latex import Latex
 from derive.paper.spellings import spellings
 from derive.paper.statements import statements
 
-pytest.importorskip("lark")
-
 PAPER = r"""
 \documentclass{article}
 \newcommand{\dif}{\mathrm{d}}
