@@ -117,11 +117,14 @@ FRACTION = Range(0.05, 0.95)
 
 @dataclass(frozen=True)
 class Rounded:
-    """Sides in which constants that are printed rounded are symbols, with what each may be."""
+    """A constant that is printed rounded, and is a factor of one side.
 
-    left: Expr
-    right: Expr
-    bounds: Mapping[Symbol, tuple[Rational, Rational]]
+    power: of the constant in the right side over the left one
+    """
+
+    value: Rational
+    half: Rational
+    power: int
 
 
 @dataclass(frozen=True)
@@ -142,7 +145,7 @@ class Claim:
     defined      whether both sides are one expression once the file's own definitions are put in
     toward       what goes to which end, in ours, for a claim about a limit
     order        the power of what goes to zero that the difference is of; None: of lower order
-    rounded      both sides with a symbol for each constant that is printed rounded, and its bounds
+    rounded      the one constant that is printed rounded, if there is one
     conventions  maps to try where it does not hold as it stands
     through      two expressions that must agree once `left`, a symbol, is replaced by `right`;
                  for a definition, which by itself says nothing that could be wrong

@@ -68,6 +68,8 @@ _BOUND = {
 _OWN = frozenset(("integral", "pv", "sum", "limit"))
 """Those whose variable need not be declared."""
 
+FROM_POLE = "_from_pole"
+"""How the variable of a folded principal value is called; its upper end must be above zero."""
 _RELATION = re.compile(r"<=|>=|==|=|<|>|~|[(),]")
 _MEANT = {"==": "="}
 
@@ -274,7 +276,7 @@ class _Reader(Meaning):
             why = "the pole of this principal value is not seen"
             raise self.refusal(node.column, why, "write one factor s - x below, and finite ends")
         (pole,) = poles
-        away = Symbol(f"{along.name}_from_pole", real=True)
+        away = Symbol(along.name + FROM_POLE, real=True)
         reach = Min(pole - low, high - pole)  # the nearer end
         both = inside.subs(along, pole + away) + inside.subs(along, pole - away)
         around = Integral(together(both), (away, 0, reach))

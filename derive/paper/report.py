@@ -68,6 +68,8 @@ def evidence(finding: Finding) -> str:
         )
     if finding.repair:
         parts.append(f"corrected ({_changes(finding.repair)}): {finding.repair.judged.why}")
+    if finding.diagnosis:
+        parts.append(finding.diagnosis)
     if finding.tried:
         parts.append(f"tried: {_tried(finding.tried)}")
     if finding.stopped:
@@ -105,7 +107,7 @@ def rows(findings: Iterable[Finding]) -> list[Row]:
             finding.verdict,
             finding.as_expected,
             printed(finding.claim),
-            corrected(finding) or finding.judged.why,
+            corrected(finding) or finding.diagnosis or finding.judged.why,
         )
         for finding in findings
     ]
@@ -180,6 +182,7 @@ def as_json(findings: Iterable[Finding]) -> str:
             "expected": finding.as_expected,
             "printed": printed(finding.claim),
             "corrected": corrected(finding),
+            "diagnosis": finding.diagnosis or None,
             "evidence": evidence(finding),
             "reason": finding.judged.why,
             "consequence": consequence(finding) or None,
@@ -331,7 +334,8 @@ def _correction(finding: Finding) -> list[str]:
     if finding.stopped:
         return [f"the search for one: {finding.stopped}"]
     if finding.repair is None:
-        return told and [*told, "none of these is true"]
+        said = [finding.diagnosis] if finding.diagnosis else []
+        return [*said, *told, "none of these is true"] if told else said
     repair = finding.repair
     equation = _text(repair, repair.relation)
     return [equation, _changes(repair), f"{repair.judged.verdict}: {repair.judged.why}", *told]

@@ -45,7 +45,7 @@ PROPOSALS = {
     "K_N": ("K_N_left(a, c)", "coefficient of sqrt(s) in the pressure", "Pa/sqrt(m)"),
     "K_T": ("", "coefficient of 1/sqrt(s) in the shear traction", "Pa*sqrt(m)"),
     "p": ("pressure(x, a, c)", "contact pressure", "Pa"),
-    "p_0": ("", "largest contact pressure", "Pa"),
+    "p_0": ("", "largest contact pressure", ""),
     "q": ("", "shear traction", "Pa"),
     "g": ("", "profile of the body", "m"),
     "g_prime": ("", "slope of the profile", "rad"),

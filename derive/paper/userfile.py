@@ -63,7 +63,7 @@ from derive.paper.claim import (
     Rounded,
     Verdict,
 )
-from derive.paper.formula import Names, UnknownName, approach, equation, unknown, usable
+from derive.paper.formula import FROM_POLE, Names, UnknownName, approach, equation, unknown, usable
 from derive.paper.formula import condition as read_condition
 from derive.paper.formula import formula as read_formula
 from derive.paper.latex import Latex
@@ -171,7 +171,7 @@ class _Context:
         """The body's formulas, with how many arguments each takes."""
         return {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
 
-    def put_in(self, expr: Expr) -> Expr:
+    def put_in(self, expr: Any) -> Any:
         """Calls of the sheet's formulas replaced by what they stand for, each proven."""
         while calls := expr.atoms(AppliedUndef):
             call = min(calls, key=lambda c: (len(str(c)), str(c)))
@@ -184,13 +184,14 @@ class _Context:
 
     def conditions(self, expr: Expr) -> Iterator[Boolean]:
         """Where the formulas that are called in an expression are defined."""
-        for call in _calls(expr):
-            if not isinstance(call, AppliedUndef):
-                continue
+        for call in sorted(expr.atoms(AppliedUndef), key=str):
             known = self.sheet[call.func.__name__]  # type: ignore[index]
             table = dict(zip(known.arguments, call.args, strict=True))
             for condition in known.conditions:
-                yield condition.subs(table, simultaneous=True)
+                yield self.put_in(condition.subs(table, simultaneous=True))
+        for over in _integrals(expr):
+            if over.limits[-1][0].name.endswith(FROM_POLE):
+                yield over.limits[-1][2] > 0
 
 
 @dataclass(frozen=True)
@@ -550,27 +551,24 @@ class _File:
         return None if order is None else float(order)
 
     def _rounded(self, read: "_Read", context: _Context, put: "_Put") -> Rounded | None:
-        """The equation with a symbol for each constant of three digits or more."""
-        constants = dict[str, str]()
-
-        def named(found: re.Match[str]) -> str:
-            if len(found[0].replace(".", "").lstrip("0")) < _ROUNDED_FROM:
-                return found[0]
-            constants[f"rounded_{len(constants)}"] = found[0]
-            return f"rounded_{len(constants) - 1}"
-
-        text = re.sub(r"(?<![\w.])\d*\.\d+(?![\w.])", named, read.text)
-        if not constants or len(constants) > _MOST_ROUNDED:
+        """The one constant of three digits or more that is a factor of a side, if there is one."""
+        found = [
+            each
+            for each in re.finditer(r"(?<![\w.])\d*\.\d+(?![\w.])", read.text)
+            if len(each[0].replace(".", "").lstrip("0")) >= _ROUNDED_FROM
+        ]
+        if len(found) != 1:
             return None
-        known = {name: Symbol(name, real=True) for name in constants}
-        symbols = {**context.variables, **{s.name: s for s in put.meaning}, **known}
-        names = Names(read.where, symbols, context.arities)
-        left, _, right = equation(text, names, rough=True)
-        bounds = {}
-        for name, printed in constants.items():
-            half = Rational(5, 10 ** (len(printed.partition(".")[2]) + 1))
-            bounds[known[name]] = (Rational(printed) - half, Rational(printed) + half)
-        return Rounded(put.without_calls(left), put.without_calls(right), bounds)
+        (one,) = found
+        constant = Symbol("constant", positive=True)
+        text = f"{read.text[: one.start()]}constant{read.text[one.end() :]}"
+        symbols = {**context.variables, **{s.name: s for s in put.meaning}, "constant": constant}
+        left, _, right = equation(text, Names(read.where, symbols, context.arities), rough=True)
+        power = (right / left).as_independent(constant)[1].as_base_exp()
+        if power[0] != constant or power[1] not in (1, -1):
+            return None
+        half = Rational(5, 10 ** (len(one[0].partition(".")[2]) + 1))
+        return Rounded(Rational(one[0]), half, int(power[1]))
 
     def _waiting(
         self, number: int, given: Mapping[str, Any], common: dict[str, Any], error: NotAccepted
@@ -791,7 +789,6 @@ def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str])
 _EDGES = (Symbol("a", real=True), Symbol("c", real=True))
 _ROUNDED_FROM = 3
 """Digits from which on a decimal number is taken for a rounded one, if it is not right as it is."""
-_MOST_ROUNDED = 4
 
 
 def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:

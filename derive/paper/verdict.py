@@ -7,10 +7,10 @@ printed one was: the same points, the same steps.
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
-from itertools import islice, product
+from itertools import islice
 from typing import TypeVar
 
 import mpmath
@@ -32,6 +32,7 @@ from derive.paper.claim import (
     Rounded,
     Verdict,
 )
+from derive.paper.diagnosis import diagnosis, quotient
 from derive.paper.draw import (
     LEAST,
     further,
@@ -42,10 +43,9 @@ from derive.paper.draw import (
     variables,
 )
 from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
-from derive.paper.quadrature import Value
 from derive.paper.repair import KINDS, Edit, edits, plain_edits
 from derive.paper.tending import Approach
-from derive.paper.values import Care, Undecided, Undefined, evaluated
+from derive.paper.values import Care, Undecided, Undefined
 from derive.paper.zero import constant, vanishes, vanishes_at
 
 Result = TypeVar("Result")
@@ -103,6 +103,7 @@ class Finding:
     repair      the corrected equation, if one was found
     tried       how many repairs of each kind were looked at
     stopped     why the search for them came to no end, if it did not
+    diagnosis   by what both sides differ, where no repair was found
     """
 
     claim: Claim
@@ -113,6 +114,7 @@ class Finding:
     repair: Repair | None = None
     tried: Counter[str] | None = None
     stopped: str = ""
+    diagnosis: str = ""
 
     @property
     def as_expected(self) -> bool:
@@ -134,7 +136,11 @@ def check(claim: Claim) -> Finding:
     if judged.verdict != Verdict.FAILS:
         return Finding(claim, judged.verdict, judged)
     finding, stopped = _attempted(claim, lambda look: _mended(claim, judged, look))
-    return finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
+    finding = finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
+    if finding.repair is None and finding.convention is None:
+        told, _ = _attempted(claim, lambda look: diagnosis(claim))
+        return replace(finding, diagnosis=told or "")
+    return finding
 
 
 def _no_clock() -> None:
@@ -158,7 +164,7 @@ def judge_as_printed(claim: Claim, look: LookAtClock = _no_clock) -> Judged:
     """The printed sides under the claim's own meaning; constants to the digits printed."""
     judged = judge(claim, claim.left, claim.right, claim.meaning, look)
     if judged.verdict == Verdict.FAILS and claim.rounded is not None and claim.toward is None:
-        return _to_the_digits(claim, claim.rounded, look) or judged
+        return _to_the_digits(claim, claim.rounded) or judged
     return judged
 
 
@@ -186,40 +192,17 @@ def judge(
         return Judged(Verdict.UNCHECKED, str(error), tuple(judging.found))
 
 
-def _to_the_digits(claim: Claim, rounded: Rounded, look: LookAtClock) -> Judged | None:
-    """What holds if each constant is one that rounds to the printed one; None if nothing does."""
-    corners = [
-        dict(zip(rounded.bounds, ends, strict=True)) for ends in product(*rounded.bounds.values())
-    ]
-    ours = dict(claim.meaning)
-    sides = [side.xreplace(ours) for side in (rounded.left, rounded.right)]
-    count = 0
-    for point in points(claim):
-        look()
-        try:
-            with mpmath.workdps(DIGITS):
-                gaps = [_gap_at(sides, point, corner) for corner in corners]
-        except Undefined:
-            continue
-        if any(mpmath.im(gap) != 0 for gap in gaps):
-            continue
-        if min(gaps) > 0 or max(gaps) < 0:
-            return None
-        count += 1
-    if count < LEAST and variables(claim):
+def _to_the_digits(claim: Claim, rounded: Rounded) -> Judged | None:
+    """What holds if the constant is one that rounds to the printed one; None if it does not."""
+    ratio = quotient(claim)
+    if ratio is None or mpmath.im(ratio.constant) != 0 or ratio.powers or ratio.constant <= 0:
         return None
-    constants = ", ".join(str(mpmath.nstr(mpf(high + low) / 2, 10)) for low, high in _ends(rounded))
-    why = f"true at {count} points to the digits printed of {constants}"
-    return Judged(Verdict.NUMERICAL, why)
-
-
-def _ends(rounded: Rounded) -> list[tuple[float, float]]:
-    return [(float(low), float(high)) for low, high in rounded.bounds.values()]
-
-
-def _gap_at(sides: list[Expr], point: Point, corner: Mapping[Symbol, Rational]) -> Value:
-    numbers = point | {symbol: mpf(end.p) / end.q for symbol, end in corner.items()}
-    return evaluated(sides[0], numbers) - evaluated(sides[1], numbers)
+    printed = mpf(rounded.value.p) / rounded.value.q
+    true = printed * ratio.constant**rounded.power
+    if abs(true - printed) > mpf(rounded.half.p) / rounded.half.q:
+        return None
+    told = f"{mpmath.nstr(printed, 8)} is {mpmath.nstr(true, 12)} at {ratio.count} points"
+    return Judged(Verdict.NUMERICAL, f"true to the digits printed: {told}")
 
 
 class _Judging:

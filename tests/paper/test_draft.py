@@ -46,9 +46,10 @@ def written(folder: Path, text: str) -> Path:
 
 
 def test_displays_are_numbered_as_latex_numbers_them(tmp_path: Path) -> None:
-    found, environments = displays(written(tmp_path, PAPER))
-    assert environments == 5
-    assert [(each.number, each.label) for each in found] == [
+    source = displays(written(tmp_path, PAPER))
+    found = source.found
+    assert source.environments == 5
+    assert [(each.number, "".join(each.labels)) for each in found] == [
         ("1", "law"),
         ("2", "first"),
         ("", ""),
@@ -78,7 +79,7 @@ def test_a_paper_is_drafted_accepted_and_judged(tmp_path: Path) -> None:
     assert all(each["reason"] for each in told)
     assert run(str(new), "--accept", answers="y\n" * 20).exit_code == 0
     text = new.read_text().replace(
-        "[variables]", 'body = "hertz"\n[variables]\na = "half-width"', 1
+        "\n[variables]", '\nbody = "hertz"\n[variables]\na = "half-width"', 1
     )
     lines = [line for line in text.splitlines() if not line.startswith(("a = {", "R = "))]
     known = ['P = "load(a, a)"' if line.startswith("P = {") else line for line in lines]
