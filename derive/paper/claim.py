@@ -145,6 +145,8 @@ class Claim:
     defined      whether both sides are one expression once the file's own definitions are put in
     toward       what goes to which end, in ours, for a claim about a limit
     order        the power of what goes to zero that the difference is of; None: of lower order
+    units        what does not fit in its units, if anything
+    latex        as it is printed, if the file has it so
     rounded      the one constant that is printed rounded, if there is one
     conventions  maps to try where it does not hold as it stands
     through      two expressions that must agree once `left`, a symbol, is replaced by `right`;
@@ -177,6 +179,8 @@ class Claim:
     defined: bool = False
     toward: tuple[Expr, Expr] | None = None
     order: float | None = None
+    units: str = ""
+    latex: str = ""
     rounded: Rounded | None = None
     conventions: tuple[Convention, ...] = ()
     through: tuple[Expr, Expr] | None = None

@@ -58,9 +58,10 @@ def corrected(finding: Finding) -> str | None:
 def evidence(finding: Finding) -> str:
     """What the verdict rests on, in one paragraph."""
     claim = finding.claim
+    units = [f"its units do not fit: {claim.units}"] if claim.units else []
     if claim.unchecked:
-        return finding.judged.why
-    parts = [f"compared with {claim.against}: {finding.judged.why}"]
+        return "; ".join([*units, finding.judged.why])
+    parts = [*units, f"compared with {claim.against}: {finding.judged.why}"]
     if finding.convention and finding.under:
         parts.append(
             f"with {finding.convention.what} {finding.under.why}; "
@@ -107,7 +108,7 @@ def rows(findings: Iterable[Finding]) -> list[Row]:
             finding.verdict,
             finding.as_expected,
             printed(finding.claim),
-            corrected(finding) or finding.diagnosis or finding.judged.why,
+            finding.claim.units or corrected(finding) or finding.diagnosis or finding.judged.why,
         )
         for finding in findings
     ]
@@ -137,6 +138,15 @@ def reasons(findings: Iterable[Finding]) -> list[str]:
         f"{finding.claim.label}: unchecked, {finding.judged.why}"
         for finding in findings
         if finding.verdict == Verdict.UNCHECKED
+    ]
+
+
+def units(findings: Iterable[Finding]) -> list[str]:
+    """What does not fit in the units of claims, judged or not, one line each."""
+    return [
+        f"{finding.claim.label}: its units do not fit, {finding.claim.units}"
+        for finding in findings
+        if finding.claim.units
     ]
 
 
@@ -183,6 +193,7 @@ def as_json(findings: Iterable[Finding]) -> str:
             "printed": printed(finding.claim),
             "corrected": corrected(finding),
             "diagnosis": finding.diagnosis or None,
+            "units": finding.claim.units or None,
             "evidence": evidence(finding),
             "reason": finding.judged.why,
             "consequence": consequence(finding) or None,

@@ -47,7 +47,7 @@ from sympy import Derivative, Expr, Integral, Limit, Rational, Symbol, false, tr
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
-from derive.errors import BadClaimsFile, NotAccepted, UserError
+from derive.errors import BadClaimsFile, BadFormula, BadText, BadUnit, NotAccepted, UserError
 from derive.library import is_in_library, library
 from derive.limit import LimitReached, within
 from derive.paper.bodies import Body, at, of_library
@@ -63,6 +63,7 @@ from derive.paper.claim import (
     Rounded,
     Verdict,
 )
+from derive.paper.dimensions import Call, Units
 from derive.paper.formula import FROM_POLE, Names, UnknownName, approach, equation, unknown, usable
 from derive.paper.formula import condition as read_condition
 from derive.paper.formula import formula as read_formula
@@ -72,6 +73,7 @@ from derive.paper.mistakes import demand_none
 from derive.paper.statements import statements
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, e, f, x
+from derive.units import Dimension, parse_unit
 from derive.writing.draft import Wanted, draft
 
 Read = TypeVar("Read")
@@ -85,6 +87,11 @@ _SECONDS = 30.0
 _MOST_SECONDS = 86_400
 _PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
 _FROM_THE_START: Mapping[str, Expr] = {**_PLACES, "E_star": E_star, "f": f}
+_UNITS = {
+    E_star: parse_unit("Pa"),
+    f: parse_unit("-"),
+    **{place: parse_unit("m") for place in _PLACES.values()},
+}
 _KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims"})
 _OF_A_SYMBOL = frozenset({"is", "meaning", "proposal", "unit"})
 _OF_A_VARIABLE = frozenset({"meaning", "low", "high", "unit"})
@@ -155,6 +162,19 @@ class _Context:
 
     body: Body | None
     variables: Mapping[str, Expr]
+    units: Mapping[Symbol, Dimension]
+
+    def followed(self, meant: "_Meant") -> Units:
+        """What is known of units."""
+        known, calls = {**_UNITS, **self.units}, dict[str, Call]()
+        if self.sheet is not None:
+            known = {**self.sheet.geometry.dimensions, **known}
+            own = self.sheet.dimensions
+            calls = {
+                name: (tuple(own[each] for each in formula.arguments), parse_unit(formula.unit))
+                for name, formula in self.sheet.items()
+            }
+        return Units(known, meant.written, calls)
 
     @property
     def sheet(self) -> FormulaSheet | None:
@@ -219,6 +239,8 @@ class _File:
     mistakes: list[UserError] = field(default_factory=list)
     readings: list[Reading] = field(default_factory=list)
     read: dict[str, tuple[Expr, Expr]] = field(default_factory=dict)
+    units: dict[Symbol, Dimension] = field(default_factory=dict)
+    followed: dict[int, Units] = field(default_factory=dict)
 
     def paper(self) -> Paper:
         """All claims."""
@@ -232,7 +254,7 @@ class _File:
         self.seconds = _SECONDS
         with self._noted():
             self.seconds = self._limit()
-        self.context = _Context(None, _FROM_THE_START)
+        self.context = _Context(None, _FROM_THE_START, {})
         with self._noted():
             self.context = self._context(self.data.get("body"), self.name)
         with self._noted():
@@ -254,7 +276,7 @@ class _File:
             body = self._body(given, where)
             own = {q.name: q.symbol for q in body.sheet.geometry.parameters} if body else {}
             variables = {**_FROM_THE_START, **own, **self.declared}
-            self.contexts[key] = _Context(body, variables)
+            self.contexts[key] = _Context(body, variables, self.units)
         return self.contexts[key]
 
     def _body(self, given: object, where: str) -> Body | None:
@@ -264,8 +286,12 @@ class _File:
             self._demand_known(given, _OF_A_BODY, f"{where}, body")
             profile = self._text(given, "g", f"{where}, body")
             units = self._inner(given, "units", f"{where}, body")
-            wanted = Wanted("own_body", profile, units={n: str(u) for n, u in units.items()})
-            return _own_body(wanted.profile, tuple(sorted(wanted.units.items())))
+            told = tuple(sorted((name, str(unit)) for name, unit in units.items()))
+            try:
+                return _own_body(profile, told)
+            except BadText as error:
+                at = f"{where}, body"
+                raise BadFormula(at, profile, error.column, error.why, error.remedy) from error
         if not isinstance(given, str) or not is_in_library(given):
             known = ", ".join(library())
             why = f"{where}, body = {given!r} is not in the library"
@@ -292,6 +318,7 @@ class _File:
                 self._demand_name(name, self.declared.keys() - _PLACES.keys())
                 if isinstance(said, dict):
                     self._demand_known(said, _OF_A_SYMBOL, f"{where}, the symbol {name!r}")
+                    self._say_unit(Symbol(name), said, f"{where}, the symbol {name!r}")
                 if name in self.context.parameters:
                     why = f"{where}, the symbol {name!r} is a parameter of the body already"
                     raise self._bad(why, "leave it out, or name the parameter's symbol otherwise")
@@ -398,8 +425,28 @@ class _File:
         symbol = self.context.variables.get(name, known)
         assert isinstance(symbol, Symbol)
         self.declared[name] = symbol
+        self._say_unit(symbol, self.data["variables"][name], f"variable {name!r}")
         if span != SCALE or name in _PLACES:
             self.ranges[symbol] = span
+
+    def _say_unit(self, symbol: Symbol, said: object, where: str) -> None:
+        if not isinstance(said, dict) or "unit" not in said:
+            return
+        try:
+            self.units[symbol] = parse_unit(said["unit"])
+        except BadUnit as error:
+            raise self._bad(f"{where}: {error.message}", "write a unit such as N/m") from error
+
+    def _mismatch(self, context: _Context, meant: _Meant, text: str, names: Names) -> str:
+        """What does not fit in the units of an equation, judged or not."""
+        try:
+            left, _, right = self._in_time(names.where, lambda: equation(text, names, rough=True))
+        except (UserError, RecursionError):
+            return ""
+        key = id(meant)
+        if key not in self.followed:
+            self.followed[key] = context.followed(meant)
+        return self.followed[key].mismatch(left, right)
 
     def _claim(self, number: int, given: object, at: str) -> Claim:
         if not isinstance(given, dict):
@@ -411,12 +458,10 @@ class _File:
             "label": label,
             "place": str(given.get("place", Path(self.name).name)),
             "says": str(given.get("says", label)),
+            "latex": str(given.get("latex", "")),
         }
         with self._noted():
             common["expected"] = self._verdict(given, where)
-        if "unchecked" in given:
-            told = str(given.get("understood", given.get("printed", "")))
-            return Claim(unchecked=self._text(given, "unchecked", where), source=told, **common)
         own = self._inner(given, "symbols", where)
         for name in own:
             self._demand_name(name, ())
@@ -425,6 +470,11 @@ class _File:
             context = self._context(given["body"], where)
         symbols = {**self.symbols, **own}
         names = self._names(where, symbols, context)
+        told = str(given.get("understood", given.get("printed", "")))
+        meant = self._meant(context, own)
+        common["units"] = self._mismatch(context, meant, told, names) if told else ""
+        if "unchecked" in given:
+            return Claim(unchecked=self._text(given, "unchecked", where), source=told, **common)
         try:
             text = self._in_time(where, lambda: self._printed(given, where, names))
             left, relation, right = self._in_time(
@@ -436,7 +486,6 @@ class _File:
             missing = unknown(error.given, names) or ["a name"]
             return _lacking(given, common, missing)
         self.read[label] = left, right
-        meant = self._meant(context, own)
         if "given" in given:
             meant = self._follows(given, where, symbols, meant)
         lacking = [n for n in symbols if Symbol(n) not in meant.ours and _held(n, left, right)]

@@ -447,7 +447,7 @@ def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
     1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4: what fades like that must be proven,
     and so must a printed sign, which is zero at a place that no point may meet.
     """
-    if claim.relation.is_ordered or has_integral(claim) or claim.samples:
+    if claim.relation.is_ordered or has_integral(claim) or claim.samples or claim.toward:
         return judged.good
     table = dict(claim.meaning)
     sides = [side.xreplace(table) for side in claim.sides(left, right)]
@@ -523,7 +523,9 @@ class _Screen:
         self.integrals = has_integral(claim)
 
     def fits(self, left: Expr, right: Expr) -> bool:
-        """Whether a candidate agrees at the screen's points."""
+        """Whether a candidate agrees at the screen's points; near its limit, if it has one."""
+        if self.claim.toward is not None:
+            return judge(self.claim, left, right, self.claim.meaning).good
         left, right = self.claim.sides(left, right)
         if left.has(Integral) or right.has(Integral):
             table = dict(self.claim.meaning)
