@@ -100,10 +100,15 @@ class Units:
             return "?"
         return str(Dimension(*powers))
 
-    def _number(self, expr: Expr, what: str) -> None:
+    def _number(self, expr: Expr, taken: str) -> None:
+        """Nothing, or a mismatch where a number is taken and this is none."""
         found = self._of(expr)
         if found is not None:
-            self._equate(NUMBER, found, str(expr), what)
+            try:
+                self._equate(NUMBER, found, str(expr), taken)
+            except _Mismatch:
+                unit = self._shown(found)
+                raise _Mismatch(f"{expr} is in {unit}, and {taken} takes a number") from None
 
     def _of(self, expr: Expr) -> Dimension | None:
         """The unit; None of a zero, which has every one."""
@@ -126,7 +131,7 @@ class Units:
             if isinstance(expr, kinds):
                 return read(self, expr)
         for argument in expr.args:
-            self._number(argument, f"a number, as {expr.func} takes")
+            self._number(argument, str(expr.func))
         return NUMBER
 
     def _of_symbol(self, symbol: Symbol) -> Dimension:

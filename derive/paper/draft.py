@@ -13,7 +13,7 @@ from sympy import Symbol
 from derive.errors import BadClaimsFile, BadFormula
 from derive.limit import LimitReached, within
 from derive.paper.displays import Display, displays
-from derive.paper.formula import Names, approach, condition, equation
+from derive.paper.formula import Names, approach, condition, equation, may_be_rounded
 from derive.paper.latex import Latex
 from derive.paper.lines import quoted
 from derive.paper.spellings import described, proposal, spellings, words_for
@@ -208,7 +208,7 @@ def _read(statement: Statement, spelled: dict[str, str]) -> _Read:
     except RecursionError:
         return _Read(why="nested too deep")
     require, limit, why = _conditions(statement.condition, spelled, names)
-    if statement.is_rough and not limit and not why:
+    if statement.is_rough and not limit and not why and not may_be_rounded(understood):
         why = "printed as an approximation: say where it is one, as = 'x -> 0', or write it with ="
     return _Read(understood, require, limit, why)
 

@@ -68,6 +68,8 @@ _BOUND = {
 _OWN = frozenset(("integral", "pv", "sum", "limit"))
 """Those whose variable need not be declared."""
 
+_ROUNDED_FROM = 3
+"""Digits from which on a decimal number is taken for a rounded one, if it is not right as it is."""
 FROM_POLE = "_from_pole"
 """How the variable of a folded principal value is called; its upper end must be above zero."""
 _RELATION = re.compile(r"<=|>=|==|=|<|>|~|[(),]")
@@ -290,6 +292,17 @@ def _finite(inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
         return Integral(inside, (along, low, high))
     moved = low + along / (1 - along)
     return Integral(inside.subs(along, moved) / (1 - along) ** 2, (along, 0, 1))
+
+
+def rounded_in(text: str) -> list[re.Match[str]]:
+    """Decimal numbers of so many digits that they may be rounded."""
+    found = re.finditer(r"(?<![\w.])\d*\.\d+(?![\w.])", text)
+    return [n for n in found if len(n[0].replace(".", "").lstrip("0")) >= _ROUNDED_FROM]
+
+
+def may_be_rounded(text: str) -> bool:
+    """Whether a formula may be right to the digits printed alone."""
+    return bool(rounded_in(text))
 
 
 def usable(name: str, taken: Collection[str] = ()) -> bool:

@@ -482,6 +482,8 @@ class _Side:
         first, start = self.here, self.place
         if first.text in _FRACTIONS:
             text = self._fraction().text
+        elif first.text == r"\sqrt":
+            text = self._root().text
         elif first.text == "|":
             text = self._modulus().text
         elif first.text in ("(", "{", "[") or first.is_mark:

@@ -82,6 +82,7 @@ def proposal(name: str) -> Proposal:
         if known in PROPOSALS:
             formula, words, unit = PROPOSALS[known]
             exact = known == name or name.removeprefix(known) in ("_at_x", "_at_c")
+            unit = "" if unit == "rad" and known not in (name, stem) else unit  # alpha_1 is any
             return Proposal(formula if exact else "", words, unit)
     return Proposal()
 

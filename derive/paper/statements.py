@@ -4,7 +4,7 @@ a = b = c          a = b and a = c
 a < b = c          a < b and b = c
 u, v   u and v     u and v, where each has a relation of its own
 \pm, \mp           the equation with the upper signs, then with the lower ones
-u for v            u, under the condition v
+u for v            u, under the condition v; an inequality after an equation is one, too
 """
 
 import re
@@ -89,8 +89,12 @@ def statements(where: str, latex: str) -> list[Statement]:
     parts = list[tuple[list[str], list[str]]]()
     for part in _listed(tokens, depths):
         relations = set(part) & _RELATIONS
-        if parts and parts[-1][1] and relations <= _ORDERED and r"\whereword" not in part:
-            parts[-1][1].extend([",", *part])
+        is_bound = part[0] == r"\whereword" or (
+            relations <= _ORDERED and r"\whereword" not in part
+        )
+        if parts and is_bound and (parts[-1][1] or set(parts[-1][0]) & _RELATIONS - _ORDERED):
+            more = [token for token in part if token != r"\whereword"]
+            parts[-1][1].extend([",", *more] if parts[-1][1] else more)
         else:
             parts.append(_without_condition(part))
     for part, condition in parts:

@@ -64,7 +64,17 @@ from derive.paper.claim import (
     Verdict,
 )
 from derive.paper.dimensions import Call, Units
-from derive.paper.formula import FROM_POLE, Names, UnknownName, approach, equation, unknown, usable
+from derive.paper.formula import (
+    FROM_POLE,
+    Names,
+    UnknownName,
+    approach,
+    equation,
+    may_be_rounded,
+    rounded_in,
+    unknown,
+    usable,
+)
 from derive.paper.formula import condition as read_condition
 from derive.paper.formula import formula as read_formula
 from derive.paper.latex import Latex
@@ -311,17 +321,25 @@ class _File:
         self.symbols = dict[str, Any]()
         with self._noted():
             self.symbols = self._table("symbols")
-        for name, said in self.symbols.items():
+        taken = {**self.context.parameters, **self.declared}
+        if self.context.body is not None:
+            taken |= {"E_star": E_star, "f": f}
+        for name, said in list(self.symbols.items()):
             with self._noted():
                 line = line_of(self.text, "symbols", name)
                 where = f"{self.name}:{line}" if line else self.name
-                self._demand_name(name, self.declared.keys() - _PLACES.keys())
+                self._demand_name(name, ())
                 if isinstance(said, dict):
                     self._demand_known(said, _OF_A_SYMBOL, f"{where}, the symbol {name!r}")
-                    self._say_unit(Symbol(name), said, f"{where}, the symbol {name!r}")
-                if name in self.context.parameters:
-                    why = f"{where}, the symbol {name!r} is a parameter of the body already"
-                    raise self._bad(why, "leave it out, or name the parameter's symbol otherwise")
+                    symbol = taken.get(name, Symbol(name))
+                    if symbol not in self.units and symbol not in self.context.parameters.values():
+                        self._say_unit(symbol, said, f"{where}, the symbol {name!r}")
+                if name in taken and not (name in _PLACES and _formula_of(said)):
+                    if _formula_of(said):
+                        what = "a variable" if name in self.declared else "a parameter of the body"
+                        why = f"{where}, the symbol {name!r} is {what} already"
+                        raise self._bad(why, "leave it out, or name the other one otherwise")
+                    del self.symbols[name]  # it is that variable
         with self._noted():
             self._spellings(self._names(self.name, self.symbols, self.context))
         self.meant = dict[str, _Meant]()
@@ -601,11 +619,7 @@ class _File:
 
     def _rounded(self, read: "_Read", context: _Context, put: "_Put") -> Rounded | None:
         """The one constant of three digits or more that is a factor of a side, if there is one."""
-        found = [
-            each
-            for each in re.finditer(r"(?<![\w.])\d*\.\d+(?![\w.])", read.text)
-            if len(each[0].replace(".", "").lstrip("0")) >= _ROUNDED_FROM
-        ]
+        found = rounded_in(read.text)
         if len(found) != 1:
             return None
         (one,) = found
@@ -812,7 +826,7 @@ def _formula_of(said: object) -> str:
 
 def _may_be_rough(given: Mapping[str, Any], text: str) -> bool:
     """Whether ~ may stand in an equation: in a limit, or before a constant printed rounded."""
-    return "as" in given or re.search(r"\d*\.\d*\d\d", text) is not None
+    return "as" in given or may_be_rounded(text)
 
 
 def _as_text(call: Expr) -> str:
@@ -836,8 +850,6 @@ def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str])
 
 
 _EDGES = (Symbol("a", real=True), Symbol("c", real=True))
-_ROUNDED_FROM = 3
-"""Digits from which on a decimal number is taken for a rounded one, if it is not right as it is."""
 
 
 def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
