@@ -29,10 +29,16 @@ from sympy import (
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
+from derive.paper.formula import IMPROPER
 from derive.units import NUMBER, Dimension
 
 Call = tuple[tuple[Dimension, ...], Dimension]
 """The units of a formula's arguments, and its own."""
+
+
+def _between(improper: Expr) -> Integral:
+    inside, along, low, *high = improper.args
+    return Integral(inside, (along, low, *(high or [low])))
 
 
 class _Mismatch(Exception):
@@ -196,6 +202,7 @@ class Units:
 
     _readers: tuple[tuple[tuple[type, ...], Callable[["Units", Expr], Dimension | None]], ...] = (
         ((AppliedUndef,), _of_call),
+        ((*IMPROPER,), lambda units, expr: units._of_integral(_between(expr))),
         ((Abs, Limit), lambda units, expr: units._of(expr.args[0])),
         ((Integral,), _of_integral),
         ((Derivative,), _of_derivative),

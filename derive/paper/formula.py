@@ -21,7 +21,6 @@ from typing import Any
 from sympy import (
     Derivative,
     Expr,
-    Function,
     Integral,
     Limit,
     Min,
@@ -35,6 +34,7 @@ from sympy import (
     solve,
     together,
 )
+from sympy import Function as SymPyFunction
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadFormula, BadText
@@ -98,6 +98,10 @@ class Names:
 
 class UnknownName(BadFormula):
     """A formula that holds a name of which nothing is known yet."""
+
+
+class NoPole(BadFormula):
+    """A principal value whose integrand has not one pole that can be seen."""
 
 
 def equation(text: str, names: Names, rough: bool = False) -> tuple[Expr, Relation, Expr]:
@@ -205,7 +209,7 @@ class _Reader(Meaning):
             return self._bound(node)
         arguments = [self.value(argument) for argument in node.arguments]
         if name in self.names.calls:
-            return Function(name)(*arguments)
+            return SymPyFunction(name)(*arguments)
         return self.step(node.column, _FUNCTIONS[name].of_sympy, *arguments)
 
     def _bound(self, node: Call) -> Expr:
@@ -235,10 +239,12 @@ class _Reader(Meaning):
 
     def _made(self, node: Call, inside: Expr, variable: Symbol, limits: list[Expr]) -> Expr:
         match node.function:
+            case "integral" if limits[1] == oo:
+                return ToInfinity(inside, variable, limits[0])
             case "integral":
-                return _finite(inside, variable, *limits)
+                return Integral(inside, (variable, *limits))
             case "pv":
-                return self._principal(node, inside, variable, *limits)
+                return PrincipalValue(inside, variable, *limits)
             case "sum":
                 return self._sum(node, inside, variable, *limits)
             case "limit":
@@ -268,30 +274,52 @@ class _Reader(Meaning):
             total = self.step(node.column, operator.add, total, term)
         return total
 
-    def _principal(self, node: Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
-        """A principal value: the integrand folded about its one pole, and what is left over."""
-        poles = set[Expr]()
-        for factor in Mul.make_args(denom(together(inside))):
-            if factor.is_polynomial(along) and factor.has(along) and degree(factor, along) == 1:
-                poles |= set(solve(factor, along))
-        if len(poles) != 1 or oo in (low, high):
-            why = "the pole of this principal value is not seen"
-            raise self.refusal(node.column, why, "write one factor s - x below, and finite ends")
-        (pole,) = poles
-        away = Symbol(along.name + FROM_POLE, real=True)
-        reach = Min(pole - low, high - pole)  # the nearer end
-        both = inside.subs(along, pole + away) + inside.subs(along, pole - away)
-        around = Integral(together(both), (away, 0, reach))
-        left = Integral(inside, (along, low, pole - reach))
-        return around + left + Integral(inside, (along, pole + reach, high))
+
+class PrincipalValue(SymPyFunction):
+    """A principal value of an integrand along a symbol, between two ends; `proper` computes it."""
+
+    nargs = 4
 
 
-def _finite(inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
-    """An integral, with the infinite end brought to 1."""
-    if high != oo:
-        return Integral(inside, (along, low, high))
-    moved = low + along / (1 - along)
-    return Integral(inside.subs(along, moved) / (1 - along) ** 2, (along, 0, 1))
+class ToInfinity(SymPyFunction):
+    """An integral of an integrand along a symbol, from an end to infinity."""
+
+    nargs = 3
+
+
+IMPROPER = (PrincipalValue, ToInfinity)
+
+
+def proper(expr: Any) -> Any:
+    """An expression with integrals that have no pole and finite ends; raises NoPole."""
+    return expr.replace(lambda n: isinstance(n, IMPROPER), _proper)
+
+
+def _proper(node: Expr) -> Expr:
+    inside, along, low, *high = node.args
+    if isinstance(node, ToInfinity):
+        moved = low + along / (1 - along)
+        return Integral(inside.subs(along, moved) / (1 - along) ** 2, (along, 0, 1))
+    return _folded(inside, along, low, *high)
+
+
+def _folded(inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
+    """A principal value: the integrand folded about its one pole, and what is left over."""
+    poles = set[Expr]()
+    for factor in Mul.make_args(denom(together(inside))):
+        if factor.is_polynomial(along) and factor.has(along) and degree(factor, along) == 1:
+            poles |= set(solve(factor, along))
+    if len(poles) != 1:
+        why = "the pole of a principal value is not seen"
+        text = str(inside)
+        raise NoPole("a principal value", text, 0, why, "write one factor s - x below, no other")
+    (pole,) = poles
+    away = Symbol(along.name + FROM_POLE, real=True)
+    reach = Min(pole - low, high - pole)  # the nearer end
+    both = inside.subs(along, pole + away) + inside.subs(along, pole - away)
+    around = Integral(together(both), (away, 0, reach))
+    left = Integral(inside, (along, low, pole - reach))
+    return around + left + Integral(inside, (along, pole + reach, high))
 
 
 def rounded_in(text: str) -> list[re.Match[str]]:

@@ -89,9 +89,7 @@ def statements(where: str, latex: str) -> list[Statement]:
     parts = list[tuple[list[str], list[str]]]()
     for part in _listed(tokens, depths):
         relations = set(part) & _RELATIONS
-        is_bound = part[0] == r"\whereword" or (
-            relations <= _ORDERED and r"\whereword" not in part
-        )
+        is_bound = part[0] == r"\whereword" or (relations <= _ORDERED and r"\whereword" not in part)
         if parts and is_bound and (parts[-1][1] or set(parts[-1][0]) & _RELATIONS - _ORDERED):
             more = [token for token in part if token != r"\whereword"]
             parts[-1][1].extend([",", *more] if parts[-1][1] else more)

@@ -66,11 +66,16 @@ from derive.paper.claim import (
 from derive.paper.dimensions import Call, Units
 from derive.paper.formula import (
     FROM_POLE,
+    IMPROPER,
     Names,
+    NoPole,
+    PrincipalValue,
+    ToInfinity,
     UnknownName,
     approach,
     equation,
     may_be_rounded,
+    proper,
     rounded_in,
     unknown,
     usable,
@@ -97,11 +102,7 @@ _SECONDS = 30.0
 _MOST_SECONDS = 86_400
 _PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
 _FROM_THE_START: Mapping[str, Expr] = {**_PLACES, "E_star": E_star, "f": f}
-_UNITS = {
-    E_star: parse_unit("Pa"),
-    f: parse_unit("-"),
-    **{place: parse_unit("m") for place in _PLACES.values()},
-}
+_UNITS = {E_star: parse_unit("Pa"), f: parse_unit("-")}
 _KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims"})
 _OF_A_SYMBOL = frozenset({"is", "meaning", "proposal", "unit"})
 _OF_A_VARIABLE = frozenset({"meaning", "low", "high", "unit"})
@@ -179,6 +180,8 @@ class _Context:
         known, calls = {**_UNITS, **self.units}, dict[str, Call]()
         if self.sheet is not None:
             known = {**self.sheet.geometry.dimensions, **known}
+            for place in _PLACES.values():
+                known.setdefault(place, parse_unit("m"))
             own = self.sheet.dimensions
             calls = {
                 name: (tuple(own[each] for each in formula.arguments), parse_unit(formula.unit))
@@ -210,6 +213,7 @@ class _Context:
             formula = self.body.formula(known.name).xreplace({e: M / P})
             table = dict(zip(known.arguments, call.args, strict=True))
             expr = expr.xreplace({call: at(formula.subs(table, simultaneous=True), *_EDGES)})
+        expr = proper(expr)
         return expr.doit() if expr.has(Derivative, Limit) else expr
 
     def conditions(self, expr: Expr) -> Iterator[Boolean]:
@@ -219,9 +223,10 @@ class _Context:
             table = dict(zip(known.arguments, call.args, strict=True))
             for condition in known.conditions:
                 yield self.put_in(condition.subs(table, simultaneous=True))
-        for over in _integrals(expr):
-            if over.limits[-1][0].name.endswith(FROM_POLE):
-                yield over.limits[-1][2] > 0
+        for value in sorted(expr.atoms(PrincipalValue), key=str):
+            for over in _integrals(self.put_in(value)):
+                if over.limits[-1][0].name.endswith(FROM_POLE):
+                    yield over.limits[-1][2] > 0
 
 
 @dataclass(frozen=True)
@@ -510,7 +515,10 @@ class _File:
         if lacking:
             return _lacking(given, common, lacking)
         read = _Read(given, where, text, left, relation, right)
-        return self._judged(read, context, meant, common)
+        try:
+            return self._judged(read, context, meant, common)
+        except NoPole as error:
+            return Claim(unchecked=f"{error.why}: {error.remedy}", source=text, **common)
 
     def _judged(
         self, read: "_Read", context: _Context, meant: _Meant, common: dict[str, Any]
@@ -834,6 +842,10 @@ def _as_text(call: Expr) -> str:
     if isinstance(call, Derivative):
         (along, times) = call.variable_count[0]
         return f"diff({call.expr}, {along}" + (f", {times})" if times != 1 else ")")
+    if isinstance(call, PrincipalValue):
+        return f"pv({', '.join(map(str, call.args))})"
+    if isinstance(call, ToInfinity):
+        return f"integral({', '.join(map(str, call.args))}, oo)"
     if isinstance(call, Limit):
         return f"limit({', '.join(map(str, call.args[:3]))})"
     return str(call)
@@ -862,10 +874,13 @@ def _integrals(*exprs: Expr) -> list[Integral]:
     return sorted({over for expr in exprs for over in expr.atoms(Integral)}, key=str)
 
 
+_CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
+
+
 def _calls(*exprs: Expr) -> list[Expr]:
-    """Calls of the sheet's formulas, derivatives and limits, none inside another."""
-    found = {call for expr in exprs for call in expr.atoms(AppliedUndef, Derivative, Limit)}
-    inner = {call for one in found for call in one.atoms(AppliedUndef, Derivative, Limit) - {one}}
+    """Calls of the sheet's formulas, and what is computed once they are put in: outermost ones."""
+    found = {call for expr in exprs for call in expr.atoms(*_CALLS)}
+    inner = {call for one in found for call in one.atoms(*_CALLS) - {one}}
     return sorted(found - inner, key=str)
 
 

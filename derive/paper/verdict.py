@@ -65,11 +65,13 @@ class Judged:
     verdict  holds, numerical, fails or unchecked
     why      in words
     pairs    both sides at the points looked at
+    one_side_real  points at which one side is real; none if the other one is, too, anywhere
     """
 
     verdict: Verdict
     why: str
     pairs: tuple[Pair, ...] = ()
+    one_side_real: int = 0
 
     @property
     def good(self) -> bool:
@@ -134,13 +136,24 @@ def check(claim: Claim) -> Finding:
     if judged is None:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, stopped))
     if judged.verdict != Verdict.FAILS:
-        return Finding(claim, judged.verdict, judged)
+        return _nowhere_real(claim, judged) or Finding(claim, judged.verdict, judged)
     finding, stopped = _attempted(claim, lambda look: _mended(claim, judged, look))
     finding = finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
     if finding.repair is None and finding.convention is None:
         told, _ = _attempted(claim, lambda look: diagnosis(claim))
         return replace(finding, diagnosis=told or "")
     return finding
+
+
+def _nowhere_real(claim: Claim, judged: Judged) -> Finding | None:
+    """A claim with a side that is real nowhere, and the other everywhere, if a change mends it."""
+    if judged.verdict != Verdict.UNCHECKED or not judged.one_side_real:
+        return None
+    finding, _ = _attempted(claim, lambda look: _mended(claim, judged, look))
+    if finding is None or (finding.repair is None and finding.convention is None):
+        return None
+    why = f"one side is real at all {judged.one_side_real} points drawn, the other at none"
+    return replace(finding, judged=Judged(Verdict.FAILS, why))
 
 
 def _no_clock() -> None:
@@ -212,6 +225,7 @@ class _Judging:
     equal     whether both sides are shown to be equal everywhere; None if nobody has asked
     left_out  points at which no number came out
     unreal    points at which a side is not real, and the sides differ: no counter-example
+    one_sided  those of them at which the other side is
     """
 
     def __init__(
@@ -220,7 +234,7 @@ class _Judging:
         self.claim, self.left, self.right, self.meaning = claim, left, right, meaning
         self.look = look
         self.found: list[Pair] = []
-        self.left_out, self.unreal = 0, 0
+        self.left_out, self.unreal, self.one_sided = 0, 0, 0
         self.equal: bool | None = None
         self.integrals = has_integral(claim)
 
@@ -235,7 +249,9 @@ class _Judging:
             if not stands:
                 return self._fails()
         if len(self.found) < LEAST and variables(self.claim) and not self.claim.cases:
-            return self._judged(Verdict.UNCHECKED, self._too_few())
+            judged = self._judged(Verdict.UNCHECKED, self._too_few())
+            alone = self.one_sided if not self.found and self.one_sided == self.unreal else 0
+            return replace(judged, one_side_real=alone)
         if not self.found:
             return self._judged(Verdict.UNCHECKED, "a side is no real number")
         for point in further(self.claim, self._in_ours()):
@@ -311,6 +327,7 @@ class _Judging:
         if not self.claim.is_inequality:
             if not pair.agree and (mpmath.im(pair.left) != 0 or mpmath.im(pair.right) != 0):
                 self.unreal += 1
+                self.one_sided += (mpmath.im(pair.left) == 0) != (mpmath.im(pair.right) == 0)
                 return True
             self.found.append(pair)
             return pair.agree
