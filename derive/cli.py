@@ -300,7 +300,7 @@ def generate(
 @click.option(
     "--format",
     "form",
-    type=click.Choice(["table", "json", "markdown", "latex"]),
+    type=click.Choice(["table", "json", "markdown", "latex", "html"]),
     default="table",
     help="How the findings are written.",
 )
@@ -358,6 +358,10 @@ def check(
         click.echo(report.as_markdown(paper, findings))
     elif form == "latex":
         click.echo(report.as_latex(paper, findings))
+    elif form == "html":
+        from derive.paper.page import as_html
+
+        click.echo(as_html(paper, findings))
     elif explain is not None:
         _print(view.explained(findings[0]))
     else:

@@ -49,6 +49,11 @@ def _spelled(name: str) -> str:
     return f"{{{stem}'}}" if rest == "prime" else name
 
 
+def as_displayed(equation: Claim | Repair) -> str:
+    """An equation in LaTeX."""
+    return _latex(equation, equation.relation)
+
+
 def corrected(finding: Finding) -> str | None:
     """The corrected equation as text, if one was found."""
     repair = finding.repair
@@ -234,6 +239,8 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
 
 
 def _in_markdown(claim: Claim) -> str:
+    if claim.unchecked and not claim.source:
+        return "`" + " ".join(claim.latex.split()) + "`"
     return f"`{claim.source}`" if claim.source else f"${_latex(claim, claim.relation)}$"
 
 
