@@ -235,10 +235,12 @@ class _Meant:
 
     written  as the file says it, other symbols put in and calls left as they are
     ours     in variables alone
+    lost     names of symbols that are defined by themselves
     """
 
     written: dict[Symbol, Expr]
     ours: dict[Symbol, Expr]
+    lost: set[str] = field(default_factory=set)
 
 
 @dataclass
@@ -307,6 +309,9 @@ class _File:
             except BadText as error:
                 at = f"{where}, body"
                 raise BadFormula(at, profile, error.column, error.why, error.remedy) from error
+            except UserError as error:
+                why = f"{where}, body: {error.message}"
+                raise self._bad(why, "write another g, or its units") from error
         if not isinstance(given, str) or not is_in_library(given):
             known = ", ".join(library())
             why = f"{where}, body = {given!r} is not in the library"
@@ -334,6 +339,9 @@ class _File:
                 line = line_of(self.text, "symbols", name)
                 where = f"{self.name}:{line}" if line else self.name
                 self._demand_name(name, ())
+                if type(said) not in (str, int, float, dict):
+                    why = f"{where}, the symbol {name!r} is no text"
+                    raise self._bad(why, f'write {name} = "a formula"')
                 if isinstance(said, dict):
                     self._demand_known(said, _OF_A_SYMBOL, f"{where}, the symbol {name!r}")
                     symbol = taken.get(name, Symbol(name))
@@ -372,15 +380,17 @@ class _File:
     ) -> bool:
         """Whether a symbol has a meaning, which is put to the others, those it needs first."""
         symbol = Symbol(name)
-        if symbol in meant.ours:
-            return True
+        if symbol in meant.ours or name in meant.lost:
+            return symbol in meant.ours
         text = _formula_of(symbols[name])
         if not text:
             return False
         line = line_of(self.text, "symbols", name)
         where = f"{self.name}:{line}, symbols: {name}" if line else f"{self.name}, symbols: {name}"
         if name in outer:
-            told = ", ".join(outer[outer.index(name) :])
+            round_ = outer[outer.index(name) :]
+            told = ", ".join(round_)
+            meant.lost.update(round_)
             raise self._bad(f"{where} is defined by itself, through {told}", "define one of them")
         others = {n: Symbol(n) for n in symbols if n != name}
         names = Names(where, {**context.variables, **others}, context.arities)
@@ -506,11 +516,11 @@ class _File:
         except NotAccepted as error:
             return self._waiting(number, given, common, error)
         except UnknownName as error:
-            missing = unknown(error.given, names) or ["a name"]
+            missing = unknown(error.given, names) or ["oo"]
             return _lacking(given, common, missing)
-        self.read[label] = left, right
         if "given" in given:
             meant = self._follows(given, where, symbols, meant)
+        self.read[label] = left, right
         lacking = [n for n in symbols if Symbol(n) not in meant.ours and _held(n, left, right)]
         if lacking:
             return _lacking(given, common, lacking)

@@ -137,3 +137,55 @@ def test_a_paper_from_latex_to_verdicts(name: str, tmp_path: Path) -> None:
             assert claim["verdict"] in GOOD, f"{label}: {claim['verdict']}, {claim['reason']}"
         assert not claim["units"], f"{label}: {claim['units']}"
     assert wrong.keys() <= told.keys()
+
+
+UNITS = """
+body = "hertz"
+[variables]
+a = { unit = "m" }
+k = { unit = "-" }
+[symbols]
+P = { unit = "N/m" }
+Q = { unit = "N/m" }
+p_0 = { unit = "Pa" }
+K = { unit = "Pa/sqrt(m)" }
+sigma = { unit = "Pa" }
+e = { unit = "m" }
+"""
+FITTING = (
+    ("a**2", "4*P*R/(pi*E_star)"),
+    ("p_0", "sqrt(P*E_star/(pi*R))"),
+    ("P", "integral(p_0*sqrt(1 - s**2/a**2), s, -a, a)"),
+    ("K", "E_star/(2*R)*sqrt(2*a)"),
+    ("e", "-R*sigma/(4*f*E_star)"),
+    ("Q", "f*P*(1 - k**2)"),
+    ("sigma", "4*E_star*f/R*(a - sqrt(a**2 - 2*R*Q/(pi*E_star*f)))"),
+    ("p_0/sigma", "log(a/R) + atan(P/(Q + E_star*a))"),
+)
+
+
+@pytest.mark.parametrize(("left", "right"), FITTING)
+def test_a_factor_with_a_unit_that_is_dropped_or_doubled_is_named(
+    left: str, right: str, tmp_path: Path
+) -> None:
+    """What is printed right cannot be judged: its symbols have units, and no meaning."""
+    factors = ("a", "R", "E_star", "P", "p_0", "sqrt(a)", "K")
+    printed = [f"{left} = {right}"]
+    printed += [f"{left} = ({right}){sign}{factor}" for factor in factors for sign in "*/"]
+    path = tmp_path / "units.toml"
+    claims = "".join(
+        f"[[claims]]\nlabel = '{n}'\nprinted = '{text}'\n" for n, text in enumerate(printed)
+    )
+    path.write_text(UNITS + claims)
+    told = json.loads(run("check", str(path), "--format", "json"))
+    assert told[0]["units"] is None
+    assert all(claim["units"] for claim in told[1:])
+    assert told[0]["verdict"] == "unchecked"
+
+
+def test_the_term_that_does_not_fit_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "units.toml"
+    claim = "[[claims]]\nlabel = 'x'\nprinted = 'Q = f*P + f*P*a'\n"
+    path.write_text(UNITS + claim)
+    (told,) = json.loads(run("check", str(path), "--format", "json"))
+    assert "P*a*f is in Pa m**2" in told["units"]
