@@ -55,7 +55,7 @@ class Approach:
     def _rows(self) -> Iterator[list[tuple[mpf, Value, Value]]]:
         """Distance and both sides, step by step."""
         first, end = self.toward
-        distance = Dummy("t", positive=True)
+        distance, seen = Dummy("t", positive=True), False
         for sign in (1, -1):
             if end in (oo, -oo):
                 if (end == oo) != (sign == 1):
@@ -65,19 +65,22 @@ class Approach:
                 goal = end + sign * distance
             moved = self._solved(first, goal, distance)
             if moved is None:
-                raise Undecided(f"what tends to {end} is not solved for one of its variables")
-            variable, place = moved
+                continue
+            seen, (variable, place) = True, moved
             for base in points(self.claim, _BASES, "limit"):
                 row = list(self._row(base, variable, place, distance))
                 if len(row) == len(_DISTANCES):
                     yield row
+        if not seen:
+            raise Undecided(f"what tends to {end} is not solved for one of its variables")
 
     def _solved(self, first: Expr, goal: Expr, distance: Symbol) -> tuple[Symbol, Expr] | None:
         """A variable and where it is if `first` is at its goal."""
         own = set(variables(self.claim)) | first.free_symbols
         for variable in sorted(first.free_symbols & own, key=_places_first):
             if first.is_polynomial(variable):
-                found = solve(first - goal, variable)
+                free = Dummy(variable.name)
+                found = solve(first.xreplace({variable: free}) - goal, free)
                 if len(found) == 1:
                     return variable, found[0]
         return None
@@ -90,7 +93,8 @@ class Approach:
                 try:
                     where = evaluated(place, {**base, distance: size})
                     point = {**base, variable: where}
-                    if not is_allowed(self.claim, point):
+                    outside = variable.is_positive and not mpmath.re(where) > 0
+                    if outside or not is_allowed(self.claim, point):
                         return
                     left, right = (evaluated(side, point) for side in self.sides)
                 except Undecided:
@@ -113,7 +117,11 @@ class Approach:
             if order > _SLOWEST:
                 told = mpmath.nstr(order, 3)
                 return Verdict.NUMERICAL, f"left over right differs from 1 by the power {told}"
-            if abs(ratios[-1] - ratios[-2]) <= _STAYS * abs(ratios[-1]) or order < -_SLOWEST:
+            own = _order([(size, abs(r)) for (size, _, _), r in zip(row, ratios, strict=True)])
+            if abs(own) > _SLOWEST:
+                where = "0" if own > 0 else "infinity"
+                return Verdict.FAILS, f"left over right tends to {where}, and not to 1"
+            if abs(ratios[-1] - ratios[-2]) <= _STAYS * abs(ratios[-1]):
                 told = mpmath.nstr(ratios[-1], 8)
                 return Verdict.FAILS, f"left over right tends to {told}, and not to 1"
             return Verdict.UNCHECKED, "left over right tends too slowly to tell where to"
