@@ -16,7 +16,14 @@ from derive.paper.displays import Display, displays
 from derive.paper.formula import Names, approach, condition, equation, may_be_rounded
 from derive.paper.latex import Latex
 from derive.paper.lines import quoted
-from derive.paper.spellings import described, proposal, spellings, words_for
+from derive.paper.spellings import (
+    described,
+    proposal,
+    spellings,
+    standing_alone,
+    unclear_call,
+    words_for,
+)
 from derive.paper.statements import Statement, statements
 
 _SECONDS = 10.0
@@ -178,9 +185,11 @@ def draft(path: Path, inline: bool = False) -> Draft:
             known.append((display, statements(path.name, display.latex), ""))
         except (BadFormula, RecursionError) as error:
             known.append((display, [], getattr(error, "why", "nested too deep")))
+    alone = set[str]()
     for _, each, _ in known:
         for statement in each:
             if not statement.why:
+                alone |= standing_alone(statement.latex)
                 made.spelled.update(spellings(statement.latex))
                 made.spelled.update(spellings(statement.condition))
     for display, each, why in known:
@@ -188,14 +197,21 @@ def draft(path: Path, inline: bool = False) -> Draft:
             read = _Read(why=why or "no relation stands in it")
             made.parts.append(_Part(display, 0, 1, read))
         for number, statement in enumerate(each, 1):
-            made.parts.append(_Part(display, number, len(each), _read(statement, made.spelled)))
+            made.parts.append(
+                _Part(display, number, len(each), _read(statement, made.spelled, alone))
+            )
     return made
 
 
-def _read(statement: Statement, spelled: dict[str, str]) -> _Read:
+def _read(statement: Statement, spelled: dict[str, str], alone: set[str]) -> _Read:
     """The statement as text with its condition, and why it is not judged, if it is not."""
     if statement.why:
         return _Read(why=statement.why)
+    if called := unclear_call(statement.latex, spelled, alone):
+        why = (
+            f"{called} is a function elsewhere: whether it is called or multiplied here is unclear"
+        )
+        return _Read(why=f"{why}, write the claim as text")
     names = Names("", {n: Symbol(n) for n in spelled.values()}, {})
     try:
         with within(_SECONDS):

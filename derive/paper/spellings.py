@@ -6,7 +6,7 @@ and is one symbol too: p(x) and p(x, c) are two.  A person sees every spelling i
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from derive.paper.formula import usable
@@ -17,6 +17,10 @@ alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lam
 varrho sigma tau upsilon phi varphi chi psi omega ell Gamma Delta Theta Lambda Xi Pi Sigma Upsilon
 Phi Psi Omega
 """
+_ACCENTS = {
+    **{rf"\{name}": name for name in ("bar", "hat", "tilde", "dot", "vec")},
+    **{r"\overline": "bar", r"\widehat": "hat", r"\widetilde": "tilde"},
+}
 _GREEK = frozenset(f"\\{name}" for name in _NAMES.split())
 PROPOSALS = {
     "P": ("load(a, c)", "normal load", "N/m"),
@@ -131,6 +135,31 @@ def spellings(latex: str) -> dict[str, str]:
     return found
 
 
+def _plain_ones(latex: str) -> Iterator[tuple[str, bool]]:
+    """Symbols that are printed without arguments, and whether parentheses follow."""
+    tokens, place = [re.sub(r"\s", "", token) for token in _TOKEN.findall(latex)], 0
+    while place < len(tokens):
+        end, name = _symbol(tokens, place)
+        if name and "_at_" not in name:
+            yield _spelled(tokens[place:end]), tokens[end : end + 1] == ["("]
+        place = max(end, place + 1)
+
+
+def standing_alone(latex: str) -> set[str]:
+    """Symbols that are printed without arguments and without parentheses behind them."""
+    return {own for own, follows in _plain_ones(latex) if not follows}
+
+
+def unclear_call(latex: str, spelled: Mapping[str, str], alone: Collection[str]) -> str:
+    """A symbol that is a function wherever it stands else, before what may be its argument or not.
+
+    Empty if there is none.
+    """
+    functions = {own.partition("(")[0] for own, name in spelled.items() if "_at_" in name}
+    unclear = functions - set(alone)
+    return next((own for own, follows in _plain_ones(latex) if follows and own in unclear), "")
+
+
 def _spelled(tokens: Sequence[str]) -> str:
     text = ""
     for token in tokens:
@@ -150,6 +179,13 @@ def _symbol(tokens: Sequence[str], place: int) -> tuple[int, str]:
         end, name = _symbol(tokens, place + 1)
         if name and tokens[place + 1] not in (r"\dd", r"\Delta", r"\frac"):
             return end, ("d" if head == r"\dd" else "Delta_") + name
+    if head in _ACCENTS:
+        inner, end = _group(tokens, place + 1)
+        stop, name = _symbol(inner, 0)
+        if not name or stop != len(inner):
+            return place, ""
+        end, name = _hung(tokens, end, f"{name}_{_ACCENTS[head]}")
+        return _called(tokens, end, name)
     if not (len(head) == 1 and head.isalpha()) and head not in _GREEK:
         return place, ""
     if head == r"\Gamma" and tokens[place + 1 : place + 2] == ["("]:
@@ -216,7 +252,10 @@ def _called(tokens: Sequence[str], place: int, name: str) -> tuple[int, str]:
             arguments.append([])
         else:
             arguments[-1].append(token)
-    one = [_symbol(argument, 0) for argument in arguments]
+    one = [
+        (1, argument[0]) if len(argument) == 1 and argument[0].isdigit() else _symbol(argument, 0)
+        for argument in arguments
+    ]
     alone = all(n and e == len(a) for a, (e, n) in zip(arguments, one, strict=True))
     if not alone or not inner:
         return place, name
@@ -224,15 +263,23 @@ def _called(tokens: Sequence[str], place: int, name: str) -> tuple[int, str]:
 
 
 def _derivative(tokens: Sequence[str], place: int) -> tuple[int, str]:
-    """A quotient of two differentials."""
+    """A quotient of two differentials, which may be second ones."""
     over, middle = _group(tokens, place + 1)
     under, end = _group(tokens, middle)
+    if not over or not under or {over[0], under[0]} - {r"\dd", r"\partial"}:
+        return place, ""
+    order = ""
+    if over[1:2] == ["^"]:
+        inner, after = _group(over, 2)
+        order, over = "".join(inner), [over[0], *over[after:]]
+        count = 1 if under[-2:] == ["^", order] else 3
+        if not order.isdigit() or under[-count - 1 :][:1] != ["^"] or order not in under[-count:]:
+            return place, ""
+        under = under[: -count - 1]
     names = []
     for part in (over, under):
-        if len(part) < 2 or part[0] not in (r"\dd", r"\partial"):
-            return place, ""
         stop, name = _symbol(part, 1)
         if not name or stop != len(part):
             return place, ""
-        names.append(f"d{name}")
-    return end, "_".join(names)
+        names.append(name)
+    return end, f"d{order}{names[0]}_d{names[1]}{order}"

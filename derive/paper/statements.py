@@ -56,6 +56,7 @@ _ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong", r"\propto", r"\t
 _RELATIONS = frozenset(("=", "<", ">", r"\le", r"\leq", r"\ge", r"\geq", r"\equiv")) | _ROUGHLY
 _ORDERED = frozenset(("<", ">", r"\le", r"\leq", r"\ge", r"\geq"))
 _AND = frozenset(("and", "or", "so that", "with", "hence", "thus", "therefore", "i.e", "where"))
+_OPERATOR = r"\derivativeof"
 _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac")
 _OPENING, _CLOSING = frozenset(("(", "{", "[", r"\begin{cases}")), frozenset(")}]")
 _CLOSED = _CLOSING | {r"\end{cases}"}
@@ -81,10 +82,13 @@ def statements(where: str, latex: str) -> list[Statement]:
     """All statements of a display; raises BadFormula where its brackets do not fit."""
     if len(latex) > _MOST:
         raise BadFormula(where, latex[:80], 80, f"the display is longer than {_MOST}", "split it")
-    tokens = _differentials(_over(_tokens(_plain(latex))))
+    tokens = _differentials(_derivatives(_over(_bare(_tokens(_plain(latex))))))
     depths = _depths(where, tokens)
     if inner := next((t for t in tokens if t.startswith(r"\begin") and t not in _OPENING), ""):
         return [Statement(latex, f"{inner} inside a display is not read: write it as text")]
+    if _OPERATOR in tokens:
+        why = "d/dx before what it is of is not read: write it as text, diff(f, x)"
+        return [Statement(latex, why)]
     found = list[Statement]()
     parts = list[tuple[list[str], list[str]]]()
     for part in _listed(tokens, depths):
@@ -152,6 +156,37 @@ def _tokens(text: str) -> list[str]:
     return [token for token in made if token != r"\pvword"]
 
 
+def _bare(tokens: list[str]) -> list[str]:
+    """The tokens without braces about all of them."""
+    while tokens[:1] == ["{"] and _end(tokens, 0, 1) == len(tokens) - 1:
+        tokens = tokens[1:-1]
+    return tokens
+
+
+def _derivatives(tokens: list[str]) -> list[str]:
+    r"""\frac{d P}{d a} and dP/da as \frac{\dd P}{\dd a}; d/dx alone as what nobody knows."""
+    made, differentials = list[str](), (["d"], [r"\dd"])
+    for token in tokens:
+        made.append(token)
+        start = len(made) - 5
+        if start >= 0 and made[start + 2] == "/" and _may_be_variable(token):
+            over, under = made[start : start + 1], made[start + 3 : start + 4]
+            if over in differentials and under in differentials:
+                frac = [r"\frac", "{", r"\dd", made[start + 1], "}", "{", r"\dd", token, "}"]
+                made[start:] = frac
+    for place, token in enumerate(made):
+        if token not in _FRACTIONS or made[place + 1 : place + 2] != ["{"]:
+            continue
+        middle = _end(made, place + 1, 1)
+        below = middle + 2
+        if made[middle + 1 : below] != ["{"] or made[below : below + 1] not in differentials:
+            continue
+        if made[place + 2] in ("d", r"\dd"):
+            made[place + 2] = _OPERATOR if middle - place == 3 else r"\dd"
+            made[below] = r"\dd"
+    return made
+
+
 def _over(tokens: list[str]) -> list[str]:
     r"""{a \over b} as \frac{a}{b}."""
     while r"\over" in tokens:
@@ -179,7 +214,7 @@ def _differentials(tokens: list[str]) -> list[str]:
     integrals = sum(token in (r"\int", r"\pvint") for token in tokens)
     if not integrals:
         return tokens
-    if r"\dd" not in tokens:
+    if not any(t == r"\dd" and not _is_in_fraction(tokens, n) for n, t in enumerate(tokens)):
         made = list[str]()
         for place, token in enumerate(tokens):
             after = tokens[place + 1 : place + 2]
@@ -189,6 +224,12 @@ def _differentials(tokens: list[str]) -> list[str]:
             made.append(token)
         tokens = made
     return _out_of_numerators(tokens)
+
+
+def _is_in_fraction(tokens: list[str], at: int) -> bool:
+    r"""Whether \dd stands first above or below a fraction bar, as in a derivative."""
+    before = tokens[at - 2 : at]
+    return before[:1] in ([r"\frac"], ["}"]) and before[1:] == ["{"]
 
 
 def _may_be_variable(token: str) -> bool:
