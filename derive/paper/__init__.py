@@ -25,6 +25,7 @@
     formula      a user's text               an equation; only what the white list knows
     latex        a user's LaTeX              an equation as text, if it can be read in one way only
     dimensions   an equation, known units    the term that does not fit
+    context      a body, symbols, an equation  the equation with its calls put in
     userfile     a claims file in TOML       the claims in it
     andresen2020                             the paper that the method of this project is from
 

@@ -39,18 +39,17 @@ import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cache, cached_property, partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, TypeGuard, TypeVar
 
-from sympy import Derivative, Expr, Integral, Limit, Rational, Symbol, false, true
-from sympy.core.function import AppliedUndef
+from sympy import Expr, Rational, Symbol, false, true
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadClaimsFile, BadFormula, BadText, BadUnit, NotAccepted, UserError
 from derive.library import is_in_library, library
 from derive.limit import LimitReached, within
-from derive.paper.bodies import Body, at, of_library
+from derive.paper.bodies import Body, of_library
 from derive.paper.claim import (
     SCALE,
     SIGNED,
@@ -63,19 +62,15 @@ from derive.paper.claim import (
     Rounded,
     Verdict,
 )
-from derive.paper.dimensions import Call, Units
+from derive.paper.context import PLACES, Context, Meant, Put, as_text, calls_in, integrals
+from derive.paper.dimensions import Units
 from derive.paper.formula import (
-    FROM_POLE,
-    IMPROPER,
     Names,
     NoPole,
-    PrincipalValue,
-    ToInfinity,
     UnknownName,
     approach,
     equation,
     may_be_rounded,
-    proper,
     rounded_in,
     unknown,
     usable,
@@ -86,8 +81,7 @@ from derive.paper.latex import Latex
 from derive.paper.lines import heads, line_of
 from derive.paper.mistakes import demand_none
 from derive.paper.statements import statements
-from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, e, f, x
+from derive.symbols import E_star, f
 from derive.units import Dimension, parse_unit
 from derive.writing.draft import Wanted, draft
 
@@ -100,9 +94,7 @@ _MOST = 500
 _SECONDS = 30.0
 """Seconds that the verdict on a claim may take, and then the search for a correction."""
 _MOST_SECONDS = 86_400
-_PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
-_FROM_THE_START: Mapping[str, Expr] = {**_PLACES, "E_star": E_star, "f": f}
-_UNITS = {E_star: parse_unit("Pa"), f: parse_unit("-")}
+_FROM_THE_START: Mapping[str, Expr] = {**PLACES, "E_star": E_star, "f": f}
 _KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims"})
 _OF_A_SYMBOL = frozenset({"is", "meaning", "proposal", "unit"})
 _OF_A_VARIABLE = frozenset({"meaning", "low", "high", "unit"})
@@ -167,82 +159,6 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
         raise BadClaimsFile(str(path), f"cannot be read ({why})", remedy) from error
 
 
-@dataclass(frozen=True)
-class _Context:
-    """What claims are read with: a body if there is one, and the names that are known from it."""
-
-    body: Body | None
-    variables: Mapping[str, Expr]
-    units: Mapping[Symbol, Dimension]
-
-    def followed(self, meant: "_Meant") -> Units:
-        """What is known of units."""
-        known, calls = {**_UNITS, **self.units}, dict[str, Call]()
-        if self.sheet is not None:
-            known = {**self.sheet.geometry.dimensions, **known}
-            for place in _PLACES.values():
-                known.setdefault(place, parse_unit("m"))
-            own = self.sheet.dimensions
-            calls = {
-                name: (tuple(own[each] for each in formula.arguments), parse_unit(formula.unit))
-                for name, formula in self.sheet.items()
-            }
-        return Units(known, meant.written, calls)
-
-    @property
-    def sheet(self) -> FormulaSheet | None:
-        """The formulas of the body."""
-        return self.body.sheet if self.body else None
-
-    @cached_property
-    def parameters(self) -> dict[str, Expr]:
-        """Parameters of the body."""
-        return {q.name: q.symbol for q in self.sheet.geometry.parameters} if self.sheet else {}
-
-    @cached_property
-    def arities(self) -> dict[str, int]:
-        """The body's formulas, with how many arguments each takes."""
-        return {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
-
-    def put_in(self, expr: Any) -> Any:
-        """Calls of the sheet's formulas replaced by what they stand for, each proven."""
-        while calls := expr.atoms(AppliedUndef):
-            call = min(calls, key=lambda c: (len(str(c)), str(c)))
-            assert self.body is not None
-            known = self.body.sheet[call.func.__name__]
-            formula = self.body.formula(known.name).xreplace({e: M / P})
-            table = dict(zip(known.arguments, call.args, strict=True))
-            expr = expr.xreplace({call: at(formula.subs(table, simultaneous=True), *_EDGES)})
-        expr = proper(expr)
-        return expr.doit() if expr.has(Derivative, Limit) else expr
-
-    def conditions(self, expr: Expr) -> Iterator[Boolean]:
-        """Where the formulas that are called in an expression are defined."""
-        for call in sorted(expr.atoms(AppliedUndef), key=str):
-            known = self.sheet[call.func.__name__]  # type: ignore[index]
-            table = dict(zip(known.arguments, call.args, strict=True))
-            for condition in known.conditions:
-                yield self.put_in(condition.subs(table, simultaneous=True))
-        for value in sorted(expr.atoms(PrincipalValue), key=str):
-            for over in _integrals(self.put_in(value)):
-                if over.limits[-1][0].name.endswith(FROM_POLE):
-                    yield over.limits[-1][2] > 0
-
-
-@dataclass(frozen=True)
-class _Meant:
-    """What the source's symbols are.
-
-    written  as the file says it, other symbols put in and calls left as they are
-    ours     in variables alone
-    lost     names of symbols that are defined by themselves
-    """
-
-    written: dict[Symbol, Expr]
-    ours: dict[Symbol, Expr]
-    lost: set[str] = field(default_factory=set)
-
-
 @dataclass
 class _File:
     """A claims file as it is read; mistakes are noted, and told together at the end."""
@@ -252,7 +168,7 @@ class _File:
     text: str = ""
     ranges: dict[Symbol, Range] = field(default_factory=dict)
     declared: dict[str, Expr] = field(default_factory=dict)
-    contexts: dict[str, _Context] = field(default_factory=dict)
+    contexts: dict[str, Context] = field(default_factory=dict)
     mistakes: list[UserError] = field(default_factory=list)
     readings: list[Reading] = field(default_factory=list)
     read: dict[str, tuple[Expr, Expr]] = field(default_factory=dict)
@@ -271,7 +187,7 @@ class _File:
         self.seconds = _SECONDS
         with self._noted():
             self.seconds = self._limit()
-        self.context = _Context(None, _FROM_THE_START, {})
+        self.context = Context(None, _FROM_THE_START, {})
         with self._noted():
             self.context = self._context(self.data.get("body"), self.name)
         with self._noted():
@@ -286,14 +202,14 @@ class _File:
         demand_none(self.mistakes)
         return Paper(str(self.data.get("title", self.name)), claims)
 
-    def _context(self, given: object, where: str) -> _Context:
+    def _context(self, given: object, where: str) -> Context:
         """The body that is named, or written down, with all variables; each is derived once."""
         key = repr(given)
         if key not in self.contexts:
             body = self._body(given, where)
             own = {q.name: q.symbol for q in body.sheet.geometry.parameters} if body else {}
             variables = {**_FROM_THE_START, **own, **self.declared}
-            self.contexts[key] = _Context(body, variables, self.units)
+            self.contexts[key] = Context(body, variables, self.units)
         return self.contexts[key]
 
     def _body(self, given: object, where: str) -> Body | None:
@@ -347,7 +263,7 @@ class _File:
                     symbol = taken.get(name, Symbol(name))
                     if symbol not in self.units and symbol not in self.context.parameters.values():
                         self._say_unit(symbol, said, f"{where}, the symbol {name!r}")
-                if name in taken and not (name in _PLACES and _formula_of(said)):
+                if name in taken and not (name in PLACES and _formula_of(said)):
                     if _formula_of(said):
                         what = "a variable" if name in self.declared else "a parameter of the body"
                         why = f"{where}, the symbol {name!r} is {what} already"
@@ -355,15 +271,15 @@ class _File:
                     del self.symbols[name]  # it is that variable
         with self._noted():
             self._spellings(self._names(self.name, self.symbols, self.context))
-        self.meant = dict[str, _Meant]()
+        self.meant = dict[str, Meant]()
         if not self.mistakes:
             self._meant(self.context)
 
-    def _meant(self, context: _Context, own: Mapping[str, Any] | None = None) -> _Meant:
+    def _meant(self, context: Context, own: Mapping[str, Any] | None = None) -> Meant:
         """What all symbols are, with a body and in one claim; each mistake is noted once."""
         key = repr((id(context), sorted((own or {}).items(), key=str)))
         if key not in self.meant:
-            self.meant[key] = _Meant({}, {})
+            self.meant[key] = Meant({}, {})
             symbols = {**self.symbols, **(own or {})}
             for name in symbols:
                 with self._noted():
@@ -374,8 +290,8 @@ class _File:
         self,
         name: str,
         symbols: Mapping[str, Any],
-        context: _Context,
-        meant: _Meant,
+        context: Context,
+        meant: Meant,
         outer: tuple[str, ...],
     ) -> bool:
         """Whether a symbol has a meaning, which is put to the others, those it needs first."""
@@ -459,7 +375,7 @@ class _File:
         assert isinstance(symbol, Symbol)
         self.declared[name] = symbol
         self._say_unit(symbol, self.data["variables"][name], f"variable {name!r}")
-        if span != SCALE or name in _PLACES:
+        if span != SCALE or name in PLACES:
             self.ranges[symbol] = span
 
     def _say_unit(self, symbol: Symbol, said: object, where: str) -> None:
@@ -470,7 +386,7 @@ class _File:
         except BadUnit as error:
             raise self._bad(f"{where}: {error.message}", "write a unit such as N/m") from error
 
-    def _mismatch(self, context: _Context, meant: _Meant, text: str, names: Names) -> str:
+    def _mismatch(self, context: Context, meant: Meant, text: str, names: Names) -> str:
         """What does not fit in the units of an equation, judged or not."""
         try:
             left, _, right = self._in_time(names.where, lambda: equation(text, names, rough=True))
@@ -531,13 +447,13 @@ class _File:
             return Claim(unchecked=f"{error.why}: {error.remedy}", source=text, **common)
 
     def _judged(
-        self, read: "_Read", context: _Context, meant: _Meant, common: dict[str, Any]
+        self, read: "_Read", context: Context, meant: Meant, common: dict[str, Any]
     ) -> Claim:
         """A claim that can be judged."""
         given, where, left, right = read.given, read.where, read.left, read.right
-        calls = _calls(left, right)
-        named = {call: Symbol(_as_text(call)) for call in calls}
-        put = _Put(context, named, meant.ours)
+        calls = calls_in(left, right)
+        named = {call: Symbol(as_text(call)) for call in calls}
+        put = Put(context, named, meant.ours)
         left, right = (put.without_calls(side) for side in (left, right))
         called = {**meant.ours, **put.called(meant.ours)}
         self._demand_bound(where, left, right, called)
@@ -574,8 +490,8 @@ class _File:
         )
 
     def _follows(
-        self, given: Mapping[str, Any], where: str, symbols: Mapping[str, Any], meant: _Meant
-    ) -> _Meant:
+        self, given: Mapping[str, Any], where: str, symbols: Mapping[str, Any], meant: Meant
+    ) -> Meant:
         """What the symbols are if other claims are true, and open ones are free."""
         listed = given["given"]
         if not isinstance(listed, list) or not all(isinstance(each, str) for each in listed):
@@ -600,10 +516,10 @@ class _File:
             table = {s: expr.xreplace(table) for s, expr in table.items()}
         if any(expr.free_symbols & table.keys() for expr in table.values()):
             raise self._bad(f"{where}: what is given goes round in a circle", "leave one out")
-        return _Meant(table, {**free, **{s: expr.xreplace(free) for s, expr in table.items()}})
+        return Meant(table, {**free, **{s: expr.xreplace(free) for s, expr in table.items()}})
 
     def _conditions(
-        self, read: "_Read", context: _Context, meant: _Meant, held: set[Symbol]
+        self, read: "_Read", context: Context, meant: Meant, held: set[Symbol]
     ) -> tuple[Boolean, ...]:
         """Where the formulas called are defined, and what the claim requires, in ours."""
         found = set[Boolean]()
@@ -614,14 +530,14 @@ class _File:
             names = self._names(f"{read.where}: require", [s.name for s in meant.ours], context)
             needed = self._in_time(read.where, partial(read_condition, str(text), names))
             found.add(needed.xreplace(meant.ours))
-        bound = {over.limits[-1][0] for over in _integrals(read.left, read.right)} - held
+        bound = {over.limits[-1][0] for over in integrals(read.left, read.right)} - held
         kept = [each for each in found if each != true and not each.free_symbols & bound]
         if false in found:
             why = f"{read.where}: what it requires is nowhere true"
             raise self._bad(why, "mend require, or the arguments of the formulas called")
         return tuple(sorted(kept, key=str))
 
-    def _toward(self, read: "_Read", context: _Context, meant: _Meant) -> tuple[Expr, Expr] | None:
+    def _toward(self, read: "_Read", context: Context, meant: Meant) -> tuple[Expr, Expr] | None:
         if "as" not in read.given:
             return None
         names = self._names(f"{read.where}: as", [s.name for s in meant.ours], context)
@@ -635,7 +551,7 @@ class _File:
             raise self._bad(f"{where}: order = {order!r} is no order", "write a number, beside as")
         return None if order is None else float(order)
 
-    def _rounded(self, read: "_Read", context: _Context, put: "_Put") -> Rounded | None:
+    def _rounded(self, read: "_Read", context: Context, put: Put) -> Rounded | None:
         """The one constant of three digits or more that is a factor of a side, if there is one."""
         found = rounded_in(read.text)
         if len(found) != 1:
@@ -668,7 +584,7 @@ class _File:
         )
         return Claim(unchecked=why, source=error.understood, **common)
 
-    def _names(self, where: str, symbols: Iterable[str], context: _Context) -> Names:
+    def _names(self, where: str, symbols: Iterable[str], context: Context) -> Names:
         """What a printed equation may hold: the source's symbols, and the variables."""
         known = {**context.variables, **{name: Symbol(name) for name in symbols}}
         return Names(where, known, context.arities)
@@ -712,9 +628,9 @@ class _File:
         """No variable of integration that means something outside its integral, places apart."""
         held = _variables(left, right, meaning)
         meant = (meaning[s] for s in left.free_symbols | right.free_symbols if s in meaning)
-        for over in _integrals(left, right, *meant):
+        for over in integrals(left, right, *meant):
             along = over.limits[-1][0]
-            if along in _PLACES.values() or along not in held | meaning.keys():
+            if along in PLACES.values() or along not in held | meaning.keys():
                 continue
             why = f"{where}: {along} is a variable of integration and also used outside"
             raise self._bad(why, "integrate along another letter, s or xi")
@@ -723,8 +639,8 @@ class _File:
         self,
         given: Mapping[str, Any],
         where: str,
-        put: "_Put",
-        context: _Context,
+        put: Put,
+        context: Context,
     ) -> tuple[Convention, ...]:
         made = []
         listed = given.get("conventions", [])
@@ -805,31 +721,6 @@ class _Read:
     right: Expr
 
 
-@dataclass(frozen=True)
-class _Put:
-    """How the calls of a printed equation are put in: each is a symbol in it, printed as a call."""
-
-    context: _Context
-    named: Mapping[Expr, Symbol]
-    meaning: Meaning
-
-    def stands_for(self, call: Expr, meaning: Meaning) -> Expr:
-        """A call, what its arguments mean put in, written out."""
-        return self.context.put_in(call.xreplace(dict(meaning)))
-
-    def called(self, meaning: Meaning) -> Meaning:
-        """What the calls stand for."""
-        return {symbol: self.stands_for(call, meaning) for call, symbol in self.named.items()}
-
-    def without_calls(self, side: Expr) -> Expr:
-        """A printed side with calls as symbols; put in where they change along an integral."""
-        for over in _integrals(side):
-            table = {call: self.stands_for(call, self.meaning) for call in _calls_along(over)}
-            inside = Integral(over.function.xreplace(table), *over.limits)
-            side = side.xreplace({over: inside})
-        return side.xreplace(dict(self.named))
-
-
 @cache
 def _own_body(profile: str, units: tuple[tuple[str, str], ...]) -> Body:
     """A body whose profile stands in the file, as text of which nothing is executed."""
@@ -847,20 +738,6 @@ def _may_be_rough(given: Mapping[str, Any], text: str) -> bool:
     return "as" in given or may_be_rounded(text)
 
 
-def _as_text(call: Expr) -> str:
-    """A call, a derivative or a limit as it is typed."""
-    if isinstance(call, Derivative):
-        (along, times) = call.variable_count[0]
-        return f"diff({call.expr}, {along}" + (f", {times})" if times != 1 else ")")
-    if isinstance(call, PrincipalValue):
-        return f"pv({', '.join(map(str, call.args))})"
-    if isinstance(call, ToInfinity):
-        return f"integral({', '.join(map(str, call.args))}, oo)"
-    if isinstance(call, Limit):
-        return f"limit({', '.join(map(str, call.args[:3]))})"
-    return str(call)
-
-
 def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str]) -> Claim:
     """A claim with symbols of which nobody has said what they are."""
     listed = ", ".join(names)
@@ -871,38 +748,15 @@ def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str])
     return Claim(unchecked=why, source=str(printed), **common)
 
 
-_EDGES = (Symbol("a", real=True), Symbol("c", real=True))
-
-
 def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
     """What both sides, or what their symbols stand for, depend on; some may cancel in the end."""
     held = left.free_symbols | right.free_symbols
     return set().union(*(meaning.get(symbol, symbol).free_symbols for symbol in held))
 
 
-def _integrals(*exprs: Expr) -> list[Integral]:
-    return sorted({over for expr in exprs for over in expr.atoms(Integral)}, key=str)
-
-
-_CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
-
-
-def _calls(*exprs: Expr) -> list[Expr]:
-    """Calls of the sheet's formulas, and what is computed once they are put in: outermost ones."""
-    found = {call for expr in exprs for call in expr.atoms(*_CALLS)}
-    inner = {call for one in found for call in one.atoms(*_CALLS) - {one}}
-    return sorted(found - inner, key=str)
-
-
-def _calls_along(over: Integral) -> list[Expr]:
-    """Calls under an integral that change along it."""
-    along = {limit[0] for limit in over.limits}
-    return [call for call in _calls(over.function) if call.free_symbols & along]
-
-
 def _places(held: set[Symbol]) -> dict[Symbol, Range]:
     """Places that nobody gave a range are drawn on both sides of zero."""
-    return {place: SIGNED for place in _PLACES.values() if place in held}
+    return {place: SIGNED for place in PLACES.values() if place in held}
 
 
 def _is_bound(given: object) -> TypeGuard[float]:
