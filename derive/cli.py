@@ -300,7 +300,7 @@ def generate(
 @click.option(
     "--format",
     "form",
-    type=click.Choice(["table", "json", "markdown", "latex"]),
+    type=click.Choice(["table", "json", "markdown", "latex", "html"]),
     default="table",
     help="How the findings are written.",
 )
@@ -318,8 +318,14 @@ def generate(
     metavar="NEW",
     help="FILE is a paper in LaTeX: read its displays, and write the claims file NEW.",
 )
+@click.option("--inline", is_flag=True, help="With --draft: relations in the text's lines, too.")
 def check(
-    file: Path | None, form: str, explain: str | None, accepting: bool, drafted: Path | None
+    file: Path | None,
+    form: str,
+    explain: str | None,
+    accepting: bool,
+    drafted: Path | None,
+    inline: bool,
 ) -> None:
     """Check a paper's algebra: what is printed against what follows, claim by claim.
 
@@ -328,8 +334,10 @@ def check(
     verdict is not the one expected.
     """
     if drafted is not None:
-        _draft(file, drafted)
+        _draft(file, drafted, inline)
         return
+    if inline:
+        raise click.UsageError("--inline goes with --draft")
     if accepting:
         _accept(file, explain)
         return
@@ -350,6 +358,10 @@ def check(
         click.echo(report.as_markdown(paper, findings))
     elif form == "latex":
         click.echo(report.as_latex(paper, findings))
+    elif form == "html":
+        from derive.paper.page import as_html
+
+        click.echo(as_html(paper, findings))
     elif explain is not None:
         _print(view.explained(findings[0]))
     else:
@@ -361,7 +373,7 @@ def check(
         sys.exit(FELL_SHORT)
 
 
-def _draft(file: Path | None, new: Path) -> None:
+def _draft(file: Path | None, new: Path, inline: bool) -> None:
     """Read a paper's displays and write them down as claims."""
     from derive.paper.draft import draft, write
 
@@ -370,10 +382,12 @@ def _draft(file: Path | None, new: Path) -> None:
     if new.exists():
         raise click.UsageError(f"{new} is there already: name a new file by --draft")
     with _console(stderr=True).status("reading the displays"):
-        made = draft(file)
+        made = draft(file, inline)
     write(made, new)
     click.echo(f"{made.environments} displays, {len(made.parts)} statements in them")
+    named, symbols = made.named
     click.echo(f"Wrote {_shown(new.absolute())}: {made.understood} read")
+    click.echo(f"{symbols} symbols, {named} with a proposal")
     for line in made.unread:
         click.echo(f"not read: {line}")
 

@@ -108,6 +108,7 @@ _DIFF = {"+": "green", "-": "red", "@": "cyan"}
 
 _VERDICTS = {
     "holds": "green",
+    "by definition": "green",
     "numerical": "yellow",
     "convention": "magenta",
     "fails": "bold red",
@@ -127,6 +128,7 @@ def checked(paper: "Paper", findings: "Sequence[Finding]") -> Group:
         table.add_row(Text(row.label, style="cyan"), row.place, verdict, finding.claim.says)
     parts: list[RenderableType] = [table]
     parts += [Text(f"sign of the {line}", style="dim") for line in report.signs(paper, findings)]
+    parts += [Text(line, style="bold red") for line in report.units(findings)]
     parts += [Text(line) for line in report.reasons(findings)]
     parts += map(_erratum, report.errata(findings))
     return Group(*parts, Text(report.summary(findings), style="bold"))

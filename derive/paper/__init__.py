@@ -12,10 +12,20 @@
     zero         an expression               whether it vanishes identically, by exact steps alone
     repair       a printed equation          others that a slip of the pen could have made of it
     exact        a contact and its loads     the permanent stick zone, from its two conditions
+    tending      a claim about a limit       whether both sides come near each other, by what power
+    diagnosis    a false equation            by which constant and powers its sides differ
     verdict      a claim                     Finding: verdict, evidence, the corrected equation
     report       findings                    rows, JSON, Markdown, LaTeX, the errata
+    page         findings                    one page of HTML
+    displays     a LaTeX file                its displays, numbered as LaTeX numbers them
+    statements   a display                   its equations, each with its condition
+    spellings    an equation in LaTeX        its symbols, and what they may be
+    draft        all of these                a claims file to work through
+    accept       a claims file               the same with readings that a person has accepted
     formula      a user's text               an equation; only what the white list knows
-    latex        a user's LaTeX              an equation, if it can be read in one way only
+    latex        a user's LaTeX              an equation as text, if it can be read in one way only
+    dimensions   an equation, known units    the term that does not fit
+    context      a body, symbols, an equation  the equation with its calls put in
     userfile     a claims file in TOML       the claims in it
     andresen2020                             the paper that the method of this project is from
 

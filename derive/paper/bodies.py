@@ -11,6 +11,7 @@ from sympy import Abs, Expr, Symbol, atan, atan2, powsimp
 
 from derive.derivation import derive_sheet
 from derive.errors import NotProven
+from derive.geometry import Geometry
 from derive.library import load_geometry
 from derive.proof.numerical import NumericalRoutes
 from derive.proof.symbolic import symbolic_proof
@@ -23,23 +24,33 @@ y = Symbol("y", positive=True)
 """sqrt((c - x)/(a + x)): zero at the right edge, infinite at the left."""
 
 
-@cache
-def _sheet(body: str) -> tuple[FormulaSheet, NumericalRoutes]:
-    sheet = derive_sheet(load_geometry(body))
-    return sheet, NumericalRoutes(sheet)
+class Body:
+    """A geometry with its sheet, whose formulas are proven before they are handed out."""
+
+    def __init__(self, geometry: Geometry) -> None:
+        self.sheet: FormulaSheet = derive_sheet(geometry)
+        self._routes = NumericalRoutes(self.sheet)
+        self._known: dict[str, Expr] = {}
+
+    def formula(self, name: str) -> Expr:
+        """A formula, proven symbolically, else to 30 digits; raises NotProven."""
+        if name not in self._known:
+            proof = symbolic_proof(self.sheet, name) or self._routes.proof(name)
+            if proof is None or not proof.holds:
+                raise NotProven(f"{name} of {self.sheet.geometry.name!r}: {proof}")
+            self._known[name] = self.sheet.flat(name)
+        return self._known[name]
 
 
 @cache
+def of_library(name: str) -> Body:
+    """A body of the library."""
+    return Body(load_geometry(name))
+
+
 def formula(body: str, name: str) -> Expr:
-    """A formula of a body of the library, proven symbolically, else to 30 digits.
-
-    Raises NotProven.  Both routes of every formula are gone through when modules are generated.
-    """
-    sheet, routes = _sheet(body)
-    proof = symbolic_proof(sheet, name) or routes.proof(name)
-    if proof is None or not proof.holds:
-        raise NotProven(f"{name} of {body!r}: {proof}")
-    return sheet.flat(name)
+    """A formula of a body of the library; both routes of each are gone through in generating."""
+    return of_library(body).formula(name)
 
 
 def parameter_of(body: str, name: str) -> Symbol:

@@ -11,6 +11,7 @@ from enum import StrEnum
 
 from mpmath import mpf
 from sympy import Abs, Expr, Rational, S, Symbol
+from sympy.logic.boolalg import Boolean
 
 Meaning = Mapping[Symbol, Expr]
 Point = dict[Symbol, mpf]
@@ -23,6 +24,7 @@ class Verdict(StrEnum):
 
     HOLDS = "holds"
     NUMERICAL = "numerical"
+    DEFINITION = "by definition"
     CONVENTION = "convention"
     FAILS = "fails"
     UNCHECKED = "unchecked"
@@ -114,6 +116,18 @@ FRACTION = Range(0.05, 0.95)
 
 
 @dataclass(frozen=True)
+class Rounded:
+    """A constant that is printed rounded, and is a factor of one side.
+
+    power: of the constant in the right side over the left one
+    """
+
+    value: Rational
+    half: Rational
+    power: int
+
+
+@dataclass(frozen=True)
 class Claim:
     """One part of one displayed equation, or one statement of the text.
 
@@ -127,6 +141,13 @@ class Claim:
     meaning      what the symbols stand for, in ours
     against      what it is compared with, in words
     ranges       where ours are drawn; those not named are positive and drawn by SCALE
+    conditions   what must be true, in ours, of every point that is looked at
+    defined      whether both sides are one expression once the file's own definitions are put in
+    toward       what goes to which end, in ours, for a claim about a limit
+    order        the power of what goes to zero that the difference is of; None: of lower order
+    units        what does not fit in its units, if anything
+    latex        as it is printed, if the file has it so
+    rounded      the one constant that is printed rounded, if there is one
     conventions  maps to try where it does not hold as it stands
     through      two expressions that must agree once `left`, a symbol, is replaced by `right`;
                  for a definition, which by itself says nothing that could be wrong
@@ -154,6 +175,13 @@ class Claim:
     meaning: Meaning = field(default_factory=dict)
     against: str = ""
     ranges: Mapping[Symbol, Range] = field(default_factory=dict)
+    conditions: tuple[Boolean, ...] = ()
+    defined: bool = False
+    toward: tuple[Expr, Expr] | None = None
+    order: float | None = None
+    units: str = ""
+    latex: str = ""
+    rounded: Rounded | None = None
     conventions: tuple[Convention, ...] = ()
     through: tuple[Expr, Expr] | None = None
     samples: Mapping[Symbol, Sample] = field(default_factory=dict)

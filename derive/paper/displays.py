@@ -20,7 +20,20 @@ _START = re.compile(
 _LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _TAG = re.compile(r"\\tag\*?\s*\{([^{}]*)\}")
 _UNNUMBERED = re.compile(r"\\(?:nonumber|notag)(?![A-Za-z])")
-_MACRO = re.compile(r"\\(?:re)?newcommand\*?\s*\{?(\\[A-Za-z]+)\}?\s*\{((?:[^{}]|\{[^{}]*\})*)\}")
+_MACRO = re.compile(
+    r"\\(?:(?:re|provide)?newcommand|DeclareMathOperator)\*?\s*\{?\s*(\\[A-Za-z]+)\s*\}?"
+    r"\s*(?:\[([1-9])\])?\s*(?=\{)|\\def\s*(\\[A-Za-z]+)\s*(?=\{)"
+)
+_INLINE = re.compile(r"(?<![\\$])\$([^$]+)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
+_RELATION = re.compile(
+    r"[^\s{(]\s*(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))\s*[^\s})]"
+)
+_LONGEST_LINE = 300
+"""Characters of a statement in the text."""
+_EXPANDED = 20_000
+"""Characters that a display may have once its macros are written out."""
+_PASSES = 10
+"""Macros inside each other that are written out."""
 
 
 @dataclass(frozen=True)
@@ -28,33 +41,56 @@ class Display:
     """One display, or of several rows those that go together.
 
     number  as printed, without parentheses; "" where it has none
-    label   of \\label; "" where it has none
+    labels  of \\label, in their order
     line    of the file, from 1
-    latex   as it stands, comments left out and macros without arguments written out
+    latex   as it stands, comments left out and macros written out
     """
 
     number: str
-    label: str
+    labels: tuple[str, ...]
     line: int
     latex: str
 
 
-def displays(path: Path) -> tuple[list[Display], int]:
-    """The displays of a file and how many environments they are; raises BadClaimsFile."""
+@dataclass(frozen=True)
+class Source:
+    """A LaTeX file as it is read.
+
+    found         displays, and statements of the text where they are asked for
+    environments  how many displays there are
+    text          without comments
+    """
+
+    found: list[Display]
+    environments: int
+    text: str
+
+
+def displays(path: Path, inline: bool = False) -> Source:
+    """The displays of a file, and relations in its lines if asked; raises BadClaimsFile."""
     text = _without_comments(_text(path))
-    start = text.find(r"\begin{document}")
-    macros = dict(_MACRO.findall(text[: max(start, 0)]))
-    found, environments = list[Display](), 0
-    for body, kind, at, numbers in _bodies(str(path), text, max(start, 0)):
+    start = max(text.find(r"\begin{document}"), 0)
+    macros = _macros(text[:start])
+    found, environments, between, done = list[Display](), 0, list[tuple[int, int]](), start
+    for body, kind, at, numbers, outer in _bodies(str(path), text, start):
         environments += 1
         if environments > _MOST:
             raise BadClaimsFile(str(path), f"has more than {_MOST} displays", "split it")
+        between.append((done, outer[0]))
+        done = outer[1]
         for offset, latex, number in _groups(body, kind, numbers):
-            label = _LABEL.search(latex)
-            shown = _expanded(latex, macros).strip()
+            labels = tuple(each[1] for each in _LABEL.finditer(latex))
             line = text.count("\n", 0, at + offset) + 1
-            found.append(Display(number, label[1] if label else "", line, shown))
-    return found, environments
+            found.append(Display(number, labels, line, _expanded(latex, macros).strip()))
+    if inline:
+        for one, other in [*between, (done, len(text))]:
+            for each in _INLINE.finditer(text, one, other):
+                latex = each[1] or each[2]
+                if _RELATION.search(latex) and len(latex) < _LONGEST_LINE:
+                    line = text.count("\n", 0, each.start()) + 1
+                    found.append(Display("", (), line, _expanded(latex, macros).strip()))
+        found = sorted(found, key=lambda each: each.line)[:_MOST]
+    return Source(found, environments, text)
 
 
 def _text(path: Path) -> str:
@@ -74,9 +110,56 @@ def _without_comments(text: str) -> str:
     return re.sub(r"(?<!\\)((?:\\\\)*)%[^\n]*", r"\1", text)
 
 
-def _expanded(latex: str, macros: dict[str, str]) -> str:
-    """Macros without arguments written out, once: one inside another stays as it is."""
-    return re.sub(r"\\[A-Za-z]+", lambda found: macros.get(found[0], found[0]), latex)
+def _macros(text: str) -> dict[str, tuple[int, str]]:
+    """Macros with how many arguments they take, and what they are written out as."""
+    found = {}
+    for each in _MACRO.finditer(text):
+        end = _closed(text, each.end())
+        body = text[each.end() + 1 : end - 1]
+        if "DeclareMathOperator" in each[0]:
+            body = rf"\operatorname{{{body}}}"
+        found[each[1] or each[3]] = (int(each[2] or 0), body)
+    return found
+
+
+def _closed(text: str, at: int) -> int:
+    """Where the group in braces, or the one token, that starts at a place ends."""
+    if text[at : at + 1] != "{":
+        found = re.match(r"\\[A-Za-z]+|.", text[at:], re.DOTALL)
+        return at + (found.end() if found else 0)
+    depth = 0
+    for found in re.finditer(r"(?<!\\)[{}]", text[at:]):
+        depth += 1 if found[0] == "{" else -1
+        if depth == 0:
+            return at + found.end()
+    return len(text)
+
+
+def _expanded(latex: str, macros: dict[str, tuple[int, str]]) -> str:
+    """Macros written out, as far as the display does not become too long."""
+    for _ in range(_PASSES):
+        made, place = list[str](), 0
+        for found in re.finditer(r"\\[A-Za-z]+", latex):
+            if found.start() < place or found[0] not in macros:
+                continue
+            count, body = macros[found[0]]
+            end = found.end()
+            for n in range(1, count + 1):
+                start = end + len(latex[end:]) - len(latex[end:].lstrip())
+                end = _closed(latex, start)
+                given = latex[start:end]
+                inner = given[1:-1] if given[:1] == "{" else given
+                body = body.replace(f"#{n}", inner)
+            after = " " if not count and latex[end : end + 1].isalpha() else ""
+            made += [latex[place : found.start()], body, after]
+            place = end
+        if not made:
+            break
+        made.append(latex[place:])
+        if sum(map(len, made)) > _EXPANDED:
+            break
+        latex = "".join(made)
+    return latex
 
 
 class _Numbers:
@@ -94,7 +177,10 @@ class _Numbers:
         return str(self.count)
 
 
-def _bodies(name: str, text: str, start: int) -> Iterator[tuple[str, str, int, _Numbers]]:
+def _bodies(
+    name: str, text: str, start: int
+) -> Iterator[tuple[str, str, int, _Numbers, tuple[int, int]]]:
+    """What stands in each display, its kind, where, the counter, and where all of it stands."""
     numbers, place = _Numbers(), start
     while found := _START.search(text, place):
         place = found.end()
@@ -112,7 +198,7 @@ def _bodies(name: str, text: str, start: int) -> Iterator[tuple[str, str, int, _
             raise BadClaimsFile(f"{name}:{line}", f"{found[0]} is not closed", f"add {close}")
         if kind.startswith("alignat") and (columns := re.match(r"\s*\{\d+\}", text[place:end])):
             place += columns.end()
-        yield text[place:end], kind, place, numbers
+        yield text[place:end], kind, place, numbers, (found.start(), end + len(close))
         place = end + len(close)
 
 

@@ -3,6 +3,7 @@ accepted what was understood and said what the symbols are.
 """
 
 import os
+import re
 from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,16 +13,44 @@ from sympy import Symbol
 from derive.errors import BadClaimsFile, BadFormula
 from derive.limit import LimitReached, within
 from derive.paper.displays import Display, displays
-from derive.paper.formula import Names, equation
+from derive.paper.formula import Names, approach, condition, equation, may_be_rounded
 from derive.paper.latex import Latex
 from derive.paper.lines import quoted
-from derive.paper.spellings import proposal, spellings
+from derive.paper.spellings import (
+    described,
+    proposal,
+    spellings,
+    standing_alone,
+    unclear_call,
+    words_for,
+)
 from derive.paper.statements import Statement, statements
 
 _SECONDS = 10.0
 """Seconds that the reading of one equation may take."""
 _KNOWN = frozenset({"E_star", "f", "x", "s", "xi"})
 """Names that a claims file has from the start."""
+
+
+_HEAD = """
+# A symbol is a formula, P = { is = 'load(a, c)' }, or a number drawn at random: then move it to
+# [variables].  Rename `proposal` to `is` where it is right.  A unit that is given is followed.
+# Then derive check THIS --accept, and derive check THIS.
+# body = 'hertz'           # whose formulas may be called
+
+[variables]                # drawn at random, as R = 'radius'
+
+[symbols]"""
+
+
+@dataclass(frozen=True)
+class _Read:
+    """What was made of a statement: text, the condition printed with it, and what is open."""
+
+    understood: str = ""
+    require: str = ""
+    limit: str = ""
+    why: str = ""
 
 
 @dataclass(frozen=True)
@@ -31,8 +60,7 @@ class _Part:
     display: Display
     number: int
     count: int
-    understood: str
-    why: str
+    read: _Read
 
 
 @dataclass
@@ -40,23 +68,41 @@ class Draft:
     """What was read of a paper.
 
     environments  displays of the file
-    read          those of which at least one statement was read
+    spelled       LaTeX of a symbol -> its name
+    said          what the text around says of symbols
     """
 
     name: str
     environments: int
+    said: dict[str, str]
     spelled: dict[str, str] = field(default_factory=dict)
     parts: list[_Part] = field(default_factory=list)
 
     @property
     def unread(self) -> list[str]:
         """Place and reason of every statement that could not be read."""
-        return [f"{self._place(p)}: {p.why}" for p in self.parts if not p.understood]
+        return [
+            f"{self._place(p)}: {p.read.why}"
+            for p in self.parts
+            if not p.read.understood or p.read.why
+        ]
 
     @property
     def understood(self) -> int:
         """Statements that were read."""
-        return sum(bool(part.understood) for part in self.parts)
+        return sum(bool(part.read.understood) for part in self.parts)
+
+    @property
+    def displays_read(self) -> int:
+        """Displays of which every statement was read."""
+        lines = {part.display for part in self.parts}
+        return len(lines - {part.display for part in self.parts if not part.read.understood})
+
+    @property
+    def named(self) -> tuple[int, int]:
+        """Symbols for which there is a proposal, and all."""
+        names = self._names()
+        return sum(bool(self._proposed(name)) for name in names), len(names)
 
     def _place(self, part: _Part) -> str:
         number = f"eq. ({part.display.number}), " if part.display.number else ""
@@ -64,19 +110,13 @@ class Draft:
 
     def text(self) -> str:
         """The claims file."""
-        lines = [
-            f"title = {_text(self.name)}",
-            "# body = ...               # whose formulas the symbols may be, such as hertz",
-            "",
-            "[variables]                # drawn at random, as R = 'radius'",
-            "",
-            "[symbols]                  # write a formula, or move it to [variables]",
-        ]
-        lines += [f"{name} = {_proposed(name)}" for name in self._names()]
+        lines = [f"title = {_text(self.name)}", *_HEAD.splitlines()]
+        lines += [f"{name} = {self._proposed(name) or _NOTHING}" for name in self._names()]
         lines += ["", "[latex]"]
         lines += [f"{quoted(spelled)} = {quoted(name)}" for spelled, name in self.spelled.items()]
         if self.unread:
-            lines += ["", "# Not read:", *(f"#   {_line(each)}" for each in self.unread)]
+            lines += ["", "# Not read, or not all of it:"]
+            lines += [f"#   {_line(each)}" for each in self.unread]
         labels = Counter[str]()
         for part in self.parts:
             lines += ["", *self._claim(part, labels)]
@@ -85,69 +125,139 @@ class Draft:
     def _names(self) -> list[str]:
         return [n for n in dict.fromkeys(self.spelled.values()) if n not in _KNOWN]
 
+    def _proposed(self, name: str) -> str:
+        """A table of what may be said of a symbol; empty where nothing is known."""
+        known = proposal(name)
+        spelled = [latex for latex, own in self.spelled.items() if own == name]
+        words = next(filter(None, (words_for(latex, self.said) for latex in spelled)), "")
+        given = {
+            "proposal": known.formula,
+            "meaning": words or known.meaning,
+            "unit": known.unit,
+        }
+        inside = ", ".join(f"{key} = {_text(text)}" for key, text in given.items() if text)
+        return f"{{ {inside} }}" if inside else ""
+
     def _claim(self, part: _Part, labels: Counter[str]) -> list[str]:
-        display = part.display
-        label = display.label or (f"({display.number})" if display.number else "")
-        label = _line(label or f"line {display.line}")
-        label += f"/{part.number}" if part.count > 1 else ""
+        display, read = part.display, part.read
+        own = part.count > 1 and len(display.labels) == part.count
+        label = display.labels[part.number - 1] if own else ", ".join(display.labels)
+        label = label or (f"({display.number})" if display.number else f"line {display.line}")
+        label = _line(label) + ("" if own or part.count == 1 else f"/{part.number}")
         labels[label] += 1
         label += f" [{labels[label]}]" if labels[label] > 1 else ""
         lines = [
             "[[claims]]",
             f"label = {_text(label)}",
             f"place = {_text(self._place(part))}",
-            f"latex = {_text(display.latex)}",
         ]
+        if words := _words(display.latex):
+            lines.append(f"says = {_text(words)}")
+        lines.append(f"latex = {_text(display.latex)}")
         if part.number:
             lines.append(f"part = {part.number}")
-        if part.understood:
-            lines += [f"understood = {_text(part.understood)}", "accepted = false"]
-        if part.why:
-            lines.append(f"unchecked = {_text(_line(part.why))}")
+        if read.understood:
+            lines += [f"understood = {_text(read.understood)}", "accepted = false"]
+        if read.require:
+            lines.append(f"require = {_text(read.require)}")
+        if read.limit:
+            lines.append(f"as = {_text(read.limit)}")
+        if read.why:
+            lines.append(f"unchecked = {_text(_line(read.why))}")
         return lines
 
 
-def draft(path: Path) -> Draft:
-    """What can be read of a LaTeX file; raises BadClaimsFile if its displays cannot be told."""
-    found, environments = displays(path)
-    if not found:
+_NOTHING = '""'
+
+
+def draft(path: Path, inline: bool = False) -> Draft:
+    """What can be read of a LaTeX file; raises BadClaimsFile if its displays cannot be told.
+
+    inline: whether the relations in the lines of the text are read, too.
+    """
+    source = displays(path, inline)
+    if not source.found:
         raise BadClaimsFile(str(path), "has no displayed equation", "give a paper in LaTeX")
-    made = Draft(path.name, environments)
+    made = Draft(path.name, source.environments, described(source.text))
     known = list[tuple[Display, list[Statement], str]]()
-    for display in found:
+    for display in source.found:
         try:
             known.append((display, statements(path.name, display.latex), ""))
         except (BadFormula, RecursionError) as error:
             known.append((display, [], getattr(error, "why", "nested too deep")))
+    alone = set[str]()
     for _, each, _ in known:
         for statement in each:
-            if r"\begin" not in statement.latex:
+            if not statement.why:
+                alone |= standing_alone(statement.latex)
                 made.spelled.update(spellings(statement.latex))
+                made.spelled.update(spellings(statement.condition))
     for display, each, why in known:
         if not each:
-            made.parts.append(_Part(display, 0, 1, "", why or "no relation stands in it"))
+            read = _Read(why=why or "no relation stands in it")
+            made.parts.append(_Part(display, 0, 1, read))
         for number, statement in enumerate(each, 1):
-            understood, reason = _read(statement, made.spelled)
-            made.parts.append(_Part(display, number, len(each), understood, reason))
+            made.parts.append(
+                _Part(display, number, len(each), _read(statement, made.spelled, alone))
+            )
     return made
 
 
-def _read(statement: Statement, spelled: dict[str, str]) -> tuple[str, str]:
-    """The statement as text, and why it is not judged, if it is not."""
-    if statement.why and not statement.is_rough:
-        return "", statement.why
+def _read(statement: Statement, spelled: dict[str, str], alone: set[str]) -> _Read:
+    """The statement as text with its condition, and why it is not judged, if it is not."""
+    if statement.why:
+        return _Read(why=statement.why)
+    if called := unclear_call(statement.latex, spelled, alone):
+        why = (
+            f"{called} is a function elsewhere: whether it is called or multiplied here is unclear"
+        )
+        return _Read(why=f"{why}, write the claim as text")
+    names = Names("", {n: Symbol(n) for n in spelled.values()}, {})
     try:
         with within(_SECONDS):
             understood = Latex("the draft", statement.latex, spelled).understood()
-            if not statement.is_rough:
-                equation(understood, Names("", {n: Symbol(n) for n in spelled.values()}, {}))
+            equation(understood, names, rough=statement.is_rough)
     except BadFormula as error:
-        return "", f"{error.why}: {error.remedy}"
+        return _Read(why=f"{error.why}: {error.remedy}")
     except LimitReached:
-        return "", f"not read within {_SECONDS:g} s"
+        return _Read(why=f"not read within {_SECONDS:g} s")
     except RecursionError:
-        return "", "nested too deep"
-    return understood, statement.why
+        return _Read(why="nested too deep")
+    require, limit, why = _conditions(statement.condition, spelled, names)
+    if statement.is_rough and not limit and not why and not may_be_rounded(understood):
+        why = "printed as an approximation: say where it is one, as = 'x -> 0', or write it with ="
+    return _Read(understood, require, limit, why)
+
+
+def _conditions(latex: str, spelled: dict[str, str], names: Names) -> tuple[str, str, str]:
+    """A condition, or what goes where, as text; and why neither could be read."""
+    if not latex.strip():
+        return "", "", ""
+    told, limit = list[str](), ""
+    for part in re.split(r",|\\andword", latex):
+        reading = Latex("the draft", part.strip(" ,.;"), spelled)
+        try:
+            if r"\to" in part:
+                limit = reading.approach()
+                approach(limit, names)
+            else:
+                told.append(reading.condition())
+                condition(told[-1], names)
+        except BadFormula:
+            why = f"the condition printed with it, {part.strip()}, is not read: write require"
+            return "", "", why
+    return " and ".join(told), limit, ""
+
+
+def _words(latex: str) -> str:
+    r"""What the display says in words, \text{for} and the like left aside."""
+    found = re.findall(r"\\(?:text|mbox|textrm)\s*\{([^{}]*)\}", latex)
+    words = [" ".join(each.split()).strip(" ,.;") for each in found]
+    return _line(", ".join(each for each in words if len(each) > _SHORT_WORD))
+
+
+_SHORT_WORD = 9
+"""Letters of words that say no more than `otherwise`."""
 
 
 def write(made: Draft, path: Path) -> None:
@@ -159,13 +269,6 @@ def write(made: Draft, path: Path) -> None:
         raise BadClaimsFile(str(path), why, "name a new file by --draft") from error
     with os.fdopen(handle, "w", encoding="utf-8") as file:
         file.write(made.text())
-
-
-def _proposed(name: str) -> str:
-    formula, meaning = proposal(name)
-    given = {"proposal": formula, "meaning": meaning}
-    inside = ", ".join(f"{key} = {_text(text)}" for key, text in given.items() if text)
-    return f"{{ {inside} }}" if inside else '""'
 
 
 def _line(text: str) -> str:

@@ -8,12 +8,14 @@ further   over many decades, next to the ends of ranges, and on both sides of pl
 import hashlib
 import random
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache
 from typing import Any
 
 import mpmath
 import numpy as np
 from mpmath import mpf
 from sympy import Expr, Integral, Symbol, lambdify
+from sympy.logic.boolalg import Boolean
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 
 from derive.paper.claim import SCALE, Claim, Point, Range, Relation
@@ -31,6 +33,8 @@ _WIDE, _AT_ENDS, _CHANGES = 8, 6, 12
 _FEWER_WIDE, _FEWER_AT_ENDS, _FEWER_CHANGES = 3, 2, 4
 _CORNERS, _FEWER_CORNERS = 16, 2
 """Corners of all ranges together that are looked at."""
+_TRIES = 300
+"""Points that are drawn for one that meets the conditions of a claim."""
 _PAST = (0.5, 0.9, 1.1, 2, 6)
 """Parts of a limit of integration at which other variables are looked at."""
 _MOST_PAST = 15
@@ -56,11 +60,38 @@ def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]
         yield {}
         return
     for _ in range(count if count < POINTS or not has_integral(claim) else LEAST):
-        yield {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+        for _ in range(_TRIES if claim.conditions else 1):
+            point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
+            if is_allowed(claim, point):
+                yield point
+                break
+
+
+def is_allowed(claim: Claim, point: Point) -> bool:
+    """Whether a point meets the conditions of a claim."""
+    try:
+        return all(_is_met(each, point) for each in claim.conditions)
+    except (ArithmeticError, TypeError, ValueError):  # no number, or none that is real
+        return False
+
+
+def _is_met(condition: Boolean, point: Point) -> bool:
+    met, held = _for_a_point(condition)
+    return bool(met(*(point[symbol] for symbol in held)))
+
+
+@cache
+def _for_a_point(condition: Boolean) -> tuple[Callable[..., bool], list[Symbol]]:
+    held = sorted(condition.free_symbols, key=in_order)
+    return lambdify(held, condition, modules="mpmath"), held
 
 
 def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     """Points where a claim that holds at moderate ones may not."""
+    yield from (point for point in _further(claim, exprs) if is_allowed(claim, point))
+
+
+def _further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     symbols = variables(claim)
     if claim.cases or claim.samples or not symbols:
         return
@@ -113,6 +144,8 @@ def variables(claim: Claim) -> list[Symbol]:
     sides = claim.sides(claim.left, claim.right)
     held = set().union(*(side.free_symbols for side in sides))
     found: set[Symbol] = set(claim.ranges)
+    for condition in claim.conditions:
+        found |= condition.free_symbols
     for symbol in held:
         found |= claim.meaning.get(symbol, symbol).free_symbols
     return sorted(found - set(claim.samples) - _bound(claim), key=in_order)
@@ -192,10 +225,10 @@ def _past_limits(
     for over in set().union(*(expr.atoms(Integral) for expr in exprs)):
         numbers = [
             limit
-            for limit in over.limits[0][1:]
+            for limit in over.limits[-1][1:]
             if limit.is_real and limit.is_number and limit != 0
         ]
-        held = (over.function.free_symbols - {over.limits[0][0]}) & known
+        held = (over.function.free_symbols - {over.limits[-1][0]}) & known
         wanted |= {(float(limit), symbol) for limit in numbers for symbol in held}
     places = [
         (symbol, part * limit)

@@ -1,55 +1,78 @@
-"""Reads an equation that a user typed; nothing of it is executed.
+"""Reads an equation or a condition that a user typed; nothing of it is executed.
 
-    equation  ::= sum ("=" | "==" | "<" | "<=" | ">" | ">=") sum
-    sum       ::= product (("+" | "-") product)*
-    product   ::= unary (("*" | "/") unary)*
-    unary     ::= ("+" | "-")* power
-    power     ::= primary ("**" unary)?
-    primary   ::= number | name | name "(" sum ("," sum)* ")" | "(" sum ")"
+The grammar is that of g(x), derive.writing.grammar: numbers, names, + - * / **, functions, pairs of
+a Piecewise, conditions.  Names are those that the claims file declares.  Beyond the functions of
+g(x) there are elliptic integrals of the parameter m = k**2, gamma_function, the formulas of the
+body's sheet, which stay calls until they are put in, and
 
-Names are those that the claims file declares; functions are those below, `integral(f, s, low,
-high)`, and the formulas of the body's sheet, which stay calls until they are put in.  Numbers are
-exact.  Every step is held against the limits of derive.writing.
+    integral(f, s, low, high)     pv(f, s, low, high)     sum(f, k, low, high)
+    diff(f, x)    diff(f, x, 2)   limit(f, x, end)
+
+whose variable, if nobody has declared it, is known inside alone.  `oo` may be an end of these.
 """
 
 import operator
 import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from sympy import (
+    Derivative,
     Expr,
-    Function,
     Integral,
-    Rational,
+    Limit,
+    Min,
+    Mul,
+    S,
+    Sum,
     Symbol,
-    elliptic_e,
-    elliptic_k,
-    elliptic_pi,
-    pi,
+    degree,
+    denom,
+    oo,
+    solve,
+    together,
 )
+from sympy import Function as SymPyFunction
+from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadFormula, BadText
 from derive.paper.claim import Relation
-from derive.writing.limits import STEEPEST, fault, reach
-from derive.writing.tokens import END, LONGEST, NAME, NUMBER, Token, tokens
-from derive.writing.vocabulary import FUNCTIONS
+from derive.writing.grammar import Call, Name, Node, parse
+from derive.writing.limits import fault
+from derive.writing.meaning import Meaning, walk
+from derive.writing.tokens import LONGEST
+from derive.writing.vocabulary import FUNCTIONS, Words
+from derive.writing.vocabulary import Function as Known
 
 _DEEPEST = 40
-_DIGITS = 40
-_INTEGRAL = "integral"
+_MOST_TERMS = 200
+"""Terms of a sum that is written out."""
 
-_OF_SYMPY: dict[str, tuple[Callable[..., Expr], int]] = {
-    **{name: (known.of_sympy, 1) for name, known in FUNCTIONS.items() if known.most == 1},
-    "elliptic_k": (elliptic_k, 1),
-    "elliptic_e": (elliptic_e, 1),
-    "elliptic_pi": (elliptic_pi, 2),
+_FUNCTIONS = {
+    **FUNCTIONS,
+    "elliptic_k": Known("elliptic_k"),
+    "elliptic_e": Known("elliptic_e"),
+    "elliptic_pi": Known("elliptic_pi", 2, 2),
+    "gamma_function": Known("gamma"),
 }
-"""Functions and how many arguments they take; elliptic integrals take the parameter m = k**2."""
+_BOUND = {
+    "integral": Known("", 4, 4),
+    "pv": Known("", 4, 4),
+    "sum": Known("", 4, 4),
+    "diff": Known("", 3, 2),
+    "limit": Known("", 3, 3),
+}
+"""Functions with a variable of their own, their second argument."""
+_OWN = frozenset(("integral", "pv", "sum", "limit"))
+"""Those whose variable need not be declared."""
 
-_RELATION = re.compile(r"<=|>=|==|=|<|>|~")
+_ROUNDED_FROM = 3
+"""Digits from which on a decimal number is taken for a rounded one, if it is not right as it is."""
+FROM_POLE = "_from_pole"
+"""How the variable of a folded principal value is called; its upper end must be above zero."""
+_RELATION = re.compile(r"<=|>=|==|=|<|>|~|[(),]")
 _MEANT = {"==": "="}
 
 
@@ -66,22 +89,40 @@ class Names:
     symbols: Mapping[str, Expr]
     calls: Mapping[str, int]
 
+    @cached_property
+    def words(self) -> Words:
+        """The functions that may be called."""
+        calls = {name: Known("", count, count) for name, count in self.calls.items()}
+        return Words({**_FUNCTIONS, **_BOUND, **calls}, of_parameters=False, deepest=_DEEPEST)
+
 
 class UnknownName(BadFormula):
     """A formula that holds a name of which nothing is known yet."""
 
 
-def equation(text: str, names: Names) -> tuple[Expr, Relation, Expr]:
-    """Both sides, and what stands between them; raises BadFormula."""
-    found = list(_RELATION.finditer(text))
+class NoPole(BadFormula):
+    """A principal value whose integrand has not one pole that can be seen."""
+
+
+def equation(text: str, names: Names, rough: bool = False) -> tuple[Expr, Relation, Expr]:
+    """Both sides, and what stands between them; raises BadFormula.
+
+    rough: whether ~ may stand there.
+    """
+    found, depth = list[re.Match[str]](), 0
+    for each in _RELATION.finditer(text):
+        depth += (each[0] == "(") - (each[0] == ")")
+        if depth == 0 and each[0] not in "(),":
+            found.append(each)
     if len(found) != 1:
         column = found[1].start() if found else len(text)
         why = "there are two relations here" if found else "there is no relation here"
         raise BadFormula(names.where, text, column, why, "write left = right, once")
     start, end = found[0].span()
-    if found[0].group() == "~":
-        why = "~ says nothing that could be wrong"
-        raise BadFormula(names.where, text, start, why, "write the leading terms with =")
+    if found[0].group() == "~" and not rough:
+        why = "~ says nothing that could be wrong unless it is said where"
+        remedy = "add as = 'x -> 0' to the claim, or write the leading terms with ="
+        raise BadFormula(names.where, text, start, why, remedy)
     relation = Relation(_MEANT.get(found[0].group(), found[0].group()))
     left = formula(text[:start], names)
     return left, relation, formula(" " * end + text[end:], names)
@@ -89,171 +130,210 @@ def equation(text: str, names: Names) -> tuple[Expr, Relation, Expr]:
 
 def unknown(text: str, names: Names) -> list[str]:
     """All names of a text of which nothing is known."""
-    known = {"pi", _INTEGRAL, *_OF_SYMPY, *names.symbols, *names.calls}
-    found = re.findall(r"(?<![0-9.A-Za-z_])[A-Za-z_][A-Za-z0-9_]*", text)
-    return sorted(set(found) - known)
+    found = set[str]()
+    for part in re.split(r"<=|>=|==|=|~", text):
+        try:
+            found |= _open_names(_tree(part, names), names)
+        except BadText:
+            continue
+    return sorted(found)
+
+
+def _open_names(tree: Node, names: Names) -> set[str]:
+    bound = {
+        node.arguments[1].name
+        for node in walk(tree)
+        if isinstance(node, Call) and node.function in _OWN and isinstance(node.arguments[1], Name)
+    }
+    held = {node.name for node in walk(tree) if isinstance(node, Name)}
+    return held - bound - names.symbols.keys() - {"oo"}
 
 
 def formula(text: str, names: Names) -> Expr:
     """The expression that `text` is; raises BadFormula."""
+    return _read(text, names, lambda reader, tree: reader.value(tree))
+
+
+def condition(text: str, names: Names) -> Boolean:
+    """The condition that `text` is, such as 0 < b and b < w; raises BadFormula."""
+    return _read(text, names, lambda reader, tree: reader.condition(tree))
+
+
+def approach(text: str, names: Names) -> tuple[Expr, Expr]:
+    """What goes where, of "c - x -> 0"; raises BadFormula."""
+    parts = text.split("->")
+    if len(parts) != 2:
+        raise BadFormula(names.where, text, 0, "this is no limit", "write x -> 0")
+    first = formula(parts[0], names)
+    end = parts[1].strip()
+    if end in ("oo", "-oo"):
+        return first, oo if end == "oo" else -oo
+    return first, formula(" " * (len(parts[0]) + 2) + parts[1], names)
+
+
+def _tree(text: str, names: Names) -> Node:
+    return parse(text, names.words)
+
+
+def _read(text: str, names: Names, meant: Callable[["_Reader", Node], Any]) -> Any:
     if len(text) > LONGEST:
         why = f"the formula has {len(text)} characters, {LONGEST} are the most"
         raise BadFormula(names.where, text[:LONGEST], LONGEST, why, "name parts of it as symbols")
     try:
-        return _Reader(text, names).whole()
+        return meant(_Reader(text, names), _tree(text, names))
     except BadText as error:
         raise BadFormula(names.where, text, error.column, error.why, error.remedy) from error
 
 
-class _Reader:
-    """Recursive descent with one token ahead."""
+class _Reader(Meaning):
+    """The values and conditions of one text of a claims file."""
 
     def __init__(self, text: str, names: Names) -> None:
-        self.text, self.names = text, names
-        self._tokens = tokens(text)
-        self.here = next(self._tokens)
-        self._depth = 0
+        super().__init__(text, names.symbols)
+        if "x" not in names.symbols:
+            del self.symbols["x"]
+        self.names = names
 
-    def whole(self) -> Expr:
-        value = self._sum()
-        if self.here.kind != END:
-            raise self._refusal("this is left over", "write an operator before it")
-        return value
-
-    def _sum(self) -> Expr:
-        return self._chain(self._product, {"+": operator.add, "-": operator.sub})
-
-    def _product(self) -> Expr:
-        return self._chain(self._unary, {"*": operator.mul, "/": operator.truediv})
-
-    def _chain(self, part: Callable[[], Expr], known: Mapping[str, Callable[..., Any]]) -> Expr:
-        value = part()
-        while self.here.among(*known):
-            sign = self._take()
-            value = self._step(sign, known[sign.text], value, part())
-        return value
-
-    def _unary(self) -> Expr:
-        negative = False
-        while self.here.among("-", "+"):
-            negative ^= self._take().text == "-"
-        value = self._power()
-        return -value if negative else value
-
-    def _power(self) -> Expr:
-        base = self._primary()
-        if not self.here.among("**"):
-            return base
-        sign = self._take()
-        exponent = self._deeper(sign, self._unary)
-        if reach(exponent) > STEEPEST:
-            raise self._refusal("the exponent is too large", f"stay below {STEEPEST}", sign)
-        return self._step(sign, operator.pow, base, exponent)
-
-    def _primary(self) -> Expr:
-        token = self.here
-        if token.kind == NUMBER:
-            return self._number()
-        if token.kind == NAME:
-            return self._named()
-        if token.among("("):
-            self._take()
-            value = self._deeper(token, self._sum)
-            self._close()
-            return value
-        raise self._refusal("a number, a name or ( is missing here", "complete the formula")
-
-    def _number(self) -> Expr:
-        mantissa, _, power = self.here.text.lower().partition("e")
-        if len(mantissa) > _DIGITS or len(power) > 3:
-            raise self._refusal("the number is too long", f"write at most {_DIGITS} digits")
-        value = Fraction(self._take().text)
-        return Rational(value.numerator, value.denominator)
-
-    def _named(self) -> Expr:
-        token = self._take()
-        if self.here.among("("):
-            return self._call(token)
-        if token.text == "pi":
-            return pi
-        if token.text not in self.names.symbols:
+    def named(self, node: Name) -> Expr:
+        """What a name stands for; raises UnknownName."""
+        if node.name not in self.symbols:
             known = ", ".join(sorted(self.names.symbols))
-            why, remedy = f"nothing says what {token.text} is", f"known are {known}"
-            raise UnknownName(self.names.where, self.text, token.column, why, remedy)
-        return self.names.symbols[token.text]
+            why, remedy = f"nothing says what {node.name} is", f"known are {known}"
+            raise UnknownName(self.names.where, self.text, node.column, why, remedy)
+        return self.symbols[node.name]
 
-    def _call(self, name: Token) -> Expr:
-        wanted = self._arity(name)
-        self._take()
-        arguments = [self._deeper(name, self._sum)]
-        while self.here.among(","):
-            self._take()
-            arguments.append(self._deeper(name, self._sum))
-        self._close()
-        if len(arguments) != wanted:
-            given = f"{name.text} takes {wanted} arguments, here are {len(arguments)}"
-            raise self._refusal(given, "write all of them and no more", name)
-        if name.text == _INTEGRAL:
-            return self._integral(name, *arguments)
-        if name.text in self.names.calls:
-            return Function(name.text)(*arguments)
-        return self._step(name, _OF_SYMPY[name.text][0], *arguments)
+    def call(self, node: Call) -> Expr:
+        """The value of a function, or the call of a formula of the sheet as it stands."""
+        name = node.function
+        if name in _BOUND:
+            return self._bound(node)
+        arguments = [self.value(argument) for argument in node.arguments]
+        if name in self.names.calls:
+            return SymPyFunction(name)(*arguments)
+        return self.step(node.column, _FUNCTIONS[name].of_sympy, *arguments)
 
-    def _arity(self, name: Token) -> int:
-        if name.text == _INTEGRAL:
-            return 4
-        if name.text in self.names.calls:
-            return self.names.calls[name.text]
-        if name.text in _OF_SYMPY:
-            return _OF_SYMPY[name.text][1]
-        known = ", ".join([*sorted(_OF_SYMPY), _INTEGRAL, *sorted(self.names.calls)])
-        why = f"{name.text} is no function"
-        raise self._refusal(why, f"write {name.text}*(...) for a product; known are {known}", name)
-
-    def _integral(self, name: Token, over: Expr, along: Expr, low: Expr, high: Expr) -> Expr:
-        if not isinstance(along, Symbol):
+    def _bound(self, node: Call) -> Expr:
+        over, along, *ends = node.arguments
+        if not isinstance(along, Name):
             why = "the second argument is no variable"
-            raise self._refusal(why, "write integral(f, s, low, high)", name)
-        if any(part.has(Integral) for part in (over, low, high)):
-            why = "an integral inside an integral is not computed"
-            raise self._refusal(why, "do one of them by hand", name)
-        return Integral(over, (along, low, high))
+            raise self.refusal(node.column, why, f"write {node.function}(f, s, ...)")
+        limits = [self._end(end, node.function) for end in ends]
+        before = dict(self.symbols)
+        if along.name not in self.symbols or node.function == "sum":
+            if node.function not in _OWN:
+                self.named(along)
+            self.symbols[along.name] = Symbol(along.name, real=True)
+        variable = self.named(along)
+        inside = self.value(over)
+        self.symbols = before
+        if not isinstance(variable, Symbol):
+            why = "the second argument is no variable"
+            raise self.refusal(node.column, why, f"write {node.function}(f, s, ...)")
+        return self._made(node, inside, variable, limits)
 
-    def _close(self) -> None:
-        if not self.here.among(")"):
-            raise self._refusal("a parenthesis is not closed here", "add ) or an operator")
-        self._take()
+    def _end(self, node: Node, function: str) -> Expr:
+        """An end of an integral, a sum or a limit, which may be infinite."""
+        if isinstance(node, Name) and node.name == "oo" and function != "diff":
+            return oo
+        return self.value(node)
 
-    def _step(self, token: Token, compute: Callable[..., Any], *operands: Expr) -> Expr:
-        """One step, refused where it leads to no formula of real numbers."""
-        try:
-            value = compute(*operands)
-            why = fault(value)
-        except (ArithmeticError, TypeError, ValueError) as error:
-            why = f"this cannot be computed ({error})"
-            raise self._refusal(why, "write it anew", token) from error
-        if why:
-            raise self._refusal(f"the result {why}", "write another formula", token)
-        return value
+    def _made(self, node: Call, inside: Expr, variable: Symbol, limits: list[Expr]) -> Expr:
+        match node.function:
+            case "integral" if limits[1] == oo:
+                return ToInfinity(inside, variable, limits[0])
+            case "integral":
+                return Integral(inside, (variable, *limits))
+            case "pv":
+                return PrincipalValue(inside, variable, *limits)
+            case "sum":
+                return self._sum(node, inside, variable, *limits)
+            case "limit":
+                return Limit(inside, variable, *limits)
+        times = limits[0] if limits else S.One
+        if not (times.is_Integer and 0 < times < 5):
+            why = "this is no number of derivatives"
+            raise self.refusal(node.column, why, "write a whole number up to 4")
+        return Derivative(inside, (variable, times))
 
-    def _deeper(self, token: Token, part: Callable[[], Expr]) -> Expr:
-        if self._depth == _DEEPEST:
-            raise self._refusal("this is nested too deep", "use fewer parentheses", token)
-        self._depth += 1
-        value = part()
-        self._depth -= 1
-        return value
+    def _sum(self, node: Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
+        if not low.is_Integer or not (high.is_Integer or high == oo):
+            why = "the ends of this sum are no whole numbers"
+            raise self.refusal(node.column, why, "write numbers, or oo for the upper one")
+        if high == oo:
+            count = Symbol(along.name, integer=True)
+            done = Sum(inside.xreplace({along: count}), (count, low, high)).doit()
+            if done.has(Sum) or not isinstance(done, Expr) or fault(done):
+                why = "no closed form of this infinite sum is known"
+                raise self.refusal(node.column, why, "write its value, or finitely many terms")
+            return done
+        if high - low >= _MOST_TERMS:
+            raise self.refusal(node.column, "this sum is too long", f"at most {_MOST_TERMS} terms")
+        total: Expr = S.Zero
+        for n in range(int(low), int(high) + 1):
+            term = inside.xreplace({along: S(n)})
+            total = self.step(node.column, operator.add, total, term)
+        return total
 
-    def _take(self) -> Token:
-        token, self.here = self.here, next(self._tokens)
-        return token
 
-    def _refusal(self, why: str, remedy: str, token: Token | None = None) -> BadFormula:
-        column = (token or self.here).column
-        return BadFormula(self.names.where, self.text, column, why, remedy)
+class PrincipalValue(SymPyFunction):
+    """A principal value of an integrand along a symbol, between two ends; `proper` computes it."""
+
+    nargs = 4
+
+
+class ToInfinity(SymPyFunction):
+    """An integral of an integrand along a symbol, from an end to infinity."""
+
+    nargs = 3
+
+
+IMPROPER = (PrincipalValue, ToInfinity)
+
+
+def proper(expr: Any) -> Any:
+    """An expression with integrals that have no pole and finite ends; raises NoPole."""
+    return expr.replace(lambda n: isinstance(n, IMPROPER), _proper)
+
+
+def _proper(node: Expr) -> Expr:
+    inside, along, low, *high = node.args
+    if isinstance(node, ToInfinity):
+        moved = low + along / (1 - along)
+        return Integral(inside.subs(along, moved) / (1 - along) ** 2, (along, 0, 1))
+    return _folded(inside, along, low, *high)
+
+
+def _folded(inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
+    """A principal value: the integrand folded about its one pole, and what is left over."""
+    poles = set[Expr]()
+    for factor in Mul.make_args(denom(together(inside))):
+        if factor.is_polynomial(along) and factor.has(along) and degree(factor, along) == 1:
+            poles |= set(solve(factor, along))
+    if len(poles) != 1:
+        why = "the pole of a principal value is not seen"
+        text = str(inside)
+        raise NoPole("a principal value", text, 0, why, "write one factor s - x below, no other")
+    (pole,) = poles
+    away = Symbol(along.name + FROM_POLE, real=True)
+    reach = Min(pole - low, high - pole)  # the nearer end
+    both = inside.subs(along, pole + away) + inside.subs(along, pole - away)
+    around = Integral(together(both), (away, 0, reach))
+    left = Integral(inside, (along, low, pole - reach))
+    return around + left + Integral(inside, (along, pole + reach, high))
+
+
+def rounded_in(text: str) -> list[re.Match[str]]:
+    """Decimal numbers of so many digits that they may be rounded."""
+    found = re.finditer(r"(?<![\w.])\d*\.\d+(?![\w.])", text)
+    return [n for n in found if len(n[0].replace(".", "").lstrip("0")) >= _ROUNDED_FROM]
+
+
+def may_be_rounded(text: str) -> bool:
+    """Whether a formula may be right to the digits printed alone."""
+    return bool(rounded_in(text))
 
 
 def usable(name: str, taken: Collection[str] = ()) -> bool:
     """Whether a name may be declared in a claims file."""
     plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) is not None
-    return plain and name not in {"pi", _INTEGRAL, *_OF_SYMPY, *taken}
+    return plain and name not in {"pi", "oo", "and", "or", "not", *_FUNCTIONS, *_BOUND, *taken}

@@ -2,49 +2,66 @@ r"""Reads an equation given as LaTeX, if it can be read in one way only.
 
 LaTeX is no formula: `f(x)` may be a call or a product, and a parser that must not fail guesses.
 So the text is first cut into symbols that the claims file declares, numbers, and a few commands;
-everything else is refused where it stands.  Each symbol and number becomes a plain x_{aa}, which
-SymPy's parser (by lark) reads; a reading in which a declared quantity is called as a function is
-no reading.  A product without a sign gets one, except where it may stand below a slash; braces that
-do not print hold one factor at most.  Where the argument of a function or a power ends must be
-plain from the print: a function with its argument is read first, and is one symbol to the parser.
-If exactly one reading is left it is printed as text, and read once more by derive.paper.formula:
-what goes on is that text, which the claims file must accept.
+everything else is refused where it stands.  A declared symbol is never a function.  A product
+without a sign gets one, except where it may stand below a slash; braces that do not print hold one
+factor at most; where the argument of a function, a sum or an integral ends must be plain from the
+print.  What comes out is text for derive.paper.formula, term by term in the order of the print, so
+that a person can hold one against the other; the claims file must accept it.
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from importlib.util import find_spec
+from typing import NoReturn
 
-from sympy import Expr, Symbol, sstr
-from sympy.core.function import AppliedUndef
-
-from derive.errors import BadClaimsFile, BadFormula
+from derive.errors import BadFormula
 from derive.paper.claim import Relation
 
 _LONGEST = 2000
-"""Characters that an equation may have: an ambiguous grammar is slow on long ones."""
+"""Characters that an equation may have."""
+_DEEPEST = 60
+"""Groups inside each other."""
 
 _TOKEN = re.compile(
-    r"\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|[A-Za-z]|[-+*/=<>()\[\]{}^_|']|\s+|.", re.DOTALL
+    r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|[A-Za-z]"
+    r"|[-+*/=<>()\[\]{}^_|']|\s+|.",
+    re.DOTALL,
 )
 _SPACES = frozenset((r"\,", r"\;", r"\:", r"\!", r"\ ", r"\quad", r"\qquad", r"\left", r"\right"))
 _FUNCTIONS = {
     rf"\{name}": name for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")
-} | {r"\arcsin": "asin", r"\arccos": "acos", r"\arctan": "atan", r"\ln": "log", r"\sgn": "sign"}
-_FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac", r"\nicefrac")
+} | {
+    r"\arcsin": "asin",
+    r"\arccos": "acos",
+    r"\arctan": "atan",
+    r"\ln": "log",
+    r"\sgn": "sign",
+    r"\cot": "1/tan",
+    r"\sec": "1/cos",
+    r"\csc": "1/sin",
+    r"\max": "Max",
+    r"\min": "Min",
+    r"\Gamma": "gamma_function",
+}
+_OF_SEVERAL = frozenset((r"\max", r"\min"))
+_INVERSES = {r"\sin": "asin", r"\cos": "acos", r"\tan": "atan"} | {
+    rf"\{name}": f"a{name}" for name in ("sinh", "cosh", "tanh")
+}
+_FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac", r"\cfrac", r"\nicefrac")
+_INTEGRALS = {r"\int": "integral", r"\pvint": "pv"}
+_BIG = (*_INTEGRALS, r"\sum", r"\lim")
+_CASES, _ENDCASES = r"\begin{cases}", r"\end{cases}"
+_WORDS = frozenset((r"\whereword", r"\andword", r"\caserow", r"\casecol"))
 _COMMANDS = frozenset(
-    (*_FUNCTIONS, *_FRACTIONS, r"\sqrt", r"\cdot", r"\times", r"\int", r"\dd", "_")
-)
-_CLOSING = {"(": ")", "{": "}", "[": "]"}
-_ENDS = frozenset(("+", "-", ")", "}", "]", "|"))
+    (*_FUNCTIONS, *_FRACTIONS, *_BIG, *_WORDS, _CASES, _ENDCASES, r"\sqrt", r"\cdot", r"\times")
+) | {r"\dd", "_", ",", r"\to", r"\rightarrow", r"\infty"}
+_CLOSING = {"(": ")", "{": "}", "[": "]", _CASES: _ENDCASES}
+_ENDS = frozenset(("+", "-", ")", "}", "]", "|", ",", r"\dd", _ENDCASES, *_WORDS))
 """What may follow the argument of a function."""
-_OPERATORS = frozenset(("*", "/", r"\cdot", r"\times"))
-_AFTER_BRACKETS = _OPERATORS | {*_FUNCTIONS, *_FRACTIONS, r"\sqrt"}
+_OPERATORS = {"*": "*", "/": "/", r"\cdot": "*", r"\times": "*"}
+_AFTER_BRACKETS = frozenset((*_OPERATORS, *_FUNCTIONS, *_FRACTIONS, r"\sqrt"))
 """What may, too, where parentheses show the end of the argument."""
-_TOLD = 3
-"""Readings that a message shows."""
 _PLAIN = frozenset("-+*/(){}^|[]")
 _RELATIONS = {
     "=": "=",
@@ -52,10 +69,13 @@ _RELATIONS = {
     ">": ">",
     r"\le": "<=",
     r"\leq": "<=",
+    r"\leqslant": "<=",
     r"\ge": ">=",
     r"\geq": ">=",
+    r"\geqslant": ">=",
     **dict.fromkeys((r"\sim", r"\simeq", r"\approx", r"\cong"), "~"),
 }
+_SUM, _PRODUCT, _POWER, _ATOM = range(4)
 
 
 @dataclass(frozen=True)
@@ -81,6 +101,18 @@ class _Piece:
 
 
 @dataclass(frozen=True)
+class _Code:
+    """A piece of text, and how closely what is in it is bound together."""
+
+    text: str
+    level: int
+
+    def at(self, level: int) -> str:
+        """The text for a place that binds as closely as `level`."""
+        return self.text if self.level >= level else f"({self.text})"
+
+
+@dataclass(frozen=True)
 class Latex:
     """A LaTeX equation of one claim.
 
@@ -95,14 +127,47 @@ class Latex:
 
     def understood(self) -> str:
         """The equation as text; raises BadFormula where it cannot be read in one way only."""
-        _demand_parser(self.where)
+        sides, between = self._sides()
+        if len(between) != 1:
+            column = between[1].column if between else len(self.text)
+            why = "there are two relations here" if between else "there is no relation here"
+            raise self.refusal(column, why, "give one equation, with one relation")
+        return f"{sides[0]} {Relation(_RELATIONS[between[0].text])} {sides[1]}"
+
+    def condition(self) -> str:
+        """A chain of relations as text, such as -a < x < c; raises BadFormula."""
+        sides, between = self._sides()
+        if not between:
+            raise self.refusal(0, "this is no condition", "write it as text")
+        signs = [_RELATIONS[each.text] for each in between]
+        return sides[0] + "".join(f" {s} {side}" for s, side in zip(signs, sides[1:], strict=True))
+
+    def approach(self) -> str:
+        r"""What goes where, as c - x -> 0 for c-x \to 0; raises BadFormula."""
+        pieces = self._pieces()
+        at = [n for n, piece in enumerate(pieces) if piece.text in (r"\to", r"\rightarrow")]
+        if len(at) != 1:
+            raise self.refusal(0, "this is no limit", "write it as text")
+        sides = (pieces[: at[0]], pieces[at[0] + 1 :])
+        return " -> ".join(self.side(part, len(self.text)).text for part in sides)
+
+    def _sides(self) -> tuple[list[str], list[_Piece]]:
+        parts, between = _divided(self._pieces(), _RELATIONS)
+        ends = [each.column for each in between] + [len(self.text)]
+        for part in parts if len(between) == 1 else ():
+            self._demand_plain(part)
+        return [self.side(part, end).text for part, end in zip(parts, ends, strict=True)], between
+
+    def _pieces(self) -> list[_Piece]:
         if len(self.text) > _LONGEST:
-            raise self._refusal(_LONGEST, "the equation is too long", f"stay below {_LONGEST}")
-        sides, relation = self._halves(self._braced(self._marked()))
-        for side in sides:
-            self._demand_plain(side)
-        left, right = (self._side(side) for side in sides)
-        return f"{left} {relation} {right}"
+            raise self.refusal(_LONGEST, "the equation is too long", f"stay below {_LONGEST}")
+        return self._braced(self._marked())
+
+    def side(self, pieces: list[_Piece], end: int, depth: int = 0) -> _Code:
+        """One side, or what stands in a group, as text."""
+        if depth > _DEEPEST:
+            raise self.refusal(end, "this is nested too deep", "write it plainer")
+        return _Side(self, pieces, end, depth).whole()
 
     def _marked(self) -> list[_Piece]:
         """The tokens, every declared symbol and number as one."""
@@ -112,7 +177,7 @@ class Latex:
             if not found.group().isspace() and found.group() not in _SPACES
         ]
         marked, place = [], 0
-        integrates = any(piece.text == r"\int" for piece in pieces)
+        integrates = any(piece.text in _INTEGRALS for piece in pieces)
         while place < len(pieces):
             if integrates and pieces[place].text == r"\dd":
                 marked.append(pieces[place])
@@ -145,26 +210,16 @@ class Latex:
         ]
 
     def _known(self, piece: _Piece) -> _Piece:
-        text = piece.text
+        text = re.sub(r"\s", "", piece.text)
         if text[0].isdigit():
             return _Piece(f"={text}", piece.column, len(text))
-        if text == r"\pi":
-            return _Piece("=pi", piece.column)
+        if text in (r"\pi", r"\infty"):
+            return _Piece("=pi" if text == r"\pi" else "=oo", piece.column)
         if text in _COMMANDS or text in _PLAIN or text in _RELATIONS:
-            return piece
+            return _Piece(text, piece.column)
         why = f"{text} is no declared symbol and no command that is known here"
         remedy = "declare it under [latex], or write the claim as text"
-        raise self._refusal(piece.column, why, remedy)
-
-    def _halves(self, pieces: list[_Piece]) -> tuple[tuple[list[_Piece], list[_Piece]], Relation]:
-        places = [i for i, piece in enumerate(pieces) if piece.text in _RELATIONS]
-        if len(places) != 1:
-            column = pieces[places[1]].column if places else len(self.text)
-            why = "there are two relations here" if places else "there is no relation here"
-            raise self._refusal(column, why, "give one equation, with one relation")
-        (at,) = places
-        relation = Relation(_RELATIONS[pieces[at].text])
-        return (pieces[:at], pieces[at + 1 :]), relation
+        raise self.refusal(piece.column, why, remedy)
 
     def _braced(self, pieces: list[_Piece]) -> list[_Piece]:
         r"""The pieces with braces about what \frac and \sqrt take where there are none."""
@@ -186,117 +241,21 @@ class Latex:
         while wanted and place < len(pieces):
             piece = pieces[place]
             if piece.text == "{":
-                end = self._group(pieces, place)
+                end = self.group(pieces, place)
                 made += [piece, *self._braced(pieces[place + 1 : end - 1]), pieces[end - 1]]
                 place, wanted = end, wanted - 1
                 continue
             digits = piece.text[1:]
             if not _is_one(piece) and not (piece.is_number and wanted == len(digits) == 2):
                 why = "what this fraction is of is unclear"
-                raise self._refusal(piece.column, why, "put both of its parts into braces")
+                raise self.refusal(piece.column, why, "put both of its parts into braces")
             for part in digits if piece.is_number else [digits]:
                 made += _in_braces(_Piece(f"={part}", piece.column))
                 wanted -= 1
             place += 1
         return place
 
-    def _with_signs(self, pieces: list[_Piece]) -> list[_Piece]:
-        """The pieces with a sign in every product that has none; raises BadFormula."""
-        made, place, before, below = list[_Piece](), 0, False, False
-        bars = [n for n, piece in enumerate(pieces) if piece.text == "|"]
-        while place < len(pieces):
-            piece = pieces[place]
-            if not _starts_factor(piece) or (piece.text == "|" and len(bars) != 2):
-                before, below = False, piece.text == "/" or (below and piece.text in _OPERATORS)
-                made.append(piece)
-                place += 1
-                continue
-            end = self._factor(pieces, place)
-            if before and below:
-                why = "whether this stands below the slash is unclear"
-                raise self._refusal(piece.column, why, "write \\frac, or parentheses")
-            if before:
-                made.append(_Piece(r"\cdot", piece.column))
-            made += self._inside(pieces[place:end])
-            before, place = True, end
-        return made
-
-    def _factor(self, pieces: list[_Piece], place: int) -> int:
-        """Where the factor that starts here ends, its powers included."""
-        piece, end = pieces[place], place + 1
-        if piece.text in _CLOSING:
-            end = self._group(pieces, place)
-        elif piece.text == "|":
-            end = self._closing_bar(pieces, place) + 1
-        elif piece.text == r"\sqrt" or piece.text in _FRACTIONS:
-            while end < len(pieces) and pieces[end].text in ("{", "["):
-                last = piece.text in _FRACTIONS and end != place + 1
-                end, root = self._group(pieces, end), pieces[end].text == "{"
-                if last or (root and piece.text not in _FRACTIONS):
-                    break
-        while end + 1 < len(pieces) and pieces[end].text == "^":
-            end = self._group(pieces, end + 1)
-        return end
-
-    def _closing_bar(self, pieces: list[_Piece], start: int) -> int:
-        for place in range(start + 1, len(pieces)):
-            if pieces[place].text == "|":
-                return place
-        raise self._refusal(pieces[start].column, "this is not closed", "add |")
-
-    def _inside(self, factor: list[_Piece]) -> list[_Piece]:
-        """A factor with signs in the products of all that stands in brackets in it."""
-        made, place = list[_Piece](), 0
-        while place < len(factor):
-            piece = factor[place]
-            if piece.text in _CLOSING:
-                end = self._group(factor, place)
-                inner = factor[place + 1 : end - 1]
-                if piece.text == "{" and place == 0 and self._end_of_one(inner) != len(inner):
-                    why = "braces do not print, and here they would matter"
-                    raise self._refusal(piece.column, why, "use parentheses")
-                ends = piece, factor[end - 1]
-                if piece.text == "[" and place == 0:
-                    ends = _Piece("(", ends[0].column), _Piece(")", ends[1].column)
-                made += [ends[0], *self._with_signs(inner), ends[1]]
-                place = end
-            elif piece.text == "|" and place == 0:
-                place = self._closing_bar(factor, 0) + 1
-                made += [piece, *self._with_signs(factor[1 : place - 1]), factor[place - 1]]
-            else:
-                made.append(piece)
-                place += 1
-        return made
-
-    def _end_of_one(self, pieces: list[_Piece]) -> int:
-        return self._factor(pieces, 0) if pieces and _starts_factor(pieces[0]) else 0
-
-    def _demand_plain(self, pieces: list[_Piece]) -> None:
-        """No power, root or product that looks unlike what it says."""
-        ends = _Piece("", len(self.text))
-        for place, piece in enumerate(pieces):
-            after = pieces[place + 1] if place + 1 < len(pieces) else ends
-            if piece.text == "^":
-                self._demand_exponent(pieces, place + 1, after)
-            if piece.text == r"\sqrt" and after.text not in ("{", "[") and not _is_one(after):
-                raise self._refusal(after.column, "where this root ends is unclear", "use braces")
-            if piece.is_number and after.is_number:
-                why = "two numbers stand side by side"
-                raise self._refusal(after.column, why, "put \\cdot between them")
-            if piece.is_number and _is_number_over_number(pieces[place + 1 :]):
-                why = "a number before a fraction of numbers may be a sum, as in 3 1/2"
-                raise self._refusal(after.column, why, "put \\cdot or + between them")
-
-    def _demand_exponent(self, pieces: list[_Piece], place: int, after: _Piece) -> None:
-        if after.text != "{" and not _is_one(after):
-            why = "TeX takes one character as the exponent where there are no braces"
-            raise self._refusal(after.column, why, "put the exponent into braces")
-        end = self._group(pieces, place)
-        if end < len(pieces) and pieces[end].text == "^":
-            why = "a power of a power without braces"
-            raise self._refusal(pieces[end].column, why, "put one of them into braces")
-
-    def _group(self, pieces: list[_Piece], start: int) -> int:
+    def group(self, pieces: list[_Piece], start: int) -> int:
         """Where the symbol, or the group in brackets, that starts here ends."""
         opened = pieces[start].text
         if opened not in _CLOSING:
@@ -307,174 +266,380 @@ class Latex:
             depth -= pieces[place].text == _CLOSING[opened]
             if depth == 0:
                 return place + 1
-        raise self._refusal(pieces[start].column, "this is not closed", f"add {_CLOSING[opened]}")
+        raise self.refusal(pieces[start].column, "this is not closed", f"add {_CLOSING[opened]}")
 
-    def _applied(self, pieces: list[_Piece]) -> list[_Piece]:
-        """The pieces with every function and its argument as one symbol."""
-        made, place = [], 0
-        while place < len(pieces):
-            piece, end = pieces[place], place + 1
-            if piece.text in _FUNCTIONS:
-                piece, end = self._application(pieces, place)
-            elif piece.text == r"\int":
-                piece, end = self._integral(pieces, place)
-            elif piece.text in ("_", r"\dd"):
-                raise self._refusal(piece.column, f"{piece.text} cannot stand here", "leave it out")
-            made.append(piece)
-            place = end
+    def _demand_plain(self, pieces: list[_Piece]) -> None:
+        """No power, root or product that looks unlike what it says."""
+        ends = _Piece("", len(self.text))
+        for place, piece in enumerate(pieces):
+            after = pieces[place + 1] if place + 1 < len(pieces) else ends
+            if piece.text == "^":
+                self._demand_exponent(pieces, place + 1, after)
+            if piece.text == r"\sqrt" and after.text not in ("{", "[") and not _is_one(after):
+                raise self.refusal(after.column, "where this root ends is unclear", "use braces")
+            if piece.is_number and after.is_number and after.text != "=oo":
+                why = "two numbers stand side by side"
+                raise self.refusal(after.column, why, "put \\cdot between them")
+            if piece.is_number and _is_number_over_number(pieces[place + 1 :]):
+                why = "a number before a fraction of numbers may be a sum, as in 3 1/2"
+                raise self.refusal(after.column, why, "put \\cdot or + between them")
+
+    def _demand_exponent(self, pieces: list[_Piece], place: int, after: _Piece) -> None:
+        if after.text != "{" and not _is_one(after):
+            why = "TeX takes one character as the exponent where there are no braces"
+            raise self.refusal(after.column, why, "put the exponent into braces")
+        end = self.group(pieces, place)
+        if end < len(pieces) and pieces[end].text == "^":
+            why = "a power of a power without braces"
+            raise self.refusal(pieces[end].column, why, "put one of them into braces")
+
+    def refusal(self, column: int, why: str, remedy: str) -> BadFormula:
+        """The error for what stands at a column."""
+        return BadFormula(self.where, self.text, column, why, remedy)
+
+
+class _Side:
+    """Recursive descent through one side, or one group of it."""
+
+    def __init__(self, latex: Latex, pieces: list[_Piece], end: int, depth: int) -> None:
+        self.latex, self.pieces, self.end, self.depth = latex, pieces, end, depth
+        self.place = 0
+
+    def whole(self) -> _Code:
+        """All of it."""
+        made = self._sum()
+        if self.place < len(self.pieces):
+            self._unread()
         return made
 
-    def _integral(self, pieces: list[_Piece], place: int) -> tuple[_Piece, int]:
-        r"""An integral, up to its differential, which is written \dd s, and where it ends."""
-        head, limits, at = pieces[place], dict[str, str](), place + 1
-        while at + 1 < len(pieces) and pieces[at].text in ("_", "^") and len(limits) < 2:
-            end = self._group(pieces, at + 1)
-            inner = pieces[at + 1 : end]
-            inner = inner[1:-1] if inner[0].text == "{" else inner
-            if pieces[at].text in limits or not inner:
-                break
-            limits[pieces[at].text] = self._side(inner)
-            at = end
-        if len(limits) != 2:
-            raise self._refusal(head.column, "this integral has not both limits", "write them")
-        depth = 0
-        for end in range(at, len(pieces)):
-            text = pieces[end].text
+    @property
+    def here(self) -> _Piece:
+        """The piece that is read next."""
+        if self.place < len(self.pieces):
+            return self.pieces[self.place]
+        return _Piece("", self.end)
+
+    def _inner(self, pieces: list[_Piece], end: int) -> _Code:
+        return self.latex.side(pieces, end, self.depth + 1)
+
+    def _group(self) -> list[_Piece]:
+        """What stands in the group here, or the one piece; the place moves behind it."""
+        start = self.place
+        if start == len(self.pieces):
+            self._unread()
+        self.place = self.latex.group(self.pieces, start)
+        found = self.pieces[start : self.place]
+        return found[1:-1] if found[0].text in _CLOSING else found
+
+    def _grouped(self) -> _Code:
+        """The same as text."""
+        inner = self._group()
+        return self._inner(inner, self.pieces[self.place - 1].column)
+
+    def _sum(self) -> _Code:
+        text, level = "", _PRODUCT
+        if self.here.text in ("+", "-"):
+            text, level = self.here.text.strip("+"), _SUM
+            self.place += 1
+        term = self._product()
+        text, level = text + term.at(_PRODUCT), min(level, term.level)
+        if self.here.text not in ("+", "-"):
+            return _Code(text, _SUM if text[0] == "-" else term.level)
+        while self.here.text in ("+", "-"):
+            sign = self.here.text
+            self.place += 1
+            text += f" {sign} {self._product().at(_PRODUCT)}"
+        return _Code(text, _SUM)
+
+    def _product(self) -> _Code:
+        made, below = self._factor(), False
+        while True:
+            head = self.here
+            operator = _OPERATORS.get(head.text, "")
+            if operator:
+                self.place += 1
+                below = below or operator == "/"
+            elif not self._starts_factor():
+                return made
+            elif below:
+                why = "whether this stands below the slash is unclear"
+                self._refuse(why, "write \\frac, or parentheses")
+            factor = self._factor()
+            operator = operator or "*"
+            least = _POWER if operator == "/" else _PRODUCT
+            made = _Code(f"{made.at(_PRODUCT)}{operator}{factor.at(least)}", _PRODUCT)
+
+    def _starts_factor(self) -> bool:
+        text = self.here.text
+        if text == "|":
+            return any(piece.text == "|" for piece in self.pieces[self.place + 1 :])
+        starts = (*_CLOSING, r"\sqrt", *_FRACTIONS, *_FUNCTIONS, *_BIG)
+        return self.here.is_mark or text in starts
+
+    def _factor(self) -> _Code:
+        """A factor with its power."""
+        base = self._base()
+        if self.here.text != "^":
+            return base
+        self.place += 1
+        exponent = self._grouped()
+        return _Code(f"{base.at(_ATOM)}**{exponent.at(_ATOM)}", _POWER)
+
+    def _base(self) -> _Code:
+        head = self.here
+        if not self._starts_factor():
+            if head.text == "|":
+                raise self.latex.refusal(head.column, "this is not closed", "add |")
+            if head.text in ("_", r"\dd"):
+                self._refuse(f"{head.text} cannot stand here", "leave it out")
+            self._unread()
+        if head.is_mark:
+            self.place += 1
+            return _Code(head.text[1:], _ATOM)
+        if head.text in _FUNCTIONS:
+            return self._application()
+        return self._readers[head.text](self)
+
+    def _parenthesised(self) -> _Code:
+        return self._grouped()
+
+    def _in_braces(self) -> _Code:
+        """Braces, which do not print: one factor stands in them."""
+        column = self.here.column
+        inner = self._group()
+        side = _Side(self.latex, inner, self.pieces[self.place - 1].column, self.depth + 1)
+        if self.depth > _DEEPEST:
+            self._refuse("this is nested too deep", "write it plainer")
+        starts = bool(inner) and (side._starts_factor() or inner[0].text == "|")
+        made = side._factor() if starts else None
+        if made is None or side.place != len(inner):
+            raise self.latex.refusal(
+                column, "braces do not print, and here they would matter", "use parentheses"
+            )
+        return made
+
+    def _modulus(self) -> _Code:
+        start, depth = self.place, 0
+        for place in range(start + 1, len(self.pieces)):
+            text = self.pieces[place].text
             depth += (text in _CLOSING) - (text in _CLOSING.values())
-            if depth < 0 or text == r"\int":
-                break
-            if depth == 0 and text == r"\dd":
-                along = pieces[end + 1] if end + 1 < len(pieces) else _NOTHING
-                if not along.is_mark or along.is_number:
-                    break
-                inside = "1" if end == at else self._side(pieces[at:end])
-                low, high = limits["_"], limits["^"]
-                name = f"=integral({inside}, {along.text[1:]}, {low}, {high})"
-                return _Piece(name, head.column), end + 2
-        why = "where this integral ends is unclear"
-        raise self._refusal(head.column, why, "end it by its differential, as \\mathrm{d}s")
+            if depth == 0 and text == "|":
+                self.place = place + 1
+                inner = self._inner(self.pieces[start + 1 : place], self.pieces[place].column)
+                return _Code(f"abs({inner.text})", _ATOM)
+        raise self.latex.refusal(self.pieces[start].column, "this is not closed", "add |")
 
-    def _application(self, pieces: list[_Piece], place: int) -> tuple[_Piece, int]:
-        """A function with its argument, and where it ends."""
-        head = pieces[place]
-        if name := _inverse(pieces[place : place + 6]):
-            power, start = "", place + 6
+    def _fraction(self) -> _Code:
+        self.place += 1
+        over = self._grouped()
+        under = self._grouped()
+        return _Code(f"{over.at(_PRODUCT)}/{under.at(_POWER)}", _PRODUCT)
+
+    def _root(self) -> _Code:
+        self.place += 1
+        degree = self._grouped() if self.here.text == "[" else None
+        inner = self._grouped()
+        if degree is None:
+            return _Code(f"sqrt({inner.text})", _ATOM)
+        return _Code(f"{inner.at(_ATOM)}**(1/{degree.at(_POWER)})", _POWER)
+
+    def _application(self) -> _Code:
+        """A function with its argument."""
+        head = self.here
+        power, name = "", _FUNCTIONS[head.text]
+        if head.text in _INVERSES and self._is_inverse():
+            name = _INVERSES[head.text]
+            self.place += 6
         else:
-            name = _FUNCTIONS[head.text]
-            power, start = self._power(pieces, place + 1)
-        if start == len(pieces):
-            raise self._refusal(len(self.text), f"{head.text} has no argument", "write it")
-        end = self._argument(pieces, start)
-        inner = pieces[start:end]
-        if inner[0].text in ("(", "{"):
-            inner = inner[1:-1]
-        if not inner:
-            raise self._refusal(head.column, f"{head.text} has no argument", "write it")
-        return _Piece(f"={name}({self._side(inner)}){power}", head.column), end
+            self.place += 1
+            power = self._power_of_function()
+        if self.place == len(self.pieces):
+            raise self.latex.refusal(self.end, f"{head.text} has no argument", "write it")
+        inner = self._argument(head)
+        over, _, name = name.rpartition("/")
+        call = f"{name}({inner}){power}"
+        return _Code(f"1/{call}", _PRODUCT) if over else _Code(call, _POWER if power else _ATOM)
 
-    def _power(self, pieces: list[_Piece], place: int) -> tuple[str, int]:
+    def _is_inverse(self) -> bool:
+        after = [piece.text for piece in self.pieces[self.place + 1 : self.place + 6]]
+        return after == ["^", "{", "-", "=1", "}"]
+
+    def _power_of_function(self) -> str:
         """The power of a function that stands before its argument: a whole number from 2 on."""
-        if place == len(pieces) or pieces[place].text != "^":
-            return "", place
-        end = self._group(pieces, place + 1)
-        inner = [piece for piece in pieces[place + 1 : end] if piece.text not in ("{", "}")]
-        if len(inner) != 1 or not inner[0].text[1:].isdigit() or int(inner[0].text[1:]) < 2:
+        if self.here.text != "^":
+            return ""
+        column = self.here.column
+        self.place += 1
+        inner = self._group()
+        digits = inner[0].text[1:] if len(inner) == 1 else ""
+        if not digits.isdigit() or int(digits) < 2:
             why = "this power of a function may mean its inverse"
-            raise self._refusal(pieces[place].column, why, "write \\arcsin, or a fraction")
-        return f"**{inner[0].text[1:]}", end
+            raise self.latex.refusal(column, why, "write \\arcsin, or a fraction")
+        return f"**{digits}"
 
-    def _argument(self, pieces: list[_Piece], start: int) -> int:
-        """Where the argument of a function ends; raises BadFormula where that is unclear."""
-        first = pieces[start]
-        if first.text in _FRACTIONS and start + 1 < len(pieces):
-            end = self._group(pieces, start + 1)
-            end = self._group(pieces, end) if end < len(pieces) else end
-        elif first.text in ("(", "{") or first.is_mark:
-            end = self._group(pieces, start)
-            if first.text == "{" and any(p.text in "+-" for p in pieces[start:end]):
-                why = "braces do not print, so that this sum is not seen to be the argument"
-                raise self._refusal(first.column, why, "use parentheses")
+    def _argument(self, head: _Piece) -> str:
+        """The argument of a function; raises BadFormula where its end is unclear."""
+        first, start = self.here, self.place
+        if first.text in _FRACTIONS:
+            text = self._fraction().text
+        elif first.text == r"\sqrt":
+            text = self._root().text
         elif first.text == "|":
-            end = self._closing_bar(pieces, start) + 1
+            text = self._modulus().text
+        elif first.text in ("(", "{", "[") or first.is_mark:
+            inner = self._group()
+            if first.text == "{" and any(piece.text in ("+", "-") for piece in inner):
+                why = "braces do not print, so that this sum is not seen to be the argument"
+                raise self.latex.refusal(first.column, why, "use parentheses")
+            if not inner:
+                raise self.latex.refusal(head.column, f"{head.text} has no argument", "write it")
+            parts, _ = _divided(inner, {",": ","} if head.text in _OF_SEVERAL else {})
+            end = self.pieces[self.place - 1].column
+            text = ", ".join(self._inner(part, end).text for part in parts)
         else:
-            raise self._refusal(first.column, "this is no argument of a function", "add ( and )")
-        allowed = _ENDS | _AFTER_BRACKETS if first.text in ("(", "|") else _ENDS
-        if end < len(pieces) and pieces[end].text not in allowed:
+            raise self.latex.refusal(
+                first.column, "this is no argument of a function", "add ( and )"
+            )
+        shown = self.pieces[start].text in ("(", "|", "[")
+        allowed = _ENDS | _AFTER_BRACKETS if shown else _ENDS
+        if self.here.text and self.here.text not in allowed:
             why = "where the argument of the function ends is unclear"
             remedy = "put the function and its argument into parentheses, as in (\\sin(a)) b"
-            raise self._refusal(pieces[end].column, why, remedy)
-        return end
+            self._refuse(why, remedy)
+        return text
 
-    def _side(self, pieces: list[_Piece]) -> str:
-        """One side as text."""
-        marks: dict[str, str] = {}
-        columns: list[tuple[int, int]] = []
-        text = ""
-        for piece in self._with_signs(self._applied(pieces)):
-            columns.append((len(text), piece.column))
-            if piece.is_mark:
-                mark = f"x_{{{_letters(len(marks))}}}"
-                marks[mark] = piece.text[1:]
-                text += f"{mark} "
-            else:
-                text += f"{piece.text} "
-        names = {Symbol(mark): Symbol(_grouped(name)) for mark, name in marks.items()}
-        return str(sstr(self._reading(text, columns, names)))
+    def _limits(self) -> dict[str, list[_Piece]]:
+        """What stands below and above a big operator."""
+        found = dict[str, list[_Piece]]()
+        while self.here.text in ("_", "^") and self.here.text not in found:
+            sign = self.here.text
+            self.place += 1
+            found[sign] = self._group()
+        return found
 
-    def _reading(
-        self, text: str, columns: list[tuple[int, int]], names: Mapping[Symbol, Symbol]
-    ) -> Expr:
-        """The only reading; raises BadFormula if there is none, or another."""
-        from lark.exceptions import LarkError, UnexpectedInput
-        from sympy.parsing.latex import parse_latex
+    def _integral(self) -> _Code:
+        r"""An integral, up to its differential, which is written \dd s."""
+        head = self.here
+        self.place += 1
+        limits = self._limits()
+        if len(limits) != 2 or not all(limits.values()):
+            raise self.latex.refusal(head.column, "this integral has not both limits", "write them")
+        low, high = (self._inner(limits[sign], head.column).text for sign in "_^")
+        start, depth, inner = self.place, 0, 1
+        for end in range(start, len(self.pieces)):
+            text = self.pieces[end].text
+            depth += (text in _CLOSING) - (text in _CLOSING.values())
+            if depth < 0:
+                break
+            inner += (depth == 0) and text in _INTEGRALS
+            inner -= (depth == 0) and text == r"\dd"
+            if depth == 0 and text == r"\dd" and not inner:
+                along = self.pieces[end + 1] if end + 1 < len(self.pieces) else _NOTHING
+                if not along.is_mark or along.is_number:
+                    break
+                column = self.pieces[end].column
+                inside = self._inner(self.pieces[start:end], column).text if end > start else "1"
+                self.place = end + 2
+                name = _INTEGRALS[head.text]
+                return _Code(f"{name}({inside}, {along.text[1:]}, {low}, {high})", _ATOM)
+        why = "where this integral ends is unclear"
+        raise self.latex.refusal(head.column, why, "end it by its differential, as \\mathrm{d}s")
 
-        try:
-            found = parse_latex(text, backend="lark")
-        except UnexpectedInput as error:
-            column = self._column(max(0, int(error.column) - 1), columns)
-            raise self._unread(column) from error
-        except (LarkError, TypeError, ValueError, AttributeError) as error:
-            raise self._unread(columns[0][1] if columns else 0) from error
-        readings = {r for r in _alternatives(found) if isinstance(r, Expr)}
-        readings = {r.xreplace(names) for r in readings if not r.atoms(AppliedUndef)}
-        if len(readings) != 1:
-            start = columns[0][1] if columns else 0
-            told = " or ".join(sorted(map(str, readings))[:_TOLD]) or "only as calls of quantities"
-            raise self._refusal(start, f"this can be read {told}", "write \\cdot for a product")
-        return readings.pop()
+    def _all_sum(self) -> _Code:
+        r"""\sum_{k=1}^{n} with the product that follows."""
+        head = self.here
+        self.place += 1
+        limits = self._limits()
+        below = limits.get("_", [])
+        if len(limits) != 2 or len(below) < 3 or not below[0].is_mark or below[1].text != "=":
+            why = "this sum has not both limits"
+            raise self.latex.refusal(head.column, why, "write \\sum_{k=1}^{n}")
+        low = self._inner(below[2:], head.column).text
+        high = self._inner(limits["^"], head.column).text
+        along, inside = below[0].text, self._product().text
+        if self.here.text in ("+", "-") and any(p.text == along for p in self.pieces[self.place :]):
+            self._refuse("whether this belongs to the sum is unclear", "use parentheses")
+        return _Code(f"sum({inside}, {along[1:]}, {low}, {high})", _ATOM)
 
-    def _column(self, at: int, columns: list[tuple[int, int]]) -> int:
-        """Where in the source a place of the marked text is."""
-        return max((c for start, c in columns if start <= at), default=0)
+    def _limit(self) -> _Code:
+        r"""\lim_{x \to a} with the product that follows."""
+        head = self.here
+        self.place += 1
+        below = self._limits().get("_", [])
+        if len(below) < 3 or not below[0].is_mark or below[1].text not in (r"\to", r"\rightarrow"):
+            raise self.latex.refusal(head.column, "this is no limit", "write \\lim_{x \\to a}")
+        end = self._inner(below[2:], head.column).text
+        inside = self._product().text
+        if self.here.text in ("+", "-"):
+            self._refuse("whether this belongs to the limit is unclear", "use parentheses")
+        return _Code(f"limit({inside}, {below[0].text[1:]}, {end})", _ATOM)
 
-    def _unread(self, column: int) -> BadFormula:
+    def _cases(self) -> _Code:
+        r"""\begin{cases}: a value and a condition in each row."""
+        column = self.here.column
+        rows, _ = _divided(self._group(), (r"\caserow",))
+        pairs = [self._row(row, column) for row in rows if row]
+        if not pairs:
+            raise self.latex.refusal(column, "this has no cases", "write them")
+        return _Code(f"Piecewise({', '.join(pairs)})", _ATOM)
+
+    def _row(self, row: list[_Piece], column: int) -> str:
+        cut = next((n for n, p in enumerate(row) if p.text in (r"\casecol", r"\whereword")), None)
+        if cut is None:
+            parts, _ = _divided(row, (",",))
+            row, rest = parts[0], [piece for part in parts[1:] for piece in part]
+        else:
+            row, rest = row[:cut], row[cut:]
+        row = row[:-1] if row and row[-1].text == "," else row
+        rest = [piece for piece in rest if piece.text not in (r"\casecol", r"\whereword")]
+        value = self._inner(row, column).text
+        listed, _ = _divided(rest, (",", r"\andword"))
+        told = " and ".join(self._condition(part, column) for part in listed if part)
+        return f"({value}, {told or 'True'})"
+
+    def _condition(self, pieces: list[_Piece], column: int) -> str:
+        sides, between = _divided(pieces, _RELATIONS)
+        if not between:
+            raise self.latex.refusal(pieces[0].column, "this is no condition", "write x < a")
+        texts = [self._inner(side, column).text for side in sides]
+        pairs = zip(between, texts[1:], strict=True)
+        return texts[0] + "".join(f" {_RELATIONS[sign.text]} {text}" for sign, text in pairs)
+
+    def _unread(self) -> NoReturn:
         why = "the LaTeX cannot be read from here on"
-        return self._refusal(column, why, "put \\cdot between factors, or write the claim as text")
+        self._refuse(why, "put \\cdot between factors, or write the claim as text")
 
-    def _refusal(self, column: int, why: str, remedy: str) -> BadFormula:
-        return BadFormula(self.where, self.text, column, why, remedy)
+    def _refuse(self, why: str, remedy: str) -> NoReturn:
+        raise self.latex.refusal(self.here.column, why, remedy)
+
+    _readers: Mapping[str, Callable[["_Side"], _Code]] = {
+        "(": _parenthesised,
+        "[": _parenthesised,
+        "{": _in_braces,
+        "|": _modulus,
+        r"\sqrt": _root,
+        r"\sum": _all_sum,
+        r"\lim": _limit,
+        _CASES: _cases,
+        **dict.fromkeys(_FRACTIONS, _fraction),
+        **dict.fromkeys(_INTEGRALS, _integral),
+    }
 
 
 _NOTHING = _Piece("", 0)
 
 
-def _inverse(pieces: list[_Piece]) -> str:
-    r"""The function that \sin^{-1} and its like are by custom; empty if these are none."""
-    texts = [piece.text for piece in pieces]
-    if texts[1:] not in (["^", "{", "-", "=1", "}"],):
-        return ""
-    return {r"\sin": "asin", r"\cos": "acos", r"\tan": "atan"}.get(texts[0], "")
-
-
-def _letters(number: int) -> str:
-    """aa, ab, ...: the parser reads letters in a subscript, and one digit at most."""
-    first, second = divmod(number, 26)
-    return chr(ord("a") + first) + chr(ord("a") + second)
-
-
-def _grouped(name: str) -> str:
-    """A number in parentheses where it is no plain integer, so that no power mistakes it."""
-    return name if re.fullmatch(r"[A-Za-z_]\w*|[0-9]+|[a-z]+\(.*\)", name) else f"({name})"
+def _divided(pieces: list[_Piece], at: object) -> tuple[list[list[_Piece]], list[_Piece]]:
+    """The pieces cut where one of these stands outside all groups, and what they are cut at."""
+    parts, between, depth = [list[_Piece]()], list[_Piece](), 0
+    for piece in pieces:
+        depth += (piece.text in _CLOSING) - (piece.text in _CLOSING.values())
+        if depth == 0 and piece.text in at:  # type: ignore[operator]
+            between.append(piece)
+            parts.append([])
+        else:
+            parts[-1].append(piece)
+    return parts, between
 
 
 def _in_braces(piece: _Piece) -> list[_Piece]:
@@ -491,28 +656,6 @@ def _is_number_over_number(pieces: list[_Piece]) -> bool:
     )
 
 
-def _starts_factor(piece: _Piece) -> bool:
-    return piece.is_mark or piece.text in (*_CLOSING, "|", r"\sqrt", *_FRACTIONS)
-
-
 def _is_one(piece: _Piece) -> bool:
     """Whether TeX takes it as a whole where there are no braces."""
     return piece.is_mark and piece.size == 1
-
-
-def _alternatives(found: object) -> Iterator[object]:
-    """Every reading of an ambiguous text."""
-    if type(found).__name__ != "Tree":
-        yield found
-        return
-    for child in found.children:  # type: ignore[attr-defined]
-        yield from _alternatives(child)
-
-
-def _demand_parser(where: str) -> None:
-    if find_spec("lark") is None:
-        raise BadClaimsFile(
-            where,
-            "LaTeX is read by way of lark, which is not installed",
-            "install contact-derive[latex], or write the claim as text",
-        )

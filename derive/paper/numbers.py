@@ -17,7 +17,7 @@ from derive.paper.claim import Claim, Meaning, Point
 from derive.paper.draw import in_order
 from derive.paper.quadrature import Value
 from derive.paper.quick import Unknown, approximately
-from derive.paper.values import Care, Undecided, evaluated
+from derive.paper.values import Care, Undecided, Undefined, evaluated, integrand
 
 DIGITS = 30
 """Digits to which both sides must agree."""
@@ -145,7 +145,7 @@ def _computed(
     for working in steps:
         found.append(_sides(left, right, value, working))
         if not all(mpmath.isfinite(number) for number in found[-1]):
-            raise Undecided("no finite number")
+            raise Undefined("no finite number")
         if found[1:] and all(map(_is_known, sides, *found[-2:])):
             return Pair(*found[-1], point, _shared(*found[-2:]))
     left_found, right_found = zip(*found, strict=True)
@@ -255,11 +255,11 @@ def _parts(side: Expr, numbers: Point) -> Iterator[mpf]:
         for part in side.args:
             yield from _parts(part, numbers)
         return
-    variable, low, high = side.limits[0]
+    variable, low, high = side.limits[-1]
     yield from (*_parts(low, numbers), *_parts(high, numbers))
     ends = evaluated(low, numbers), evaluated(high, numbers)
     place = ends[0] + (ends[1] - ends[0]) * mpf(3) / 8
-    yield from _parts(side.function, {**numbers, variable: place})
+    yield from _parts(integrand(side), {**numbers, variable: place})
 
 
 def near(left: Expr, right: Expr, value: Numbers) -> bool:

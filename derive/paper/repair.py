@@ -6,7 +6,8 @@
     factor     2, 3, 4, 8, sqrt 2, pi and 2 pi, or one over them, on the whole; 2, 4, pi on a term
     swap       one symbol for another, everywhere or in one place, or both exchanged;
                one over it; the mean of it and another
-    exponent   of every power: its sign, twice, half, 3/2 and 2/3 of it, one more, one less
+    exponent   of every power: its sign, twice, half, 3/2 and 2/3 of it, one more, one less;
+               a root over a symbol, a sum or the whole
     term       one left out, one too many
     modulus    one left out, one about the whole
 
@@ -60,6 +61,7 @@ def _all(expr: Expr, swaps: tuple[Symbol, ...]) -> Iterator[Edit]:
     yield from _factors(expr)
     yield from _swapped(expr, swaps)
     yield from _exponents(expr)
+    yield from _lost_roots(expr)
     yield from _terms(expr, swaps)
     yield from _moduli(expr)
 
@@ -152,6 +154,11 @@ def _exponents(expr: Expr) -> Iterator[Edit]:
             yield Edit(
                 "exponent", f"{changed} on {symbol}", expr.xreplace({symbol: symbol**changed})
             )
+
+
+def _lost_roots(expr: Expr) -> Iterator[Edit]:
+    for total in [*_places(expr, Add), expr]:
+        yield Edit("exponent", f"1/2 on {total}", _put(expr, total, sqrt(total)))
 
 
 def _terms(expr: Expr, swaps: tuple[Symbol, ...]) -> Iterator[Edit]:

@@ -49,6 +49,11 @@ def _spelled(name: str) -> str:
     return f"{{{stem}'}}" if rest == "prime" else name
 
 
+def as_displayed(equation: Claim | Repair) -> str:
+    """An equation in LaTeX."""
+    return _latex(equation, equation.relation)
+
+
 def corrected(finding: Finding) -> str | None:
     """The corrected equation as text, if one was found."""
     repair = finding.repair
@@ -58,9 +63,10 @@ def corrected(finding: Finding) -> str | None:
 def evidence(finding: Finding) -> str:
     """What the verdict rests on, in one paragraph."""
     claim = finding.claim
+    units = [f"its units do not fit: {claim.units}"] if claim.units else []
     if claim.unchecked:
-        return finding.judged.why
-    parts = [f"compared with {claim.against}: {finding.judged.why}"]
+        return "; ".join([*units, finding.judged.why])
+    parts = [*units, f"compared with {claim.against}: {finding.judged.why}"]
     if finding.convention and finding.under:
         parts.append(
             f"with {finding.convention.what} {finding.under.why}; "
@@ -68,6 +74,8 @@ def evidence(finding: Finding) -> str:
         )
     if finding.repair:
         parts.append(f"corrected ({_changes(finding.repair)}): {finding.repair.judged.why}")
+    if finding.diagnosis:
+        parts.append(finding.diagnosis)
     if finding.tried:
         parts.append(f"tried: {_tried(finding.tried)}")
     if finding.stopped:
@@ -105,7 +113,7 @@ def rows(findings: Iterable[Finding]) -> list[Row]:
             finding.verdict,
             finding.as_expected,
             printed(finding.claim),
-            corrected(finding) or finding.judged.why,
+            finding.claim.units or corrected(finding) or finding.diagnosis or finding.judged.why,
         )
         for finding in findings
     ]
@@ -135,6 +143,15 @@ def reasons(findings: Iterable[Finding]) -> list[str]:
         f"{finding.claim.label}: unchecked, {finding.judged.why}"
         for finding in findings
         if finding.verdict == Verdict.UNCHECKED
+    ]
+
+
+def units(findings: Iterable[Finding]) -> list[str]:
+    """What does not fit in the units of claims, judged or not, one line each."""
+    return [
+        f"{finding.claim.label}: its units do not fit, {finding.claim.units}"
+        for finding in findings
+        if finding.claim.units
     ]
 
 
@@ -180,6 +197,8 @@ def as_json(findings: Iterable[Finding]) -> str:
             "expected": finding.as_expected,
             "printed": printed(finding.claim),
             "corrected": corrected(finding),
+            "diagnosis": finding.diagnosis or None,
+            "units": finding.claim.units or None,
             "evidence": evidence(finding),
             "reason": finding.judged.why,
             "consequence": consequence(finding) or None,
@@ -220,6 +239,8 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
 
 
 def _in_markdown(claim: Claim) -> str:
+    if claim.unchecked and not claim.source:
+        return "`" + " ".join(claim.latex.split()) + "`"
     return f"`{claim.source}`" if claim.source else f"${_latex(claim, claim.relation)}$"
 
 
@@ -331,7 +352,8 @@ def _correction(finding: Finding) -> list[str]:
     if finding.stopped:
         return [f"the search for one: {finding.stopped}"]
     if finding.repair is None:
-        return told and [*told, "none of these is true"]
+        said = [finding.diagnosis] if finding.diagnosis else []
+        return [*said, *told, "none of these is true"] if told else said
     repair = finding.repair
     equation = _text(repair, repair.relation)
     return [equation, _changes(repair), f"{repair.judged.verdict}: {repair.judged.why}", *told]

@@ -4,81 +4,130 @@ a = b = c          a = b and a = c
 a < b = c          a < b and b = c
 u, v   u and v     u and v, where each has a relation of its own
 \pm, \mp           the equation with the upper signs, then with the lower ones
+u for v            u, under the condition v; an inequality after an equation is one, too
 """
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from derive.errors import BadFormula
 
 _MOST = 20_000
 """Characters of a display."""
 _DEEPEST = 60
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|\s+|.", re.DOTALL)
+_TOKEN = re.compile(
+    r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|\s+|.", re.DOTALL
+)
 _DROPPED = (
-    r"\\(?:label|tag\*?|hspace\*?|vspace\*?)\s*\{[^{}]*\}"
-    r"|\\(?:nonumber|notag|displaystyle|textstyle|limits|quad|qquad|[bB]igg?[lrm]?)(?![A-Za-z])"
+    r"\\(?:label|tag\*?|hspace\*?|vspace\*?|mathstrut|phantom)\s*\{[^{}]*\}"
+    r"|\\(?:nonumber|notag|displaystyle|textstyle|limits|quad|qquad|[bB]igg?[lrm]?|mathrm|rm|it)"
+    r"(?![A-Za-z])"
     r"|\\(?:left|right)\s*\.|\\(?:left|right)(?![A-Za-z])|\\[,;:! >]|~|&"
 )
 _WORDS = re.compile(
-    r"\\(?:text|mbox|mathrm|textrm|textit|mathit|operatorname|mathbf)\s*\{([^{}]*)\}"
+    r"\\(?:text|mbox|mathrm|textrm|textit|mathit|operatorname|mathbf|rm|textsf|mathsf)"
+    r"\s*\{([^{}]*)\}"
 )
+_CASES = re.compile(
+    r"(?:\\left\s*\\\{\s*)?\\begin\s*\{(cases|dcases|rcases|array)\}(?:\s*\{[^{}]*\})?"
+    r"((?:(?!\\begin).)*?)\\end\s*\{\1\}(?:\s*\\right\s*\.)?",
+    re.DOTALL,
+)
+_SPLIT = re.compile(r"\\begin\s*\{(split|aligned|gathered|alignedat)\}(?:\s*\{\d+\})?")
 _ALIKE = {
     r"\lvert": "|",
     r"\rvert": "|",
     r"\vert": "|",
     r"\{": "(",
     r"\}": ")",
+    r"\lbrace": "(",
+    r"\rbrace": ")",
     r"\cfrac": r"\frac",
     r"\leqslant": r"\le",
     r"\geqslant": r"\ge",
     r"\ast": "*",
     r"\prime": "'",
+    r"\fint": r"\pvint",
+    r"\dashint": r"\pvint",
+    r"\rightarrow": r"\to",
 }
-_ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong", r"\propto", r"\to", r"\rightarrow"))
+_PRINCIPAL = frozenset(("pv", "p.v", "p. v", "cpv"))
+_ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong", r"\propto", r"\to"))
 _RELATIONS = frozenset(("=", "<", ">", r"\le", r"\leq", r"\ge", r"\geq", r"\equiv")) | _ROUGHLY
-_AND = frozenset(("and", "or", "so that", "with"))
-_WHERE = frozenset(("for", "as", "if", "when", "where", "otherwise"))
-_OPENING, _CLOSING = frozenset("({["), frozenset(")}]")
+_ORDERED = frozenset(("<", ">", r"\le", r"\leq", r"\ge", r"\geq"))
+_AND = frozenset(("and", "or", "so that", "with", "hence", "thus", "therefore", "i.e", "where"))
+_OPERATOR = r"\derivativeof"
+_FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac")
+_OPENING, _CLOSING = frozenset(("(", "{", "[", r"\begin{cases}")), frozenset(")}]")
+_CLOSED = _CLOSING | {r"\end{cases}"}
 
 
 @dataclass(frozen=True)
 class Statement:
     """One statement of a display.
 
-    latex  left, relation and right in plain LaTeX
-    why    why it cannot be compared; empty if it may be
-    is_rough  whether it is printed as an approximation
+    latex      left, relation and right in plain LaTeX
+    why        why it cannot be compared; empty if it may be
+    is_rough   whether it is printed as an approximation
+    condition  what follows "for", "as", "if", in LaTeX; empty where there is none
     """
 
     latex: str
     why: str = ""
     is_rough: bool = False
+    condition: str = ""
 
 
 def statements(where: str, latex: str) -> list[Statement]:
     """All statements of a display; raises BadFormula where its brackets do not fit."""
     if len(latex) > _MOST:
         raise BadFormula(where, latex[:80], 80, f"the display is longer than {_MOST}", "split it")
-    tokens = _tokens(_plain(latex))
+    tokens = _differentials(_derivatives(_over(_bare(_tokens(_plain(latex))))))
     depths = _depths(where, tokens)
-    if r"\begin" in tokens:
-        return [
-            Statement(latex, r"a \begin inside the display is not read: write its cases as text")
-        ]
+    if inner := next((t for t in tokens if t.startswith(r"\begin") and t not in _OPENING), ""):
+        return [Statement(latex, f"{inner} inside a display is not read: write it as text")]
+    if _OPERATOR in tokens:
+        why = "d/dx before what it is of is not read: write it as text, diff(f, x)"
+        return [Statement(latex, why)]
     found = list[Statement]()
+    parts = list[tuple[list[str], list[str]]]()
     for part in _listed(tokens, depths):
-        found += _chain(*_without_condition(part))
+        relations = set(part) & _RELATIONS
+        is_bound = part[0] == r"\whereword" or (relations <= _ORDERED and r"\whereword" not in part)
+        if parts and is_bound and (parts[-1][1] or set(parts[-1][0]) & _RELATIONS - _ORDERED):
+            more = [token for token in part if token != r"\whereword"]
+            parts[-1][1].extend([",", *more] if parts[-1][1] else more)
+        else:
+            parts.append(_without_condition(part))
+    for part, condition in parts:
+        found += _chain(part, condition)
     return [signed for each in found for signed in _signs(each)]
 
 
 def _plain(latex: str) -> str:
     """The text without what does not count, words as commands."""
-    text = re.sub(r"(?<!\\)\\\\(?:\[[^\]]*\])?", " \n ", latex)
+    text = _CASES.sub(_marked_cases, latex)
+    for kind in _SPLIT.findall(text):
+        text = text.replace(rf"\end{{{kind}}}", " ")
+    text = _SPLIT.sub(" ", text)
+    text = re.sub(r"(?<!\\)\\\\\*?(?:\[[^\]]*\])?", " \n ", text)
     text = re.sub(r"\\text\s*\{\s*\$([^${}]*)\$([^${}]*)\}", r"\1\2", text)
+    text = re.sub(r"-(?:\s|\\!|\{\})*\\int(?![A-Za-z])", _dashed, text)
+    text = re.sub(r"\{\s*\\(?:rm|mathrm)\s+d\s*\}", r"\\dd ", text)
     text = _WORDS.sub(_word, text)
     text = re.sub(r"\\not\s*=", r"\\ne ", text)
     return re.sub(_DROPPED, " ", text)
+
+
+def _marked_cases(found: re.Match[str]) -> str:
+    rows = re.sub(r"(?<!\\)\\\\(?:\[[^\]]*\])?", r" \\caserow ", found[2])
+    cells = re.sub(r"(?<!\\)&", r" \\casecol ", rows)
+    return rf"\begin{{cases}}{cells}\end{{cases}}"
+
+
+def _dashed(found: re.Match[str]) -> str:
+    r"""-\!\!\!\int is a principal value; a minus before an integral stays one."""
+    return r"\pvint" if r"\!" in found[0] else found[0]
 
 
 def _word(found: re.Match[str]) -> str:
@@ -88,6 +137,8 @@ def _word(found: re.Match[str]) -> str:
         return r"\dd "
     if inner == "sgn":
         return r"\sgn "
+    if inner.lower().strip(" .") in _PRINCIPAL:
+        return r"\pvword "
     if before.endswith(("_", "^", "_{", "^{")):
         return f"{{{inner}}}" if before.endswith(("_", "^")) else inner
     if len(inner) <= 1 or not any(map(str.isalpha, inner)):
@@ -98,14 +149,114 @@ def _word(found: re.Match[str]) -> str:
 
 def _tokens(text: str) -> list[str]:
     found = [t for t in _TOKEN.findall(text) if "\n" in t or not t.isspace()]
-    return ["\n" if t.isspace() else _ALIKE.get(t, t) for t in found]
+    made = ["\n" if t.isspace() else _ALIKE.get(t, re.sub(r"\s", "", t)) for t in found]
+    for place, token in enumerate(made[:-1]):
+        if token == r"\pvword" and made[place + 1] == r"\int":
+            made[place + 1] = r"\pvint"
+    return [token for token in made if token != r"\pvword"]
+
+
+def _bare(tokens: list[str]) -> list[str]:
+    """The tokens without braces about all of them."""
+    while tokens[:1] == ["{"] and _end(tokens, 0, 1) == len(tokens) - 1:
+        tokens = tokens[1:-1]
+    return tokens
+
+
+def _derivatives(tokens: list[str]) -> list[str]:
+    r"""\frac{d P}{d a} and dP/da as \frac{\dd P}{\dd a}; d/dx alone as what nobody knows."""
+    made, differentials = list[str](), (["d"], [r"\dd"])
+    for token in tokens:
+        made.append(token)
+        start = len(made) - 5
+        if start >= 0 and made[start + 2] == "/" and _may_be_variable(token):
+            over, under = made[start : start + 1], made[start + 3 : start + 4]
+            if over in differentials and under in differentials:
+                frac = [r"\frac", "{", r"\dd", made[start + 1], "}", "{", r"\dd", token, "}"]
+                made[start:] = frac
+    for place, token in enumerate(made):
+        if token not in _FRACTIONS or made[place + 1 : place + 2] != ["{"]:
+            continue
+        middle = _end(made, place + 1, 1)
+        below = middle + 2
+        if made[middle + 1 : below] != ["{"] or made[below : below + 1] not in differentials:
+            continue
+        if made[place + 2] in ("d", r"\dd"):
+            made[place + 2] = _OPERATOR if middle - place == 3 else r"\dd"
+            made[below] = r"\dd"
+    return made
+
+
+def _over(tokens: list[str]) -> list[str]:
+    r"""{a \over b} as \frac{a}{b}."""
+    while r"\over" in tokens:
+        at = tokens.index(r"\over")
+        start, end = _end(tokens, at, -1), _end(tokens, at, 1)
+        frac = [r"\frac", "{", *tokens[start + 1 : at], "}", "{", *tokens[at + 1 : end], "}"]
+        tokens = [*tokens[: start + 1], *frac, *tokens[end:]]
+    return tokens
+
+
+def _end(tokens: list[str], at: int, step: int) -> int:
+    """The brace that encloses a place, before or behind it; the end of the text without one."""
+    opened, closed = ("{", "}") if step > 0 else ("}", "{")
+    depth, at = 0, at + step
+    while 0 <= at < len(tokens):
+        if tokens[at] == closed and depth == 0:
+            break
+        depth += (tokens[at] == opened) - (tokens[at] == closed)
+        at += step
+    return at
+
+
+def _differentials(tokens: list[str]) -> list[str]:
+    r"""A plain d before the variable of an integral as \dd, and \dd out of a numerator."""
+    integrals = sum(token in (r"\int", r"\pvint") for token in tokens)
+    if not integrals:
+        return tokens
+    if not any(t == r"\dd" and not _is_in_fraction(tokens, n) for n, t in enumerate(tokens)):
+        made = list[str]()
+        for place, token in enumerate(tokens):
+            after = tokens[place + 1 : place + 2]
+            is_one = integrals and token == "d" and bool(after) and _may_be_variable(after[0])
+            if is_one and r"\int" in [t.replace("pv", "") for t in tokens[:place]]:
+                token, integrals = r"\dd", integrals - 1
+            made.append(token)
+        tokens = made
+    return _out_of_numerators(tokens)
+
+
+def _is_in_fraction(tokens: list[str], at: int) -> bool:
+    r"""Whether \dd stands first above or below a fraction bar, as in a derivative."""
+    before = tokens[at - 2 : at]
+    return before[:1] in ([r"\frac"], ["}"]) and before[1:] == ["{"]
+
+
+def _may_be_variable(token: str) -> bool:
+    return (len(token) == 1 and token.isalpha()) or token in (r"\xi", r"\eta", r"\theta", r"\tau")
+
+
+def _out_of_numerators(tokens: list[str]) -> list[str]:
+    r"""\frac{g \dd s}{h} as \frac{g}{h} \dd s."""
+    for place in range(len(tokens) - 1, -1, -1):
+        if tokens[place] not in _FRACTIONS or tokens[place + 1 : place + 2] != ["{"]:
+            continue
+        middle = _end(tokens, place + 1, 1)
+        over, end = tokens[place + 2 : middle], _end(tokens, middle + 1, 1)
+        if over[-2:-1] != [r"\dd"] or tokens[middle + 1 : middle + 2] != ["{"]:
+            continue
+        if tokens[middle + 2 : middle + 3] == [r"\dd"]:
+            continue
+        head, under = tokens[: place + 2], tokens[middle : end + 1]
+        tokens = [*head, *(over[:-2] or ["1"]), *under, *over[-2:], *tokens[end + 1 :]]
+    return tokens
 
 
 def _depths(where: str, tokens: list[str]) -> list[int]:
     """How deep in brackets each token stands."""
     depth, deep = 0, list[int]()
     for token in tokens:
-        depth -= token in _CLOSING
+        depth -= token in _CLOSED
         deep.append(depth)
         depth += token in _OPENING
         if depth < 0 or depth > _DEEPEST:
@@ -142,18 +293,24 @@ def _has(part: list[str]) -> bool:
     return any(token in _RELATIONS for token in part)
 
 
-def _without_condition(part: list[str]) -> tuple[list[str], str]:
-    at = part.index(r"\whereword") if r"\whereword" in part else len(part)
-    return part[:at], "".join(part[at + 1 :])
+def _without_condition(part: list[str]) -> tuple[list[str], list[str]]:
+    """What stands before the first word outside brackets, and what behind it."""
+    depth = 0
+    for at, token in enumerate(part):
+        depth += (token in _OPENING) - (token in _CLOSED)
+        if depth == 0 and token == r"\whereword":
+            rest = part[at + 1 :]
+            return part[:at], [token for token in rest if token != r"\whereword"]
+    return part, []
 
 
-def _chain(part: list[str], condition: str) -> list[Statement]:
+def _chain(part: list[str], condition: list[str]) -> list[Statement]:
     """The statements of a chain of relations, whose equal sides all stand against the first."""
     sides, between, depth = [list[str]()], list[str](), 0
     for token in part:
-        depth += (token in _OPENING) - (token in _CLOSING)
+        depth += (token in _OPENING) - (token in _CLOSED)
         if depth == 0 and token in _RELATIONS:
-            between.append(token)
+            between.append("=" if token == r"\equiv" else token)
             sides.append([])
         else:
             sides[-1].append(token)
@@ -166,12 +323,10 @@ def _chain(part: list[str], condition: str) -> list[Statement]:
         if first and _without_dots(left) != left:
             left, rough = sides[0], next((r for r in between[:n] if r in _ROUGHLY), "")
         text = _joined([*left, rough or relation, *right])
-        why = f"printed with {rough}, an approximation: write its leading terms with =" * bool(
-            rough
-        )
-        if not left or not right or rough in (r"\to", r"\rightarrow", r"\propto"):
+        why = ""
+        if not left or not right or rough in (r"\to", r"\propto"):
             why, rough = "this is no equation with two sides", ""
-        made.append(Statement(text, why, bool(rough)))
+        made.append(Statement(text, why, bool(rough), _joined(condition)))
     return made
 
 
@@ -194,5 +349,5 @@ def _signs(statement: Statement) -> list[Statement]:
         text = re.sub(r"\\pm(?![A-Za-z])", upper, statement.latex)
         text = re.sub(r"\\mp(?![A-Za-z])", lower, text)
         text = re.sub(r"(^|[{(\[=<>])\s*\+", r"\1 ", text)
-        made.append(Statement(text, statement.why, statement.is_rough))
+        made.append(replace(statement, latex=text))
     return made

@@ -2,14 +2,16 @@
 
     title = "..."
     seconds = 30                      # that the verdict on a claim, then its mending, may take
-    body = "hertz"                    # whose sheet's formulas may be called, load(a, c) say
+    body = "hertz"                    # whose sheet's formulas may be called, load(a, c) say; or
+    # body = { g = "x**2/(2*R)", units = { R = "m" } }    one's own
 
     [variables]                       # drawn at random; all else is written in them
     l = "half-width"                  # positive
-    mu = { meaning = "x/l", low = -0.9, high = 0.9 }
+    mu = { meaning = "x/l", low = -0.9, high = 0.9, unit = "-" }
 
-    [symbols]                         # what the source's symbols are
+    [symbols]                         # what the source's symbols are; they may hold each other
     P = "load(l, l)"
+    p_0 = { is = "2*P/(pi*l)", meaning = "largest pressure", unit = "Pa" }
 
     [latex]                           # spellings, where they are not the names
     "E^*" = "E_star"
@@ -21,30 +23,33 @@
     part = 1                                   # which statement of a display in LaTeX
     accepted = true                            # false in a draft: nobody has accepted it yet
     expected = "fails"                         # if it is known
-    symbols = { M = "-moment(l, l)" }          # for this claim alone
+    symbols = { M = "-moment(l, l)" }          # for this claim alone, as is a body
+    require = "b < w and x > 0"                # where it is said to be true
+    as = "c - x -> 0"                          # left over right tends to 1, or, with
+    order = 1.5                                #   left less right is of this order
+    given = ["(8)", "(11)"]                    # claims of the form symbol = ... it follows from
     conventions = [{ what = "...", symbols = { ... }, contradicts = "..." }]
 
-The body's parameters, E_star and f are variables from the start; x, s and xi are places, drawn on
-both sides of zero where [variables] gives them no range of their own.
+The body's parameters, E_star and f are variables from the start, and [variables] may give them a
+range; x, s and xi are places, drawn on both sides of zero where it gives them none.
 """
 
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, TypeGuard, TypeVar
 
-from sympy import Expr, Integral, Symbol
-from sympy.core.function import AppliedUndef
+from sympy import Expr, Rational, Symbol, false, true
+from sympy.logic.boolalg import Boolean
 
-from derive.derivation import derive_sheet
-from derive.errors import BadClaimsFile, NotAccepted, UserError
+from derive.errors import BadClaimsFile, BadFormula, BadText, BadUnit, NotAccepted, UserError
 from derive.library import is_in_library, library
 from derive.limit import LimitReached, within
-from derive.paper.bodies import at, formula
+from derive.paper.bodies import Body, of_library
 from derive.paper.claim import (
     SCALE,
     SIGNED,
@@ -53,16 +58,32 @@ from derive.paper.claim import (
     Meaning,
     Paper,
     Range,
+    Relation,
+    Rounded,
     Verdict,
 )
-from derive.paper.formula import Names, UnknownName, equation, unknown, usable
+from derive.paper.context import PLACES, Context, Meant, Put, as_text, calls_in, integrals
+from derive.paper.dimensions import Units
+from derive.paper.formula import (
+    Names,
+    NoPole,
+    UnknownName,
+    approach,
+    equation,
+    may_be_rounded,
+    rounded_in,
+    unknown,
+    usable,
+)
+from derive.paper.formula import condition as read_condition
 from derive.paper.formula import formula as read_formula
 from derive.paper.latex import Latex
 from derive.paper.lines import heads, line_of
 from derive.paper.mistakes import demand_none
 from derive.paper.statements import statements
-from derive.sheet import FormulaSheet
-from derive.symbols import E_star, M, P, e, f, x
+from derive.symbols import E_star, f
+from derive.units import Dimension, parse_unit
+from derive.writing.draft import Wanted, draft
 
 Read = TypeVar("Read")
 
@@ -73,15 +94,16 @@ _MOST = 500
 _SECONDS = 30.0
 """Seconds that the verdict on a claim may take, and then the search for a correction."""
 _MOST_SECONDS = 86_400
-_PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
+_FROM_THE_START: Mapping[str, Expr] = {**PLACES, "E_star": E_star, "f": f}
 _KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims"})
-_OF_A_PROPOSAL = frozenset({"meaning", "proposal"})
-_OF_A_VARIABLE = frozenset({"meaning", "low", "high"})
+_OF_A_SYMBOL = frozenset({"is", "meaning", "proposal", "unit"})
+_OF_A_VARIABLE = frozenset({"meaning", "low", "high", "unit"})
+_OF_A_BODY = frozenset({"g", "units"})
 _OF_A_CONVENTION = frozenset({"what", "symbols", "contradicts"})
 _OF_A_CLAIM = (
     frozenset(("label", "place", "says", "printed", "latex", "understood", "expected", "symbols"))
     | {"part", "accepted"}
-    | {"conventions", "unchecked"}
+    | {"conventions", "unchecked", "require", "as", "order", "given", "body"}
 )
 
 
@@ -145,9 +167,13 @@ class _File:
     data: Mapping[str, Any]
     text: str = ""
     ranges: dict[Symbol, Range] = field(default_factory=dict)
-    variables: dict[str, Expr] = field(default_factory=dict)
+    declared: dict[str, Expr] = field(default_factory=dict)
+    contexts: dict[str, Context] = field(default_factory=dict)
     mistakes: list[UserError] = field(default_factory=list)
     readings: list[Reading] = field(default_factory=list)
+    read: dict[str, tuple[Expr, Expr]] = field(default_factory=dict)
+    units: dict[Symbol, Dimension] = field(default_factory=dict)
+    followed: dict[int, Units] = field(default_factory=dict)
 
     def paper(self) -> Paper:
         """All claims."""
@@ -158,20 +184,55 @@ class _File:
                 )
         demand_none(self.mistakes)
         self._demand_known(self.data, _KEYS, "the file")
-        self.sheet, self.seconds = None, _SECONDS
-        with self._noted():
-            self.sheet = self._sheet()
+        self.seconds = _SECONDS
         with self._noted():
             self.seconds = self._limit()
-        self.variables = {**_PLACES, "E_star": E_star, "f": f, **self._parameters()}
+        self.context = Context(None, _FROM_THE_START, {})
+        with self._noted():
+            self.context = self._context(self.data.get("body"), self.name)
         with self._noted():
             for name, said in self._table("variables").items():
                 with self._noted():
                     self._declare(name, said)
+        self.contexts.clear()
+        with self._noted():
+            self.context = self._context(self.data.get("body"), self.name)
         self._read_symbols()
         claims = self._claims()
         demand_none(self.mistakes)
         return Paper(str(self.data.get("title", self.name)), claims)
+
+    def _context(self, given: object, where: str) -> Context:
+        """The body that is named, or written down, with all variables; each is derived once."""
+        key = repr(given)
+        if key not in self.contexts:
+            body = self._body(given, where)
+            own = {q.name: q.symbol for q in body.sheet.geometry.parameters} if body else {}
+            variables = {**_FROM_THE_START, **own, **self.declared}
+            self.contexts[key] = Context(body, variables, self.units)
+        return self.contexts[key]
+
+    def _body(self, given: object, where: str) -> Body | None:
+        if given is None or given == "none":
+            return None
+        if isinstance(given, dict):
+            self._demand_known(given, _OF_A_BODY, f"{where}, body")
+            profile = self._text(given, "g", f"{where}, body")
+            units = self._inner(given, "units", f"{where}, body")
+            told = tuple(sorted((name, str(unit)) for name, unit in units.items()))
+            try:
+                return _own_body(profile, told)
+            except BadText as error:
+                at = f"{where}, body"
+                raise BadFormula(at, profile, error.column, error.why, error.remedy) from error
+            except UserError as error:
+                why = f"{where}, body: {error.message}"
+                raise self._bad(why, "write another g, or its units") from error
+        if not isinstance(given, str) or not is_in_library(given):
+            known = ", ".join(library())
+            why = f"{where}, body = {given!r} is not in the library"
+            raise self._bad(why, f"name one of {known}, or write {{ g = 'x**2/(2*R)' }}")
+        return of_library(given)
 
     @contextmanager
     def _noted(self) -> Iterator[None]:
@@ -183,20 +244,79 @@ class _File:
 
     def _read_symbols(self) -> None:
         """[symbols] and [latex], each mistake in them once; those left empty wait for a person."""
-        self.symbols, self.common = dict[str, Any](), dict[Symbol, Expr]()
+        self.symbols = dict[str, Any]()
         with self._noted():
             self.symbols = self._table("symbols")
-        for name, text in self.symbols.items():
+        taken = {**self.context.parameters, **self.declared}
+        if self.context.body is not None:
+            taken |= {"E_star": E_star, "f": f}
+        for name, said in list(self.symbols.items()):
             with self._noted():
                 line = line_of(self.text, "symbols", name)
                 where = f"{self.name}:{line}" if line else self.name
                 self._demand_name(name, ())
-                if name in self._parameters():
-                    why = f"{where}, the symbol {name!r} is a parameter of the body already"
-                    raise self._bad(why, "leave it out, or name the parameter's symbol otherwise")
-                self.common.update(self._meaning(f"{where}, symbols", {name: text}))
+                if type(said) not in (str, int, float, dict):
+                    why = f"{where}, the symbol {name!r} is no text"
+                    raise self._bad(why, f'write {name} = "a formula"')
+                if isinstance(said, dict):
+                    self._demand_known(said, _OF_A_SYMBOL, f"{where}, the symbol {name!r}")
+                    symbol = taken.get(name, Symbol(name))
+                    if symbol not in self.units and symbol not in self.context.parameters.values():
+                        self._say_unit(symbol, said, f"{where}, the symbol {name!r}")
+                if name in taken and not (name in PLACES and _formula_of(said)):
+                    if _formula_of(said):
+                        what = "a variable" if name in self.declared else "a parameter of the body"
+                        why = f"{where}, the symbol {name!r} is {what} already"
+                        raise self._bad(why, "leave it out, or name the other one otherwise")
+                    del self.symbols[name]  # it is that variable
         with self._noted():
-            self._spellings(self._names(self.name, self.symbols))
+            self._spellings(self._names(self.name, self.symbols, self.context))
+        self.meant = dict[str, Meant]()
+        if not self.mistakes:
+            self._meant(self.context)
+
+    def _meant(self, context: Context, own: Mapping[str, Any] | None = None) -> Meant:
+        """What all symbols are, with a body and in one claim; each mistake is noted once."""
+        key = repr((id(context), sorted((own or {}).items(), key=str)))
+        if key not in self.meant:
+            self.meant[key] = Meant({}, {})
+            symbols = {**self.symbols, **(own or {})}
+            for name in symbols:
+                with self._noted():
+                    self._define(name, symbols, context, self.meant[key], ())
+        return self.meant[key]
+
+    def _define(
+        self,
+        name: str,
+        symbols: Mapping[str, Any],
+        context: Context,
+        meant: Meant,
+        outer: tuple[str, ...],
+    ) -> bool:
+        """Whether a symbol has a meaning, which is put to the others, those it needs first."""
+        symbol = Symbol(name)
+        if symbol in meant.ours or name in meant.lost:
+            return symbol in meant.ours
+        text = _formula_of(symbols[name])
+        if not text:
+            return False
+        line = line_of(self.text, "symbols", name)
+        where = f"{self.name}:{line}, symbols: {name}" if line else f"{self.name}, symbols: {name}"
+        if name in outer:
+            round_ = outer[outer.index(name) :]
+            told = ", ".join(round_)
+            meant.lost.update(round_)
+            raise self._bad(f"{where} is defined by itself, through {told}", "define one of them")
+        others = {n: Symbol(n) for n in symbols if n != name}
+        names = Names(where, {**context.variables, **others}, context.arities)
+        found = self._in_time(where, lambda: read_formula(text, names))
+        for inner in sorted(found.free_symbols & set(others.values()), key=str):
+            if not self._define(inner.name, symbols, context, meant, (*outer, name)):
+                return False
+        meant.written[symbol] = found.xreplace(meant.written)
+        meant.ours[symbol] = self._in_time(where, lambda: context.put_in(meant.written[symbol]))
+        return True
 
     def _claims(self) -> tuple[Claim, ...]:
         given = self.data.get("claims", [])
@@ -216,17 +336,6 @@ class _File:
                 made.append(claim)
         return tuple(made)
 
-    def _sheet(self) -> FormulaSheet | None:
-        from derive.library import load_geometry
-
-        body = self.data.get("body")
-        if body is None:
-            return None
-        if not isinstance(body, str) or not is_in_library(body):
-            known = ", ".join(library())
-            raise self._bad(f"body = {body!r} is not in the library", f"name one of {known}")
-        return derive_sheet(load_geometry(body))
-
     def _limit(self) -> float:
         given = self.data.get("seconds", _SECONDS)
         if type(given) not in (int, float) or not 0 < given <= _MOST_SECONDS:
@@ -245,32 +354,48 @@ class _File:
         except RecursionError:
             raise self._bad(f"{where} is nested too deep", "write it plainer") from None
 
-    def _parameters(self) -> dict[str, Expr]:
-        if self.sheet is None:
-            return {}
-        return {q.name: q.symbol for q in self.sheet.geometry.parameters}
-
     def _declare(self, name: str, said: object) -> None:
         line = line_of(self.text, "variables", name)
         where = f"{self.name}:{line}, variable {name!r}" if line else f"variable {name!r}"
-        self._demand_name(name, self.variables.keys() - _PLACES.keys())
-        if isinstance(said, str):
-            self._drawn(name, SCALE, positive=True)
-            return
+        self._demand_name(name, ())
         given: dict[str, Any] = said if isinstance(said, dict) else {}
         self._demand_known(given, _OF_A_VARIABLE, where)
         low, high = given.get("low"), given.get("high")
+        if isinstance(said, str) or (given and low is high is None):
+            self._drawn(name, SCALE, positive=True)
+            return
         if not (_is_bound(low) and _is_bound(high)) or low >= high:
             raise self._bad(f"{where} has no range", "write { low = 0.1, high = 0.9 }, or a text")
         self._drawn(name, Range(float(low), float(high)), positive=low >= 0)
 
     def _drawn(self, name: str, span: Range, positive: bool) -> None:
-        """A variable with where it is drawn; a place stays the sheet's own symbol."""
+        """A variable with where it is drawn; one of the theory stays the theory's own symbol."""
         known = Symbol(name, positive=True) if positive else Symbol(name, real=True)
-        symbol = _PLACES.get(name, known)
-        self.variables[name] = symbol
-        if span != SCALE or name in _PLACES:
+        symbol = self.context.variables.get(name, known)
+        assert isinstance(symbol, Symbol)
+        self.declared[name] = symbol
+        self._say_unit(symbol, self.data["variables"][name], f"variable {name!r}")
+        if span != SCALE or name in PLACES:
             self.ranges[symbol] = span
+
+    def _say_unit(self, symbol: Symbol, said: object, where: str) -> None:
+        if not isinstance(said, dict) or "unit" not in said:
+            return
+        try:
+            self.units[symbol] = parse_unit(said["unit"])
+        except BadUnit as error:
+            raise self._bad(f"{where}: {error.message}", "write a unit such as N/m") from error
+
+    def _mismatch(self, context: Context, meant: Meant, text: str, names: Names) -> str:
+        """What does not fit in the units of an equation, judged or not."""
+        try:
+            left, _, right = self._in_time(names.where, lambda: equation(text, names, rough=True))
+        except (UserError, RecursionError):
+            return ""
+        key = id(meant)
+        if key not in self.followed:
+            self.followed[key] = context.followed(meant)
+        return self.followed[key].mismatch(left, right)
 
     def _claim(self, number: int, given: object, at: str) -> Claim:
         if not isinstance(given, dict):
@@ -282,49 +407,165 @@ class _File:
             "label": label,
             "place": str(given.get("place", Path(self.name).name)),
             "says": str(given.get("says", label)),
+            "latex": str(given.get("latex", "")),
         }
         with self._noted():
             common["expected"] = self._verdict(given, where)
-        if "unchecked" in given:
-            told = str(given.get("understood", given.get("printed", "")))
-            return Claim(unchecked=self._text(given, "unchecked", where), source=told, **common)
         own = self._inner(given, "symbols", where)
+        for name in own:
+            self._demand_name(name, ())
+        context = self.context
+        if "body" in given:
+            context = self._context(given["body"], where)
         symbols = {**self.symbols, **own}
-        names = self._names(where, symbols)
+        names = self._names(where, symbols, context)
+        told = str(given.get("understood", given.get("printed", "")))
+        meant = self._meant(context, own)
+        common["units"] = self._mismatch(context, meant, told, names) if told else ""
+        if "unchecked" in given:
+            return Claim(unchecked=self._text(given, "unchecked", where), source=told, **common)
         try:
+            text = self._in_time(where, lambda: self._printed(given, where, names))
             left, relation, right = self._in_time(
-                where, lambda: equation(self._printed(given, where, names), names)
+                where, lambda: equation(text, names, rough=_may_be_rough(given, text))
             )
         except NotAccepted as error:
             return self._waiting(number, given, common, error)
         except UnknownName as error:
-            missing = unknown(error.given, names) or ["a name"]
+            missing = unknown(error.given, names) or ["oo"]
             return _lacking(given, common, missing)
-        lacking = [n for n in symbols if _awaits(symbols[n]) and _held(n, left, right)]
+        if "given" in given:
+            meant = self._follows(given, where, symbols, meant)
+        self.read[label] = left, right
+        lacking = [n for n in symbols if Symbol(n) not in meant.ours and _held(n, left, right)]
         if lacking:
             return _lacking(given, common, lacking)
-        meaning = {**self.common, **self._meaning(where, own)}
-        named = {call: Symbol(str(call)) for call in _calls(left, right)}
-        spread_out = any(_calls_along(over) for over in _integrals(left, right))
-        left, right = (self._without_calls(side, named, meaning) for side in (left, right))
-        called = {**meaning, **self._called(named, meaning)}
+        read = _Read(given, where, text, left, relation, right)
+        try:
+            return self._judged(read, context, meant, common)
+        except NoPole as error:
+            return Claim(unchecked=f"{error.why}: {error.remedy}", source=text, **common)
+
+    def _judged(
+        self, read: "_Read", context: Context, meant: Meant, common: dict[str, Any]
+    ) -> Claim:
+        """A claim that can be judged."""
+        given, where, left, right = read.given, read.where, read.left, read.right
+        calls = calls_in(left, right)
+        named = {call: Symbol(as_text(call)) for call in calls}
+        put = Put(context, named, meant.ours)
+        left, right = (put.without_calls(side) for side in (left, right))
+        called = {**meant.ours, **put.called(meant.ours)}
         self._demand_bound(where, left, right, called)
-        self._demand_single(where, left, right, called)
         held = _variables(left, right, called)
+        rounded = self._rounded(read, context, put)
+        relation = read.relation
+        if relation == Relation.LIKE and "as" not in given:
+            relation = Relation.EQUAL
+        conditions = self._conditions(read, context, meant, held)
+        held = held.union(*(each.free_symbols for each in conditions))
+        sides = (read.left.xreplace(meant.written), read.right.xreplace(meant.written))
+        one_symbol = any(side in meant.ours for side in (read.left, read.right))
+        sheet = context.sheet
+        claims = ", ".join(map(str, given.get("given", ())))
         return Claim(
             left=left,
             right=right,
             relation=relation,
             meaning=called,
             against=f"the formulas of {self.name}"
-            + (f" and the sheet of {self.sheet.geometry.name}" if self.sheet else ""),
+            + (f" and the sheet of {sheet.geometry.name}" if sheet else "")
+            + (f", given {claims}" if claims else ""),
             ranges=_places(held) | {s: r for s, r in self.ranges.items() if s in held},
-            conventions=self._conventions(given, where, named, meaning),
-            source=self._text(given, "printed", where) if spread_out else "",
+            conditions=conditions,
+            defined=one_symbol and sides[0] == sides[1] and "given" not in given,
+            toward=self._toward(read, context, meant),
+            order=self._order(given, where),
+            rounded=rounded,
+            conventions=self._conventions(given, where, put, context),
+            source=read.text,
             seconds=self.seconds,
-            swaps=tuple(Symbol(name) for name in symbols if _held(name, left, right)),
+            swaps=tuple(s for s in meant.ours if left.has(s) or right.has(s)),
             **common,
         )
+
+    def _follows(
+        self, given: Mapping[str, Any], where: str, symbols: Mapping[str, Any], meant: Meant
+    ) -> Meant:
+        """What the symbols are if other claims are true, and open ones are free."""
+        listed = given["given"]
+        if not isinstance(listed, list) or not all(isinstance(each, str) for each in listed):
+            raise self._bad(f"{where}: given is no list of labels", 'write given = ["(8)"]')
+        table = dict[Symbol, Expr]()
+        for label in listed:
+            if label not in self.read:
+                why = f"{where}: given names {label!r}, which is no claim before this one"
+                raise self._bad(why, "name a claim that is read, and stands before it")
+            left, right = self.read[label]
+            if not isinstance(left, Symbol):
+                left, right = right, left
+            if not isinstance(left, Symbol) or right.has(left):
+                why = f"{where}: the claim {label!r} does not say what one symbol is"
+                raise self._bad(why, "give claims of the form symbol = ...")
+            table[left] = right
+        for name in symbols:
+            if Symbol(name) not in meant.ours and Symbol(name) not in table:
+                table[Symbol(name)] = Symbol(name, positive=True)
+        free = {s: e for s, e in meant.ours.items() if s not in table}
+        for _ in table:
+            table = {s: expr.xreplace(table) for s, expr in table.items()}
+        if any(expr.free_symbols & table.keys() for expr in table.values()):
+            raise self._bad(f"{where}: what is given goes round in a circle", "leave one out")
+        return Meant(table, {**free, **{s: expr.xreplace(free) for s, expr in table.items()}})
+
+    def _conditions(
+        self, read: "_Read", context: Context, meant: Meant, held: set[Symbol]
+    ) -> tuple[Boolean, ...]:
+        """Where the formulas called are defined, and what the claim requires, in ours."""
+        found = set[Boolean]()
+        for side in (read.left, read.right):
+            found |= set(context.conditions(side.xreplace(meant.written)))
+        listed = read.given.get("require", [])
+        for text in [listed] if isinstance(listed, str) else listed:
+            names = self._names(f"{read.where}: require", [s.name for s in meant.ours], context)
+            needed = self._in_time(read.where, partial(read_condition, str(text), names))
+            found.add(needed.xreplace(meant.ours))
+        bound = {over.limits[-1][0] for over in integrals(read.left, read.right)} - held
+        kept = [each for each in found if each != true and not each.free_symbols & bound]
+        if false in found:
+            why = f"{read.where}: what it requires is nowhere true"
+            raise self._bad(why, "mend require, or the arguments of the formulas called")
+        return tuple(sorted(kept, key=str))
+
+    def _toward(self, read: "_Read", context: Context, meant: Meant) -> tuple[Expr, Expr] | None:
+        if "as" not in read.given:
+            return None
+        names = self._names(f"{read.where}: as", [s.name for s in meant.ours], context)
+        text = self._text(read.given, "as", read.where)
+        first, end = self._in_time(read.where, lambda: approach(text, names))
+        return context.put_in(first.xreplace(meant.ours)), context.put_in(end.xreplace(meant.ours))
+
+    def _order(self, given: Mapping[str, Any], where: str) -> float | None:
+        order = given.get("order")
+        if order is not None and (type(order) not in (int, float) or "as" not in given):
+            raise self._bad(f"{where}: order = {order!r} is no order", "write a number, beside as")
+        return None if order is None else float(order)
+
+    def _rounded(self, read: "_Read", context: Context, put: Put) -> Rounded | None:
+        """The one constant of three digits or more that is a factor of a side, if there is one."""
+        found = rounded_in(read.text)
+        if len(found) != 1:
+            return None
+        (one,) = found
+        constant = Symbol("constant", positive=True)
+        text = f"{read.text[: one.start()]}constant{read.text[one.end() :]}"
+        symbols = {**context.variables, **{s.name: s for s in put.meaning}, "constant": constant}
+        left, _, right = equation(text, Names(read.where, symbols, context.arities), rough=True)
+        power = (right / left).as_independent(constant)[1].as_base_exp()
+        if power[0] != constant or power[1] not in (1, -1):
+            return None
+        half = Rational(5, 10 ** (len(one[0].partition(".")[2]) + 1))
+        return Rounded(Rational(one[0]), half, int(power[1]))
 
     def _waiting(
         self, number: int, given: Mapping[str, Any], common: dict[str, Any], error: NotAccepted
@@ -343,16 +584,10 @@ class _File:
         )
         return Claim(unchecked=why, source=error.understood, **common)
 
-    def _names(self, where: str, symbols: Mapping[str, Any]) -> Names:
+    def _names(self, where: str, symbols: Iterable[str], context: Context) -> Names:
         """What a printed equation may hold: the source's symbols, and the variables."""
-        for name in symbols:
-            self._demand_name(name, ())
-        known = {**self.variables, **{name: Symbol(name) for name in symbols}}
-        return Names(where, known, self._arities())
-
-    def _arities(self) -> dict[str, int]:
-        """The body's formulas, with how many arguments each takes."""
-        return {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
+        known = {**context.variables, **{name: Symbol(name) for name in symbols}}
+        return Names(where, known, context.arities)
 
     def _printed(self, given: Mapping[str, Any], where: str, names: Names) -> str:
         if ("printed" in given) == ("latex" in given):
@@ -365,7 +600,8 @@ class _File:
         accepted = str(given.get("understood", ""))
         if given.get("accepted") is False:
             raise NotAccepted(where, understood, "")
-        if not accepted or equation(accepted, names) != equation(understood, names):
+        both = [equation(text, names, rough=True) for text in (accepted or understood, understood)]
+        if not accepted or both[0] != both[1]:
             raise NotAccepted(where, understood, accepted)
         return accepted
 
@@ -388,69 +624,23 @@ class _File:
                 raise self._bad(why, "declare it")
         return found
 
-    def _meaning(self, where: str, symbols: Mapping[str, Any]) -> Meaning:
-        names = Names(where, self.variables, self._arities())
-        return {
-            Symbol(name): self._put_in(
-                self._in_time(f"{where}: {name}", partial(read_formula, str(text), names))
-            )
-            for name, text in symbols.items()
-            if not _awaits(text)
-        }
-
-    def _stands_for(self, call: Expr, meaning: Meaning) -> Expr:
-        """A call of a formula, what its arguments mean put in, written out."""
-        return self._put_in(call.xreplace(dict(meaning)))
-
-    def _called(self, named: Mapping[Expr, Symbol], meaning: Meaning) -> Meaning:
-        """What the calls of a printed equation stand for, which are symbols in it."""
-        return {symbol: self._stands_for(call, meaning) for call, symbol in named.items()}
-
-    def _without_calls(self, side: Expr, named: Mapping[Expr, Symbol], meaning: Meaning) -> Expr:
-        """A printed side with calls as symbols; put in where they change along an integral."""
-        for over in _integrals(side):
-            table = {call: self._stands_for(call, meaning) for call in _calls_along(over)}
-            inside = Integral(over.function.xreplace(table), *over.limits)
-            side = side.xreplace({over: inside})
-        return side.xreplace(dict(named))
-
     def _demand_bound(self, where: str, left: Expr, right: Expr, meaning: Meaning) -> None:
         """No variable of integration that means something outside its integral, places apart."""
         held = _variables(left, right, meaning)
         meant = (meaning[s] for s in left.free_symbols | right.free_symbols if s in meaning)
-        for over in _integrals(left, right, *meant):
-            along = over.limits[0][0]
-            if along in _PLACES.values() or along not in held | meaning.keys():
+        for over in integrals(left, right, *meant):
+            along = over.limits[-1][0]
+            if along in PLACES.values() or along not in held | meaning.keys():
                 continue
             why = f"{where}: {along} is a variable of integration and also used outside"
             raise self._bad(why, "integrate along another letter, s or xi")
-
-    def _demand_single(self, where: str, left: Expr, right: Expr, meaning: Meaning) -> None:
-        """No integral inside another, once the symbols are put in."""
-        for side in (left, right):
-            for over in side.xreplace(dict(meaning)).atoms(Integral):
-                inside = [over.function, *over.limits[0][1:]]
-                if len(over.limits) > 1 or any(part.has(Integral) for part in inside):
-                    why = f"{where}: an integral inside an integral is not computed"
-                    raise self._bad(why, "do one of them by hand")
-
-    def _put_in(self, expr: Expr) -> Expr:
-        """Calls of the sheet's formulas replaced by what they stand for, each proven."""
-        while calls := expr.atoms(AppliedUndef):
-            call = min(calls, key=lambda c: (len(str(c)), str(c)))
-            assert self.sheet is not None
-            sheet = self.sheet[call.func.__name__]
-            body = formula(self.sheet.geometry.name, sheet.name).xreplace({e: M / P})
-            table = dict(zip(sheet.arguments, call.args, strict=True))
-            expr = expr.xreplace({call: at(body.subs(table, simultaneous=True), *_EDGES)})
-        return expr
 
     def _conventions(
         self,
         given: Mapping[str, Any],
         where: str,
-        named: Mapping[Expr, Symbol],
-        meaning: Meaning,
+        put: Put,
+        context: Context,
     ) -> tuple[Convention, ...]:
         made = []
         listed = given.get("conventions", [])
@@ -463,9 +653,11 @@ class _File:
             what = self._text(each, "what", where)
             against = self._text(each, "contradicts", where)
             symbols = self._inner(each, "symbols", where)
-            other = self._meaning(where, symbols)
-            other = {**other, **self._called(named, {**meaning, **other})}
-            made.append(Convention(what, other, against))
+            own = {**self._inner(given, "symbols", where), **symbols}
+            other = self._meant(context, own).ours
+            changed = {s: expr for s, expr in other.items() if put.meaning.get(s) != expr}
+            changed |= put.called(other)
+            made.append(Convention(what, changed, against))
         return tuple(made)
 
     def _verdict(self, given: Mapping[str, Any], where: str) -> Verdict | None:
@@ -517,9 +709,33 @@ class _File:
         return BadClaimsFile(self.name, why, remedy)
 
 
-def _awaits(meaning: object) -> bool:
-    """Whether a symbol has no meaning yet."""
-    return meaning == "" or (isinstance(meaning, dict) and meaning.keys() <= _OF_A_PROPOSAL)
+@dataclass(frozen=True)
+class _Read:
+    """A claim as it stands in the file, with its equation read."""
+
+    given: Mapping[str, Any]
+    where: str
+    text: str
+    left: Expr
+    relation: Relation
+    right: Expr
+
+
+@cache
+def _own_body(profile: str, units: tuple[tuple[str, str], ...]) -> Body:
+    """A body whose profile stands in the file, as text of which nothing is executed."""
+    return Body(draft(Wanted("own_body", profile, units=dict(units))).geometry)
+
+
+def _formula_of(said: object) -> str:
+    """What a symbol is, as text; empty while nobody has said it."""
+    text = said.get("is", "") if isinstance(said, dict) else said
+    return str(text).strip()
+
+
+def _may_be_rough(given: Mapping[str, Any], text: str) -> bool:
+    """Whether ~ may stand in an equation: in a limit, or before a constant printed rounded."""
+    return "as" in given or may_be_rounded(text)
 
 
 def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str]) -> Claim:
@@ -532,32 +748,15 @@ def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str])
     return Claim(unchecked=why, source=str(printed), **common)
 
 
-_EDGES = (Symbol("a", real=True), Symbol("c", real=True))
-
-
 def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
     """What both sides, or what their symbols stand for, depend on; some may cancel in the end."""
     held = left.free_symbols | right.free_symbols
     return set().union(*(meaning.get(symbol, symbol).free_symbols for symbol in held))
 
 
-def _integrals(*exprs: Expr) -> list[Integral]:
-    return sorted({over for expr in exprs for over in expr.atoms(Integral)}, key=str)
-
-
-def _calls(*exprs: Expr) -> list[Expr]:
-    """Calls of the sheet's formulas."""
-    return sorted({call for expr in exprs for call in expr.atoms(AppliedUndef)}, key=str)
-
-
-def _calls_along(over: Integral) -> list[Expr]:
-    """Calls under an integral that change along it."""
-    return [call for call in _calls(over.function) if call.has(over.limits[0][0])]
-
-
 def _places(held: set[Symbol]) -> dict[Symbol, Range]:
     """Places that nobody gave a range are drawn on both sides of zero."""
-    return {place: SIGNED for place in _PLACES.values() if place in held}
+    return {place: SIGNED for place in PLACES.values() if place in held}
 
 
 def _is_bound(given: object) -> TypeGuard[float]:

@@ -48,6 +48,10 @@ class Undecided(Exception):
     """Digits were lost faster than they could be added, or no number came out at all."""
 
 
+class Undefined(Undecided):
+    """No number comes out here, as of a division by zero; other places may have one."""
+
+
 class Care(Enum):
     """How an integral is computed.
 
@@ -70,7 +74,9 @@ def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf], care: Care = Care.TWICE
         value = +mpmath.mpmathify(function(*given, *found))  # pi itself has no digits as yet
     except NotComputed as error:
         raise Undecided(str(error)) from error
-    except (ArithmeticError, MemoryError, ValueError, TypeError) as error:
+    except (ArithmeticError, ValueError) as error:
+        raise Undefined(f"no number comes out ({type(error).__name__}: {error})") from error
+    except (MemoryError, TypeError) as error:
         raise Undecided(f"no number comes out ({type(error).__name__}: {error})") from error
     if mpmath.isfinite(value) and value != 0 and abs(mpmath.mag(value)) > _FARTHEST:
         raise Undecided("a number is too large or too small to go on with")
@@ -81,8 +87,6 @@ def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf], care: Care = Care.TWICE
 def _compiled(expr: Expr) -> tuple[Callable[..., Value], list[Symbol], list[Integral]]:
     if expr.has(zoo, nan, oo):
         raise Undecided(f"{expr} is no number")
-    if any(len(over.limits) > 1 for over in expr.atoms(Integral)):
-        raise Undecided("an integral over several variables is not computed")
     outer = [i for i in expr.atoms(Integral) if not _is_inner(i, expr)]
     integrals = sorted(outer, key=str)
     stand_ins = {found: Dummy("I") for found in integrals}
@@ -156,13 +160,19 @@ def _quadrature(over: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Va
 
 @cache
 def _separated(over: Integral) -> tuple[Expr, Integral]:
-    variable = over.limits[0][0]
-    factor, core = over.function.as_independent(variable, as_Add=False)
-    return factor, Integral(core, over.limits[0])
+    variable = over.limits[-1][0]
+    factor, core = integrand(over).as_independent(variable, as_Add=False)
+    return factor, Integral(core, over.limits[-1])
+
+
+def integrand(over: Integral) -> Expr:
+    """What the outermost integral is over: SymPy writes nested ones as one with several limits."""
+    return Integral(over.function, *over.limits[:-1]) if len(over.limits) > 1 else over.function
 
 
 def _computed(core: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Value:
-    variable, low, high = core.limits[0]
+    variable, low, high = core.limits[-1]
+    inside = integrand(core)
     with mpmath.workdps(_INSIDE * mpmath.mp.dps):  # or a root would not vanish at its end
         start, end = evaluated(low, numbers), evaluated(high, numbers)
         if isinstance(start, mpc) or isinstance(end, mpc):
@@ -170,16 +180,16 @@ def _computed(core: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Valu
         if start == end:
             return mpf(0)
         sense, (start, end) = (1, (start, end)) if start < end else (-1, (end, start))
-        found = _zeros(core, numbers, start, end)
+        found = _zeros(inside, variable, numbers, start, end)
         parts = cuts(start, end, found, care == Care.ANEW)
-    along = _integrand(core.function, variable, numbers)
-    steep = is_unbounded(core.function, variable)
+    along = _integrand(inside, variable, numbers)
+    steep = is_unbounded(inside, variable)
     if steep:
         with mpmath.workdps(mpmath.mp.dps + GUARD + _INSIDE):
             demand_no_pole(along, parts, str(variable))
     value = integral(along, parts, steep)
     if care != Care.QUICK:
-        demand_second(value, along, _at_once(core.function, variable, numbers), parts)
+        demand_second(value, along, _at_once(inside, variable, numbers), parts)
     return sense * value
 
 
@@ -237,12 +247,11 @@ def _for_arrays(expr: Expr) -> tuple[Callable[..., Any] | None, list[Symbol]]:
 
 
 def _zeros(
-    core: Integral, numbers: Mapping[Symbol, mpf], start: mpf, end: mpf
+    inside: Expr, variable: Symbol, numbers: Mapping[Symbol, mpf], start: mpf, end: mpf
 ) -> list[tuple[mpf, str]]:
     """Where on the way the integrand may not be smooth."""
-    variable = core.limits[0][0]
     found = []
-    for place in places(core.function, variable):
+    for place in places(inside, variable):
         if place.coefficients:
             for coefficients in place.coefficients:
                 values = [evaluated(each, numbers) for each in coefficients]

@@ -29,8 +29,10 @@ from derive.paper.claim import (
     Point,
     Range,
     Relation,
+    Rounded,
     Verdict,
 )
+from derive.paper.diagnosis import diagnosis, quotient
 from derive.paper.draw import (
     LEAST,
     further,
@@ -42,13 +44,16 @@ from derive.paper.draw import (
 )
 from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
 from derive.paper.repair import KINDS, Edit, edits, plain_edits
-from derive.paper.values import Care, Undecided
+from derive.paper.tending import Approach
+from derive.paper.values import Care, Undecided, Undefined
 from derive.paper.zero import constant, vanishes, vanishes_at
 
 Result = TypeVar("Result")
 
 _SCREENED = 3
 """Points at which a repair is looked at before it is judged in full."""
+_MORE_DRAWN = 4
+"""How often points are drawn anew where a side was no real number."""
 _OFF = 6
 """Points on either side of a bound."""
 
@@ -60,16 +65,18 @@ class Judged:
     verdict  holds, numerical, fails or unchecked
     why      in words
     pairs    both sides at the points looked at
+    one_side_real  points at which one side is real; none if the other one is, too, anywhere
     """
 
     verdict: Verdict
     why: str
     pairs: tuple[Pair, ...] = ()
+    one_side_real: int = 0
 
     @property
     def good(self) -> bool:
         """Whether the two sides agree."""
-        return self.verdict in (Verdict.HOLDS, Verdict.NUMERICAL)
+        return self.verdict in (Verdict.HOLDS, Verdict.NUMERICAL, Verdict.DEFINITION)
 
 
 @dataclass(frozen=True)
@@ -98,6 +105,7 @@ class Finding:
     repair      the corrected equation, if one was found
     tried       how many repairs of each kind were looked at
     stopped     why the search for them came to no end, if it did not
+    diagnosis   by what both sides differ, where no repair was found
     """
 
     claim: Claim
@@ -108,6 +116,7 @@ class Finding:
     repair: Repair | None = None
     tried: Counter[str] | None = None
     stopped: str = ""
+    diagnosis: str = ""
 
     @property
     def as_expected(self) -> bool:
@@ -120,13 +129,31 @@ def check(claim: Claim) -> Finding:
     """The verdict of one claim; what stops its judging makes it unchecked, with the reason."""
     if claim.unchecked:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, claim.unchecked))
+    if claim.defined:
+        why = "the file says what its symbols are in these words: nothing is compared"
+        return Finding(claim, Verdict.DEFINITION, Judged(Verdict.DEFINITION, why))
     judged, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
     if judged is None:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, stopped))
     if judged.verdict != Verdict.FAILS:
-        return Finding(claim, judged.verdict, judged)
+        return _nowhere_real(claim, judged) or Finding(claim, judged.verdict, judged)
     finding, stopped = _attempted(claim, lambda look: _mended(claim, judged, look))
-    return finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
+    finding = finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
+    if finding.repair is None and finding.convention is None:
+        told, _ = _attempted(claim, lambda look: diagnosis(claim))
+        return replace(finding, diagnosis=told or "")
+    return finding
+
+
+def _nowhere_real(claim: Claim, judged: Judged) -> Finding | None:
+    """A claim with a side that is real nowhere, and the other everywhere, if a change mends it."""
+    if judged.verdict != Verdict.UNCHECKED or not judged.one_side_real:
+        return None
+    finding, _ = _attempted(claim, lambda look: _mended(claim, judged, look))
+    if finding is None or (finding.repair is None and finding.convention is None):
+        return None
+    why = f"one side is real at all {judged.one_side_real} points drawn, the other at none"
+    return replace(finding, judged=Judged(Verdict.FAILS, why))
 
 
 def _no_clock() -> None:
@@ -147,8 +174,11 @@ def _attempted(claim: Claim, work: Callable[[LookAtClock], Result]) -> tuple[Res
 
 
 def judge_as_printed(claim: Claim, look: LookAtClock = _no_clock) -> Judged:
-    """The printed sides under the claim's own meaning."""
-    return judge(claim, claim.left, claim.right, claim.meaning, look)
+    """The printed sides under the claim's own meaning; constants to the digits printed."""
+    judged = judge(claim, claim.left, claim.right, claim.meaning, look)
+    if judged.verdict == Verdict.FAILS and claim.rounded is not None and claim.toward is None:
+        return _to_the_digits(claim, claim.rounded) or judged
+    return judged
 
 
 def _mended(claim: Claim, judged: Judged, look: LookAtClock) -> Finding:
@@ -170,9 +200,22 @@ def judge(
     left, right = claim.sides(left, right)
     judging = _Judging(claim, left, right, meaning, look)
     try:
-        return judging.whole()
+        return judging.whole() if claim.toward is None else judging.limit(claim.toward)
     except Undecided as error:
         return Judged(Verdict.UNCHECKED, str(error), tuple(judging.found))
+
+
+def _to_the_digits(claim: Claim, rounded: Rounded) -> Judged | None:
+    """What holds if the constant is one that rounds to the printed one; None if it does not."""
+    ratio = quotient(claim)
+    if ratio is None or mpmath.im(ratio.constant) != 0 or ratio.powers or ratio.constant <= 0:
+        return None
+    printed = mpf(rounded.value.p) / rounded.value.q
+    true = printed * ratio.constant**rounded.power
+    if abs(true - printed) > mpf(rounded.half.p) / rounded.half.q:
+        return None
+    told = f"{mpmath.nstr(printed, 8)} is {mpmath.nstr(true, 12)} at {ratio.count} points"
+    return Judged(Verdict.NUMERICAL, f"true to the digits printed: {told}")
 
 
 class _Judging:
@@ -180,8 +223,9 @@ class _Judging:
 
     found     what was found so far
     equal     whether both sides are shown to be equal everywhere; None if nobody has asked
-    left_out  further points at which no number came out
-    unreal    points at which neither side is real, and the sides are on different branches
+    left_out  points at which no number came out
+    unreal    points at which a side is not real, and the sides differ: no counter-example
+    one_sided  those of them at which the other side is
     """
 
     def __init__(
@@ -190,20 +234,26 @@ class _Judging:
         self.claim, self.left, self.right, self.meaning = claim, left, right, meaning
         self.look = look
         self.found: list[Pair] = []
-        self.left_out, self.unreal = 0, 0
+        self.left_out, self.unreal, self.one_sided = 0, 0, 0
         self.equal: bool | None = None
         self.integrals = has_integral(claim)
 
     def whole(self) -> Judged:
         """The verdict; raises Undecided."""
         for point in self._first_points():
-            if not self._stands_at(self._pair(point)):
+            try:
+                stands = self._stands_at(self._pair(point))
+            except Undefined:
+                self.left_out += 1
+                continue
+            if not stands:
                 return self._fails()
-        if self.unreal and len(self.found) < LEAST:
-            why = f"neither side is real at {self.unreal} points: say where the variables are"
-            return self._judged(Verdict.UNCHECKED, why)
         if len(self.found) < LEAST and variables(self.claim) and not self.claim.cases:
-            return self._judged(Verdict.UNCHECKED, f"only {len(self.found)} points were drawn")
+            judged = self._judged(Verdict.UNCHECKED, self._too_few())
+            alone = self.one_sided if not self.found and self.one_sided == self.unreal else 0
+            return replace(judged, one_side_real=alone)
+        if not self.found:
+            return self._judged(Verdict.UNCHECKED, "a side is no real number")
         for point in further(self.claim, self._in_ours()):
             try:
                 stands = self._stands_at(self._pair(point))
@@ -226,13 +276,34 @@ class _Judging:
                 return self._judged(Verdict.FAILS, wrong)
         return self._proven()
 
+    def _too_few(self) -> str:
+        """Why no more points could be looked at."""
+        told = [f"both sides are real numbers at {len(self.found)} points only"]
+        if self.unreal:
+            told.append(f"one is not real at {self.unreal}")
+        if self.left_out:
+            told.append(f"no number comes out at {self.left_out}")
+        if self.claim.conditions:
+            listed = " and ".join(map(str, self.claim.conditions))
+            told.append(f"points were asked for where {listed}")
+        return f"{', '.join(told)}: say where the variables are, by low, high and require"
+
     def _first_points(self) -> Iterator[Point]:
-        """Points of a moderate size; more of them where neither side was real."""
+        """Points of a moderate size; more of them where a side was no real number."""
         yield from points(self.claim)
-        if self.unreal and not self.claim.cases:
-            for point in points(self.claim, seed="more"):
-                if len(self.found) < LEAST:
-                    yield point
+        if (self.unreal or self.left_out) and not self.claim.cases:
+            for n in range(_MORE_DRAWN):
+                for point in points(self.claim, seed=f"more{n or ''}"):
+                    if len(self.found) < LEAST:
+                        yield point
+
+    def limit(self, toward: tuple[Expr, Expr]) -> Judged:
+        """Whether left over right tends to 1, or their difference is of the order printed."""
+        table = dict(self.meaning)
+        sides = [side.xreplace(table) for side in (self.left, self.right)]
+        approaching = Approach(self.claim, sides, toward)
+        verdict, why = approaching.judged(self.look)
+        return self._judged(Verdict(verdict), why)
 
     def _pair(self, point: Point, meaning: Meaning | None = None) -> Pair:
         """Both sides at one point; a printed integral is written in our symbols first."""
@@ -250,9 +321,13 @@ class _Judging:
 
     def _stands_at(self, pair: Pair) -> bool:
         relation = self.claim.relation
+        if self.claim.is_inequality and mpmath.im(pair.left - pair.right) != 0:
+            self.unreal += 1
+            return True
         if not self.claim.is_inequality:
-            if not pair.agree and mpmath.im(pair.left) != 0 and mpmath.im(pair.right) != 0:
+            if not pair.agree and (mpmath.im(pair.left) != 0 or mpmath.im(pair.right) != 0):
                 self.unreal += 1
+                self.one_sided += (mpmath.im(pair.left) == 0) != (mpmath.im(pair.right) == 0)
                 return True
             self.found.append(pair)
             return pair.agree
@@ -314,7 +389,7 @@ class _Judging:
         if self.claim.cases:
             return f"in {count} {'case' if count == 1 else 'cases'}"
         left_out = f"; no number at {self.left_out} more" if self.left_out else ""
-        left_out += f"; neither side is real at {self.unreal} more" if self.unreal else ""
+        left_out += f"; a side is not real at {self.unreal} more" if self.unreal else ""
         return f"at {count} points" + (f" ({told}{left_out})" if told else "")
 
     def _fails(self) -> Judged:
@@ -389,7 +464,7 @@ def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
     1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4: what fades like that must be proven,
     and so must a printed sign, which is zero at a place that no point may meet.
     """
-    if claim.relation.is_ordered or has_integral(claim) or claim.samples:
+    if claim.relation.is_ordered or has_integral(claim) or claim.samples or claim.toward:
         return judged.good
     table = dict(claim.meaning)
     sides = [side.xreplace(table) for side in claim.sides(left, right)]
@@ -465,7 +540,9 @@ class _Screen:
         self.integrals = has_integral(claim)
 
     def fits(self, left: Expr, right: Expr) -> bool:
-        """Whether a candidate agrees at the screen's points."""
+        """Whether a candidate agrees at the screen's points; near its limit, if it has one."""
+        if self.claim.toward is not None:
+            return judge(self.claim, left, right, self.claim.meaning).good
         left, right = self.claim.sides(left, right)
         if left.has(Integral) or right.has(Integral):
             table = dict(self.claim.meaning)

@@ -105,7 +105,9 @@ def _reduced(expr: Expr) -> Expr:
 def _angles(expr: Expr) -> Expr:
     """Sums inside functions opened, then functions of sums of angles."""
     return expand_trig(
-        expr.replace(lambda n: n.is_Function, lambda n: n.func(*map(expand, n.args)))
+        expr.replace(
+            lambda n: n.is_Function and not n.is_Piecewise, lambda n: n.func(*map(expand, n.args))
+        )
     )
 
 

@@ -1,4 +1,4 @@
-"""Reads a text of g(x) into a tree; nothing is computed.
+"""Reads a text, g(x) or a formula of a claims file, into a tree; nothing is computed.
 
     or          ::= and (("or" | "|") and)*
     and         ::= not (("and" | "&") not)*
@@ -23,18 +23,16 @@ from derive.errors import BadName, BadText
 from derive.geometry import parameter
 from derive.writing.tokens import END, NAME, NUMBER, Token, tokens
 from derive.writing.vocabulary import (
-    FUNCTIONS,
     KEYWORDS,
     LOGICAL,
     MANY,
+    OF_PROFILES,
     OF_THE_FILE,
     PI,
     TRUE,
+    Words,
     refusal,
 )
-
-DEEPEST = 30
-"""Levels of parentheses, calls and powers of powers."""
 
 Result = TypeVar("Result")
 
@@ -141,26 +139,26 @@ class Pair(Node):
     condition: Node
 
 
-def parse(text: str) -> Node:
-    """The tree of `text`.
+def parse(text: str, words: Words = OF_PROFILES) -> Node:
+    """The tree of `text`, whose names are those of `words`.
 
     Raises BadText at the first place that is not of the grammar.
     """
-    return _Parser(text).whole()
+    return _Parser(text, words).whole()
 
 
 class _Parser:
     """Recursive descent with one token ahead."""
 
-    def __init__(self, text: str) -> None:
-        self.text = text
+    def __init__(self, text: str, words: Words) -> None:
+        self.text, self.words = text, words
         self._tokens = tokens(text)
         self.here = next(self._tokens)
         self._depth = 0
 
     def whole(self) -> Node:
         if self.here.kind == END:
-            raise self._refusal("the text is empty", "write g(x), such as x**2/(2*R)")
+            raise self._refusal("the text is empty", "write a formula, such as x**2/(2*R)")
         node = self._or()
         if self.here.kind != END:
             raise self._left_over()
@@ -241,7 +239,7 @@ class _Parser:
 
     def _named(self) -> Node:
         name, column = self.here.text, self.here.column
-        if name in FUNCTIONS:
+        if name in self.words.functions:
             self._take()
             return self._call(name, column)
         if name not in (PI, TRUE, "x"):
@@ -259,6 +257,8 @@ class _Parser:
         """Refuse a name that no parameter can bear."""
         if name in KEYWORDS or name in LOGICAL:
             raise self._keyword(name)
+        if not self.words.of_parameters:
+            return
         try:
             if name in OF_THE_FILE:
                 raise BadName("parameter", name, "is used by the geometry file itself")
@@ -272,12 +272,13 @@ class _Parser:
             raise self._refusal(f"{name} is a function", f"write {name}(...)", column)
         self._take()
         arguments = self._deeper(opening, self._arguments)
-        most = FUNCTIONS[name].most
-        if len(arguments) > most:
-            number = "one argument" if most == 1 else f"at most {MANY} arguments"
-            raise self._refusal(
-                f"{name} takes {number}, here are {len(arguments)}", "leave out the rest", column
-            )
+        known = self.words.functions[name]
+        if not known.least <= len(arguments) <= known.most:
+            number = "one argument" if known.most == 1 else f"{known.least} to {known.most}"
+            if known.least == known.most > 1 or known.most == MANY:
+                number = f"{'at most ' * (known.most == MANY)}{known.most} arguments"
+            remedy = "leave out the rest" if len(arguments) > known.most else "write all of them"
+            raise self._refusal(f"{name} takes {number}, here are {len(arguments)}", remedy, column)
         return Call(column, name, arguments)
 
     def _arguments(self) -> tuple[Node, ...]:
@@ -305,9 +306,9 @@ class _Parser:
         self._take()
 
     def _deeper(self, token: Token, part: Callable[[], Result]) -> Result:
-        if self._depth == DEEPEST:
+        if self._depth == self.words.deepest:
             raise self._refusal(
-                f"this is nested deeper than {DEEPEST} levels",
+                f"this is nested deeper than {self.words.deepest} levels",
                 "write it with fewer parentheses",
                 token.column,
             )

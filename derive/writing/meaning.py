@@ -102,9 +102,9 @@ class Meaning:
     text: for messages; parameters: a symbol for each name.
     """
 
-    def __init__(self, text: str, parameters: Mapping[str, Symbol]) -> None:
+    def __init__(self, text: str, parameters: Mapping[str, Expr]) -> None:
         self.text = text
-        self.symbols = {"x": x, **parameters}
+        self.symbols: dict[str, Expr] = {"x": x, **parameters}
 
     def value(self, node: Node) -> Expr:
         """The value of a node; BadText if it is a condition."""
@@ -112,11 +112,11 @@ class Meaning:
             case Number():
                 return Rational(node.value.numerator, node.value.denominator)
             case Name():
-                return self.symbols[node.name]
+                return self.named(node)
             case Constant() if node.name != TRUE:
                 return pi
             case Negative():
-                return self._step(node.column, operator.neg, self.value(node.operand))
+                return self.step(node.column, operator.neg, self.value(node.operand))
             case Sum() | Product():
                 return self._chain(node)
             case Power():
@@ -124,40 +124,48 @@ class Meaning:
             case Call(function="Piecewise"):
                 return self._piecewise(node)
             case Call():
-                function = FUNCTIONS[node.function].of_sympy
-                return self._step(node.column, function, *map(self.value, node.arguments))
+                return self.call(node)
             case Pair():
                 raise self._pair(node)
-        raise self._refusal(
+        raise self.refusal(
             node.column,
             "a condition is no value",
             "write Piecewise((value, condition), ...) to choose by it",
         )
 
+    def named(self, node: Name) -> Expr:
+        """What a name stands for."""
+        return self.symbols[node.name]
+
+    def call(self, node: Call) -> Expr:
+        """The value of a function of its arguments."""
+        function = FUNCTIONS[node.function].of_sympy
+        return self.step(node.column, function, *map(self.value, node.arguments))
+
     def _chain(self, node: Chain) -> Expr:
         result = self.value(node.operands[0])
         for sign, operand in zip(node.operators, node.operands[1:], strict=True):
             compute = _OPERATORS[sign.text]
-            result = self._step(sign.column, compute, result, self.value(operand))
+            result = self.step(sign.column, compute, result, self.value(operand))
         return result
 
     def _power(self, node: Power) -> Expr:
         base, exponent = self.value(node.base), self.value(node.exponent)
         if reach(exponent) > STEEPEST:
-            raise self._refusal(
+            raise self.refusal(
                 node.column, "the exponent is too large", f"numbers in it may reach {STEEPEST}"
             )
-        return self._step(node.column, operator.pow, base, exponent)
+        return self.step(node.column, operator.pow, base, exponent)
 
     def _piecewise(self, node: Call) -> Expr:
         pairs = []
         for pair in node.arguments:
             if not isinstance(pair, Pair):
-                raise self._refusal(
+                raise self.refusal(
                     pair.column, "Piecewise takes pairs", "write (value, condition), ..."
                 )
             pairs.append((self.value(pair.value), self.condition(pair.condition)))
-        return self._step(node.column, FUNCTIONS["Piecewise"].of_sympy, *pairs)
+        return self.step(node.column, FUNCTIONS["Piecewise"].of_sympy, *pairs)
 
     def condition(self, node: Node) -> Boolean:
         """The condition that a node stands for; BadText if it is a value."""
@@ -165,7 +173,7 @@ class Meaning:
             case Constant() if node.name == TRUE:
                 return true
             case Negation():
-                return self._step(node.column, operator.invert, self.condition(node.operand))
+                return self.step(node.column, operator.invert, self.condition(node.operand))
             case Conjunction():
                 return self._joined(node, operator.and_)
             case Disjunction():
@@ -174,46 +182,47 @@ class Meaning:
                 return self._comparison(node)
             case Pair():
                 raise self._pair(node)
-        raise self._refusal(
+        raise self.refusal(
             node.column, "a value is no condition", "write one such as x < b, or True"
         )
 
     def _joined(self, node: Chain, join: Callable[[Any, Any], Any]) -> Boolean:
         parts = [self.condition(part) for part in node.operands]
-        return self._step(node.column, lambda *all_: reduce(join, all_), *parts)
+        return self.step(node.column, lambda *all_: reduce(join, all_), *parts)
 
     def _comparison(self, node: Comparison) -> Boolean:
         found = []
         for sign, (left, right) in zip(node.operators, pairwise(node.operands), strict=True):
             if is_constant(left) and is_constant(right):
-                raise self._refusal(
+                raise self.refusal(
                     sign.column, "this compares two constants", "compare x with a place"
                 )
             compare, sides = _OPERATORS[sign.text], (left, right)
             if is_constant(left):
                 compare, sides = _OPERATORS[MIRRORED[sign.text]], (right, left)
-            found.append(self._step(sign.column, compare, *map(self.value, sides)))
+            found.append(self.step(sign.column, compare, *map(self.value, sides)))
         return reduce(operator.and_, found)
 
-    def _step(self, column: int, compute: Callable[..., Any], *operands: Any) -> Any:
+    def step(self, column: int, compute: Callable[..., Any], *operands: Any) -> Any:
         """One step, refused where it leads to no formula of real numbers."""
         try:
             result = compute(*operands)
             why = fault(result) if isinstance(result, Expr) else ""
         except Exception as error:
-            raise self._refusal(
+            raise self.refusal(
                 column, f"SymPy cannot compute this ({error})", "write it in another way"
             ) from error
         if why:
-            raise self._refusal(column, f"the result {why}", "write another formula")
+            raise self.refusal(column, f"the result {why}", "write another formula")
         return result
 
     def _pair(self, node: Pair) -> BadText:
-        return self._refusal(
+        return self.refusal(
             node.column,
             "a pair stands in a Piecewise only",
             "write Piecewise((value, condition), ...), or a point in a decimal number",
         )
 
-    def _refusal(self, column: int, why: str, remedy: str) -> BadText:
+    def refusal(self, column: int, why: str, remedy: str) -> BadText:
+        """The error for what stands at a column."""
         return refusal(self.text, column, why, remedy)

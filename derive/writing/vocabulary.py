@@ -1,7 +1,7 @@
 """What a text of g(x) may hold; everything else is refused."""
 
 import keyword
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,6 +19,7 @@ class Function:
 
     name: str
     most: int = 1
+    least: int = 1
 
     @property
     def of_sympy(self) -> Callable[..., Any]:
@@ -39,6 +40,24 @@ FUNCTIONS = {name: Function(name) for name in _OF_ONE} | {
     "min": Function("Min", MANY),
     "Piecewise": Function("Piecewise", MANY),
 }
+
+
+@dataclass(frozen=True)
+class Words:
+    """What the names of a text may be.
+
+    functions      what may be called
+    of_parameters  whether any other name must be fit for a parameter of a geometry
+    deepest        levels of parentheses, calls and powers of powers
+    """
+
+    functions: Mapping[str, Function]
+    of_parameters: bool
+    deepest: int
+
+
+OF_PROFILES = Words(FUNCTIONS, of_parameters=True, deepest=30)
+"""The words of g(x)."""
 
 PI = "pi"
 TRUE = "True"

@@ -35,15 +35,16 @@ from sympy import (
 
 from derive.errors import BadText
 from derive.symbols import RESERVED, x
-from derive.writing.grammar import DEEPEST, parse
+from derive.writing.grammar import parse
 from derive.writing.limits import LARGEST, MOST_TERMS, STEEPEST, reach, terms
 from derive.writing.meaning import names, read
 from derive.writing.python import Python
 from derive.writing.tokens import LONGEST
-from derive.writing.vocabulary import ALLOWED, FUNCTIONS
+from derive.writing.vocabulary import ALLOWED, FUNCTIONS, OF_PROFILES
 
 R, b, k, phi = symbols("R b k phi", positive=True)
 third = Rational(1, 3)
+DEEPEST = OF_PROFILES.deepest
 
 ACCEPTED = [
     ("x**2/(2*R)", x**2 / (2 * R)),

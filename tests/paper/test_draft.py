@@ -15,8 +15,6 @@ from derive.paper.latex import Latex
 from derive.paper.spellings import spellings
 from derive.paper.statements import statements
 
-pytest.importorskip("lark")
-
 PAPER = r"""
 \documentclass{article}
 \newcommand{\dif}{\mathrm{d}}
@@ -48,9 +46,10 @@ def written(folder: Path, text: str) -> Path:
 
 
 def test_displays_are_numbered_as_latex_numbers_them(tmp_path: Path) -> None:
-    found, environments = displays(written(tmp_path, PAPER))
-    assert environments == 5
-    assert [(each.number, each.label) for each in found] == [
+    source = displays(written(tmp_path, PAPER))
+    found = source.found
+    assert source.environments == 5
+    assert [(each.number, "".join(each.labels)) for each in found] == [
         ("1", "law"),
         ("2", "first"),
         ("", ""),
@@ -80,7 +79,7 @@ def test_a_paper_is_drafted_accepted_and_judged(tmp_path: Path) -> None:
     assert all(each["reason"] for each in told)
     assert run(str(new), "--accept", answers="y\n" * 20).exit_code == 0
     text = new.read_text().replace(
-        "[variables]", 'body = "hertz"\n[variables]\na = "half-width"', 1
+        "\n[variables]", '\nbody = "hertz"\n[variables]\na = "half-width"', 1
     )
     lines = [line for line in text.splitlines() if not line.startswith(("a = {", "R = "))]
     known = ['P = "load(a, a)"' if line.startswith("P = {") else line for line in lines]
@@ -107,6 +106,10 @@ def test_a_draft_replaces_nothing(tmp_path: Path) -> None:
         (r"a \pm b = \mp c", ["a + b = - c", "a - b = c"]),
         (r"a &= b \nonumber\\ &+ c", ["a = b + c"]),
         (r"a = b \; \mbox{for} \; 0<x<c", ["a = b"]),
+        (r"a = b, \quad |x| < a", ["a = b"]),
+        (r"{\displaystyle a = b}", ["a = b"]),
+        (r"a = {b \over c}", [r"a = {\frac {b} {c}}"]),
+        (r"\begin{split} a &= b \\ &+ c \end{split}", ["a = b + c"]),
     ],
 )
 def test_statements(latex: str, found: list[str]) -> None:
@@ -121,11 +124,81 @@ def test_statements(latex: str, found: list[str]) -> None:
         (r"c = \int_0^a \frac{F(s)}{\sqrt{s}}\,\mbox{d}s", "c = integral(F_at_s/sqrt(s), s, 0, a)"),
         (r"F(c) = \frac{\mbox{d}P}{\mbox{d}c}", "F_at_c = dP_dc"),
         (r"K_{N}^{\text{LHS}} = E^{*} a'(c)", "K_N_LHS = E_star*a_prime_at_c"),
+        (r"c = b - a + \frac{-a}{b}d^{-1}", "c = b - a + (-a)/b*d**(-1)"),
+        (r"P = \int_{-a}^a p(x) dx", "P = integral(p_at_x, x, -a, a)"),
+        (
+            r"P = \int_0^a\!\int_0^b p(x)\, dx\, ds",
+            "P = integral(integral(p_at_x, x, 0, b), s, 0, a)",
+        ),
+        (r"u = -\!\!\!\int_0^1 \frac{ds}{s - x}", "u = pv(1/(s - x), s, 0, 1)"),
+        (r"u = \mathrm{PV}\int_0^1 \frac{f\,{\rm d}s}{s - x}", "u = pv(f/(s - x), s, 0, 1)"),
+        (r"\frac{dP}{da} = \frac{\partial p}{\partial x}", "dP_da = dp_dx"),
+        (r"dP/da = \frac{d^2 u}{d x^2}", "dP_da = d2u_dx2"),
+        (r"c = \sum_{k=1}^{3} k^2 a", "c = sum(k**2*a, k, 1, 3)"),
+        (r"c = \lim_{x \to \infty} \frac{a}{x}", "c = limit(a/x, x, oo)"),
+        (r"c = \bar{u} + \hat p_0", "c = u_bar + p_hat_0"),
+        (r"c = \max(a, b)", "c = Max(a, b)"),
+        (r"c = \Gamma\left(\frac{3}{2}\right)", "c = gamma_function(3/2)"),
+        (
+            r"c = \begin{cases} a & \text{for } x<0 \\ b, & \text{otherwise} \end{cases}",
+            "c = Piecewise((a, x < 0), (b, True))",
+        ),
+        (
+            r"c = \left\{ \begin{array}{ll} a & 0<x<b \\ b & x>b \end{array} \right.",
+            "c = Piecewise((a, 0 < x < b), (b, x > b))",
+        ),
     ],
 )
 def test_what_is_understood(latex: str, understood: str) -> None:
     (one,) = statements("here", latex)
     assert Latex("here", one.latex, spellings(one.latex)).understood() == understood
+
+
+@pytest.mark.parametrize(
+    ("latex", "condition"),
+    [
+        (r"a = b \text{ for } x > 0", "x > 0"),
+        (r"a = b, \quad |x| < a", "| x | < a"),
+        (r"a = b \quad\text{for } x > 0, y < 2", "x > 0 , y < 2"),
+        (r"p \sim \sqrt{x} \;\text{as}\; x \to 0", r"x \to 0"),
+    ],
+)
+def test_conditions_are_kept(latex: str, condition: str) -> None:
+    (one,) = statements("here", latex)
+    assert one.condition == condition
+
+
+PHYSICS = r"""
+\newcommand{\half}[1]{\frac{#1}{2}}
+\DeclareMathOperator{\sgn}{sgn}
+\begin{document}
+The normal load, $P$, acts, and $a$ is the half-width of the contact.
+\begin{align} p(x) &= \half{P} \sgn(x) \label{one} \\
+p(0) &= P, \quad |x| < a \label{two} \end{align}
+\begin{equation} P = p(x - s) \end{equation}
+\begin{equation} \frac{d}{dx} p(x) = 0 \end{equation}
+In a line $a = \half{b}$ may stand.
+\end{document}
+"""
+
+
+def test_a_draft_asks_where_it_is_not_sure(tmp_path: Path) -> None:
+    new = tmp_path / "draft.toml"
+    done = run(str(written(tmp_path, PHYSICS)), "--draft", str(new), "--inline")
+    assert done.exit_code == 0, done.output
+    assert "p is a function elsewhere" in done.output
+    assert "d/dx before what it is of is not read" in done.output
+    data = tomllib.loads(new.read_text())
+    claims = {claim["label"]: claim for claim in data["claims"]}
+    assert claims["one"]["understood"] == "p_at_x = P/2*sign(x)"
+    assert claims["two"]["require"] == "abs(x) < a"
+    assert claims["line 10"]["understood"] == "a = b/2"
+    assert data["symbols"]["P"]["meaning"] == "normal load"
+    assert data["symbols"]["a"]["meaning"] == "half-width of the contact"
+    assert data["symbols"]["P"]["unit"] == "N/m"
+    assert {each["verdict"] for each in json.loads(run(str(new), "--format", "json").stdout)} == {
+        "unchecked"
+    }
 
 
 @pytest.mark.parametrize(

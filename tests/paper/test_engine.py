@@ -227,9 +227,10 @@ def test_a_sum_that_cancels_wholly_is_zero() -> None:
     assert pair.agree
 
 
-def test_an_integral_over_two_variables_is_undecided() -> None:
+def test_an_integral_over_two_variables_is_computed() -> None:
     twice = Integral(s * u, (s, 0, 1), (u, 0, 1))
-    assert check(claim(a, twice, meaning={a: S(1)})).verdict == Verdict.UNCHECKED
+    assert check(claim(a, twice, meaning={a: S(1)})).verdict == Verdict.FAILS
+    assert check(claim(a, twice, meaning={a: S(1) / 4})).verdict == Verdict.NUMERICAL
 
 
 def test_what_is_not_finite_is_undecided() -> None:

@@ -69,8 +69,6 @@ def test_true_integrals_with_kinks_are_found_true(tmp_path: Path, printed: str) 
 @pytest.mark.parametrize(
     "printed",
     [
-        "integral(log(abs(x + 1.99)), s, 0, 1) = log(x + 1.99)",
-        "log(abs(x + 1.99)) = log(x + 1.99)",
         "abs(x - 1.999) = 1.999 - x",
         "atan(x) + atan(1/x) = pi/2",
         "integral(abs(s - w), s, -1, 1) = 1 + w**2 + 1/10**20",
@@ -134,7 +132,6 @@ def test_the_contact_from_the_loads_is_the_contact(tmp_path: Path, body: str) ->
     "printed",
     [
         "atan((1 + x)/(1 - x)) = atan(x) + pi/4",  # for x < 1 only, else less pi
-        "log(x**2) = 2*log(x)",
         "sign(x) = 1",
         "a = a + 1/10**31",
         "a = a*(1 + 1/10**50)",
@@ -207,17 +204,31 @@ def test_strict_inequalities_where_the_sides_touch(
     assert judged(tmp_path, printed).verdict == verdict
 
 
+@pytest.mark.parametrize(
+    "printed",
+    [
+        "integral(log(abs(x + 1.99)), s, 0, 1) = log(x + 1.99)",
+        "log(abs(x + 1.99)) = log(x + 1.99)",
+        "log(x**2) = 2*log(x)",
+    ],
+)
+def test_a_side_that_is_not_real_is_no_counter_example(tmp_path: Path, printed: str) -> None:
+    finding = judged(tmp_path, printed)
+    assert finding.verdict in GOOD
+    assert "a side is not real at " in evidence(finding)
+
+
 def test_branches_where_neither_side_is_real_do_not_count(tmp_path: Path) -> None:
     """log of a negative quotient is +pi i or -pi i away; where it is real both sides agree."""
     finding = judged(tmp_path, "log((1 - a)/(1 - b)) = log(1 - a) - log(1 - b)")
     assert finding.verdict == Verdict.NUMERICAL
-    assert "neither side is real at " in evidence(finding)
+    assert "a side is not real at " in evidence(finding)
     assert len(finding.judged.pairs) >= 20
     assert judged(tmp_path, "a*sqrt(1 - b) = 2*a*sqrt(1 - b)").verdict == Verdict.FAILS
     assert judged(tmp_path, "a*sqrt(1 - b) = a*sqrt(1 - b)").verdict == Verdict.HOLDS
     hidden = judged(tmp_path, "sqrt(w - 2) = 2*sqrt(w - 2)")
     assert hidden.verdict == Verdict.UNCHECKED
-    assert "neither side is real" in evidence(hidden)
+    assert "one is not real at " in evidence(hidden)
 
 
 def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
@@ -310,8 +321,8 @@ def test_what_says_nothing_is_no_correction(tmp_path: Path, printed: str) -> Non
 
 
 def test_a_correction_has_two_sides(tmp_path: Path) -> None:
-    """Without the modulus both sides would be sqrt(x); with another it says something."""
-    assert corrected(judged(tmp_path, "sqrt(x) = sqrt(abs(x))")) == "Abs(sqrt(x)) = sqrt(Abs(x))"
+    """x = x and |x| = |x| say nothing."""
+    assert corrected(judged(tmp_path, "x = sqrt(abs(x))**2")) is None
 
 
 def test_what_is_true_to_working_digits_is_no_correction(tmp_path: Path) -> None:
@@ -361,7 +372,7 @@ def test_what_is_no_limit_is_refused(tmp_path: Path, given: str) -> None:
     ["a = " + "(" * 300 + "a" + ")" * 300, "a = " + "sin(" * 300 + "a" + ")" * 300],
 )
 def test_what_is_nested_too_deep_is_one_error(tmp_path: Path, printed: str) -> None:
-    with pytest.raises(BadFormula, match="nested too deep"):
+    with pytest.raises(BadFormula, match="nested deeper"):
         judged(tmp_path, printed)
 
 

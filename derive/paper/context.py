@@ -1,0 +1,161 @@
+"""What the equations of a claims file are read with, and how their calls are put in.
+
+Context   a body if there is one, and the variables
+Meant     what the symbols of the source are
+Put       a printed equation with its calls as symbols, and what these stand for
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from sympy import Derivative, Expr, Integral, Limit, Symbol
+from sympy.core.function import AppliedUndef
+from sympy.logic.boolalg import Boolean
+
+from derive.paper.bodies import Body, at
+from derive.paper.claim import Meaning
+from derive.paper.dimensions import Call, Units
+from derive.paper.formula import FROM_POLE, IMPROPER, PrincipalValue, ToInfinity, proper
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, M, P, e, f, x
+from derive.units import Dimension, parse_unit
+
+PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
+_UNITS = {E_star: parse_unit("Pa"), f: parse_unit("-")}
+_EDGES = (Symbol("a", real=True), Symbol("c", real=True))
+_CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
+
+
+@dataclass(frozen=True)
+class Context:
+    """What claims are read with: a body if there is one, and the names that are known from it."""
+
+    body: Body | None
+    variables: Mapping[str, Expr]
+    units: Mapping[Symbol, Dimension]
+
+    def followed(self, meant: "Meant") -> Units:
+        """What is known of units."""
+        known, calls = {**_UNITS, **self.units}, dict[str, Call]()
+        if self.sheet is not None:
+            known = {**self.sheet.geometry.dimensions, **known}
+            for place in PLACES.values():
+                known.setdefault(place, parse_unit("m"))
+            own = self.sheet.dimensions
+            calls = {
+                name: (tuple(own[each] for each in formula.arguments), parse_unit(formula.unit))
+                for name, formula in self.sheet.items()
+            }
+        return Units(known, meant.written, calls)
+
+    @property
+    def sheet(self) -> FormulaSheet | None:
+        """The formulas of the body."""
+        return self.body.sheet if self.body else None
+
+    @cached_property
+    def parameters(self) -> dict[str, Expr]:
+        """Parameters of the body."""
+        return {q.name: q.symbol for q in self.sheet.geometry.parameters} if self.sheet else {}
+
+    @cached_property
+    def arities(self) -> dict[str, int]:
+        """The body's formulas, with how many arguments each takes."""
+        return {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
+
+    def put_in(self, expr: Any) -> Any:
+        """Calls of the sheet's formulas replaced by what they stand for, each proven."""
+        while calls := expr.atoms(AppliedUndef):
+            call = min(calls, key=lambda c: (len(str(c)), str(c)))
+            assert self.body is not None
+            known = self.body.sheet[call.func.__name__]
+            formula = self.body.formula(known.name).xreplace({e: M / P})
+            table = dict(zip(known.arguments, call.args, strict=True))
+            expr = expr.xreplace({call: at(formula.subs(table, simultaneous=True), *_EDGES)})
+        expr = proper(expr)
+        return expr.doit() if expr.has(Derivative, Limit) else expr
+
+    def conditions(self, expr: Expr) -> Iterator[Boolean]:
+        """Where the formulas that are called in an expression are defined."""
+        for call in sorted(expr.atoms(AppliedUndef), key=str):
+            known = self.sheet[call.func.__name__]  # type: ignore[index]
+            table = dict(zip(known.arguments, call.args, strict=True))
+            for condition in known.conditions:
+                yield self.put_in(condition.subs(table, simultaneous=True))
+        for value in sorted(expr.atoms(PrincipalValue), key=str):
+            for over in integrals(self.put_in(value)):
+                if over.limits[-1][0].name.endswith(FROM_POLE):
+                    yield over.limits[-1][2] > 0
+
+
+@dataclass(frozen=True)
+class Meant:
+    """What the source's symbols are.
+
+    written  as the file says it, other symbols put in and calls left as they are
+    ours     in variables alone
+    lost     names of symbols that are defined by themselves
+    """
+
+    written: dict[Symbol, Expr]
+    ours: dict[Symbol, Expr]
+    lost: set[str] = field(default_factory=set)
+
+
+@dataclass(frozen=True)
+class Put:
+    """How the calls of a printed equation are put in: each is a symbol in it, printed as a call."""
+
+    context: Context
+    named: Mapping[Expr, Symbol]
+    meaning: Meaning
+
+    def stands_for(self, call: Expr, meaning: Meaning) -> Expr:
+        """A call, what its arguments mean put in, written out."""
+        return self.context.put_in(call.xreplace(dict(meaning)))
+
+    def called(self, meaning: Meaning) -> Meaning:
+        """What the calls stand for."""
+        return {symbol: self.stands_for(call, meaning) for call, symbol in self.named.items()}
+
+    def without_calls(self, side: Expr) -> Expr:
+        """A printed side with calls as symbols; put in where they change along an integral."""
+        for over in integrals(side):
+            table = {call: self.stands_for(call, self.meaning) for call in calls_along(over)}
+            inside = Integral(over.function.xreplace(table), *over.limits)
+            side = side.xreplace({over: inside})
+        return side.xreplace(dict(self.named))
+
+
+def as_text(call: Expr) -> str:
+    """A call, a derivative or a limit as it is typed."""
+    if isinstance(call, Derivative):
+        (along, times) = call.variable_count[0]
+        return f"diff({call.expr}, {along}" + (f", {times})" if times != 1 else ")")
+    if isinstance(call, PrincipalValue):
+        return f"pv({', '.join(map(str, call.args))})"
+    if isinstance(call, ToInfinity):
+        return f"integral({', '.join(map(str, call.args))}, oo)"
+    if isinstance(call, Limit):
+        return f"limit({', '.join(map(str, call.args[:3]))})"
+    return str(call)
+
+
+def integrals(*exprs: Expr) -> list[Integral]:
+    """All integrals in expressions, in an order that does not change."""
+    return sorted({over for expr in exprs for over in expr.atoms(Integral)}, key=str)
+
+
+def calls_in(*exprs: Expr) -> list[Expr]:
+    """Calls of the sheet's formulas, and what is computed once they are put in: outermost ones."""
+    found = {call for expr in exprs for call in expr.atoms(*_CALLS)}
+    inner = {call for one in found for call in one.atoms(*_CALLS) - {one}}
+    return sorted(found - inner, key=str)
+
+
+def calls_along(over: Integral) -> list[Expr]:
+    """Calls under an integral that change along it."""
+    along = {limit[0] for limit in over.limits}
+    return [call for call in calls_in(over.function) if call.free_symbols & along]

@@ -1,0 +1,211 @@
+"""The units of printed equations: the term that does not fit is named.
+
+Units come from the body's sheet and from `unit = ` of variables and symbols.  A symbol of which
+nothing is said may have any, the same in all claims: each equation that fits says something of it.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+
+from sympy import (
+    Abs,
+    Add,
+    Derivative,
+    Dummy,
+    Expr,
+    Heaviside,
+    Integral,
+    Limit,
+    Max,
+    Min,
+    Mul,
+    Piecewise,
+    Pow,
+    Symbol,
+    atan2,
+    expand,
+    sign,
+)
+from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
+
+from derive.paper.formula import IMPROPER
+from derive.units import NUMBER, Dimension
+
+Call = tuple[tuple[Dimension, ...], Dimension]
+"""The units of a formula's arguments, and its own."""
+
+
+def _between(improper: Expr) -> Integral:
+    inside, along, low, *high = improper.args
+    return Integral(inside, (along, low, *(high or [low])))
+
+
+class _Mismatch(Exception):
+    """Two units that should be one."""
+
+
+class Units:
+    """What is known of the units of a file.
+
+    known    of variables, and of symbols whose unit is said
+    meaning  of symbols, as the file writes it
+    calls    of the formulas of the body
+    """
+
+    def __init__(
+        self,
+        known: Mapping[Symbol, Dimension],
+        meaning: Mapping[Symbol, Expr],
+        calls: Mapping[str, Call],
+    ) -> None:
+        self.known, self.meaning, self.calls = dict(known), meaning, calls
+        self.solved: dict[Dummy, Expr] = {}
+        self._seen: set[Symbol] = set()
+
+    def mismatch(self, left: Expr, right: Expr) -> str:
+        """What does not fit in an equation; empty if all does, or may."""
+        before = dict(self.known), dict(self.solved), set(self._seen)
+        try:
+            self._same(left, right, "")
+        except _Mismatch as error:
+            self.known, self.solved, self._seen = before
+            return str(error)
+        return ""
+
+    def _same(self, one: Expr, other: Expr, whole: str) -> Dimension | None:
+        """The unit that two terms share."""
+        first, second = self._of(one), self._of(other)
+        if first is None or second is None:
+            return first or second
+        inside = f" in {whole}" if whole else ""
+        self._equate(first, second, f"{other}", f"{one}{inside}")
+        return first
+
+    def _equate(self, first: Dimension, second: Dimension, what: str, beside: str) -> None:
+        gaps = (second.pressure - first.pressure, second.length - first.length)
+        for gap in gaps:
+            left = expand(expand(gap).xreplace(self.solved))
+            unknown = sorted(left.atoms(Dummy), key=lambda d: d.dummy_index)
+            free = [d for d in unknown if left.coeff(d).is_number and left.coeff(d) != 0]
+            if free:
+                value = expand(-left.xreplace({free[0]: 0}) / left.coeff(free[0]))
+                table = {free[0]: value}
+                self.solved = {d: expand(v.xreplace(table)) for d, v in self.solved.items()}
+                self.solved[free[0]] = value
+            elif not unknown and left.equals(0) is False:
+                one, other = self._shown(first), self._shown(second)
+                if "?" in one + other:
+                    by = self._shown(Dimension(*gaps))
+                    raise _Mismatch(f"the unit of {what} is {by} times that of {beside}")
+                raise _Mismatch(f"{what} is in {other}, and {beside} in {one}")
+
+    def _shown(self, unit: Dimension) -> str:
+        powers = [expand(e).xreplace(self.solved) for e in (unit.pressure, unit.length)]
+        if any(power.has(Dummy) for power in powers):
+            return "?"
+        return str(Dimension(*powers))
+
+    def _number(self, expr: Expr, taken: str) -> None:
+        """Nothing, or a mismatch where a number is taken and this is none."""
+        found = self._of(expr)
+        if found is not None:
+            try:
+                self._equate(NUMBER, found, str(expr), taken)
+            except _Mismatch:
+                unit = self._shown(found)
+                raise _Mismatch(f"{expr} is in {unit}, and {taken} takes a number") from None
+
+    def _of(self, expr: Expr) -> Dimension | None:
+        """The unit; None of a zero, which has every one."""
+        if expr == 0:
+            return None
+        if isinstance(expr, Symbol):
+            return self._of_symbol(expr)
+        if expr.is_number:
+            return NUMBER
+        if isinstance(expr, Mul):
+            return reduce(Dimension.__mul__, (self._of(each) or NUMBER for each in expr.args))
+        if isinstance(expr, Pow):
+            self._number(expr.exp, f"the exponent of {expr}")
+            if not expr.exp.is_number and expr.base.is_number:
+                return NUMBER
+            return (self._of(expr.base) or NUMBER) ** expr.exp
+        if isinstance(expr, Add | Max | Min):
+            return self._common(expr.args, expr)
+        for kinds, read in self._readers:
+            if isinstance(expr, kinds):
+                return read(self, expr)
+        for argument in expr.args:
+            self._number(argument, str(expr.func))
+        return NUMBER
+
+    def _of_symbol(self, symbol: Symbol) -> Dimension:
+        if symbol not in self.known:
+            meant = self._of(self.meaning[symbol]) if symbol in self.meaning else None
+            self.known[symbol] = meant or Dimension(Dummy(symbol.name), Dummy(symbol.name))
+        elif symbol in self.meaning and symbol not in self._seen:
+            self._seen.add(symbol)
+            meant = self._of(self.meaning[symbol])
+            if meant is not None:
+                what = f"{self.meaning[symbol]}, which {symbol} is said to be,"
+                self._equate(self.known[symbol], meant, what, f"{symbol}, by its unit,")
+        return self.known[symbol]
+
+    def _common(self, terms: tuple[Expr, ...], whole: Expr) -> Dimension | None:
+        found, first = None, terms[0]
+        for term in terms:
+            unit = self._of(term)
+            if found is None:
+                found, first = unit, term
+            elif unit is not None:
+                self._equate(found, unit, str(term), f"{first} in {whole}")
+        return found
+
+    def _of_call(self, expr: Expr) -> Dimension:
+        wanted, own = self.calls[expr.func.__name__]
+        for argument, unit in zip(expr.args, wanted, strict=True):
+            found = self._of(argument)
+            if found is not None:
+                self._equate(unit, found, str(argument), f"what {expr.func} takes there")
+        return own
+
+    def _of_integral(self, expr: Integral) -> Dimension:
+        total, inner = NUMBER, dict(self.known)
+        for variable, *ends in expr.limits:
+            along = self._common(tuple(ends), expr)
+            if along is not None:
+                self.known[variable] = along
+            total = total * self._of_symbol(variable)
+        total = total * (self._of(expr.function) or NUMBER)
+        for variable, *_ in expr.limits:
+            self.known.pop(variable, None)
+            if variable in inner:
+                self.known[variable] = inner[variable]
+        return total
+
+    def _of_derivative(self, expr: Derivative) -> Dimension:
+        unit = self._of(expr.expr) or NUMBER
+        for variable, times in expr.variable_count:
+            unit = unit * self._of_symbol(variable) ** (-times)
+        return unit
+
+    def _of_cases(self, expr: Piecewise) -> Dimension | None:
+        for _, condition in expr.args:
+            for relation in condition.atoms(Relational):
+                self._same(relation.lhs, relation.rhs, str(relation))
+        return self._common(tuple(value for value, _ in expr.args), expr)
+
+    def _of_pair(self, expr: Expr) -> Dimension:
+        self._common(expr.args[:2] if isinstance(expr, atan2) else expr.args[:1], expr)
+        return NUMBER
+
+    _readers: tuple[tuple[tuple[type, ...], Callable[["Units", Expr], Dimension | None]], ...] = (
+        ((AppliedUndef,), _of_call),
+        ((*IMPROPER,), lambda units, expr: units._of_integral(_between(expr))),
+        ((Abs, Limit), lambda units, expr: units._of(expr.args[0])),
+        ((Integral,), _of_integral),
+        ((Derivative,), _of_derivative),
+        ((Piecewise,), _of_cases),
+        ((atan2, sign, Heaviside), _of_pair),
+    )

@@ -1,0 +1,234 @@
+"""What a claim may say beside its equation: where it is true or tends, what it follows from."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import mpmath
+import pytest
+from click.testing import CliRunner
+from sympy import Symbol, symbols
+
+from derive.cli import main
+from derive.paper.diagnosis import named
+from derive.paper.dimensions import Units
+from derive.paper.formula import Names, equation
+from derive.units import parse_unit
+
+HEAD = """
+body = "hertz"
+[variables]
+a = { meaning = "half-width", unit = "m" }
+b = { low = 0.1, high = 5 }
+w = { low = 0.1, high = 5 }
+nu = { low = -0.9, high = 0.5 }
+R = { low = 2, high = 3 }
+[symbols]
+P = "load(a, a)"
+p = "pressure(x, a, a)"
+p_0 = "2*P/(pi*a)"
+K = "K_N_left(a, a)"
+E = ""
+G = ""
+"""
+
+
+def told(folder: Path, printed: str, more: str = "", before: str = "") -> dict[str, str]:
+    """The last claim of a file."""
+    path = folder / "claims.toml"
+    claim = f'{before}[[claims]]\nlabel = "it"\nprinted = {json.dumps(printed)}\n{more}\n'
+    path.write_text(HEAD + claim)
+    done = CliRunner().invoke(main, ["check", str(path), "--format", "json"])
+    assert done.exit_code in (0, 1), done.output
+    found: dict[str, str] = json.loads(done.stdout)[-1]
+    return found
+
+
+# By hand: p = p_0 sqrt(1 - x**2/a**2) is p_0 sqrt(2 t/a) (1 - t/(4 a) ...) at t from an edge.
+@pytest.mark.parametrize(
+    ("printed", "more", "verdict"),
+    [
+        ("p ~ K*sqrt(a + x)", "as = 'a + x -> 0'", "numerical"),
+        ("p ~ p_0*sqrt(2*(a - x)/a)", "as = 'x -> a'", "numerical"),
+        ("p ~ 2*K*sqrt(a + x)", "as = 'a + x -> 0'", "fails"),
+        ("p = K*sqrt(a + x)", "as = 'x -> -a'\norder = 1.5", "numerical"),
+        ("p = K*sqrt(a + x)", "as = 'x -> -a'\norder = 2.5", "fails"),
+        ("sqrt(x**2 + a**2) ~ x", "as = 'x -> oo'", "numerical"),
+        ("sqrt(x**2 + a**2) ~ 2*x", "as = 'x -> oo'", "fails"),
+        ("sin(b) ~ b", "as = 'b -> 0'", "numerical"),
+        ("log(1/b) ~ 1/b", "as = 'b -> 0'", "fails"),
+    ],
+)
+def test_what_tends_where(tmp_path: Path, printed: str, more: str, verdict: str) -> None:
+    assert told(tmp_path, printed, more)["verdict"] == verdict
+
+
+def test_a_limit_is_mended(tmp_path: Path) -> None:
+    found = told(tmp_path, "p ~ 2*K*sqrt(a + x)", "as = 'a + x -> 0'")
+    assert found["corrected"] == "p ~ K*sqrt(a + x)"
+
+
+@pytest.mark.parametrize(
+    ("printed", "more", "verdict"),
+    [
+        ("sqrt((w - b)**2) = w - b", "require = 'b < w'", "numerical"),
+        ("sqrt((w - b)**2) = w - b", "", "fails"),
+        ("sqrt((w - b)**2) = b - w", "require = ['b > w']", "numerical"),
+        ("abs(x) = x", "require = 'P > 0 and x > 0'", "numerical"),
+        ("p = p_0*sqrt(1 - x**2/a**2)", "", "holds"),  # at |x| < a, where the pressure is
+        ("stick_m(P, 0, b, 0) = sqrt(4*R*(P - b/(2*f))/(pi*E_star))", "", "holds"),
+        ("R > 1.9", "", "numerical"),
+        ("R > 2.5", "", "fails"),
+        ("load(a, c) = P", "symbols = { c = 'a' }", "by definition"),
+        ("P = load(a, a)", "", "by definition"),
+        ("load(a, w) = E_star*phi*sqrt(a*w)", "body = 'wedge'", "holds"),
+        ("load(a, a) = P", "body = { g = 'x**2/R', units = { R = 'm' } }", "by definition"),
+        ("load(a, a) = pi*E_star*a**2/(2*R)", "body = { g = 'x**2/R' }", "holds"),
+        (
+            "sinh(w)**2 + 1 = cosh(w)**2",
+            "body = 'none'\nsymbols = { P = '1', p = '1', K = '1' }",
+            "holds",
+        ),
+    ],
+)
+def test_where_and_of_what_it_is_said(
+    tmp_path: Path, printed: str, more: str, verdict: str
+) -> None:
+    found = told(tmp_path, printed, more)
+    assert found["verdict"] == verdict, found["reason"]
+
+
+# By hand: sum of 1/k**2 is pi**2/6; the principal value of 1/(s - x) over [-3, 3] is
+# log((3 - x)/(3 + x)), and that of p(s)/(x - s) over the contact pi E* x/(2 R).
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("printed", "verdict"),
+    [
+        ("diff(P, a) = pi*E_star*a/(2*R)", "holds"),
+        ("diff(P, a, 2) = pi*E_star/(2*R)", "holds"),
+        ("diff(P, a) = pi*E_star*a/R", "fails"),
+        ("limit(sin(x)/x, x, 0) = 1", "holds"),
+        ("sum(k**2, k, 1, 4) = 30", "holds"),
+        ("sum(1/k**2, k, 1, oo) = pi**2/6", "holds"),
+        ("gamma_function(3/2) = sqrt(pi)/2", "holds"),
+        ("Max(a, b) + Min(a, b) = a + b", "numerical"),
+        ("Piecewise((x, x > 0), (-x, True)) = abs(x)", "numerical"),
+        ("Piecewise((x, x > 0), (x, True)) = abs(x)", "fails"),
+        ("integral(exp(-t), t, 0, oo) = 1", "numerical"),
+        ("integral(integral(s*t, s, 0, t), t, 0, 1) = 1/8", "numerical"),
+        ("pv(1/(s - x), s, -3, 3) = log((3 - x)/(3 + x))", "numerical"),
+        ("pv(1/(s - x), s, -3, 3) = log((3 + x)/(3 - x))", "fails"),
+        ("pv(pressure(s, a, a)/(x - s), s, -a, a) = pi*E_star*x/(2*R)", "numerical"),
+        ("pv(s, s, -a, a) = 0", "unchecked"),
+        ("p_0 = 0.564*sqrt(P*E_star/R)", "numerical"),  # 1/sqrt(pi) = 0.56419
+        ("p_0 = 0.565*sqrt(P*E_star/R)", "fails"),
+        ("a = 1.13*sqrt(P*R/E_star)", "numerical"),  # 2/sqrt(pi) = 1.12838
+        ("a = 1.1*sqrt(P*R/E_star)", "fails"),
+    ],
+)
+def test_what_papers_say(tmp_path: Path, printed: str, verdict: str) -> None:
+    found = told(tmp_path, printed)
+    assert found["verdict"] == verdict, found["reason"]
+
+
+MODULI = """
+[[claims]]
+label = "(8)"
+printed = "E = 2*G*(1 + nu)"
+[[claims]]
+label = "(9)"
+printed = "G = w/(1 + nu)"
+"""
+
+
+@pytest.mark.parametrize(
+    ("printed", "given", "verdict"),
+    [
+        ("G = E/(2*(1 + nu))", '["(8)"]', "holds"),
+        ("G = E/(1 + nu)", '["(8)"]', "fails"),
+        ("E = 2*w", '["(8)", "(9)"]', "holds"),
+        ("E = w", '["(9)", "(8)"]', "fails"),
+        ("E = 2*w", '["(9)"]', "fails"),
+    ],
+)
+def test_what_follows(tmp_path: Path, printed: str, given: str, verdict: str) -> None:
+    found = told(tmp_path, printed, f"given = {given}", MODULI)
+    assert found["verdict"] == verdict, found["reason"]
+    assert "given (" in found["evidence"]
+
+
+@pytest.mark.parametrize("given", ['["it"]', '["(10)"]', '"(8)"'])
+def test_what_cannot_be_given(tmp_path: Path, given: str) -> None:
+    path = tmp_path / "claims.toml"
+    claim = f'[[claims]]\nlabel = "it"\nprinted = "E = G"\ngiven = {given}\n'
+    path.write_text(HEAD + MODULI + claim)
+    done = CliRunner().invoke(main, ["check", str(path)])
+    assert (done.exit_code, "claims.toml:" in done.output) == (2, True)
+
+
+# By hand: a = (2/sqrt(pi)) sqrt(P R/E*), P = pi E* a**2/(4 R).
+@pytest.mark.parametrize(
+    ("printed", "diagnosis"),
+    [
+        ("a = sqrt(P*R/E_star)", "sqrt(4/pi)"),
+        ("P = E_star*a**2/(5*R)", "5*pi/4"),
+        ("P = E_star*a/R", "pi/4*a"),
+    ],
+)
+def test_by_what_both_sides_differ(tmp_path: Path, printed: str, diagnosis: str) -> None:
+    found = told(tmp_path, printed)
+    assert found["verdict"] == "fails"
+    assert f"left over right is {diagnosis} at" in (found["diagnosis"] or "")
+
+
+@pytest.mark.parametrize(
+    ("value", "name"),
+    [
+        (lambda: 4 / mpmath.pi, "4/pi"),
+        (lambda: mpmath.mpf(7) / 3, "7/3"),
+        (lambda: -mpmath.sqrt(2), "-sqrt(2)"),
+        (lambda: mpmath.pi**2 / 6, "pi**2/6"),
+        (lambda: mpmath.mpf("1.2345678901234567890123"), ""),
+    ],
+)
+def test_constants_are_named(value: Callable[[], mpmath.mpf], name: str) -> None:
+    with mpmath.workdps(40):
+        assert named(value()) == name
+
+
+def test_a_lost_root_is_found(tmp_path: Path) -> None:
+    assert told(tmp_path, "p_0 = P*E_star/(pi*R)")["corrected"] == "p_0 = sqrt(E_star*P/(pi*R))"
+
+
+def test_units_of_symbols_that_nobody_knows() -> None:
+    """t is in metres by the first equation, so that the second one does not fit."""
+    a, t, p = symbols("a t p")
+    names = Names("here", {"a": a, "t": t, "p": p, "s": Symbol("s")}, {})
+    units = Units({a: parse_unit("m"), p: parse_unit("Pa")}, {}, {})
+    fits = ("t = 2*a", "p = integral(p/t, s, 0, a)", "t/a = sin(t/a)")
+    for text in fits:
+        left, _, right = equation(text, names)
+        assert units.mismatch(left, right) == ""
+    for text in ("p = p*t", "a = 1 + t", "exp(a) = 2", "p = integral(p, s, 0, a)"):
+        left, _, right = equation(text, names)
+        assert units.mismatch(left, right)
+
+
+def test_the_page_holds_every_claim(tmp_path: Path) -> None:
+    path = tmp_path / "claims.toml"
+    claims = (
+        '[[claims]]\nlabel = "right"\nprinted = "P = pi*E_star*a**2/(4*R)"\n'
+        "[[claims]]\nlabel = \"<script>\"\nlatex = 'p_0 = \\frac{P}{\\pi a} \\text{<script>}'\n"
+        'printed = "x"\nunchecked = "not yet"\n'
+        '[[claims]]\nlabel = "wrong"\nprinted = "P = E_star*a**2/(5*R)"\n'
+    )
+    path.write_text(HEAD + claims)
+    done = CliRunner().invoke(main, ["check", str(path), "--format", "html"])
+    assert done.exit_code == 1
+    page = done.stdout
+    assert "<script" not in page
+    assert "&lt;script&gt;" in page
+    assert page.count("<section") == 3
+    assert "5*pi/4" in page
+    assert page.count("<polyline") == 2
+    assert page.rstrip().endswith("</html>")
