@@ -147,6 +147,8 @@ def instants(
 ) -> Sequence[Axes]:
     """Shear at chosen instants above, within what friction holds; slip so far below.
 
+    Slip is drawn where the bodies touch at all instants: elsewhere they move freely in between.
+
     body       a generated module
     told, x    as for `slip_map`
     at         numbers of the instants, from 0; -1 is the last one
@@ -164,8 +166,10 @@ def instants(
         raise ValueError(f"{len(labels)} labels are given for {len(at)} instants")
     bound = _bounds(body, told, x, f, constants)
     chosen = [bound[i] for i in at]
+    touching = (x >= -np.min(told.a)) & (x <= np.min(told.c))
+    slip = np.where(touching, told.slip, np.nan)
     length = length or unit(x, "m")
-    stress, depth = stress or unit(typical(np.ravel(chosen)), "Pa"), unit(told.slip, "m")
+    stress, depth = stress or unit(typical(np.ravel(chosen)), "Pa"), unit(slip, "m")
     with style():
         if axes is None:
             _, axes = subplots(2, 1, size=(5.6, 5.0), sharex=True)
@@ -174,7 +178,7 @@ def instants(
             if number == 0 or not np.allclose(limit, chosen[0], equal_nan=True):
                 band(axes[0], length(x), stress(limit), "" if number else r"$\pm f\,p$")
             axes[0].plot(length(x), stress(told.q[i]), label=name)
-            axes[1].plot(length(x), depth(told.slip[i]))
+            axes[1].plot(length(x), depth(slip[i]))
         highest = 1.15 * float(np.nanmax(typical(stress(np.ravel(chosen)))))
         axes[0].set(ylabel=stress.label("q"), ylim=(-highest, highest))
         axes[1].set(xlabel=length.label("x"), ylabel=depth.label("s"))
