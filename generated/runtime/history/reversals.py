@@ -25,6 +25,13 @@ back that of the branch before.  These are all conditions of the shear problem, 
 one alone.
 
 That is return-point memory, after Cattaneo and Mindlin, Jaeger, and Ciavarella.
+
+The gap beside [-m, n] opens with the slope
+
+    (w(x)/pi) int_-m^n (g'(x) - g'(s))/((x - s) sqrt((m + s)(n - s))) ds,
+
+w = sqrt((x + m)(x - n)), negative on the left: what g' leaves outside of the contact, as the
+pressure is what it leaves inside.
 """
 
 import math
@@ -34,8 +41,7 @@ import numpy as np
 
 from ..inverse import contact, contact_at_tilt
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, vector, whole
-from ..slip.quadrature import slip_nodes
-from ..slip.shear import change_at, slip_at
+from ..slip.shear import change_at
 from .path import SIGMA, M, P, Q
 
 MODERATE, FULL_STICK = 1.0, 5.0
@@ -54,8 +60,9 @@ CHANGE, LEFT, RIGHT, WORK, PLACES = range(5)
 """Columns of the stack: D, m, n, friction's work over a whole branch of that D, and from PLACES on
 its change of shear and then its slip at the places."""
 
-LEVEL = 0
-"""Level of the quadrature of friction's work."""
+_PLACES, _SHARES = np.polynomial.legendre.leggauss(14)
+_PLACES, _SHARES = (1 + _PLACES) / 2, _SHARES / 2
+"""Gauss's rule on (0, 1)."""
 
 
 @kernel(real(matrix, real))
@@ -79,21 +86,68 @@ def _tension(loads: Any, f: float) -> float:
     return k
 
 
+@kernel(real(vector, real, real))
+def _next_break(breaks: Any, low: float, high: float) -> float:
+    """The first break behind `low`, `high` at last."""
+    for place in breaks:
+        if low < place < high:
+            high = place
+    return high
+
+
+@kernel(real(LAW, vector, vector, real, real, real))
+def _opening(law: Any, own: Any, breaks: Any, m: float, n: float, x: float) -> float:
+    """How steep the gap is at x, outward; x outside of [-m, n]."""
+    half, mid, here, total = (m + n) / 2, (n - m) / 2, law.slope(x, own)[0], 0.0
+    low = -m
+    while low < n:
+        high = _next_break(breaks, low, n)
+        start = math.acos(min(max((high - mid) / half, -1.0), 1.0))
+        width = math.acos(min(max((low - mid) / half, -1.0), 1.0)) - start
+        for i in range(_PLACES.size):
+            s = mid + half * math.cos(start + width * _PLACES[i])
+            total += width * _SHARES[i] * (here - law.slope(s, own)[0]) / (x - s)
+        low = high
+    return math.sqrt((x + m) * (x - n)) / math.pi * total
+
+
+@kernel(real(LAW, vector, vector, real, real, real))
+def gap(law: Any, own: Any, breaks: Any, m: float, n: float, x: float) -> float:
+    """The gap at x beside the contact [-m, n]; zero in it."""
+    if -m <= x <= n:
+        return 0.0
+    total, low = 0.0, n if x > n else x
+    end = x if x > n else -m
+    while low < end:
+        high = _next_break(breaks, low, end)
+        for i in range(_PLACES.size):
+            # the slope begins like a root at the contact
+            t, rest = _PLACES[i], 1 - _PLACES[i]
+            at = low + (high - low) * (t * t if x > n else 1 - rest * rest)
+            weight = 2 * (high - low) * _SHARES[i] * (t if x > n else rest)
+            total += weight * _opening(law, own, breaks, m, n, at)
+        low = high
+    return total
+
+
 @kernel(real(LAW, vector, vector, real, real))
 def _taken(law: Any, own: Any, cycle: Any, m: float, n: float) -> float:
     """int f p slip dx over a branch: what friction takes."""
-    total = 0.0
-    for side in (-1.0, 1.0):
-        start, edge = (n, cycle[1]) if side > 0 else (m, cycle[0])
-        if not edge > start:
-            continue
-        nodes = slip_nodes(law.breaks(own), side, start, edge - start, edge - start, LEVEL)
-        for i in range(nodes.shape[1]):
-            x = side * (start + nodes[0, i])
-            p = law.pressure(x, cycle[0], cycle[1], own)
-            if 0 < p < math.inf:
-                total += nodes[1, i] * p * slip_at(law, own, cycle, m, n, MODERATE, x)
-    return cycle[6] * total
+    total, breaks = 0.0, law.breaks(own)
+    for side in range(2):
+        low, end = (-cycle[0], -m) if side == 0 else (n, cycle[1])
+        while low < end:
+            high = _next_break(breaks, low, end)
+            for i in range(_PLACES.size):
+                # the pressure ends like a root at the edge
+                angle = math.pi / 2 * _PLACES[i]
+                x = low + (high - low) * math.sin(angle) ** 2
+                p = law.pressure(x, cycle[0], cycle[1], own)
+                if 0 < p < math.inf:
+                    weight = math.pi / 2 * (high - low) * math.sin(2 * angle) * _SHARES[i]
+                    total += weight * p * gap(law, own, breaks, m, n, x)
+            low = high
+    return 2 * cycle[6] ** 2 * total
 
 
 @kernel(whole(LAW, vector, vector, vector, vector, real, vector))
@@ -107,9 +161,12 @@ def _branch(law: Any, own: Any, cycle: Any, normal: Any, places: Any, k: float, 
             return 0
         m, n = min(m, cycle[0]), min(n, cycle[1])
     row[LEFT], row[RIGHT], row[WORK] = m, n, _taken(law, own, cycle, m, n)
+    breaks = law.breaks(own)
     for i in range(places.size):
-        row[PLACES + i] = change_at(law, own, cycle, m, n, MODERATE, places[i])
-        slip = slip_at(law, own, cycle, m, n, MODERATE, places[i])
+        x, slip = places[i], math.nan
+        row[PLACES + i] = change_at(law, own, cycle, m, n, MODERATE, x)
+        if -cycle[0] <= x <= cycle[1]:
+            slip = 2 * cycle[6] * gap(law, own, breaks, m, n, x)
         row[PLACES + places.size + i] = slip
     return 1
 
