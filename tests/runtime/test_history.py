@@ -18,7 +18,7 @@ import pytest
 from derive.runtime.body import Asked, Body, Parameter
 from derive.runtime.history import batch, public
 from derive.runtime.kernels import COMPILED
-from derive.runtime.types import Regime
+from derive.runtime.types import Regime, StickZone
 from tests.reference.friction import Friction
 from tests.reference.kernel import Surface
 from tests.reference.mesh import graded
@@ -325,12 +325,28 @@ def test_what_is_computed_is_as_exact_as_stated(case, P, M, dQ, dsigma, normal, 
     given = P * (1 + normal * way), M, 2 * dQ * F * P * way, dsigma * way
     exact = steady_cycle(case, *given)
     assert exact.regime in (Regime.MODERATE, Regime.LARGE) and exact.error == 0
-    refused = exact._replace(regime=np.full(3, 3), m=np.full(3, np.nan))
-    monkeypatch.setattr(public, "march", lambda *_, **__: refused)
+    nothing = StickZone(*(np.asarray(np.nan),) * 3), np.nan
+    monkeypatch.setattr(public, "_exact", lambda *_: nothing)
     found = steady_cycle(case, *given)
     assert found.regime == COMPUTED and found.drift < 1e-3
     h = exact.m + exact.n
     assert max(abs(found.m - exact.m), abs(found.n - exact.n)) < found.error * h < 0.01 * h
+
+
+@pytest.mark.parametrize("part", [0.95, 1.05])
+def test_cycles_in_which_slip_reverses_are_as_exact_as_can_be(part):
+    """Around the tension that closes the moderate zone; the others of a batch are left alone."""
+    way = np.array([-0.5, 0.0, 0.5, 0.0])
+    tension = part * 0.206 * np.array([[1.0], [0.1]])  # f P = 0.5; closes at 0.2060
+    found = steady_cycle(wedge, 1.0, 0.0, 0.15 * way, tension * way)
+    assert found.regime.tolist() == [Regime.MIXED, Regime.MODERATE]
+    assert found.error.tolist() == [1e-7, 0.0]
+    alone = steady_cycle(wedge, 1.0, 0.0, 0.15 * way, tension[0] * way)
+    varied = steady_cycle(wedge, 1 + 1e-9 * way, 0.0, 0.15 * way, tension[0] * way)
+    assert (alone.m, alone.n) == (found.m[0], found.n[0])
+    assert varied.regime == COMPUTED
+    off = max(abs(varied.m - alone.m), abs(varied.n - alone.n)) / (alone.m + alone.n)
+    assert off < varied.error < 5e-3
 
 
 def test_work_of_a_cycle_is_what_friction_takes_where_it_slips():

@@ -9,8 +9,8 @@ import numpy as np
 from ..arrays import Numbers, shape_of
 from ..body import Asked, numbers_of
 from ..chunks import any_lazy
-from ..cycle import march
-from ..types import Array, History, Regime, SteadyCycle
+from ..cycle import march, stick_zone
+from ..types import Array, Contact, History, Regime, SteadyCycle, StickZone
 from .batch import run
 from .lazy import over_chunks
 
@@ -19,6 +19,9 @@ _LOADS = ("P", "M", "Q", "sigma")
 _INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"}
 _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": "p"}
 """Axes of the results: time, and places."""
+
+TURNING = 1e-7
+"""Of what stick_zone solves with mixed=True, the error in parts of the width."""
 
 
 class _Given(NamedTuple):
@@ -101,9 +104,10 @@ def steady_cycle(
 ) -> SteadyCycle:
     """What a closed load history settles to: the permanent stick zone, slip and work a cycle.
 
-        as by stick_zone where that is exact; else the history is repeated until slip repeats, and
-            what sticks is what slips less in the last round, to and fro added, than 1e-5 of the
-            most; how far the ends move with thirty times that is part of the error
+        as by stick_zone where that is exact, with `mixed` where the normal loads are constant
+        else the history is repeated until slip repeats, and what sticks is what slips less in the
+            last round, to and fro added, than 1e-5 of the most; how far the ends move with thirty
+            times that is part of the error
 
     Arguments broadcast; time lies along the last axis, and from the last instant the loads go back
     to the first.  Many cycles are shared by the cores; Dask arrays stay lazy.
@@ -124,21 +128,44 @@ def steady_cycle(
     run("history.solve.each_cycle", asked.body.law, given.rows, given.own, out)
     found = out.reshape((*given.cycles, 7 + 2 * count))
     m, n, regime, work, rounds, drift, error = (found[..., i] for i in range(7))
-    exact = march(asked, *_closed((P, M, Q, sigma)), f=f, E_star=E_star)
-    codes = np.broadcast_to(exact.regime, (*given.cycles, given.instants))
-    alike = np.all(codes == codes[..., :1], axis=-1)
-    known = alike & np.isin(codes[..., 0], (Regime.MODERATE, Regime.LARGE, Regime.FULL_STICK))
-    known &= np.all(np.isfinite(exact.m), axis=-1)
-    m = np.where(known, np.min(exact.m, axis=-1), m)
-    n = np.where(known, np.min(exact.n, axis=-1), n)
-    regime = np.where(known, codes[..., 0], regime).astype(np.int64)
-    error = np.where(known, 0.0, error)
+    zone, accuracy = _exact(asked, numbers)
+    known = np.isfinite(zone.m)
+    m, n = np.where(known, zone.m, m), np.where(known, zone.n, n)
+    regime = np.where(known, zone.regime, regime).astype(np.int64)
+    error = np.where(known, accuracy, error)
     q = slip = None
     if x is not None:
         slip = found[..., 7 : 7 + count].reshape((*given.cycles, *places))
         q = (found[..., 7 + count :] * given.E_star[..., None]).reshape((*given.cycles, *places))
     values = (m, n, regime, slip, q, work * given.E_star, rounds, drift, error)
     return SteadyCycle(*(v if v is None else v[()] for v in values))
+
+
+def _exact(asked: Asked, numbers: Numbers) -> tuple[StickZone, Array]:
+    """The zones of cycles that stick_zone solves, NaN of others; and how far they may be off."""
+    shape = shape_of(numbers)
+    full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
+    P, M, Q, sigma = (full.pop(name) for name in _LOADS)
+    told = march(asked, P, M, Q, sigma, f=full["f"], E_star=full["E_star"])
+    code = np.asarray(told.regime[..., 0])
+    alike = np.all(told.regime == code[..., None], axis=-1)
+    known = alike & np.isin(code, (Regime.MODERATE, Regime.LARGE, Regime.FULL_STICK))
+    m, n = (np.where(known, np.min(v, axis=-1), np.nan) for v in (told.m, told.n))
+    still = np.all((P[..., :1] == P) & (M[..., :1] == M), axis=-1)
+    turns = np.asarray(alike & still & (code == Regime.MIXED))
+    if np.any(turns):
+        way = np.where(np.ptp(Q, axis=-1)[..., None] > 0, Q, sigma)
+        low, high = (at(way, axis=-1)[..., None] for at in (np.argmin, np.argmax))
+        changes = [
+            np.take_along_axis(v, high, -1) - np.take_along_axis(v, low, -1) for v in (Q, sigma)
+        ]
+        dQ, dsigma = (v[turns, 0] for v in changes)
+        held = {name: value[turns, 0] for name, value in full.items()}
+        friction = {name: held.pop(name) for name in ("f", "E_star")}
+        here = Contact(told.a[turns, 0], told.c[turns, 0], np.nan)
+        mine = asked._replace(own=held)
+        m[turns], n[turns], _ = stick_zone(mine, here, here, dQ, dsigma, **friction, mixed=True)
+    return StickZone(m, n, code), np.where(code == Regime.MIXED, TURNING, 0.0)
 
 
 def _closed(loads: tuple[Array, ...]) -> list[Any]:
