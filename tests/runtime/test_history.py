@@ -385,6 +385,29 @@ def test_mirrored_loads_mirror_the_answer(case):
     assert there.work == pytest.approx(here.work, rel=0.01)
 
 
+def test_two_histories_under_the_same_loads_never_separate():
+    """In the energy of the difference of their shears: of e over x = mid + half cos t it is
+    sum (2/n) (int e cos(n t) dx)**2, since ln|x - s| = ln(half/2) - sum (2/n) cos(n t) cos(n u)."""
+    P, M = LOAD * (1 + 0.2 * np.sin(T)), 0.05 * np.cos(T)
+    Q, sigma = 0.3 * F * LOAD * np.sin(T + 1), 0.3 * np.cos(T + 2)
+    wide = history(hertz, P, M, Q, sigma)
+    left, right = wide.a.max(), wide.c.max()
+    half, angle = (left + right) / 2, (np.arange(64) + 0.5) * np.pi / 64
+    x = (right - left) / 2 + half * np.cos(angle)
+    starts = ([0.3, 0.6, -0.5], [-0.6, -0.3, 0.7])
+    q = []
+    for Q0, sigma0, after in starts:
+        before = [np.r_[v[0], v[0], v] for v in (P, M)]
+        loads = np.r_[Q0 * F * LOAD, after * F * LOAD, Q], np.r_[sigma0, -sigma0, sigma]
+        q.append(history(hertz, *before, *loads, x=x).q[2:])
+    e = (q[1] - q[0]) * half * np.sin(angle) * np.pi / 64
+    order = np.arange(1, 40)
+    energy = np.sum(2 / order * (e @ np.cos(angle[:, None] * order)) ** 2, axis=-1)
+    assert energy[0] > 0
+    assert np.all(np.diff(energy) < 0.01 * energy[0])
+    assert energy[-1] < 0.5 * energy[0]
+
+
 def test_any_units():
     P, Q = LOAD * (1 + 0.2 * np.sin(T)), 0.3 * F * LOAD * np.cos(T)
     size, E_star = 1e-3, 1e11
