@@ -49,8 +49,7 @@ AGREED = 1e-12
 """Two sums that agree to this, the later one is exact to rounding."""
 
 SHORT = 0.03
-"""A part has a singularity close beyond one of its ends, where its neighbour is shorter than this
-part of it.  Coarse sums may then agree by chance: those of step 1/16 are waited for."""
+"""A neighbour is short if it is shorter than this part of a part."""
 
 BESIDE = 0.1
 """Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
@@ -110,7 +109,6 @@ CURVE: Any = record(Curve, *map(function, (BESIDE_BREAK, BREAKS, BREAKS)))
 PART: Any = record(Part, whole, whole, *(real,) * 6)
 NODE: Any = results(7)
 INTEGRAND: Any = results(5)(NODE, results(3))
-OVER_PART: Any = (function(INTEGRAND), results(3), CURVE, PART, vector)
 
 _beside_value, _breaks_value, _integrand = map(value_of, (BESIDE_BREAK, BREAKS, INTEGRAND))
 
@@ -176,90 +174,73 @@ def slope(curve: Any, x: float, own: Any) -> tuple[float, float]:
 
 
 def _rule() -> Any:
-    """q, 1 - q and weights of the rule on (0, 1) with q = 1/(1 + exp(pi sinh t)), t > 0.
+    """q, 1 - q, weights and t of the rule on (0, 1) with q = 1/(1 + exp(pi sinh t)), t >= 0.
 
-    First those of step 1, t = 1, 2, ..., FARTHEST; then, level by level, those of half the step
-    that come between.  Where t < 0, q and 1 - q change places.
+    First those of step 1, t = 0, 1, ..., FARTHEST; then, level by level, those of half the step
+    that come between.  Where t < 0, q and 1 - q change places; t = 0 is met so twice, and weighs
+    half.
     """
-    levels = [np.arange(1.0, FARTHEST + 1)]
+    levels = [np.arange(FARTHEST + 1.0)]
     levels += [np.arange(0.5**n, FARTHEST, 2 * 0.5**n) for n in range(1, FINEST + 1)]
     t = np.concatenate(levels)
     q, rest = (1 / (1 + np.exp(sign * np.pi * np.sinh(t))) for sign in (1, -1))
-    return np.column_stack((q, rest, np.pi * np.cosh(t) * q * rest))
+    weight = np.pi * np.cosh(t) * q * rest
+    weight[0] /= 2
+    return np.column_stack((q, rest, weight, t))
 
 
 RULE = _rule()
-MIDDLE = math.pi / 4
-"""The weight where t = 0."""
 
 
-@kernel(real(*OVER_PART, whole, whole, real, vector, vector))
-def _add(
-    integrand: Any,
-    given: Any,
-    curve: Any,
-    part: Any,
-    own: Any,
-    level: int,
-    side: int,
-    reach: float,
-    sums: Any,
-    sizes: Any,
-) -> float:
-    """Add what a level brings on one side of a part; tell how far from its middle terms count.
+@kernel(whole(PART))
+def _coarsest(part: Any) -> int:
+    """The first level at which two sums that agree are believed.
 
-    From the third level on, the rule goes no farther than that.
+    A singularity close beyond an end, where the part's neighbour is short, shows on fine levels
+    alone: before, sums may agree by chance.
     """
-    step = 0.5**level
-    apart = 1.0 if level == 0 else 2 * step
-    nodes = int(FARTHEST / apart)
-    first = 0 if level == 0 else nodes
-    for j in range(nodes):
-        t = step + j * apart
-        if level > 1 and t >= reach + 0.5:
-            break
-        q, rest, weight = RULE[first + j, side], RULE[first + j, 1 - side], RULE[first + j, 2]
-        values = integrand(_at(curve, part, q, rest, own), given)
-        for i in range(sums.size):
-            size = sizes[i]
-            sums[i] += weight * values[i]
-            sizes[i] += abs(weight * values[i])
-            if sizes[i] != size:
-                reach = max(reach, t)
-                if t == FARTHEST:  # the sum has not come to its end
-                    sums[i] = math.nan
-    return reach
+    h = part.length / part.extent
+    for gap in (part.start + part.past / h, part.end + part.ahead / h):
+        if 0 < gap < SHORT * part.extent:
+            return 4
+    return 2
 
 
-@kernel(nothing(*OVER_PART, vector))
+@kernel(nothing(function(INTEGRAND), results(3), CURVE, PART, vector, vector))
 def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, total: Any) -> None:
     """Add the integrals over a part to `total`: NaN where the sums do not agree or have no end.
 
-    All are infinite beyond the body's curve, where the first one is infinite or none.
+    All are infinite beyond the body's curve, where the first one is infinite or none.  From the
+    third level on, the rule goes no farther than terms have counted.
 
     integrand: its values, as many as are totalled, from a node and three numbers that are given.
     """
     if not part.length > 0:
         return
     sums, sizes, before = np.zeros(total.size), np.zeros(total.size), np.zeros(total.size)
-    values = integrand(_at(curve, part, 0.5, 0.5, own), given)
-    for i in range(total.size):
-        sums[i] = MIDDLE * values[i]
-        sizes[i] = abs(sums[i])
-    h = part.length / part.extent
-    gaps = part.start + part.past / h, part.end + part.ahead / h
-    enough = 2
-    for gap in gaps:
-        if 0 < gap < SHORT * part.extent:
-            enough = 4
-    low = high = 0.0
+    coarsest, reach, done = _coarsest(part), 0.0, 0
     for level in range(FINEST + 1):
-        low = _add(integrand, given, curve, part, own, level, 0, low, sums, sizes)
-        high = _add(integrand, given, curve, part, own, level, 1, high, sums, sizes)
+        nodes = 1 + (FARTHEST << level)
+        for j in range(done, nodes):
+            weight, t = RULE[j, 2], RULE[j, 3]
+            if level > 1 and t >= reach + 0.5:
+                break
+            for side in range(2):
+                node = _at(curve, part, RULE[j, side], RULE[j, 1 - side], own)
+                values = integrand(node, given)
+                for i in range(total.size):
+                    size = sizes[i]
+                    sums[i] += weight * values[i]
+                    sizes[i] += abs(weight * values[i])
+                    if sizes[i] != size:
+                        reach = max(reach, t)
+                        if t == FARTHEST:  # the sum has not come to its end
+                            sums[i] = math.nan
+        done = nodes
         if not sizes[0] < math.inf:
             total[:] = math.inf
             return
-        agree = level >= enough
+        agree = level >= coarsest
         for i in range(total.size):
             off = abs(sums[i] - 2 * before[i])
             allowed = AGREED * sizes[i] + EPS * sizes[0]
@@ -318,17 +299,11 @@ def state(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
 # ---------------------------------------------------------------- pressure
 
 
-@shared
-def _asinh_root(z: float) -> float:
-    """asinh sqrt(z)."""
-    return math.log1p(2 * (z + math.sqrt(z) * math.sqrt(1 + z))) / 2
-
-
 @kernel(INTEGRAND)
 def _of_pressure(node: Any, given: Any) -> tuple[float, ...]:
     """g''(s) L(x, s), x being the window's end; its distance from the edge behind it is given."""
     _, curvature, _, _, start, end, _ = node
-    return curvature * _asinh_root(start * given[0] / end), 0.0, 0.0, 0.0, 0.0
+    return curvature * math.asinh(math.sqrt(start * given[0] / end)), 0.0, 0.0, 0.0, 0.0
 
 
 @kernel(real(CURVE, real, real, real, vector))
@@ -352,7 +327,8 @@ def pressure(curve: Any, x: float, a: float, c: float, own: Any) -> float:
         if corners[i] > 0 and A > 0 and B > 0:
             if away == 0:
                 return math.inf
-            total[0] += corners[i] * _asinh_root(min(B * left, A * right) / h / away)
+            ratio = min(B * left, A * right) / h / away
+            total[0] += corners[i] * math.asinh(math.sqrt(ratio))
     return total[0] / math.pi
 
 
