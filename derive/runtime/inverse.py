@@ -263,20 +263,15 @@ def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> A
         rounding = 4 * EPS * max(abs(a) / (a - from_a), abs(c) / (c - from_c))
         if length < SMALLEST + rounding:
             return a + by_a, c + by_c
-        part, better = 1.0, False
-        while part > FINEST and not better:
-            for way in range(2):
-                if way == 1:
-                    from_a, from_c = -goal.place, goal.place
-                next_a, next_c = _moved(a, from_a, part * by_a), _moved(c, from_c, part * by_c)
-                after = law.state(next_a, next_c, own)
-                missed = _miss(goal, next_a, next_c, after)
-                if missed < miss:
-                    a, c, now, miss, better = next_a, next_c, after, missed, True
-                    break
+        part, missed = 1.0, math.inf
+        while part > FINEST and not missed < miss:
+            next_a, next_c = _moved(a, from_a, part * by_a), _moved(c, from_c, part * by_c)
+            after = law.state(next_a, next_c, own)
+            missed = _miss(goal, next_a, next_c, after)
             part /= 4
-        if not better:
+        if not missed < miss:
             break
+        a, c, now, miss = next_a, next_c, after, missed
     return a, c
 
 
@@ -467,7 +462,9 @@ def each_contact(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(LOOP)
 def each_contact_at_tilt(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Edges a, c under loads P at tilts."""
+    """Edges a, c under loads P at tilts, and the tilts of those that there are."""
     law = opened(law)
     for i in range(given.shape[0]):
-        out[i, 0], out[i, 1] = contact_at_tilt(law, own[i], given[i, 0], given[i, 1])
+        alpha = given[i, 1]
+        a, c = contact_at_tilt(law, own[i], given[i, 0], alpha)
+        out[i, 0], out[i, 1], out[i, 2] = a, c, alpha if a == a else math.nan
