@@ -109,7 +109,12 @@ if COMPILED:
         while SHARED:
             register_jitable(SHARED.pop())
         compiled = numba.njit(
-            signature, cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True
+            signature,
+            cache=True,
+            nogil=True,
+            error_model="numpy",
+            no_cfunc_wrapper=True,
+            no_cpython_wrapper=LAW in signature.args,  # Python hands over addresses alone
         )
 
         def made(function: Kernel) -> Kernel:
