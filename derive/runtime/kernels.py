@@ -107,13 +107,15 @@ if COMPILED:
         """Compile a function for one signature, and keep it on disk."""
         while SHARED:
             register_jitable(SHARED.pop())
+        # what Python calls takes addresses, numbers and arrays: no wrapper for the others
+        inside = any(isinstance(t, types.BaseNamedTuple) for t in signature.args)
         compiled = numba.njit(
             signature,
             cache=True,
             nogil=True,
             error_model="numpy",
             no_cfunc_wrapper=True,
-            no_cpython_wrapper=LAW in signature.args,  # Python hands over addresses alone
+            no_cpython_wrapper=inside,
         )
 
         def made(function: Kernel) -> Kernel:
