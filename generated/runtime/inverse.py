@@ -82,18 +82,20 @@ class Search(NamedTuple):
 
     low, high  between which it lies
     top        the function at `high`; infinite where it has not been found, or the body ends
+    guess      where the search began
     y, step    where to look next, and how far that is from the last place; 0 at the root
     """
 
     low: float
     high: float
     top: float
+    guess: float
     y: float
     step: float
 
 
 GOAL: Any = record(Goal, real, real, real, truth)
-SEARCH: Any = record(Search, real, real, real, real, real)
+SEARCH: Any = record(Search, real, real, real, real, real, real)
 
 
 # ---------------------------------------------------------------- a root
@@ -104,17 +106,18 @@ def _begun(start: float, far: float, top: float, guess: float) -> Search:
     """A search among the distances from a start, up to `far` where the function is `top`."""
     low = math.log(max(EPS * abs(start), LEAST))
     high = max(math.log(min(far, MOST)), low)
-    return Search(low, high, top, min(max(math.log(max(guess, LEAST)), low), high), 1.0)
+    y = min(max(math.log(max(guess, LEAST)), low), high)
+    return Search(low, high, top, y, y, high - low)
 
 
 @kernel(SEARCH(SEARCH, real, real))
 def _next(search: Any, value: float, rate: float) -> Search:
     """The search when the function's value at y, and its rate with y if known, are found.
 
-    Newton's step is taken where it stays between and at most halves the last one; else a step
-    twice as long as that, or half of what is left.
+    Newton's step is taken where it stays between and at most halves the last one.  Else the next is
+    twice as long as the way from the guess, but half of what is left at most.
     """
-    low, high, top, y, step = search
+    low, high, top, guess, y, step = search
     if value < 0:
         low, room = y, (high - y) / 2
     else:
@@ -122,11 +125,11 @@ def _next(search: Any, value: float, rate: float) -> Search:
     rounding = 2 * EPS * max(abs(y), 1.0)
     by = -value / rate if rate > 0 else math.inf
     if abs(by) <= rounding:
-        return Search(low, high, 0.0, y, 0.0)
+        return Search(low, high, 0.0, guess, y, 0.0)
     if not (low < y + by < high and abs(by) <= step / 2):
-        by = math.copysign(min(2 * step, abs(room)), room)
+        by = math.copysign(min(2 * max(abs(y - guess), 1.0), abs(room)), room)
     done = abs(by) <= rounding or (top == math.inf and high - low < CLOSEST)
-    return Search(low, high, top, y + by, 0.0 if done else abs(by))
+    return Search(low, high, top, guess, y + by, 0.0 if done else abs(by))
 
 
 # ---------------------------------------------------------------- one contact against the goal
@@ -177,25 +180,6 @@ def _miss(goal: Any, a: float, c: float, now: Any) -> float:
     return math.hypot(short, off)
 
 
-@kernel(results(2)(LAW, vector, GOAL, real, real))
-def _loaded(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
-    """The logarithm of the load over what is asked; its rate with a while c meets the condition."""
-    if c == math.inf:
-        return -1.0, 0.0
-    now = law.state(a, c, own)
-    load, _, _, left, _ = now
-    if c != c or load == math.inf:
-        return math.inf, 0.0
-    if not _carries(now):
-        return -1.0, 0.0
-    h = a + c
-    rate = math.pi * math.sqrt(h) / 2 * left / load
-    if not goal.held:
-        arm = (c - a) / 2 + h / 4 - goal.place
-        rate *= h / 4 / arm if arm > 0 else 0.0
-    return math.log(load / goal.load), rate
-
-
 # ---------------------------------------------------------------- Newton's method
 
 
@@ -203,25 +187,27 @@ def _loaded(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
 def _width(law: Any, own: Any, breaks: Any, goal: Any) -> float:
     """Width of a contact with its middle at the place and nearly the load; NaN where none has it.
 
-    It starts from the curvature at the place, or beyond the nearest break where there is none, and
-    goes on as the load of a parabola would.
+    It starts from the curvature at the place, but not far beyond the nearest break.
     """
     curvature = law.slope(goal.place, own)[1]
-    h = goal.load
+    h = nearest = math.inf
     if 0 < curvature < math.inf:
         h = 4 * math.sqrt(goal.load / (math.pi * curvature))
-    elif breaks.size:
-        nearest = math.inf
-        for at in breaks:
-            nearest = min(nearest, abs(at - goal.place))
-        h = max(h, 4 * nearest)
+    for at in breaks:
+        nearest = min(nearest, abs(at - goal.place))
+    h = min(h, max(4 * nearest, goal.load))
     search = _begun(0.0, math.inf, math.inf, h)
     for _ in range(STEPS):
         h = math.exp(search.y)
-        over, _ = _loaded(law, own, goal, h / 2 - goal.place, h / 2 + goal.place)
-        if abs(over) < NEAR:
-            return h
-        search = _next(search, over, 2.0)
+        now = law.state(h / 2 - goal.place, h / 2 + goal.place, own)
+        load, _, _, left, right = now
+        over, rate = (math.inf if load == math.inf else -1.0), 0.0
+        if _carries(now):
+            over = math.log(load / goal.load)
+            rate = math.pi * math.sqrt(h) / 8 * h * (left + right) / load
+            if abs(over) < NEAR:
+                return h
+        search = _next(search, over, rate)
         if search.high - search.low < NARROWED:
             return math.exp(search.low if search.top == math.inf else search.high)
     return math.nan
@@ -294,6 +280,25 @@ def _turned(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
     centre = -moment / load
     arm = (c - a) / 2 + h / 4 - centre
     return centre - goal.place, math.pi * math.sqrt(h) / 4 * right * arm / load
+
+
+@kernel(results(2)(LAW, vector, GOAL, real, real))
+def _loaded(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
+    """The logarithm of the load over what is asked; its rate with a while c meets the condition."""
+    if c == math.inf:
+        return -1.0, 0.0
+    now = law.state(a, c, own)
+    load, _, _, left, _ = now
+    if c != c or load == math.inf:
+        return math.inf, 0.0
+    if not _carries(now):
+        return -1.0, 0.0
+    h = a + c
+    rate = math.pi * math.sqrt(h) / 2 * left / load
+    if not goal.held:
+        arm = (c - a) / 2 + h / 4 - goal.place
+        rate *= h / 4 / arm if arm > 0 else 0.0
+    return math.log(load / goal.load), rate
 
 
 @kernel(real(LAW, vector, vector, GOAL, real, real))
@@ -421,14 +426,10 @@ def _solved(law: Any, own: Any, goal: Any) -> Any:
         return math.nan, math.nan, math.nan
     breaks = law.breaks(own)
     h = _width(law, own, breaks, goal)
-    a = c = tilt = math.nan
-    rest = math.inf
-    if h == h:
-        a, c = _newton(law, own, breaks, goal, h / 2 - goal.place, h / 2 + goal.place)
-        rest, tilt = _judged(law, own, goal, a, c)
+    a, c = _newton(law, own, breaks, goal, h / 2 - goal.place, h / 2 + goal.place)
+    rest, tilt = _judged(law, own, goal, a, c)
     if rest > EXACT:
-        size = h if h == h else goal.load
-        other_a, other_c = _nested(law, own, breaks, goal, size)
+        other_a, other_c = _nested(law, own, breaks, goal, goal.load)
         other_a, other_c = _newton(law, own, breaks, goal, other_a, other_c)
         less, turned = _judged(law, own, goal, other_a, other_c)
         if less < rest:
