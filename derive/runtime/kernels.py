@@ -207,12 +207,16 @@ else:
         def __call__(self, *_: Any) -> Any:
             return self
 
-    real = whole = truth = vector = matrix = nothing = function = record = _Type()
+    real = whole = truth = vector = matrix = nothing = function = _Type()
     PRESSURE = STATE = SLOPE = SERIES = BREAKS = LAW = LOOP = real
     SIGNATURES = Law(real, real, real, real, real)
 
     def results(count: int) -> Any:
         """The same for so many numbers."""
+        return real
+
+    def record(kind: Any, *fields: Any) -> Any:
+        """The same for a named tuple."""
         return real
 
     def value_of(signature: Any) -> Any:
