@@ -107,15 +107,15 @@ def _begun(start: float, far: float, top: float, guess: float) -> Search:
     low = math.log(max(EPS * abs(start), LEAST))
     high = max(math.log(min(far, MOST)), low)
     y = min(max(math.log(max(guess, LEAST)), low), high)
-    return Search(low, high, top, y, y, high - low)
+    return Search(low, high, top, y, y, 16.0)
 
 
 @kernel(SEARCH(SEARCH, real, real))
 def _next(search: Any, value: float, rate: float) -> Search:
     """The search when the function's value at y, and its rate with y if known, are found.
 
-    Newton's step is taken where it stays between and at most halves the last one.  Else the next is
-    twice as long as the way from the guess, but half of what is left at most.
+    Newton's step is taken where it stays between and at most halves the last one.  Else the next
+    one doubles the way from the guess, but is half of what is left at most.
     """
     low, high, top, guess, y, step = search
     if value < 0:
@@ -127,7 +127,7 @@ def _next(search: Any, value: float, rate: float) -> Search:
     if abs(by) <= rounding:
         return Search(low, high, 0.0, guess, y, 0.0)
     if not (low < y + by < high and abs(by) <= step / 2):
-        by = math.copysign(min(2 * max(abs(y - guess), 1.0), abs(room)), room)
+        by = math.copysign(min(max(abs(y - guess), 2.0), abs(room)), room)
     done = abs(by) <= rounding or (top == math.inf and high - low < CLOSEST)
     return Search(low, high, top, guess, y + by, 0.0 if done else abs(by))
 
@@ -250,15 +250,20 @@ def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> A
         rounding = 4 * EPS * max(abs(a) / (a - from_a), abs(c) / (c - from_c))
         if length < SMALLEST + rounding:
             return a + by_a, c + by_c
-        part, missed = 1.0, math.inf
-        while part > FINEST and not missed < miss:
-            next_a, next_c = _moved(a, from_a, part * by_a), _moved(c, from_c, part * by_c)
-            after = law.state(next_a, next_c, own)
-            missed = _miss(goal, next_a, next_c, after)
+        part, better = 1.0, False
+        while part > FINEST and not better:
+            # from the last breaks; or from the place, so that an edge may pass a break inward
+            for starts in ((from_a, from_c), (-goal.place, goal.place)):
+                next_a = _moved(a, starts[0], part * by_a)
+                next_c = _moved(c, starts[1], part * by_c)
+                after = law.state(next_a, next_c, own)
+                missed = _miss(goal, next_a, next_c, after)
+                if missed < miss:
+                    a, c, now, miss, better = next_a, next_c, after, missed, True
+                    break
             part /= 4
-        if not missed < miss:
+        if not better:
             break
-        a, c, now, miss = next_a, next_c, after, missed
     return a, c
 
 
