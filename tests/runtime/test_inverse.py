@@ -81,19 +81,19 @@ def _each_level(law, given, own, out):
         out[i, 0] = inverse.level(law, own[i], given[i, 0])
 
 
-def solved(case, P, second, loop=each_contact, count=3):
+def solved(case, P, second, loop=each_contact):
     given = np.stack(np.broadcast_arrays(np.asarray(P, float), second), axis=1)
-    out = np.empty((len(given), count))
+    out = np.empty((len(given), 3))
     loop(case.law, given, np.tile(case.own, (len(given), 1)), out)
     return out.T
 
 
 def at_tilt(case, P, alpha):
-    return solved(case, P, alpha, each_contact_at_tilt, 2)
+    return solved(case, P, alpha, each_contact_at_tilt)[:2]
 
 
 def level(case, *tilts):
-    return solved(case, tilts, 0.0, _each_level, 1)[0]
+    return solved(case, tilts, 0.0, _each_level)[0]
 
 
 def states(case, a, c):
@@ -274,3 +274,34 @@ def test_from_brackets_alone_it_is_the_same(plain):
                 found = inverse._nested(law, own, breaks, goal, P)
                 found = inverse._newton(law, own, breaks, goal, *found)
                 np.testing.assert_allclose(found, edges, rtol=1e-11)
+
+
+# ---------------------------------------------------------------- a root
+
+
+def sought(function, far=math.inf, top=math.inf, guess=1.0):
+    """Where an increasing function of a distance is zero, and how often it was asked for."""
+    search = inverse._begun(0.0, far, top, guess)
+    for count in range(inverse.STEPS):
+        at = math.exp(search.y)
+        value, rate = function(at)
+        search = inverse._next.py_func(search, value, rate * at)
+        if search.step == 0:
+            return (at if search.top < math.inf else math.nan), count
+    return math.nan, inverse.STEPS
+
+
+@pytest.mark.parametrize("root", [1e-60, 1e-9, 0.75, 1e12, 1e70])
+def test_a_root_is_found_from_any_guess(root):
+    for power in (0.5, 1.0, 4.0):
+        found, count = sought(lambda d, p=power: ((d / root) ** p - 1, p / d * (d / root) ** p))
+        assert found == pytest.approx(root, rel=1e-12, abs=0) and count < 60
+    found, _ = sought(lambda d: (-1.0 if d < root else 1.0, 0.0))
+    assert found == pytest.approx(root, rel=1e-12, abs=0)
+
+
+def test_no_root_is_found_where_there_is_none():
+    assert math.isnan(sought(lambda d: (-1.0, 0.0))[0])
+    assert math.isnan(sought(lambda d: (d - 3.0, 1.0) if d < 2.0 else (math.inf, 0.0))[0])
+    assert math.isnan(sought(lambda d: (d - 3.0, 1.0), far=2.0)[0])
+    assert sought(lambda d: (d - 3.0, 1.0), far=4.0, top=1.0)[0] == pytest.approx(3.0, rel=1e-14)
