@@ -62,14 +62,50 @@ FILES = [
 ]
 """g(x) in a geometry file, and a part of the message."""
 
+NO_GEOMETRY = [
+    ("geometry = (", "SyntaxError"),
+    ("import no_such_module_anywhere", "ModuleNotFoundError"),
+    ("from derive import sphere", "ImportError"),
+    ("from derive import Geometry\ngeometry = Geometry('body')", "TypeError"),
+    ("geometry = 1 / 0", "ZeroDivisionError"),
+    ("raise ValueError('one\\ntwo')", "ValueError: one;"),
+    ("def f(): f()\nf()", "RecursionError"),
+    ("import sys\nsys.exit(0)", "SystemExit"),
+    ("raise KeyboardInterrupt", "bad.py: KeyboardInterrupt;"),
+    ("open('no such file anywhere')", "FileNotFoundError"),
+    ("import this_file_is_fine\0", "null bytes"),
+    ("", "defines no `geometry`"),
+    ("from derive import x\ngeometry = x**2", "defines no `geometry`"),
+    (f"{HEAD}c = parameter('c_1', 'width', unit='furlong')", "furlong"),
+    (f"{HEAD}E_star = parameter('E_star', 'modulus')", "'E_star' is taken by the theory"),
+    (f"{HEAD}geometry = Geometry('two words', g=x**2 / R)", "'two words'"),
+    (f"{HEAD}geometry = Geometry('class', g=x**2 / R)", "'class'"),
+    (f"{HEAD}geometry = Geometry('[red]:bug:[/]', g=x**2 / R)", "'[red]:bug:[/]'"),
+]
+"""Files without a body, and a part of the message."""
+
 PLACES = [
     (["show", "nowhere.py"], "no such file"),
     (["show", "."], "it is a directory"),
-    (["show", "sphere"], "there is no geometry 'sphere'"),
+    (["show", ""], "a directory"),
+    (["show", "mine.py"], "a directory"),
+    (["show", "a" * 300], "a" * 300),
+    (["show", "sphere"], "there is no geometry 'sphere'; the library has"),
+    (["show", "[red]:bug:[/]"], "[red]:bug:[/]"),
+    (["show", "body.txt"], "no Python file"),
+    (["show", "bytes.py"], "bytes.py"),
+    (["generate", "hertz", "sphere"], "sphere"),
     (["generate", "body.py"], "--out"),
+    (["generate", "body.py", "--check"], "--out"),
     (["generate", "body.py", "--out", "mine"], "notes.txt"),
+    (["generate", "body.py", "--out", "mine", "--check"], "notes.txt"),
+    (["generate", "hertz", "--out", "."], "which was not generated"),
     (["generate", "body.py", "--out", "notes.txt"], "is no directory"),
-    (["generate", "body.py", "body.txt", "--out", "new"], "body.txt"),
+    (["generate", "body.py", "--out", "notes.txt/new"], "new"),
+    (["generate", "body.py", "--out", "a" * 300], "too long"),
+    (["show", "--all", "--html", "--out", "a" * 300], "too long"),
+    (["generate", "body.py", "twin.py", "--out", "new"], "two geometries are named 'body'"),
+    (["generate", "hertz", "clash.py", "--out", "new"], "two geometries are named 'hertz'"),
 ]
 """Files and directories, and a part of the message."""
 
@@ -109,7 +145,10 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "mine" / "notes.txt").write_text("mine")
     (tmp_path / "notes.txt").write_text("mine")
     (tmp_path / "body.txt").write_text("no Python")
-    (tmp_path / "body.py").write_text(f'{HEAD}geometry = Geometry("body", g=x**2 / (2 * R))\n')
+    (tmp_path / "bytes.py").write_bytes(b"\xff\xfe\x00geometry")
+    (tmp_path / "mine.py").mkdir()
+    for file, name in (("body", "body"), ("twin", "body"), ("clash", "hertz")):
+        (tmp_path / f"{file}.py").write_text(f'{HEAD}geometry = Geometry("{name}", g=x**2 / R)\n')
     return tmp_path
 
 
@@ -139,9 +178,20 @@ def test_a_file_whose_profile_is_refused(g: str, words: str, here: Path) -> None
     assert message.count("\n") == 1
 
 
-@pytest.mark.parametrize(("arguments", "words"), PLACES, ids=[" ".join(a) for a, _ in PLACES])
+@pytest.mark.parametrize(("text", "words"), NO_GEOMETRY, ids=[words for _, words in NO_GEOMETRY])
+def test_a_file_that_holds_no_body(text: str, words: str, here: Path) -> None:
+    (here / "bad.py").write_text(text)
+    message = refused(["generate", "bad.py", "--out", "new"], here)
+    assert words in message
+    assert "bad.py" in message or words.startswith("'") or words == "furlong"
+    assert message.count("\n") == 1
+
+
+@pytest.mark.parametrize(("arguments", "words"), PLACES, ids=[" ".join(a)[:50] for a, _ in PLACES])
 def test_a_file_or_directory_that_will_not_do(arguments: list[str], words: str, here: Path) -> None:
-    assert words in refused(arguments, here)
+    message = refused(arguments, here)
+    assert words in message
+    assert message.count("\n") == 1
 
 
 @pytest.mark.parametrize(("call", "error", "words"), LOADS, ids=[words for *_, words in LOADS])
@@ -155,7 +205,3 @@ def test_a_load_that_is_no_number(call: Any, error: type[Exception], words: str)
 @pytest.mark.parametrize(("function", "given", "own"), NOWHERE)
 def test_a_state_that_does_not_exist(function: Any, given: Any, own: dict[str, float]) -> None:
     assert np.all(np.isnan(np.asarray(function(*given, **own))))
-
-
-def test_the_list_is_long_enough() -> None:
-    assert len(TEXTS) + len(FILES) + len(PLACES) + len(LOADS) >= 30

@@ -11,8 +11,8 @@ import pytest
 import derive.cache
 import derive.pipeline
 from derive.body import Body
-from derive.cache import VARIABLE, users_cache
-from derive.errors import BadProfile, NotProven, UnknownGeometry
+from derive.cache import users_cache
+from derive.errors import BadProfile, NotProven
 from derive.library import FOLDER, library
 from derive.parallel import Report
 from derive.pipeline import DONE, KEPT, STAGES, build, build_all
@@ -95,29 +95,10 @@ def test_a_body_of_one_s_own_is_proven_and_tried(words: str, tmp_path: Path) -> 
     assert {verdict for _, verdict in body.verdicts} <= {Verdict.PROVED, Verdict.NUMERICAL}
 
 
-def test_every_formula_comes_with_its_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The record of a body, without the seconds that its proofs take."""
-    from tests.derive.bodies import assumed, sheet
-
-    monkeypatch.setattr("derive.proof.prove.prove_sheet", assumed)
-    body = build("hertz")
-    assert body.name == "hertz"
-    assert body.formulas(Verdict.PROVED) == tuple(sheet("hertz"))
-    assert body.formulas(Verdict.NUMERICAL) == ()
-    assert body.closed == ("forward", "from (P, M)", "from (P, alpha)")
-    assert body.numerical == ()
-    assert "def load(" in body.text
-
-
 def test_a_source_that_fails_ends_all(tmp_path: Path) -> None:
     (tmp_path / "concave.py").write_text(CONCAVE)
     with pytest.raises(BadProfile, match="not convex"):
         build_all(["hertz", str(tmp_path / "concave.py"), "wedge"], jobs=2)
-
-
-def test_a_source_that_is_unknown_is_told(asked: list[str]) -> None:
-    with pytest.raises(UnknownGeometry):
-        build_all(["sphere", "circle"], jobs=2)
 
 
 WITHOUT_SYMPY = """
@@ -147,13 +128,6 @@ def test_nothing_is_built_twice(asked: list[str], files: list[str]) -> None:
     assert [body.seconds for body in second] == [0.5] * 3
 
 
-def test_bodies_come_in_the_order_of_their_sources(asked: list[str], files: list[str]) -> None:
-    build_all(files[1:2])
-    assert [body.name for body in build_all(files)] == ["b", "a", "c"]
-    assert [body.name for body in build_all(files[::-1])] == ["c", "a", "b"]
-    assert len(asked) == 3
-
-
 def test_a_source_given_twice_is_built_once(asked: list[str], files: list[str]) -> None:
     assert [body.name for body in build_all([files[0], files[1], files[0]])] == ["b", "a", "b"]
     assert asked == files[:2]
@@ -167,14 +141,6 @@ def test_only_what_changed_is_built_again(asked: list[str], files: list[str]) ->
     assert asked == [*files, files[1]]
     assert [body.kept for body in found] == [True, False, True]
     assert found[1].text.endswith("# more\n")
-
-
-def test_a_change_taken_back_is_found_again(asked: list[str], files: list[str]) -> None:
-    text = Path(files[0]).read_text()
-    for new in (text, text + "\n", text):
-        Path(files[0]).write_text(new)
-        assert build_all(files[:1])[0].text == new
-    assert asked == files[:1] * 2
 
 
 def test_a_copy_of_a_body_of_the_library_is_another_body(asked: list[str], tmp_path: Path) -> None:
@@ -201,15 +167,6 @@ def test_fresh_reads_nothing(
     build_all(files)
     monkeypatch.delattr(derive.cache.Cache, "get")
     assert not any(body.kept for body in build_all(files, fresh=True))
-    assert asked == files * 2
-
-
-def test_without_a_directory_nothing_is_kept(
-    asked: list[str], files: list[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv(VARIABLE, "")
-    build_all(files)
-    build_all(files)
     assert asked == files * 2
 
 

@@ -68,18 +68,9 @@ class TestEvaluate:
     def test_a_number(self, text: str, value: float) -> None:
         assert abs(evaluate(text) - value) < 1e-38
 
-    def test_forty_digits(self) -> None:
-        with mpmath.workdps(40):
-            assert mpmath.nstr(evaluate("1/3"), 38) == "0." + 38 * "3"
-
     def test_decimals_are_meant_as_written(self) -> None:
         assert evaluate("10*0.1 - 1") == 0
         assert evaluate("1e300*1e-300 - 1") < 1e-38
-
-    def test_the_global_precision_is_left_alone(self) -> None:
-        before = mpmath.mp.dps
-        evaluate("sqrt(2)")
-        assert mpmath.mp.dps == before
 
     def test_not_finite_is_said_outright(self) -> None:
         assert mpmath.isnan(evaluate("nan"))
@@ -135,15 +126,8 @@ class TestEvaluate:
         with pytest.raises(ValueError, match=r"cannot|not"):
             evaluate(text)
 
-    def test_the_message_names_the_culprit(self) -> None:
-        with pytest.raises(ValueError, match=r"'__import__\('os'\)' is not allowed"):
-            evaluate("1 + __import__('os')")
-
 
 class TestNamedValues:
-    def test_names_and_values(self) -> None:
-        assert named_values("a=1, c=sqrt(4), R=(1+2)") == {"a": 1, "c": 2, "R": 3}
-
     @pytest.mark.parametrize(
         "text", ["1", "a=1, 2", "a=1, a=2", "a=1) or b(c=2", "a=1)(b=2", "**a"]
     )
@@ -179,9 +163,6 @@ class TestReading:
         text = HEAD + "| `a=3, R=1` | `1` | 2/2 |\n\n### Wide\n\nWider still:\n\n" + table
         assert [row.expected["alpha"] for row in read(tmp_path, text)] == [1, 2]
 
-    def test_prose_sections_are_skipped(self, tmp_path: Path) -> None:
-        assert read(tmp_path, "# A body\n\n## How these were worked out\n\nBy hand.\n") == []
-
 
 class TestRefusing:
     @pytest.mark.parametrize(
@@ -211,10 +192,6 @@ class TestRefusing:
     def test_a_repeated_row(self, tmp_path: Path, again: str) -> None:
         error = refused(tmp_path, HEAD + f"| a=1, R=1 | 0 | once |\n| {again} | 0 | twice |\n")
         assert error.startswith("body.md:10: repeats the row of line 9")
-
-    def test_nearly_the_same_is_not_a_repetition(self, tmp_path: Path) -> None:
-        rows = "| a=1, R=1 | 0 | level |\n| a=1+2**-52, R=1 | 2**-53 | nearly level |\n"
-        assert len(read(tmp_path, HEAD + rows)) == 2
 
     @pytest.mark.parametrize("value", ["left=1", "right=1, left=1", "left=1, right=1, M=1"])
     def test_fields_other_than_the_result_has(self, tmp_path: Path, value: str) -> None:

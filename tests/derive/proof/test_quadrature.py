@@ -82,24 +82,6 @@ def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
     assert close(here.tilt, -n * mpmath.beta(n / 2, one / 2) / (2 * mpmath.pi))
 
 
-@pytest.mark.parametrize("line", [x - b / 8, Abs(x) - b / 9])
-def test_a_parabola_against_lines(line: Expr) -> None:
-    """Max(x**2/b, line) at b = 1: the line holds between both places where they cross."""
-    body, one = Geometry("against", Max(x**2 / b, line)), mpf(1)
-    here = Contact(body, {q.symbol: one for q in body.parameters}, one, one, one)
-    slopes = [value_at(here.slope, mpf(place)) for place in ("0.0625", "0.5", "0.9375")]
-    assert slopes == [mpf("0.125"), 1, mpf("1.875")]
-
-
-def test_places_and_angles() -> None:
-    here = contact("hertz", 2.0, 1.0)
-    assert (here.h, here.mid) == (3, mpf("-0.5"))
-    assert close(value_at(here.at, mpf(0)), mpf(1))
-    assert close(value_at(here.at, +mpmath.pi), mpf(-2))
-    for place in (mpf("-1.75"), mpf("-0.5"), mpf("0.875")):
-        assert close(value_at(here.at, here.angle(place)), place)
-
-
 def test_resultants_by_hand() -> None:
     """int w ds = pi h^2/8, int w s ds = mid times it; a logarithm at a kink is integrable."""
     here = contact("wedge", 2.0, 1.0)
