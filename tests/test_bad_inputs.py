@@ -101,11 +101,8 @@ PLACES = [
     (["generate", "body.py", "--out", "mine", "--check"], "notes.txt"),
     (["generate", "hertz", "--out", "."], "which was not generated"),
     (["generate", "body.py", "--out", "notes.txt"], "is no directory"),
-    (["generate", "body.py", "--out", "notes.txt/new"], "new"),
     (["generate", "body.py", "--out", "a" * 300], "too long"),
     (["show", "--all", "--html", "--out", "a" * 300], "too long"),
-    (["generate", "body.py", "twin.py", "--out", "new"], "two geometries are named 'body'"),
-    (["generate", "hertz", "clash.py", "--out", "new"], "two geometries are named 'hertz'"),
 ]
 """Files and directories, and a part of the message."""
 
@@ -147,8 +144,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "body.txt").write_text("no Python")
     (tmp_path / "bytes.py").write_bytes(b"\xff\xfe\x00geometry")
     (tmp_path / "mine.py").mkdir()
-    for file, name in (("body", "body"), ("twin", "body"), ("clash", "hertz")):
-        (tmp_path / f"{file}.py").write_text(f'{HEAD}geometry = Geometry("{name}", g=x**2 / R)\n')
+    (tmp_path / "body.py").write_text(f'{HEAD}geometry = Geometry("body", g=x**2 / R)\n')
     return tmp_path
 
 

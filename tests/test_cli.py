@@ -457,6 +457,26 @@ class TestGenerate:
         assert "wedge.py" in contents(here / "new")
         assert "hertz.py" not in contents(here / "new")
 
+    @pytest.mark.parametrize(
+        ("arguments", "word"),
+        [
+            (("cylinder.py", "twin.py", "--out", "new"), "two geometries are named 'cylinder'"),
+            (("hertz", "clash.py", "--out", "new"), "two geometries are named 'hertz'"),
+            (("hertz", "--out", "cylinder.py/new"), "new"),
+        ],
+        ids=" ".join,
+    )
+    def test_two_bodies_of_one_name_and_a_folder_in_a_file_are_refused(
+        self, here: Path, arguments: tuple[str, ...], word: str
+    ) -> None:
+        for name, body in (("cylinder", "cylinder"), ("twin", "cylinder"), ("clash", "hertz")):
+            (here / f"{name}.py").write_text(CYLINDER.replace('"cylinder"', f'"{body}"'))
+        before = contents(here)
+        result = run("generate", *arguments)
+        assert result.exit_code == 2
+        assert word in result.stderr and len(lines(result.stderr)) == 1
+        assert contents(here) == before
+
     def test_out_may_be_a_link_to_a_directory(self, here: Path) -> None:
         (here / "there").mkdir()
         (here / "link").symlink_to(here / "there")

@@ -382,11 +382,11 @@ REFUSED = {
         Abs(x**2 - b**2) / R,
     ],
     "jumps by b at x = 0; shift one piece": [Piecewise((x**2 / R, x < 0), (x**2 / R + b, True))],
-    "jumps by b*phi at x = -b; shift one piece": [
+    "jumps by -b*phi at x = -b; shift one piece": [
         Piecewise((phi * b, Abs(x) < b), (2 * phi * Abs(x), True)),
     ],
     "is straight; convex somewhere": [phi * x + b, phi * (Max(0, x) - Max(0, -x))],
-    "is straight: there is no x in it; with it": [Abs(b), 0],
+    "is straight, as there is no x in it; with it": [Abs(b), 0],
     # Each of these has a curvature that is real, and positive where it is, around the place.
     "is not real near x = -0.001; real and finite on both sides of x = 0": [
         b * (x / b) ** Rational(4, 3),
