@@ -19,7 +19,6 @@ from derive.cache import (
     VARIABLE,
     Cache,
     key_of,
-    program_as_loaded,
     program_digest,
     users_cache,
 )
@@ -89,12 +88,6 @@ def test_under_another_key_there_is_nothing(cache: Cache) -> None:
     assert cache.get(None) is None
 
 
-def test_what_is_kept_again_takes_the_place(cache: Cache, file: Path) -> None:
-    cache.put(KEY, replace(BODY, text="new"))
-    assert cache.get(KEY) == replace(BODY, text="new")
-    assert names(cache.folder) == {file.name}
-
-
 # ------------------------------------------------------------------ not whole, not ours
 
 
@@ -133,20 +126,6 @@ def test_a_directory_that_cannot_be_is_no_error(tmp_path: Path) -> None:
         Cache(folder).put(KEY, BODY)
         assert Cache(folder).get(KEY) is None
     assert (tmp_path / "file").read_text() == "mine"
-
-
-@pytest.mark.parametrize("error", [PermissionError(), OSError(28, "No space left on device")])
-@pytest.mark.parametrize("method", ["replace", "mkdir"])
-def test_a_failure_to_write_is_no_error(
-    cache: Cache, file: Path, monkeypatch: pytest.MonkeyPatch, method: str, error: OSError
-) -> None:
-    def fail(*args: object, **kwargs: object) -> None:
-        raise error
-
-    with monkeypatch.context() as patch:
-        patch.setattr(Path, method, fail)
-        cache.put(OTHER, BODY)
-    assert names(cache.folder) == {file.name}
 
 
 def test_the_environment_names_the_directory(
@@ -290,12 +269,6 @@ def test_a_file_that_could_read_more_is_never_kept(geometry: Path, text: str) ->
     assert key_of(geometry, "body.py", OTHER) is None
 
 
-def test_nor_is_a_file_that_cannot_be_read(tmp_path: Path) -> None:
-    (tmp_path / "bytes.py").write_bytes(b"\xff\xfe\x00geometry")
-    for name in ("bytes.py", "absent.py", ".", "a" * 300, "nul\0"):
-        assert key_of(tmp_path / name, name, OTHER) is None
-
-
 # ------------------------------------------------------------------ the program
 
 
@@ -320,23 +293,6 @@ def test_every_source_of_the_program_counts(program: Path) -> None:
         gone = program_digest(program)
         assert len({changed, gone} - seen) == 2, name
         seen |= {changed, gone}
-
-
-def test_another_body_does_not_count(program: Path) -> None:
-    """Whoever adds a geometry does not wait for all the others."""
-    before = program_digest(program)
-    (program / "geometries" / "punch.py").write_text(PLAIN)
-    (program / "geometries" / "hertz.py").write_text(PLAIN)
-    (program / "__pycache__").mkdir()
-    (program / "__pycache__" / "cli.cpython-311.pyc").write_bytes(b"old")
-    assert program_digest(program) == before
-
-
-def test_the_program_is_remembered_as_it_was_loaded(monkeypatch: pytest.MonkeyPatch) -> None:
-    before = program_as_loaded()
-    monkeypatch.setattr(derive.cache, "versions", dict)
-    assert program_digest() != before
-    assert program_as_loaded() == before
 
 
 @pytest.mark.parametrize("library", ["sympy", "ruff"])

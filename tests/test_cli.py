@@ -23,11 +23,10 @@ import derive.parallel
 import derive.pipeline
 import derive.proof.prove
 from derive.body import Body, by_form
-from derive.cache import key_of, program_digest, users_cache
 from derive.cli import main
 from derive.codegen.mark import MARK
 from derive.derivation import derive_law, derive_sheet
-from derive.library import FOLDER, library, load_geometry
+from derive.library import library, load_geometry
 from derive.pipeline import DONE, GENERATED, KEPT, STAGES
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
@@ -177,8 +176,6 @@ def test_the_command_is_a_module_too(tmp_path: Path) -> None:
     ("typed", "told"),
     [
         (".venv/bin/derive", ".venv/bin/derive"),
-        ("derive", "derive"),
-        ("{here}/.venv/bin/derive", ".venv/bin/derive"),
         ("{here}/on path/derive", "derive"),
         ("{else}/of mine/derive", "'{else}/of mine/derive'"),
         ("{else}/pytest/__main__.py", "derive"),
@@ -353,23 +350,18 @@ def without_proof(of: FormulaSheet) -> FormulaSheet:
     return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})
 
 
-def test_what_is_not_proven_is_not_generated(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("arguments", [("generate", "hertz", "--out", "new"), ("show", "hertz")])
+def test_what_is_not_proven_is_neither_generated_nor_shown(
+    here: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
     monkeypatch.setattr(derive.proof.prove, "prove_sheet", without_proof)
-    result = run("generate", "hertz", "--out", "new")
+    result = run(*arguments)
     assert result.exit_code == 1
     assert isinstance(result.exception, SystemExit)
     assert "tilt of 'hertz'" in result.stderr
     assert "no point drawn" in result.stderr
-    assert contents(here) == {}
-
-
-def test_what_is_not_proven_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derive.proof.prove, "prove_sheet", without_proof)
-    result = run("show", "hertz")
-    assert isinstance(result.exception, SystemExit), result.exception
-    assert result.exit_code == 1
-    assert "tilt of 'hertz'" in result.stderr
     assert "P(a, c)" not in result.stdout
+    assert contents(here) == {}
 
 
 # ------------------------------------------------------------------ generate
@@ -433,12 +425,6 @@ class TestGenerate:
         before = {p: p.stat().st_mtime_ns for p in [committed, *committed.iterdir()]}
         assert "Nothing to change" in done("generate")
         assert {p: p.stat().st_mtime_ns for p in before} == before
-
-    def test_a_module_that_is_not_wanted_any_more_goes(self, committed: Path) -> None:
-        before = contents(committed)
-        (committed / "old.py").write_text(f"{MARK}\nold = 1\n")
-        done("generate")
-        assert contents(committed) == before
 
     def test_one_name_leaves_the_other_modules_alone(self, committed: Path) -> None:
         before = contents(committed)
@@ -547,63 +533,27 @@ class TestCheck:
 # ------------------------------------------------------------------ what an earlier run built
 
 
-def keep(name: str, text: str) -> None:
-    """Put a text where the next run finds it for a body of the library."""
-    key = key_of(FOLDER / f"{name}.py", f"derive/geometries/{name}.py", program_digest())
-    assert key is not None
-    users_cache().put(key, of_library(name, text))
+@pytest.mark.usefixtures("committed")
+def test_what_an_earlier_run_built_is_not_built_again(built: list[str]) -> None:
+    assert "kept" not in done("generate")
+    assert built == [*library()]
+    printed = done("generate")
+    assert built == [*library()]
+    assert printed.count("kept") == len(library())
+    assert "Nothing to change" in printed
+    assert "kept" not in done("generate", "--fresh")
+    assert built == [*library()] * 2
 
 
-WRONG = f"{MARK}\nwrong = 1\n"
+@pytest.mark.usefixtures("committed", "built")
+def test_a_check_never_opens_what_was_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which may be anything: `generate` cannot know."""
 
+    def refuse(*_: object) -> None:
+        raise AssertionError("the cache was read")
 
-class TestKept:
-    """`derive generate` a second time."""
-
-    def test_nothing_is_built_again(self, committed: Path, built: list[str]) -> None:
-        assert "kept" not in done("generate")
-        assert built == [*library()]
-        printed = done("generate")
-        assert built == [*library()]
-        assert printed.count("kept") == len(library())
-        assert "Nothing to change" in printed
-
-    def test_what_was_lost_is_written_again(self, committed: Path, built: list[str]) -> None:
-        before = contents(committed)
-        done("generate")
-        shutil.rmtree(committed)
-        assert "Wrote" in done("generate")
-        assert contents(committed) == before
-        assert built == [*library()]
-
-    def test_fresh_builds_everything(self, committed: Path, built: list[str]) -> None:
-        keep("hertz", WRONG)
-        assert "kept" not in done("generate", "--fresh")
-        assert built == [*library()]
-        assert "kept" in done("generate")  # what was built is kept in its place
-        assert run("generate", "--check").exit_code == 0
-
-
-class TestPoisoned:
-    """A cache that holds what was never built: `generate` cannot know, `--check` does not ask."""
-
-    def test_check_reports_what_came_of_it(self, committed: Path, built: list[str]) -> None:
-        keep("hertz", WRONG)
-        done("generate")
-        result = run("generate", "--check")
-        assert result.exit_code == 1
-        assert "hertz.py: changed" in result.stdout
-        assert "-wrong = 1" in result.stdout
-        assert "wedge.py" not in result.stdout
-
-    def test_check_never_opens_it(
-        self, committed: Path, built: list[str], monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        def refuse(*_: object) -> None:
-            raise AssertionError("the cache was read")
-
-        monkeypatch.setattr(derive.cache.Cache, "get", refuse)
-        assert "is as generated" in done("generate", "--check")
+    monkeypatch.setattr(derive.cache.Cache, "get", refuse)
+    assert "is as generated" in done("generate", "--check")
 
 
 def test_the_table_says_what_was_built_when() -> None:

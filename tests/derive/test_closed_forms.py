@@ -278,15 +278,6 @@ def test_nothing_rings_behind_the_block() -> None:
         pass
 
 
-def test_a_block_within_a_block_leaves_the_alarm_of_the_outer_one() -> None:
-    with pytest.raises(LimitReached), within(0.2):
-        with within(100):
-            pass
-        time.sleep(10)
-    with pytest.raises(LimitReached), within(0.05), within(100):
-        time.sleep(10)
-
-
 class Finalised:
     """What is at work in its finaliser when the alarm rings."""
 

@@ -4,7 +4,6 @@ import random
 from collections.abc import Callable
 
 import pytest
-from mpmath import mpf
 from sympy import (
     Abs,
     E,
@@ -227,13 +226,3 @@ def test_the_sheet_says_what_is_demanded_and_draws_contacts_that_meet_it() -> No
     drawn = contacts(sheet)
     assert len(drawn) == 24
     assert all(holds([condition], point) for point in drawn)
-
-
-def test_parameters_of_the_library_are_drawn_around_one() -> None:
-    """What is drawn decides the bytes of the examples and proofs that are printed."""
-    body = Geometry("power_law", g=R * (Abs(x) / R) ** parameter("k", "exponent", unit="-"))
-    assert body.slope.typical == {}
-    assert all(
-        mpf(2) ** -2 < point[Symbol("R", positive=True)] < 4
-        for point in contacts(derive_sheet(body))
-    )

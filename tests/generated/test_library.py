@@ -179,13 +179,6 @@ def test_an_edge_just_beyond_a_corner_is_met_to_its_rounding(beyond: float, tilt
     assert_allclose(again, load, rtol=2e-13)
 
 
-def test_a_load_whose_edge_coefficients_leave_float64() -> None:
-    """cosh 690 = 1e299: K_N is infinite in float64, and P = (pi/2) r I_1(r) is not."""
-    r = 690.0
-    load = module("catenary").load(r, r, E_star=1.0, R=1.0, b=1.0)
-    assert load == pytest.approx(float(mpmath.pi / 2 * r * mpmath.besseli(1, r)), rel=1e-12)
-
-
 def test_a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> None:
     """A flank of slope phi, tilted to within 2e-14 phi or 1e-12 phi of lying level: rounding,
     2.2e-16 phi, is more than a hundredth of the one gap, and 2.2e-4 of the other."""
