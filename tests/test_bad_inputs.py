@@ -1,6 +1,6 @@
 """What a user can get wrong, each with the one line that tells so.
 
-Texts of g(x), geometry files, directories, and loads; an attempt to run code is among them.  Every
+Geometry files, directories, and loads; of g(x) as text: derive/test_new.py.  Every
 command leaves with status 2, without a traceback, and writes nothing.
 """
 
@@ -22,43 +22,17 @@ d_0 = parameter("d_0", "another width", unit="m")
 phi = parameter("phi", "slope", unit="rad")
 """
 
-TEXTS = [
-    ("__import__('os').system('touch ran')", "parameter '__import__' cannot be a name"),
-    ("(lambda: x)()", "lambda"),
-    ("x.diff()", "."),
-    ("x**2/R; x", ";"),
-    ("x**2/(2*R", "("),
-    ("x**2/R + x.real", "."),
-    ("9**9**9**9*x**2/R", "large"),
-    ("x^2/R", "^"),
-    ("|x|*phi", "Abs"),
-    ("", "empty"),
-]
-"""g(x) as text for `derive new`, and a word of the message."""
-
 FILES = [
     ("-x**2/R", "is not convex: its curvature is negative"),
-    ("x**3/R**2", "is not convex"),
     ("b*(1 - cos(x/b))", "holds cos(x/b), a function of x that cannot be derived with"),
-    ("b*(1 - exp(-x**2/b**2))", "is not convex"),
-    ("sqrt(Abs(x)*b)", "is not convex"),
     ("phi*Abs(x) - phi*Max(0, x - b)", "its slope falls at"),
-    ("phi*x", "is straight"),
-    ("Piecewise((x**2/R, x < 0), (b + x**2/R, True))", "jumps by b at x = 0"),
-    ("Piecewise((x**2/R, x < 0))", "is not defined near"),
-    ("b*floor(x/b)", "holds floor(x/b)"),
     ("EulerGamma*b*cosh(x/b)", "holds EulerGamma, which the proofs cannot compute"),
     ("zeta(phi + 2)*x**2/R", "holds zeta(phi + 2), which the proofs cannot compute"),
-    ("phi*Max(0, x - b) + phi*Max(0, x - d_0) + x**2/R", "kinks whose order is open"),
-    ("sqrt(x - b)*sqrt(b)", "is not"),
-    ("-b*log(x/b)", "is infinite at x = 0: g(x) must be real and finite on both sides"),
     ("x**2", "has the dimension m**2 where m is needed"),
     ("R*Abs(x/R)**R", "the exponent of (Abs(x)/R)**R has the dimension m"),
     ("x**2/Symbol('r')", "holds the symbol 'r'"),
     ("Symbol('x')**2/R", "write `from derive import x`"),
-    ("I*x**2/R", "not real"),
     ("'x**2/R'", "no expression"),
-    ("Abs(x)**oo/R", "not real and finite"),
 ]
 """g(x) in a geometry file, and a part of the message."""
 
@@ -157,13 +131,6 @@ def refused(arguments: list[str], here: Path) -> str:
     assert "Traceback" not in result.output
     assert after == before
     return result.output
-
-
-@pytest.mark.parametrize(("text", "word"), TEXTS, ids=[text for text, _ in TEXTS])
-def test_a_text_that_is_no_profile(text: str, word: str, here: Path) -> None:
-    message = refused(["new", "body", text, "--unit", "R=m", "--out", "new.py"], here)
-    assert word in message
-    assert "^" in message
 
 
 @pytest.mark.parametrize(("g", "words"), FILES, ids=[g for g, _ in FILES])

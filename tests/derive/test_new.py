@@ -18,7 +18,6 @@ from derive.errors import (
     OpenUnits,
 )
 from derive.library import load_geometry
-from derive.writing import target
 from derive.writing.draft import NEUTRAL, Wanted, draft, said
 from derive.writing.lengths import units
 from derive.writing.meaning import read
@@ -31,16 +30,6 @@ from derive import Geometry, parameter, x
 
 R = parameter("R", "parameter of the profile", unit="m")
 geometry = Geometry("cylinder", g=x**2 / (2 * R))
-'''
-FLAT = '''"""Flat punch with rounded shoulders."""
-
-from sympy import Abs, Piecewise
-
-from derive import Geometry, parameter, x
-
-b = parameter("b", "half-width of the flat", unit="m")
-R = parameter("R", "parameter of the profile", unit="m")
-geometry = Geometry("flat", g=Piecewise((0, Abs(x) <= b), ((Abs(x) - b) ** 2 / (2 * R), True)))
 '''
 
 
@@ -70,12 +59,9 @@ def held(folder: Path) -> list[str]:
         ("x**4/C", {"C": "m**3"}),
         ("Abs(x)**(4/3)*C**(1/3)", {"C": "1/m"}),
         ("C*Abs(x)**k", {"C": "m**(1 - k)", "k": "-"}),
-        ("b*(Abs(x)/b)**k", {"b": "m", "k": "-"}),
         ("R*cosh(x/R) - R", {"R": "m"}),
-        ("phi*sqrt(x**2 + b**2)", {"phi": "rad", "b": "m"}),
         ("b*exp(x*k)", {"b": "m", "k": "1/m"}),
         ("x*sin(phi) + x*cos(psi)", {"phi": "rad", "psi": "rad"}),
-        ("x*sign(x - b)*phi", {"phi": "rad", "b": "m"}),
         ("Piecewise((x**2/R, x < b), (phi*x, True))", {"R": "m", "b": "m", "phi": "rad"}),
         ("Piecewise((0, Abs(x)*phi < b), (b, True))", {"phi": "rad", "b": "m"}),
         # open, and taken for lengths
@@ -150,9 +136,10 @@ def test_a_text_makes_the_body_that_was_written_by_hand(name: str, tmp_path: Pat
 def test_the_file_is_like_those_of_the_library() -> None:
     assert draft(Wanted("cylinder", "x**2/(2*R)", title="  ")).text == CYLINDER
     text = "Piecewise((0, abs(x) <= b), ((Abs(x)-b)**2/(2*R), True))"
-    meanings = {"b": "half-width of the flat"}
-    wanted = Wanted("flat", text, title="Flat punch with rounded shoulders.", meanings=meanings)
-    assert draft(wanted).text == FLAT
+    made = draft(Wanted("flat", text, title="A flat punch.", meanings={"b": "half-width"})).text
+    assert made.startswith('"""A flat punch."""\n\nfrom sympy import Abs, Piecewise\n')
+    assert 'b = parameter("b", "half-width", unit="m")\n' in made
+    assert "Piecewise((0, Abs(x) <= b), ((Abs(x) - b) ** 2 / (2 * R), True))" in made
 
 
 @pytest.mark.parametrize("g", ["max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4", "abs(x)/3"])
@@ -168,11 +155,6 @@ def test_the_file_passes_the_linter(g: str) -> None:
     ]
     done = subprocess.run(command, input=text, text=True, capture_output=True)
     assert done.returncode == 0, done.stdout
-
-
-def test_a_long_formula_is_no_title() -> None:
-    text = " + ".join(["phi*Abs(x)"] * 12)
-    assert draft(Wanted("long_one", text)).text.startswith('"""Profile long_one."""')
 
 
 TITLES = [
@@ -199,7 +181,7 @@ def test_titles_and_meanings_are_kept_and_never_run(words: str, tmp_path: Path) 
     assert held(tmp_path) == ["body.py"]
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(st.text(alphabet=st.one_of(st.characters(), st.sampled_from("\"\\\n'")), min_size=1))
 def test_any_words_are_data(words: str) -> None:
     text = draft(Wanted("body", "x**2/(2*R)", title=words, meanings={"R": words})).text
@@ -265,39 +247,31 @@ def test_a_place_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
     assert (tmp_path / "body.py").read_text() == (tmp_path / "text.txt").read_text() == "kept"
 
 
-def test_a_file_that_appears_meanwhile_is_kept(tmp_path: Path) -> None:
-    path = tmp_path / "body.py"
-    path.write_text("kept")
-    with pytest.raises(BadTarget) as caught:
-        write_new(path, "new")
-    assert caught.value == BadTarget(str(path), "is there already")
-    assert path.read_text() == "kept"
-    assert held(tmp_path) == ["body.py"]
-
-
 def _fail(*_: object, **__: object) -> None:
     raise OSError(28, "No space left on device")
 
 
-@pytest.mark.parametrize("step", ["derive.writing.target.os.fsync", "derive.writing.target._write"])
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize(
+    ("step", "failing", "error"),
+    [
+        ("os.fsync", _fail, BadTarget),
+        ("_write", _fail, BadTarget),
+        ("os.fsync", _interrupt, KeyboardInterrupt),
+    ],
+)
 def test_a_failing_write_leaves_nothing_behind(
-    step: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    step: str,
+    failing: Callable[..., None],
+    error: type[BaseException],
 ) -> None:
-    monkeypatch.setattr(step, _fail)
-    with pytest.raises(BadTarget) as caught:
-        write_new(tmp_path / "body.py", "new")
-    assert "No space left on device" in caught.value.why
-    assert held(tmp_path) == []
-
-
-def test_an_interrupted_write_leaves_nothing_behind(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupt(_: int) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(target.os, "fsync", interrupt)
-    with pytest.raises(KeyboardInterrupt):
+    monkeypatch.setattr(f"derive.writing.target.{step}", failing)
+    with pytest.raises(error):
         write_new(tmp_path / "body.py", "new")
     assert held(tmp_path) == []
 
@@ -389,17 +363,13 @@ def test_a_file_is_never_overwritten(run: Callable[..., Result], tmp_path: Path)
         (("body", "x**2/R", "--unit", "R=  "), "NAME=TEXT"),
         (("body", "x**2/R", "--unit", "R=m**(1/0)"), "write a product of powers"),
         (("body", "x**2/R", "--unit", "R=m", "--unit", "R=m"), "a second time"),
-        (("body", "x**2/R", "--meaning", "b=width"), "no parameter 'b'"),
         (("body", "x**2/R", "--out", "nowhere/"), "is no directory"),
         (("../body", "x**2/R"), "name of a module"),
-        (("2b", "x**2/R"), "name of a module"),
         (("class", "x**2/R"), "name of a module"),
         (("contact", "x**2/R"), "taken by the theory"),
         (("hertz", "x**2/R"), "in the library"),
         (("sympy", "x**2/R"), "hide"),
         (("body",), "Missing argument"),
-        (("body", "x", "b"), "unexpected extra argument"),
-        (("body", "x", "--tittle", "b"), "No such option"),
     ],
 )
 def test_bad_input_is_one_message_and_status_2(
@@ -413,11 +383,3 @@ def test_bad_input_is_one_message_and_status_2(
     assert result.stdout == ""
     assert isinstance(result.exception, SystemExit)
     assert held(tmp_path) == []
-
-
-def test_the_caret_stands_under_its_character_in_a_terminal_too(
-    run: Callable[..., Result],
-) -> None:
-    lines = run("body", "x + b^2").stderr.splitlines()
-    assert lines[1] == "    x + b^2"
-    assert lines[2] == "         ^"

@@ -165,11 +165,6 @@ def test_the_sign_of_a_cubic_beyond_its_root_is_that_of_its_first_coefficient(
     assert [str(kink.position) for kink in slope(g + x**2 / R).kinks] == places
 
 
-def test_a_corner_is_a_jump_of_the_slope_itself() -> None:
-    assert [k.is_corner for k in slope(phi * Abs(x)).kinks] == [True]
-    assert [k.is_corner for k in slope(_flat_rounded[0]).kinks] == [False, False]
-
-
 @pytest.mark.parametrize(
     ("g", "low", "high"),
     [
@@ -237,11 +232,6 @@ def test_a_kink_in_the_root_of_a_square_is_that_of_a_modulus(g: Expr, modulus: E
             simplify(mine.step - other.step) == 0
             for mine, other in zip(found.kinks, wanted.kinks, strict=True)
         )
-
-
-def test_an_odd_power_of_the_modulus_is_a_kink_of_high_order() -> None:
-    radius = Symbol("R", positive=True)
-    assert read(Abs(x) ** 3 / R**2) == (-3 * x**2 / radius**2, [(0, 1, 6 * x**2 / radius**2)])
 
 
 _coefficient = st.fractions(min_value=Fraction(1, 8), max_value=4, max_denominator=8)

@@ -238,16 +238,6 @@ def test_a_bad_text_is_refused_at_its_place(text: str, column: int, why: str, re
     assert len(error.message.splitlines()) == 4
 
 
-def test_a_long_text_is_shown_around_the_caret() -> None:
-    text = "x + " * 100 + "^" + " + b" * 100
-    with pytest.raises(BadText) as caught:
-        read(text)
-    shown, place = caret(caught.value.message)
-    assert shown.strip().startswith("...")
-    assert shown.endswith("...")
-    assert shown[place] == "^"
-
-
 def test_nothing_is_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     for code in (
@@ -344,20 +334,14 @@ def read_or_skip(text: str) -> Expr:
 
 
 @pytest.mark.slow
-@settings(max_examples=200)
+@settings(max_examples=150)
 @given(formulas())
-def test_a_text_means_what_it_means_in_python(pair: Pair) -> None:
-    text, code = pair
-    assert read_or_skip(text) == computed(code)
-
-
-@pytest.mark.slow
-@settings(max_examples=200)
-@given(formulas())
-def test_the_python_that_is_written_is_exactly_what_was_read(pair: Pair) -> None:
-    expr = read_or_skip(pair[0])
+def test_a_text_means_what_it_means_in_python_and_what_is_written_of_it(pair: Pair) -> None:
+    text, wanted = pair
+    expr = read_or_skip(text)
+    assert expr == computed(wanted)
     python = Python()
-    code = python.write(parse(pair[0])).text
+    code = python.write(parse(text)).text
     assert sympy.sympify(computed(code)) == expr
     assert python.imports == set(re.findall(r"[A-Za-z]+", code)) - {"x", "R", "b", "k", "True"}
 
@@ -397,7 +381,7 @@ def test_python_keeps_the_user_s_order(text: str, code: str) -> None:
     assert sympy.sympify(computed(code)) == read(text)
 
 
-@settings(max_examples=100)
+@settings(max_examples=40)
 @given(st.lists(st.lists(st.sampled_from(LEAVES), min_size=1, max_size=3), max_size=3))
 def test_the_bounds_of_what_is_multiplied_out_hold(factors: list[list[Pair]]) -> None:
     expr = Integer(1)

@@ -18,7 +18,6 @@ from derive import plot
 from derive.errors import MissingLibrary
 from derive.plot import live as live_module
 from derive.plot.style import FORWARD, REVERSE
-from derive.plot.zones import senses
 from generated import hertz, wedge
 from generated.runtime.types import March, Regime
 
@@ -262,14 +261,6 @@ def test_slip_and_the_work_of_friction() -> None:
 
 
 # ------------------------------------------------------------------ maps
-
-
-def test_senses_agree_with_the_shear_at_the_edges() -> None:
-    for dsigma in (MODERATE_PULL, LARGE_PULL, -LARGE_PULL):
-        zone = hertz.stick_zone(STATE, STATE, DQ, dsigma, **FRICTION)
-        beside = np.array([-0.999 * STATE.a, 0.999 * STATE.c])
-        dq = hertz.shear_change(beside, STATE, STATE, DQ, dsigma, **FRICTION)
-        assert_array_equal(np.sign(dq), [int(way) for way in senses(zone, dsigma)])
 
 
 def cycle(dsigma: float, count: int = 41) -> tuple[np.ndarray, March]:
