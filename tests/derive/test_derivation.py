@@ -82,7 +82,7 @@ def test_the_pressure_of_the_wedge() -> None:
 
 # What holds for every body.
 
-FEW = settings(max_examples=25)
+FEW = settings(max_examples=10)
 """Contacts a body: an identity of analytic functions that fails, fails at nearly every one."""
 
 number = st.floats(0.125, 8, allow_nan=False, width=32)

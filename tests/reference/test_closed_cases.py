@@ -12,7 +12,7 @@ from tests.reference.solver import Case, reference
 COUNTS, STEPS = (12, 24, 48), (1, 2, 4)
 
 
-@pytest.mark.enough("tilted*")
+@pytest.mark.enough("tilted wedge, large*")
 @pytest.mark.parametrize("known", CLOSED, ids=lambda known: known.name)
 @pytest.mark.slow
 def test_the_error_is_small_of_second_order_and_within_the_estimate(known: Known) -> None:
@@ -47,7 +47,7 @@ def test_moderate_conditions_are_the_contact_at_lower_load_and_other_tilt(known:
     assert known.exact == pytest.approx((half - middle, half + middle), rel=1e-8)
 
 
-@pytest.mark.enough("tilted*")
+@pytest.mark.enough("tilted wedge, large*")
 @pytest.mark.parametrize("known", CLOSED, ids=lambda known: known.name)
 @pytest.mark.slow
 def test_slip_grows_all_through_both_half_cycles(known: Known) -> None:
