@@ -117,11 +117,6 @@ def test_nothing_is_built_twice(asked: list[str], files: list[str]) -> None:
     assert [body.seconds for body in second] == [0.5] * 3
 
 
-def test_a_source_given_twice_is_built_once(asked: list[str], files: list[str]) -> None:
-    assert [body.name for body in build_all([files[0], files[1], files[0]])] == ["b", "a", "b"]
-    assert asked == files[:2]
-
-
 def test_only_what_changed_is_built_again(asked: list[str], files: list[str]) -> None:
     build_all(files)
     with Path(files[1]).open("a") as file:
@@ -139,15 +134,6 @@ def test_a_change_of_the_program_builds_everything_again(
     for name in ("program_as_loaded", "program_digest"):
         monkeypatch.setattr(derive.pipeline, name, lambda: "another program")
     build_all(files)
-    assert asked == files * 2
-
-
-def test_fresh_reads_nothing(
-    asked: list[str], files: list[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    build_all(files)
-    monkeypatch.delattr(derive.cache.Cache, "get")
-    assert not any(body.kept for body in build_all(files, fresh=True))
     assert asked == files * 2
 
 

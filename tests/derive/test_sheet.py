@@ -128,11 +128,6 @@ def test_a_sheet_whose_formulas_all_hold_may_be_used(verdict: Verdict) -> None:
     assert whole.demand_proven() is whole
 
 
-def test_flat_and_shown_leave_a_formula_without_kinks_alone() -> None:
-    body = sheet("hertz")
-    assert body.flat("load") == body.shown("load") == body["load"].expr
-
-
 def test_the_latex_of_a_formula_has_both_sides() -> None:
     load = sheet("wedge")["load"]
     assert load.left == "P(a, c)"

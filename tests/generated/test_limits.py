@@ -93,15 +93,6 @@ def test_the_second_coefficient_of_a_centred_power_law_by_the_gamma_function(k: 
     assert_allclose([*found], wanted, rtol=1e-13)
 
 
-def test_a_power_law_tends_to_the_wedge() -> None:
-    """At k = 1 it is the wedge of slope one: the polynomial through six exponents above it."""
-    k = 1 + 0.07 * np.arange(1, 7)
-    weights = [np.prod([(1 - o) / (p - o) for o in k if o != p]) for p in k]
-    found = [power.load(0.75, 0.5, E_star=E, k=p, L=1.0) for p in k]
-    wanted = wedge.load(0.75, 0.5, E_star=E, phi=1.0)
-    assert_allclose(np.dot(weights, found), wanted, rtol=1e-5)
-
-
 @pytest.mark.parametrize("place", [1.0332621980744286e-07, 1e-12, -1e-9, -1e-4, 1e-2])
 def test_the_pressure_of_a_circular_arc_beside_its_lowest_point(place: float) -> None:
     """p = (E*/pi) int g'' L ds with g'' = R**2/(R**2 - s**2)**(3/2), and L = artanh of

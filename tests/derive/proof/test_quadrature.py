@@ -40,19 +40,6 @@ def test_a_cylinder_by_hand(left: float, right: float) -> None:
     assert close(here.pressure(place), expected)
 
 
-@pytest.mark.parametrize(("left", "right"), [(2.0, 1.0), (0.75, 3.0)])
-def test_a_wedge_by_hand(left: float, right: float) -> None:
-    """P = E* phi sqrt(ac), M = P (a - c)/4, p = (2 E* phi/pi) artanh sqrt(v/u) for x > 0."""
-    here = contact("wedge", left, right)
-    load = mpf("1.25") * mpf("0.25") * mpmath.sqrt(mpf(left) * right)
-    assert close(here.load, load)
-    assert close(here.moment, load * (mpf(left) - right) / 4, scale=load)
-    place = mpf("0.375")
-    v_over_u = left * (right - place) / (right * (left + place))
-    expected = 2 * mpf("0.3125") / mpmath.pi * mpmath.atanh(mpmath.sqrt(v_over_u))
-    assert close(here.pressure(place), expected)
-
-
 @pytest.mark.parametrize(("name", "left", "right"), CASES)
 def test_it_takes_the_slope_from_g_as_it_was_written(name: str, left: float, right: float) -> None:
     here, body = contact(name, left, right), BODIES[name]

@@ -49,14 +49,6 @@ def test_the_load_grows_along_fixed_tilt_at_its_rate(name: str, left: float, rig
     assert close(value(name, "load_rate", a=left, c=right), expected, digits=12)
 
 
-@ALL
-def test_the_weight_of_the_punches_is_the_rate_over_pi(
-    name: str, left: float, right: float
-) -> None:
-    rate = value(name, "load_rate", a=left, c=right)
-    assert close(value(name, "punch", a=left, c=right) * mpmath.pi, rate)
-
-
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 3.0])
 def test_flat_punches_of_a_tilted_wedge_add_up_to_its_pressure(ratio: float) -> None:
     """At fixed tilt a = r c: p(x) = int_x^c F(s) / sqrt((r s + x)(s - x)) ds for x > 0.

@@ -6,7 +6,7 @@ from mpmath import mpf
 from sympy import Rational, Symbol, simplify, sqrt
 
 from derive.symbols import E_star, h
-from derive.theory.edges import Edge, K_N_from_contact_law, pressure_series
+from derive.theory.edges import Edge, pressure_series
 from tests.derive.bodies import CASES, close, number, sheet, value
 
 pytestmark = pytest.mark.slow
@@ -51,15 +51,6 @@ def test_K_N_of_both_edges_are_in_the_ratio_of_their_advance(
     ratio = value(name, "edge_ratio", a=left, c=right)
     first, second = (value(name, f"K_N_{side}", a=left, c=right) for side in ("left", "right"))
     assert close(first, second / ratio)
-
-
-@pytest.mark.parametrize("name", ["hertz", "wedge", "two_radii"])
-def test_the_route_of_the_contact_law_gives_left_and_right(name: str) -> None:
-    body = sheet(name)
-    left, right = K_N_from_contact_law(body.frame, body["load_rate"].expr, body["edge_ratio"].expr)
-    for key, expr in (("K_N_left", left), ("K_N_right", right)):
-        found = number(body.frame.flat(expr), a=2.0, c=1.0)
-        assert close(found, value(name, key, a=2.0, c=1.0))
 
 
 @pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())

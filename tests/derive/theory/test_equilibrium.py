@@ -10,25 +10,14 @@ ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 
 
 @ALL
-def test_the_tilt_is_minus_the_mean_slope(name: str, left: float, right: float) -> None:
-    body = BODIES[name]
-    expected = integrals.tilt(body.slope, left, right, body.kinks)
-    assert close(value(name, "tilt", a=left, c=right), expected, scale=1)
-
-
-@ALL
-def test_the_load_is_the_first_moment_of_the_slope(name: str, left: float, right: float) -> None:
-    body = BODIES[name]
-    expected = integrals.load(body.slope, left, right, body.kinks, VALUES["E_star"])
-    assert close(value(name, "load", a=left, c=right), expected)
-
-
-@ALL
-def test_the_moment_is_the_second_moment_of_the_slope(name: str, left: float, right: float) -> None:
-    body = BODIES[name]
-    expected = integrals.moment(body.slope, left, right, body.kinks, VALUES["E_star"])
-    size = value(name, "load", a=left, c=right)
-    assert close(value(name, "moment", a=left, c=right), expected, scale=size)
+def test_tilt_load_and_moment_are_the_moments_of_the_slope(
+    name: str, left: float, right: float
+) -> None:
+    slope, kinks, E_star = BODIES[name].slope, BODIES[name].kinks, VALUES["E_star"]
+    tilt, load, moment = (value(name, f, a=left, c=right) for f in ("tilt", "load", "moment"))
+    assert close(tilt, integrals.tilt(slope, left, right, kinks), scale=1)
+    assert close(load, integrals.load(slope, left, right, kinks, E_star))
+    assert close(moment, integrals.moment(slope, left, right, kinks, E_star), scale=load)
 
 
 @ALL

@@ -1,14 +1,11 @@
 """I_k: the recursion against direct integration."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from mpmath import mpf
-from sympy import Expr, Integer, lambdify
+from sympy import Expr, lambdify
 
-from derive.symbols import x
-from derive.theory.moments import full_moment, kink_moment, slope_moment, weighted
-from tests.derive.bodies import BODIES, CASES, VALUES, close, sheet
+from derive.theory.moments import full_moment, kink_moment
+from tests.derive.bodies import VALUES, close, sheet
 from tests.derive.integrals import over_contact
 
 
@@ -36,19 +33,3 @@ def test_the_recursion_up_to_a_kink_is_the_integral_over_its_side(name: str, k: 
         )
         expr = kink_moment(k, frame).xreplace({frame.theta: frame.angle, frame.w: frame.root})
         assert close(number(expr, a=left, c=right), direct, scale=1)
-
-
-@given(st.lists(st.integers(-5, 5), min_size=1, max_size=6))
-def test_a_polynomial_is_weighted_term_by_term(coefficients: list[int]) -> None:
-    polynomial = sum((n * x**k for k, n in enumerate(coefficients)), Integer(0))
-    direct = over_contact(lambda s: sum(n * s**k for k, n in enumerate(coefficients)), 1.25, 2.0)
-    assert close(number(weighted(polynomial), a=1.25, c=2.0), direct, scale=1)
-
-
-@pytest.mark.parametrize(("name", "left", "right"), CASES)
-def test_the_slope_s_moments_are_its_integrals(name: str, left: float, right: float) -> None:
-    body, frame = BODIES[name], sheet(name).frame
-    for k in range(3):
-        direct = over_contact(lambda s: s**k * body.slope(s), left, right, body.kinks)  # noqa: B023
-        found = number(frame.flat(slope_moment(k, frame)), a=left, c=right)
-        assert close(found, direct, scale=1)

@@ -41,20 +41,6 @@ def test_the_pressure_deforms_the_half_plane_to_the_body(name: str) -> None:
         assert close(found, expected, digits=9, scale=1)
 
 
-@ALL
-def test_the_pressure_vanishes_at_both_edges_as_a_root(
-    name: str, left: float, right: float
-) -> None:
-    edges = {"a": mpf(left), "c": mpf(right)}
-    for at, inward in ((-edges["a"], 1), (edges["c"], -1)):
-        near, nearer = (
-            value(name, "pressure", x=at + inward * step, **edges)
-            for step in (mpf("1e-16"), mpf("1e-18"))
-        )
-        assert 0 < near < mpf("1e-6")
-        assert close(near / nearer, mpf(10), digits=12)
-
-
 @pytest.mark.parametrize("name", CORNERED)
 def test_the_pressure_at_a_corner_grows_as_its_logarithm(name: str) -> None:
     """p ~ (E*/2 pi) [step of g'] log(1/|x - x_j|): halving the distance adds (..) log 2."""
@@ -68,19 +54,3 @@ def test_the_pressure_at_a_corner_grows_as_its_logarithm(name: str) -> None:
             )
             gained = VALUES["E_star"] / (2 * mpmath.pi) * step * mpmath.log(2)
             assert close(near - far, gained, digits=5)
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        *("flat_rounded", "two_radii", "half_parabola"),
-        pytest.param("spline", marks=pytest.mark.slow),
-    ],
-)
-def test_the_pressure_passes_smoothly_where_the_slope_has_no_corner(name: str) -> None:
-    for kink in BODIES[name].kinks:
-        below, above = (
-            value(name, "pressure", x=mpf(kink) + d, a=2.0, c=1.5)
-            for d in (mpf("-1e-20"), mpf("1e-20"))
-        )
-        assert close(below, above, digits=16)
