@@ -246,6 +246,7 @@ NOT_KEPT = [
     "import mine\n",
     "from mine import R\n",
     "from . import mine\n",
+    "from .sympy import mine\n",
     "import numpy as np\n",  # which reads files
     "from pathlib import Path\n",
     "from importlib import import_module\n",

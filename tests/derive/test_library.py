@@ -71,11 +71,14 @@ def test_an_edited_file_is_read_again(cylinder: Path) -> None:
     assert str(load_geometry(cylinder).g) == "x**2/radius"
 
 
-def test_the_bytecode_switch_is_restored_after_a_failure(tmp_path: Path) -> None:
-    writes = sys.dont_write_bytecode
+@pytest.mark.parametrize("switch", [False, True])
+def test_the_bytecode_switch_is_restored_after_a_failure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, switch: bool
+) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", switch)
     with pytest.raises(BadGeometryFile):
         load_geometry(written(tmp_path / "bad.py", "geometry = ("))
-    assert sys.dont_write_bytecode == writes
+    assert sys.dont_write_bytecode == switch
 
 
 PRESSES = """import os, signal

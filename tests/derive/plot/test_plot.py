@@ -208,6 +208,18 @@ def test_tractions_are_those_of_the_module(dsigma: float, colours: tuple[str, st
     assert tuple(to_hex(patch.get_facecolor()) for patch in below.patches) == colours
 
 
+def test_both_pressures_are_drawn_where_the_load_varies() -> None:
+    second = hertz.contact(1.1 * P, M, **STEEL)
+    above, below = plot.tractions(hertz, STATE, second, DQ, 0.0, **FRICTION)
+    x, p1 = line(above, "start, $p_1$").get_data()
+    expected = hertz.pressure(1e-3 * x, STATE.a, STATE.c, **STEEL)
+    assert_allclose(1e6 * p1, expected, rtol=1e-9, atol=1e-3 * expected.max())
+    p2 = line(above, "end, $p_2$").get_ydata()
+    assert p2.max() > p1.max()
+    limit = line(below, r"$\pm f\,(p_1 + p_2)$").get_ydata()
+    assert_allclose(limit, FRICTION["f"] * (p1 + p2))
+
+
 def test_the_shear_of_a_cycle_is_that_of_the_module_and_keeps_within_its_band() -> None:
     Q, pull = 0.7 * DQ, 0.7 * MODERATE_PULL
     axes = plot.shear(hertz, STATE, Q, pull, DQ, MODERATE_PULL, between=2, **FRICTION)
