@@ -55,18 +55,18 @@ def _elements_before(parts: Any, x: float) -> float:
     return total
 
 
-@kernel(vector(matrix, real, real, vector))
-def mesh(parts: Any, start: float, end: float, breaks: Any) -> Any:
-    """Ends of the elements: as many in each part as it asks for, one of them at every break."""
-    total = _elements_before(parts, end)
-    count = max(round(total), 8)
+@kernel(vector(matrix, real, real, vector, whole))
+def mesh(parts: Any, start: float, end: float, breaks: Any, count: int) -> Any:
+    """Ends of so many elements, shared out as the parts ask for, one of them at every break."""
+    first = _elements_before(parts, start)
+    each = (_elements_before(parts, end) - first) / count
     ends = np.empty(count + 1)
     ends[0], ends[count] = start, end
     for i in range(1, count):
         low, high = ends[i - 1], end
-        for _ in range(48):
+        for _ in range(40):
             middle = (low + high) / 2
-            if _elements_before(parts, middle) < i * total / count:
+            if _elements_before(parts, middle) < first + i * each:
                 low = middle
             else:
                 high = middle

@@ -29,7 +29,7 @@ ROUNDING = 1e-12
 
 @kernel(vector(LAW, vector, matrix, whole, vector))
 def mesh_for(law: Any, own: Any, rows: Any, count: int, fronts: Any) -> Any:
-    """Elements for a path: about `count`, more where edges move, crowded towards edges, kinks and
+    """Elements for a path: more of them where edges move, crowded towards edges, kinks and
     `fronts`, the places where stick intervals are known to end."""
     left = right = -math.inf
     inner_left = inner_right = math.inf
@@ -55,7 +55,7 @@ def mesh_for(law: Any, own: Any, rows: Any, count: int, fronts: Any) -> Any:
         if -left < place < right:
             reach = 0.1 * h
             parts[5 + k] = np.array([PLACE, place - reach, place + reach, share * count])
-    return mesh(parts, -left, right, breaks)
+    return mesh(parts, -left, right, breaks, count)
 
 
 # ---------------------------------------------------------------- what sticks
