@@ -40,7 +40,7 @@ FEATURES = 8
 FEWEST, MIDDLE = 64, 256
 """Elements of the first mesh; from where on steps are halved."""
 
-REACH = 2.56
+REACH = 3.84
 """How far an edge may move in a step, over the width of the contact, times the elements."""
 
 MOST_FRONTS = 12
@@ -342,11 +342,16 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         places = given[row, 3 + 4 * count :]
-        fine = repeated(law, own[row], f, loads, places, 256, np.empty(0))[0]
-        coarse = repeated(law, own[row], f, loads, places, 128, np.empty(0))[0]
-        if fine[2] == COMPUTED:
-            away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
-            fine[6] += away / (fine[0] + fine[1])
-        elif fine[2] != coarse[2]:
-            fine[6] = math.nan
+        elements, met = FEWEST, False
+        fine = repeated(law, own[row], f, loads, places, elements, np.empty(0))[0]
+        while not met and elements < _most(tol):
+            coarse, elements = fine, 2 * elements
+            fronts = _apart(np.array([-coarse[0], coarse[1]]), coarse[0] + coarse[1], 10 * tol)
+            fine = repeated(law, own[row], f, loads, places, elements, fronts)[0]
+            if fine[2] == COMPUTED:
+                away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
+                fine[6] += away / (fine[0] + fine[1])
+            elif fine[2] != coarse[2]:
+                fine[6] = math.nan
+            met = fine[6] <= tol or fine[2] in (NONE, SLIDING)
         out[row] = fine

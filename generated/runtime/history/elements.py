@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels import LAW, kernel, matrix, real, vector, whole
+from ..kernels import LAW, kernel, matrix, real, results, vector, whole
 
 COSINE, EVEN, PLACE = 0.0, 1.0, 2.0
 """Kinds of a part of the mesh: crowded at both its ends, even, crowded at its middle."""
@@ -32,6 +32,11 @@ _TIMES, _SHARES = (1 + _TIMES) / 2, _SHARES / 2
 
 _INNER = 0.5 - 0.5 / math.sqrt(3.0)
 """Gauss's rule of two nodes on (0, 1)."""
+
+TERMS, AGREED = 20, 1e-7
+"""Terms of the series of a smooth pressure, and when they are enough."""
+
+_COSINES = np.cos(np.pi * np.arange(4 * TERMS) / (2 * TERMS))
 
 
 # ---------------------------------------------------------------- mesh
@@ -161,9 +166,44 @@ def inverse_of(A: Any) -> Any:
 # ---------------------------------------------------------------- what acts on elements
 
 
+@kernel(results(2)(LAW, vector, real, real, vector))
+def _smooth(law: Any, own: Any, a: float, c: float, series: Any) -> Any:
+    """Chebyshev's series of the pressure over sqrt((a + x)(c - x)): its last terms and the largest.
+
+    It spares many pressures that are integrals; at a corner or kink it does not converge."""
+    count, tail, most = series.size, 0.0, 0.0
+    values = np.empty(count)
+    for j in range(count):
+        angle = math.pi * (j + 0.5) / count
+        s = (a + c) * math.cos(angle / 2) ** 2
+        root = (a + c) / 2 * math.sin(angle)
+        values[j] = law.pressure(s - a, a, c, own) / root
+    for k in range(count):
+        series[k] = 0.0
+        for j in range(count):
+            series[k] += values[j] * _COSINES[k * (2 * j + 1) % (4 * count)] * (2.0 / count)
+        most = max(most, abs(series[k]))
+        if k >= count - 3:
+            tail = max(tail, abs(series[k]))
+    return tail, most
+
+
+@kernel(real(vector, real, real, real))
+def _summed(series: Any, x: float, a: float, c: float) -> float:
+    """The pressure of such a series, by Clenshaw's rule."""
+    t = (2 * x + a - c) / (a + c)
+    u = v = 0.0
+    for k in range(series.size - 1, 0, -1):
+        u, v = 2 * t * u - v + series[k], u
+    return (t * u - v + series[0] / 2) * math.sqrt(max((a + x) * (c - x), 0.0))
+
+
 @kernel(whole(LAW, vector, vector, real, real, real, vector))
 def mean_pressures(law: Any, own: Any, ends: Any, a: float, c: float, load: float, p: Any) -> int:
     """Means of the pressure over the elements into p, made to carry the load."""
+    series = np.empty(TERMS)
+    tail, most = _smooth(law, own, a, c, series)
+    smooth = tail < AGREED * most
     total = 0.0
     for i in range(p.size):
         low, high = max(ends[i], -a), min(ends[i + 1], c)
@@ -172,17 +212,17 @@ def mean_pressures(law: Any, own: Any, ends: Any, a: float, c: float, load: floa
             continue
         size = high - low
         left, right = low + a <= 1e-9 * size, c - high <= 1e-9 * size
-        if left or right:
-            # p = sqrt(s) (k + l s) from an edge, at the nodes of the rule for sqrt(s)
-            for k in range(2):
+        for k in range(2):
+            if left or right:
+                # p = sqrt(s) (k + l s) from an edge, at the nodes of the rule for sqrt(s)
                 s = size * (0.28994919792569 if k == 0 else 0.82116191318542)
                 weight = 0.27755599823067 if k == 0 else 0.38911066843600
-                at = law.pressure(low + s if left else high - s, a, c, own)
-                p[i] += weight * at * math.sqrt(size / s) * size
-        else:
-            near = law.pressure(low + size * _INNER, a, c, own)
-            far = law.pressure(high - size * _INNER, a, c, own)
-            p[i] = size * (near + far) / 2
+                weight *= math.sqrt(size / s)
+                x = low + s if left else high - s
+            else:
+                x, weight = low + size * (_INNER if k == 0 else 1 - _INNER), 0.5
+            at = _summed(series, x, a, c) if smooth else law.pressure(x, a, c, own)
+            p[i] += weight * at * size
         total += p[i]
     for i in range(p.size):
         p[i] *= load / (total * (ends[i + 1] - ends[i])) if total > 0 else 0.0

@@ -20,7 +20,7 @@ SHEAR, BOUND, PLACES, SLIP, SLIPPED = range(5)
 NONE, SLIDING, FULL_STICK, UNSOLVED, COMPUTED = 0.0, 4.0, 5.0, 6.0, 9.0
 """Codes of Regime."""
 
-QUIET, FLAT = 1e-4, 0.03
+QUIET, FLAT = 1e-3, 0.03
 """Slip that may be none, over the most in a step; and how much of a slip zone may slip so little."""
 
 ROUNDING = 1e-12
@@ -165,6 +165,19 @@ def _slid(w: Any, before: Any, s: Any, state: Any) -> float:
     return work
 
 
+@kernel(whole(vector, matrix, whole))
+def _guessed(old: Any, state: Any, afresh: int) -> int:
+    """Places of what has come into contact: as at the edge before, or sticking all over."""
+    place = 0.0
+    for k in range(2 * old.size):
+        i = k if k < old.size else 2 * old.size - 1 - k
+        if old[i] > 0 and not afresh:
+            place = state[PLACES, i]
+        elif state[BOUND, i] > 0 and (k >= old.size or place != 0 or afresh):
+            state[PLACES, i] = place
+    return 1
+
+
 @kernel(
     results(2)(LAW, vector, real, vector, vector, vector, matrix, matrix, vector, matrix, matrix)
 )
@@ -189,9 +202,9 @@ def step(
         return NONE, 0.0
     afresh = not before[A] + before[C] > 0
     old = state[BOUND].copy()
-    mean_pressures(law, own, ends, now[A], now[C], now[P], state[BOUND])
-    for i in range(count):
-        state[BOUND, i] *= f
+    if afresh or before[A] != now[A] or before[C] != now[C] or not old.any():
+        mean_pressures(law, own, ends, now[A], now[C], now[P], state[BOUND])
+        state[BOUND] *= f
     if abs(now[Q]) >= f * now[P] * (1 - ROUNDING):
         sense = math.copysign(1.0, now[Q])
         for i in range(count):
@@ -211,9 +224,7 @@ def step(
             now[SIGMA] - before[SIGMA],
             trial,
         )
-    for i in range(count):
-        if state[BOUND, i] > 0 and (old[i] == 0 or afresh):
-            state[PLACES, i] = 0.0
+    _guessed(old, state, afresh)
     if not nearest(A_, B, z, w, trial, state[BOUND], given, state[PLACES], state[SHEAR], s, room):
         return UNSOLVED, math.nan
     return COMPUTED, _slid(w, old, s, state)
