@@ -113,4 +113,4 @@ def test_the_pressure_of_a_circular_arc_beside_its_lowest_point(place: float) ->
         above = [at + (right - at) * step for step in near]
         wanted = float(mpmath.quad(integrand, below) + mpmath.quad(integrand, above[::-1]))
     found = circular_arc.pressure(place, left, right, E_star=math.pi, R=3.0)
-    assert_allclose(found, wanted, rtol=1e-10)
+    assert_allclose(found, wanted, rtol=1e-13)
