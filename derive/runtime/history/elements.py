@@ -22,7 +22,10 @@ import numpy as np
 from ..kernels import LAW, kernel, matrix, real, vector, whole
 
 COSINE, EVEN, PLACE = 0.0, 1.0, 2.0
-"""Kinds of a part of the mesh: crowded at both its ends, even, crowded at one place."""
+"""Kinds of a part of the mesh: crowded at both its ends, even, crowded at its middle."""
+
+GRADING = 4.0
+"""Distance from a place that is crowded towards, over the width of an element there."""
 
 _TIMES, _SHARES = np.polynomial.legendre.leggauss(5)
 _TIMES, _SHARES = (1 + _TIMES) / 2, _SHARES / 2
@@ -46,8 +49,8 @@ def _elements_before(parts: Any, x: float) -> float:
         if kind == COSINE:
             u = math.acos(1 - 2 * u) / math.pi
         elif kind == PLACE:
-            away = 2 * u - 1
-            u = (1 + math.copysign(math.sqrt(abs(away)), away)) / 2
+            away, side = 2 * u - 1, count / (2 * GRADING)
+            u = (1 + math.copysign(math.log1p(abs(away) * math.expm1(side)) / side, away)) / 2
         total += count * u
     return total
 

@@ -36,11 +36,14 @@ SAMPLES = 24
 FEATURES = 8
 """a, c, m, n, intervals, regime, work and error of an instant."""
 
-ELEMENTS, FEWEST, MOST = 256.0, 96, 640
-"""Elements at a tolerance of 1e-3, and of any mesh."""
+FEWEST, MIDDLE, MOST = 64, 256, 512
+"""Elements of the first mesh; from where on steps are halved; of the finest."""
 
-PARTS = 2
-"""Steps between two instants on the fine mesh at least."""
+REACH = 1.28
+"""How far an edge may move in a step, over the width of the contact, times the elements."""
+
+MOST_FRONTS = 12
+"""Places to crowd elements towards, at most."""
 
 ROUNDS = 40
 """Most rounds of a cycle."""
@@ -75,29 +78,38 @@ def _between_elements(ends: Any, m: float, n: float, a: float, c: float) -> floa
     return off
 
 
-@kernel(whole(real, whole))
-def elements_for(tol: float, level: int) -> int:
-    """Elements of the coarse mesh, level 0, and of the fine one."""
-    count = ELEMENTS * 1e-3 / max(tol, 1e-6)
-    count = min(max(count, float(FEWEST)), float(MOST))
-    return int(count if level == 1 else count / 2)
+@kernel(vector(vector, real, real))
+def _apart(places: Any, size: float, apart: float) -> Any:
+    """Places in their order, some of those that lie closer together than `apart`."""
+    found = np.sort(places[np.isfinite(places)])
+    while True:
+        kept = 0
+        for place in found:
+            if kept == 0 or place - found[kept - 1] > apart * size:
+                found[kept] = place
+                kept += 1
+        found = found[:kept].copy()
+        if kept <= MOST_FRONTS:
+            return found
+        apart *= 2
 
 
-@kernel(matrix(LAW, vector, real, matrix, vector, real, whole))
-def followed(law: Any, own: Any, f: float, loads: Any, places: Any, tol: float, level: int) -> Any:
+@kernel(matrix(LAW, vector, real, matrix, vector, whole, vector))
+def followed(
+    law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any
+) -> Any:
     """A history on one mesh: a row an instant of the features, then q and slip at the places and q
     at the samples.  The error is that of a front between two elements."""
     instants, asked = loads.shape[1], places.size
     found = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
     found[:, 5] = NONE
-    count = elements_for(tol, level)
-    rows = path(law, own, loads, f, 1.28 / count, PARTS - 1 + level)
+    rows = path(law, own, loads, f, REACH / count, 1 if count < MIDDLE else 2)
     known = False
     for k in range(rows.shape[0]):
         known = known or rows[k, A] + rows[k, C] > 0
     if not (known and f > 0):
         return found
-    ends = mesh_for(law, own, rows, count, np.empty(0))
+    ends = mesh_for(law, own, rows, count, fronts)
     x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
     A_ = influence(ends)
     B = inverse_of(A_)
@@ -174,15 +186,23 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         places = given[row, 3 + 4 * count :]
-        fine = followed(law, own[row], f, loads, places, tol, 1)
-        coarse = followed(law, own[row], f, loads, places, tol, 0)
-        first = FEATURES + 2 * asked
+        first, elements = FEATURES + 2 * asked, FEWEST
+        fine = followed(law, own[row], f, loads, places, elements, np.empty(0))
+        worst = math.inf
+        while worst > tol and elements < MOST:
+            coarse, elements = fine, 2 * elements
+            widest = np.nanmax(coarse[:, 0] + coarse[:, 1])
+            fronts = _apart(np.concatenate((-coarse[:, 2], coarse[:, 3])), widest, 10 * tol)
+            fine = followed(law, own[row], f, loads, places, elements, fronts)
+            worst = 0.0
+            for k in range(count):
+                told = fine[k]
+                mean = f * loads[0, k] / (told[0] + told[1])
+                told[7] = _error(told, coarse[k], mean, first)
+                worst = max(worst, told[7])
         for k in range(count):
-            told = fine[k]
-            mean = f * loads[0, k] / (told[0] + told[1])
-            told[7] = _error(told, coarse[k], mean, first)
             for i in range(first):
-                out[row, k * first + i] = told[i]
+                out[row, k * first + i] = fine[k, i]
 
 
 # ---------------------------------------------------------------- steady cycles
@@ -220,21 +240,22 @@ def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> 
     return -found[0], found[1]
 
 
-@kernel(matrix(LAW, vector, real, matrix, vector, real, whole))
-def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, tol: float, level: int) -> Any:
+@kernel(matrix(LAW, vector, real, matrix, vector, whole, vector))
+def repeated(
+    law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any
+) -> Any:
     """A cycle on one mesh: m, n, regime, work, rounds, drift, error of a front; then at the places
     the range of slip and q at the first instant."""
     asked = places.size
     told = np.full((1, 7 + 2 * asked), math.nan)
     found = told[0]
     found[2] = NONE
-    count = elements_for(tol, level)
-    least = PARTS - 1 + level
-    rows = path(law, own, loads, f, 1.28 / count, least)
+    least = 1 if count < MIDDLE else 2
+    rows = path(law, own, loads, f, REACH / count, least)
     for k in range(rows.shape[0]):
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
             return told
-    ends = mesh_for(law, own, rows, count, np.empty(0))
+    ends = mesh_for(law, own, rows, count, fronts)
     x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
     A_ = influence(ends)
     B = inverse_of(A_)
@@ -314,8 +335,8 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         places = given[row, 3 + 4 * count :]
-        fine = repeated(law, own[row], f, loads, places, tol, 1)[0]
-        coarse = repeated(law, own[row], f, loads, places, tol, 0)[0]
+        fine = repeated(law, own[row], f, loads, places, 256, np.empty(0))[0]
+        coarse = repeated(law, own[row], f, loads, places, 128, np.empty(0))[0]
         if fine[2] == COMPUTED:
             away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
             fine[6] += away / (fine[0] + fine[1])
