@@ -224,7 +224,7 @@ def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
     for name, symbol, expr, meaning, unit, source in (
         ("edge_ratio", "a_prime", ratio, "a'(c), left edge against right at fixed tilt", "-", ""),
         ("load_rate", "P_prime", rate, "P'(c), the contact law's slope at fixed tilt", "Pa", ""),
-        ("punch", "F", rate / pi, "weight of the flat punches", "Pa", "eq. (eqn:PFRelation), "),
+        ("punch", "F", rate / pi, "weight of the flat punches", "Pa", "eq. (7), "),
     ):
         source = f"Mossakovskii's method; {source}{_PAPER}, section 2"
         yield Formula(name, Symbol(symbol), (a, c), expr, meaning, unit, source, conditions)
@@ -233,7 +233,7 @@ def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
 def _edges(sheet: FormulaSheet) -> Iterator[Formula]:
     conditions = contact_conditions(sheet.frame)
     series = {edge: pressure_series(sheet.frame, edge, 2) for edge in Edge}
-    source = f"expansion of p(x); cf. eqs. (eqn:Knc), (eqn:Kna), {_PAPER}"
+    source = f"expansion of p(x); cf. eqs. (8), (9), {_PAPER}"
     for order, (name, _, unit, meaning) in enumerate(_EDGE_COEFFICIENTS):
         for edge in Edge:
             expr = series[edge][order]
@@ -311,7 +311,7 @@ def _stick(sheet: FormulaSheet) -> Iterator[Formula]:
                 derive(edge),
                 f"coefficient of {power} in the full-stick change at the {side} edge",
                 unit,
-                f"expansion of full_stick_change; cf. eq. (K_T), {_PAPER}",
+                f"expansion of full_stick_change; cf. eq. (32), {_PAPER}",
                 conditions,
             )
     for edge in Edge:

@@ -3,7 +3,7 @@
 import re
 from functools import cache
 
-from sympy import Add, Basic, Expr, Mul, Pow, S, Symbol, latex, sstr
+from sympy import Add, Basic, Expr, Mul, Pow, Rel, S, Symbol, latex, sstr
 
 from derive.symbols import QUANTITIES
 
@@ -56,7 +56,7 @@ def gathered(expr: Basic) -> Basic:
     args = [gathered(arg) for arg in expr.args]
     if isinstance(expr, Mul):
         return gathered_product(args)
-    if isinstance(expr, Add | Pow):
+    if isinstance(expr, Add | Pow | Rel):  # else a condition such as P > 0, P positive, is True
         return expr.func(*args, evaluate=False)
     return expr.func(*args)
 

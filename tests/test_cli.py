@@ -23,15 +23,14 @@ import derive.parallel
 import derive.pipeline
 import derive.proof.prove
 from derive.body import Body, by_form
-from derive.cache import VARIABLE, key_of, program_digest, users_cache
 from derive.cli import main
 from derive.codegen.mark import MARK
-from derive.derivation import derive_sheet
-from derive.library import FOLDER, library, load_geometry
+from derive.derivation import derive_law, derive_sheet
+from derive.library import library, load_geometry
 from derive.pipeline import DONE, GENERATED, KEPT, STAGES
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
-from derive.view import summary
+from derive.view import listing, summary
 from tests.derive.bodies import assumed, sheet
 
 ROOT = Path(__file__).parents[1]
@@ -42,133 +41,6 @@ from derive import Geometry, parameter, x
 radius = parameter("radius", "radius", unit="m")
 geometry = Geometry("cylinder", g=x**2 / (2 * radius))
 '''
-HEAD = """from sympy import I, Piecewise, Symbol, exp, floor
-from derive import Geometry, parameter, x
-R = parameter("R", "radius", unit="m")
-"""
-FLAT_ROUNDED = """from sympy import Abs, Piecewise
-from derive import Geometry, parameter, x
-b = parameter("b", "half-width of the middle", unit="m")
-R = parameter("R", "radius of curvature", unit="m")
-beyond = Abs(x) - b
-geometry = Geometry("flat_rounded", g=Piecewise((0, beyond <= 0), (beyond**2 / (2 * R), True)))
-"""
-FILES = {
-    "cylinder.py": CYLINDER,
-    "twin.py": CYLINDER.replace("2 * radius", "3 * radius"),
-    "clash.py": CYLINDER.replace('"cylinder"', '"hertz"'),
-    "syntax.py": "geometry = (",
-    "raises.py": 'raise ValueError("no such body")',
-    "lines.py": 'raise ValueError("one\\ntwo\\nthree")',
-    "divides.py": "geometry = 1 / 0",
-    "imports.py": "import no_such_module_anywhere",
-    "recursion.py": "def f(): f()\nf()",
-    "quits.py": "import sys\nsys.exit(0)",
-    "interrupts.py": "raise KeyboardInterrupt",
-    "without.py": '"""Nothing here."""\n',
-    "number.py": "geometry = 3",
-    "unit.py": HEAD + 'b = parameter("b", "width", unit="furlong")\n',
-    "concave.py": HEAD + 'geometry = Geometry("body", g=-x**2 / R)\n',
-    "straight.py": HEAD + 'geometry = Geometry("body", g=x)\n',
-    "jumps.py": HEAD + 'geometry = Geometry("body", g=Piecewise((0, x < 0), (R, True)))\n',
-    "floor.py": HEAD + 'geometry = Geometry("body", g=R * floor(x / R))\n',
-    "complex.py": HEAD + 'geometry = Geometry("body", g=I * x**2 / R)\n',
-    "stray.py": HEAD + 'geometry = Geometry("body", g=x**2 / Symbol("r"))\n',
-    "dimension.py": HEAD + 'geometry = Geometry("body", g=x**2)\n',
-    "astext.py": HEAD + 'geometry = Geometry("body", g="x**2/R")\n',
-    "spaces.py": HEAD + 'geometry = Geometry("two words", g=x**2 / R)\n',
-    "keyword.py": HEAD + 'geometry = Geometry("class", g=x**2 / R)\n',
-    "taken.py": HEAD + 'E_star = parameter("E_star", "modulus")\n',
-    "markup.py": HEAD + 'geometry = Geometry("[red]:bug:[/]", g=x**2 / R)\n',
-    "body.txt": CYLINDER,
-    "notes.txt": "mine",
-}
-
-# Arguments, and a word of the message.
-BAD = [
-    (("show", "sphere"), "sphere"),
-    (("show", ":bug:"), ":bug:"),
-    (("show", "[red]x[/]"), "[red]x[/]"),
-    (("show", "nowhere.py"), "no such file"),
-    (("show", "."), "a directory"),
-    (("show", ""), "a directory"),
-    (("show", "a" * 300), "a" * 300),
-    (("show", "body.txt"), "no Python file"),
-    (("show", "folder.py"), "a directory"),
-    (("show", "bytes.py"), "bytes.py"),
-    (("show", "syntax.py"), "SyntaxError"),
-    (("show", "raises.py"), "ValueError: no such body"),
-    (("show", "lines.py"), "ValueError"),
-    (("show", "divides.py"), "ZeroDivisionError"),
-    (("show", "imports.py"), "no_such_module_anywhere"),
-    (("show", "recursion.py"), "RecursionError"),
-    (("show", "quits.py"), "quits.py"),
-    (("show", "interrupts.py"), "interrupts.py: KeyboardInterrupt;"),
-    (("generate", "interrupts.py", "--out", "new"), "interrupts.py: KeyboardInterrupt;"),
-    (("show", "without.py"), "defines no `geometry`"),
-    (("show", "number.py"), "defines no `geometry`"),
-    (("show", "unit.py"), "furlong"),
-    (("show", "concave.py"), "not convex"),
-    (("show", "straight.py"), "straight"),
-    (("show", "jumps.py"), "jumps"),
-    (("show", "floor.py"), "floor"),
-    (("show", "complex.py"), "not real"),
-    (("show", "stray.py"), "'r'"),
-    (("show", "dimension.py"), "dimension"),
-    (("show", "astext.py"), "no expression"),
-    (("show", "spaces.py"), "two words"),
-    (("show", "keyword.py"), "class"),
-    (("show", "taken.py"), "E_star"),
-    (("show", "markup.py"), "[red]:bug:[/]"),
-    (("show", "concave.py", "--latex"), "not convex"),
-    (("generate", "sphere"), "sphere"),
-    (("generate", "hertz", "sphere"), "sphere"),
-    (("generate", "nowhere.py"), "no such file"),
-    (("generate", "cylinder.py"), "--out"),
-    (("generate", "cylinder.py", "--check"), "--out"),
-    (("generate", "concave.py", "--out", "new"), "not convex"),
-    (("generate", "quits.py", "--out", "new"), "quits.py"),
-    (("generate", "cylinder.py", "--out", "notes.txt"), "is no directory"),
-    (("generate", "cylinder.py", "--out", "a" * 300), "too long"),
-    (("show", "--all", "--html", "--out", "a" * 300), "too long"),
-    (("generate", "cylinder.py", "--out", "notes.txt/new"), "new"),
-    (("generate", "cylinder.py", "--out", "foreign"), "notes.txt"),
-    (("generate", "cylinder.py", "--out", "foreign", "--check"), "notes.txt"),
-    (("generate", "hertz", "--out", "."), "which was not generated"),
-    (("generate", "cylinder.py", "twin.py", "--out", "new"), "two geometries are named 'cylinder'"),
-    (("generate", "hertz", "clash.py", "--out", "new"), "two geometries are named 'hertz'"),
-    (("generate", "cylinder.py", "twin.py", "--out", "new", "--check"), "two geometries"),
-]
-MISUSED = [
-    (("--nope",), "--nope"),
-    (("nope",), "nope"),
-    (("show",), "NAME"),
-    (("show", "hertz", "wedge"), "wedge"),
-    (("show", "hertz", "--nope"), "--nope"),
-    (("list", "hertz"), "hertz"),
-    (("generate", "--out"), "--out"),
-    (("generate", "--check=yes"), "--check"),
-    (("generate", "--fresh=yes"), "--fresh"),
-    (("generate", "--jobs"), "--jobs"),
-    (("generate", "--jobs", "0"), "--jobs"),
-    (("generate", "--jobs", "many"), "--jobs"),
-]
-
-
-def words(given: tuple[str, ...] | str) -> str:
-    """Arguments and words as the name of a test."""
-    return (given if isinstance(given, str) else " ".join(given))[:50]
-
-
-def written(folder: Path) -> Path:
-    """All files of the cases, good and bad."""
-    for name, text in FILES.items():
-        (folder / name).write_text(text)
-    (folder / "bytes.py").write_bytes(b"\xff\xfe\x00geometry")
-    (folder / "folder.py").mkdir()
-    (folder / "foreign").mkdir()
-    (folder / "foreign" / "notes.txt").write_text("mine")
-    return folder
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -262,60 +134,48 @@ def lines(text: str) -> list[str]:
 # ------------------------------------------------------------------ list, show, help
 
 
-@pytest.mark.parametrize("names", [("parabola_quartic", "wedge_parabola")], ids=len)
-def test_a_narrow_list_cuts_no_name(
-    names: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from derive import load_geometry, view
-    from derive.derivation import derive_law
-
-    console = Console(width=70, record=True, file=StringIO())
-    console.print(view.listing(derive_law(load_geometry(name)) for name in names))
-    shown = console.export_text()
-    assert all(f" {name} " in shown for name in names)
+NAMES = ("hertz", "parabola_quartic", "power", "wedge", "wedge_parabola")
 
 
-@pytest.mark.parametrize(
-    "names", [("hertz", "power", "wedge"), pytest.param(library(), marks=pytest.mark.slow)], ids=len
-)
-def test_list_names_every_geometry_and_its_profile(
-    names: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("derive.library.library", lambda: names)
+def test_list_names_every_geometry_and_its_profile(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("derive.library.library", lambda: NAMES)
     printed = done("list")
-    assert all(name in printed for name in names)
-    assert ("catenary" in printed) == ("catenary" in names)
     assert "x**2/(2*R)" in printed
     assert "phi*Abs(x)" in printed
-    assert "closed form" in printed
-    assert "numerical" in printed
     rows = {row.split()[1]: row for row in printed.splitlines() if len(row.split()) > 1}
-    assert "│ forward by special functions │ forward in code, from (P, M)" in " ".join(
+    assert rows.keys() >= {*NAMES}
+    assert "forward by special functions │ forward in code, from (P, M)" in " ".join(
         rows["power"].split()
     )
-    assert "special" not in rows["hertz"]
+    assert "closed form" in printed and "special" not in rows["hertz"]
 
 
-@pytest.mark.parametrize("module", ["derive", pytest.param("derive.cli", marks=pytest.mark.slow)])
-def test_the_command_is_a_module_too(tmp_path: Path, module: str) -> None:
-    command = [sys.executable, "-m", module, "new", "body", "x**2/R"]
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    ended = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True)
+def test_a_narrow_list_cuts_no_name() -> None:
+    console = Console(width=70, record=True, file=StringIO())
+    console.print(listing(derive_law(load_geometry(name)) for name in NAMES))
+    shown = console.export_text()
+    assert all(f" {name} " in shown for name in NAMES)
+
+
+def test_the_command_is_a_module_too(tmp_path: Path) -> None:
+    """And it advises to go on in the same way."""
+    ended = real("new", "body", "x**2/R", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
-    assert (tmp_path / "body.py").is_file()
     told = re.search("^See its formulas: +(.*) show body.py$", ended.stdout, re.M)
     assert told is not None
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
     again = f"{told[1]} new body x**2/R"
-    ended = subprocess.run(again, shell=True, cwd=tmp_path, env=environment, capture_output=True)
-    assert (ended.returncode, b"is there already" in ended.stderr) == (2, True), ended.stderr
+    ended = subprocess.run(
+        again, shell=True, cwd=tmp_path, env=environment, capture_output=True, text=True
+    )
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert "is there already" in ended.stderr and "Traceback" not in ended.stderr
 
 
 @pytest.mark.parametrize(
     ("typed", "told"),
     [
         (".venv/bin/derive", ".venv/bin/derive"),
-        ("derive", "derive"),
-        ("{here}/.venv/bin/derive", ".venv/bin/derive"),
         ("{here}/on path/derive", "derive"),
         ("{else}/of mine/derive", "'{else}/of mine/derive'"),
         ("{else}/pytest/__main__.py", "derive"),
@@ -368,8 +228,7 @@ def test_show_latex_prints_one_display() -> None:
 
 @pytest.mark.usefixtures("shown_unproven")
 def test_show_takes_a_file(here: Path) -> None:
-    written(here)
-    assert "cylinder: g(x) = x**2/(2*radius)" in done("show", "cylinder.py")
+    (here / "cylinder.py").write_text(CYLINDER)
     assert "cylinder: g(x) = x**2/(2*radius)" in done("show", str(here / "cylinder.py"))
 
 
@@ -379,16 +238,6 @@ def test_a_formula_is_never_broken_where_no_terminal_is() -> None:
     printed = done("show", "wedge")
     for name in sheet("wedge"):
         assert sheet("wedge").equation(name) in printed
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("shown_unproven")
-def test_a_long_formula_is_not_broken_either(here: Path) -> None:
-    (here / "flat_rounded.py").write_text(FLAT_ROUNDED)
-    printed = done("show", "flat_rounded.py")
-    assert max(len(sheet("flat_rounded").equation(name)) for name in sheet("flat_rounded")) > 200
-    for name in sheet("flat_rounded"):
-        assert sheet("flat_rounded").equation(name) in printed
 
 
 @pytest.mark.usefixtures("shown_unproven")
@@ -411,7 +260,7 @@ def test_a_limit_that_strikes_is_told() -> None:
     assert run("show", "wedge", "--limit", "1e-9").stderr == ""
 
 
-@pytest.mark.parametrize("seconds", ["-1", "0", "-0.0", "nan", "inf", "-inf", "1e999"])
+@pytest.mark.parametrize("seconds", ["0", "nan", "-inf"])
 @pytest.mark.parametrize("command", ["show", "generate"])
 def test_a_limit_is_a_time_that_can_pass(command: str, seconds: str) -> None:
     result = run(command, "catenary", "--limit", seconds)
@@ -441,24 +290,33 @@ def test_generate_tells_of_a_limit_that_struck(
     assert (here / "made" / "catenary.py").read_bytes() == text
 
 
-@pytest.mark.parametrize("command", [(), ("list",), ("show",), ("generate",)])
-@pytest.mark.parametrize("option", ["--help", "-h"])
-def test_help_is_given(command: tuple[str, ...], option: str) -> None:
-    printed = done(*command, option)
-    assert printed.startswith("Usage:")
-    assert "Traceback" not in printed
+@pytest.mark.parametrize("command", ["list", "show", "generate", "new", "check"])
+def test_help_is_given(command: str) -> None:
+    assert f"  {command} " in done("--help")
+    assert done(command, "-h") == done(command, "--help")
 
 
-def test_help_lists_the_commands() -> None:
-    printed = done("--help")
-    assert all(f"  {name} " in printed for name in ("list", "show", "generate"))
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (("nope",), "nope"),
+        (("show",), "NAME"),
+        (("show", "hertz", "--nope"), "--nope"),
+        (("generate", "--jobs", "0"), "--jobs"),
+    ],
+    ids=" ".join,
+)
+def test_a_misused_command_is_answered_with_its_usage(
+    here: Path, arguments: tuple[str, ...], word: str
+) -> None:
+    result = run(*arguments)
+    assert result.exit_code == 2
+    assert result.stderr.count("Error: ") == 1
+    assert word in lines(result.stderr)[-1]
+    assert contents(here) == {}
 
 
-def test_the_version_is_told() -> None:
-    assert done("--version").startswith("derive, version ")
-
-
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["generate", "--help"]])
+@pytest.mark.parametrize("arguments", [["--version"], ["generate", "--help"]])
 def test_help_does_not_wait_for_sympy(arguments: list[str]) -> None:
     code = (
         "import sys\nfrom derive.cli import main\n"
@@ -472,79 +330,16 @@ def test_help_does_not_wait_for_sympy(arguments: list[str]) -> None:
 # ------------------------------------------------------------------ bad input
 
 
-@pytest.mark.usefixtures("built")
-@pytest.mark.parametrize(("arguments", "word"), BAD, ids=words)
-def test_bad_input_is_answered_in_one_line(
-    here: Path, arguments: tuple[str, ...], word: str
-) -> None:
-    written(here)
-    before = contents(here)
-    result = run(*arguments)
-    assert result.exit_code == 2, result.output
-    assert result.exception is None or isinstance(result.exception, SystemExit)
-    message = lines(result.stderr)
-    assert message[0].startswith("Error: ")
-    assert word in message[0]
-    assert len(message) == 1
-    assert contents(here) == before
-    assert not (here / "new").exists()
-
-
-@pytest.mark.parametrize(("arguments", "word"), MISUSED, ids=words)
-def test_a_misused_command_is_answered_with_its_usage(
-    here: Path, arguments: tuple[str, ...], word: str
-) -> None:
-    result = run(*arguments)
-    assert result.exit_code == 2
-    assert isinstance(result.exception, SystemExit)
-    assert [line.startswith("Error: ") for line in lines(result.stderr)].count(True) == 1
-    assert word in lines(result.stderr)[-1]
-    assert contents(here) == {}
-
-
-def test_a_long_path_does_not_break_the_message(here: Path) -> None:
-    folder = here / ("deep" * 20) / ("deeper" * 20)
-    folder.mkdir(parents=True)
-    (folder / "body.py").write_text("geometry = (")
-    result = run("show", str(folder / "body.py"))
-    assert result.exit_code == 2
-    assert len(lines(result.stderr)) == 1
-    assert str(folder / "body.py") in result.stderr
-
-
 def test_a_profile_that_cannot_be_printed_is_bad_input(here: Path, unproven: None) -> None:
     """g(x) is convex and derived, but float64 ends at 1.8e308."""
-    (here / "large.py").write_text(HEAD + 'geometry = Geometry("body", g=exp(999) * x**2 / R)\n')
+    steep = CYLINDER.replace("x**2 /", "exp(999) * x**2 /")
+    (here / "large.py").write_text(f"from sympy import exp\n{steep}")
     result = run("generate", "large.py", "--out", "new")
     assert isinstance(result.exception, SystemExit), result.exception
     assert result.exit_code == 2
     assert len(lines(result.stderr)) == 1
     assert "float64 has no number near exp(999)" in result.stderr
     assert not (here / "new").exists()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "word"),
-    [
-        (("show", "sphere"), "sphere"),
-        (("show", "syntax.py"), "SyntaxError"),
-        (("show", "quits.py"), "quits.py"),
-        (("show", "interrupts.py"), "interrupts.py"),
-        (("generate", "cylinder.py"), "--out"),
-        (("show",), "NAME"),
-    ],
-    ids=words,
-)
-def test_the_real_command_leaves_with_status_2_and_no_traceback(
-    tmp_path: Path, arguments: tuple[str, ...], word: str
-) -> None:
-    before = contents(written(tmp_path))
-    ended = real(*arguments, cwd=tmp_path)
-    assert ended.returncode == 2, ended.stderr
-    assert ended.stdout == ""
-    assert "Traceback" not in ended.stderr
-    assert word in lines(ended.stderr)[-1]
-    assert contents(tmp_path) == before
 
 
 # ------------------------------------------------------------------ a check that falls short
@@ -555,23 +350,18 @@ def without_proof(of: FormulaSheet) -> FormulaSheet:
     return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})
 
 
-def test_what_is_not_proven_is_not_generated(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("arguments", [("generate", "hertz", "--out", "new"), ("show", "hertz")])
+def test_what_is_not_proven_is_neither_generated_nor_shown(
+    here: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
+) -> None:
     monkeypatch.setattr(derive.proof.prove, "prove_sheet", without_proof)
-    result = run("generate", "hertz", "--out", "new")
+    result = run(*arguments)
     assert result.exit_code == 1
     assert isinstance(result.exception, SystemExit)
     assert "tilt of 'hertz'" in result.stderr
     assert "no point drawn" in result.stderr
-    assert contents(here) == {}
-
-
-def test_what_is_not_proven_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derive.proof.prove, "prove_sheet", without_proof)
-    result = run("show", "hertz")
-    assert isinstance(result.exception, SystemExit), result.exception
-    assert result.exit_code == 1
-    assert "tilt of 'hertz'" in result.stderr
     assert "P(a, c)" not in result.stdout
+    assert contents(here) == {}
 
 
 # ------------------------------------------------------------------ generate
@@ -636,21 +426,11 @@ class TestGenerate:
         assert "Nothing to change" in done("generate")
         assert {p: p.stat().st_mtime_ns for p in before} == before
 
-    def test_a_module_that_is_not_wanted_any_more_goes(self, committed: Path) -> None:
-        before = contents(committed)
-        (committed / "old.py").write_text(f"{MARK}\nold = 1\n")
-        done("generate")
-        assert contents(committed) == before
-
     def test_one_name_leaves_the_other_modules_alone(self, committed: Path) -> None:
         before = contents(committed)
         (committed / "hertz.py").write_text(f"{MARK}\nold = 1\n")
         done("generate", "hertz")
         assert contents(committed) == before
-
-    def test_a_name_given_twice_is_made_once(self, here: Path) -> None:
-        done("generate", "hertz", "hertz", "--out", "new")
-        assert "hertz.py" in contents(here / "new")
 
     def test_out_holds_what_was_asked_for_and_no_more(self, here: Path) -> None:
         done("generate", "hertz", "--out", "new")
@@ -663,21 +443,25 @@ class TestGenerate:
         assert "wedge.py" in contents(here / "new")
         assert "hertz.py" not in contents(here / "new")
 
-    def test_files_and_names_go_into_one_package(self, here: Path) -> None:
-        written(here)
-        done("generate", "cylinder.py", "hertz", "--out", "new")
-        assert {"cylinder.py", "hertz.py"} < contents(here / "new").keys()
-
-    def test_out_may_be_the_current_directory_or_is_refused(self, here: Path) -> None:
-        """A shell must not be left in a directory that was replaced under it."""
-        result = run("generate", "hertz", "--out", ".")
-        assert isinstance(result.exception, SystemExit | None), result.exception
-        assert Path.cwd() == here
-        if result.exit_code == 0:
-            assert "hertz.py" in contents(here)
-        else:
-            assert result.exit_code == 2
-            assert len(lines(result.stderr)) == 1
+    @pytest.mark.parametrize(
+        ("arguments", "word"),
+        [
+            (("cylinder.py", "twin.py", "--out", "new"), "two geometries are named 'cylinder'"),
+            (("hertz", "clash.py", "--out", "new"), "two geometries are named 'hertz'"),
+            (("hertz", "--out", "cylinder.py/new"), "new"),
+        ],
+        ids=" ".join,
+    )
+    def test_two_bodies_of_one_name_and_a_folder_in_a_file_are_refused(
+        self, here: Path, arguments: tuple[str, ...], word: str
+    ) -> None:
+        for name, body in (("cylinder", "cylinder"), ("twin", "cylinder"), ("clash", "hertz")):
+            (here / f"{name}.py").write_text(CYLINDER.replace('"cylinder"', f'"{body}"'))
+        before = contents(here)
+        result = run("generate", *arguments)
+        assert result.exit_code == 2
+        assert word in result.stderr and len(lines(result.stderr)) == 1
+        assert contents(here) == before
 
     def test_out_may_be_a_link_to_a_directory(self, here: Path) -> None:
         (here / "there").mkdir()
@@ -695,11 +479,6 @@ class TestGenerate:
         assert len(lines(result.stderr)) == 1
         assert not (here / "there").exists()
 
-    def test_the_library_is_not_needed_in_the_current_directory(self, here: Path) -> None:
-        (here / "hertz").mkdir()
-        (here / "hertz.py").write_text("geometry = (")
-        done("generate", "hertz", "--out", "new")
-
 
 @pytest.mark.usefixtures("built")
 class TestCheck:
@@ -708,50 +487,32 @@ class TestCheck:
     def test_it_passes_on_what_was_generated(self, committed: Path) -> None:
         assert "is as generated" in done("generate", "--check")
 
-    @pytest.mark.enough("__init__.py", "py.typed", "wedge.py")
-    @pytest.mark.parametrize("name", sorted(p.name for p in GENERATED.iterdir() if p.is_file()))
-    @pytest.mark.slow
-    def test_it_fails_and_names_a_file_of_which_a_byte_is_changed(
-        self, committed: Path, name: str
+    @pytest.mark.parametrize(
+        ("name", "text"),
+        [
+            ("wedge.py", f"{MARK}\nmine = 1\n"),
+            ("py.typed", "mine"),
+            ("__init__.py", None),
+            ("old.py", f"{MARK}\n"),
+            ("notes.txt", "mine"),
+        ],
+    )
+    def test_it_names_the_one_file_that_is_changed_missing_or_not_generated(
+        self, committed: Path, name: str, text: str | None
     ) -> None:
-        path = committed / name
-        text = bytearray(path.read_bytes() or b"  ")
-        text[len(text) // 2] ^= 1
-        path.write_bytes(text)
-        self.falls_short(committed, name)
-
-    def test_it_fails_and_names_a_file_that_is_missing(self, committed: Path) -> None:
-        (committed / "wedge.py").unlink()
-        self.falls_short(committed, "wedge.py")
-
-    @pytest.mark.parametrize("name", ["old.py", "notes.txt", "_extra.py"])
-    def test_it_fails_and_names_a_file_that_is_not_generated(
-        self, committed: Path, name: str
-    ) -> None:
-        (committed / name).write_text(f"{MARK}\n")
-        self.falls_short(committed, name)
-
-    def falls_short(self, committed: Path, name: str) -> None:
+        if text is None:
+            (committed / name).unlink()
+        else:
+            (committed / name).write_text(text)
         before = contents(committed)
         result = run("generate", "--check")
         assert result.exit_code == 1
-        assert isinstance(result.exception, SystemExit)
+        others = {path.name for path in committed.iterdir()} - {name}
         assert name in result.stdout
-        others = {p.name for p in committed.glob("*.py")} - {name}
-        named = {line.partition(": ")[0] for line in lines(result.stdout)}
-        assert not named & others
+        assert not {line.partition(": ")[0] for line in lines(result.stdout)} & others
+        assert ("-mine = 1" in result.stdout) == (name == "wedge.py")
         assert "derive generate" in result.stdout
         assert contents(committed) == before
-
-    def test_it_shows_what_changed(self, committed: Path) -> None:
-        path = committed / "hertz.py"
-        path.write_text(path.read_text() + "mine = 1\n")
-        assert "-mine = 1" in run("generate", "--check").stdout
-
-    def test_one_name_is_checked_against_the_whole_package(self, committed: Path) -> None:
-        assert run("generate", "hertz", "--check").exit_code == 0
-        (committed / "hertz.py").write_text(f"{MARK}\n")
-        assert run("generate", "hertz", "--check").exit_code == 1
 
     def test_a_directory_of_one_s_own_is_checked(self, here: Path) -> None:
         done("generate", "hertz", "--out", "new")
@@ -772,155 +533,27 @@ class TestCheck:
 # ------------------------------------------------------------------ what an earlier run built
 
 
-def keep(name: str, text: str) -> None:
-    """Put a text where the next run finds it for a body of the library."""
-    key = key_of(FOLDER / f"{name}.py", f"derive/geometries/{name}.py", program_digest())
-    assert key is not None
-    users_cache().put(key, of_library(name, text))
+@pytest.mark.usefixtures("committed")
+def test_what_an_earlier_run_built_is_not_built_again(built: list[str]) -> None:
+    assert "kept" not in done("generate")
+    assert built == [*library()]
+    printed = done("generate")
+    assert built == [*library()]
+    assert printed.count("kept") == len(library())
+    assert "Nothing to change" in printed
+    assert "kept" not in done("generate", "--fresh")
+    assert built == [*library()] * 2
 
 
-def keep_the_library() -> None:
-    for name in library():
-        keep(name, (GENERATED / f"{name}.py").read_text())
+@pytest.mark.usefixtures("committed", "built")
+def test_a_check_never_opens_what_was_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which may be anything: `generate` cannot know."""
 
+    def refuse(*_: object) -> None:
+        raise AssertionError("the cache was read")
 
-WRONG = f"{MARK}\nwrong = 1\n"
-
-
-class TestKept:
-    """`derive generate` a second time."""
-
-    def test_nothing_is_built_again(self, committed: Path, built: list[str]) -> None:
-        assert "kept" not in done("generate")
-        assert built == [*library()]
-        printed = done("generate")
-        assert built == [*library()]
-        assert printed.count("kept") == len(library())
-        assert "Nothing to change" in printed
-
-    def test_what_was_lost_is_written_again(self, committed: Path, built: list[str]) -> None:
-        before = contents(committed)
-        done("generate")
-        shutil.rmtree(committed)
-        assert "Wrote" in done("generate")
-        assert contents(committed) == before
-        assert built == [*library()]
-
-    def test_only_what_changed_is_built_again(self, here: Path, built: list[str]) -> None:
-        written(here)
-        sources = ("hertz", "cylinder.py", "wedge")
-        done("generate", *sources, "--out", "new")
-        (here / "cylinder.py").write_text(FILES["twin.py"])
-        printed = done("generate", *sources, "--out", "new")
-        assert built == [*sources, "cylinder.py"]
-        assert printed.count("kept") == 2
-        assert "3*radius" in (here / "new" / "cylinder.py").read_text()
-
-    def test_fresh_builds_everything(self, committed: Path, built: list[str]) -> None:
-        keep("hertz", WRONG)
-        assert "kept" not in done("generate", "--fresh")
-        assert built == [*library()]
-        assert "kept" in done("generate")  # what was built is kept in its place
-        assert run("generate", "--check").exit_code == 0
-
-    def test_without_a_cache_everything_is_built(
-        self, committed: Path, built: list[str], monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        monkeypatch.setenv(VARIABLE, "")
-        done("generate")
-        done("generate")
-        assert built == [*library()] * 2
-
-    @pytest.mark.parametrize("name", ["file", "file/below"])
-    def test_a_cache_that_cannot_be_written_is_no_error(
-        self, here: Path, built: list[str], monkeypatch: pytest.MonkeyPatch, name: str
-    ) -> None:
-        (here / "file").write_text("mine")
-        monkeypatch.setenv(VARIABLE, str(here / name))
-        done("generate", "hertz", "--out", "new")
-        done("generate", "hertz", "--out", "new")
-        assert built == ["hertz"] * 2
-
-    def test_a_file_that_imports_another_is_always_built(
-        self, here: Path, built: list[str], monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        monkeypatch.syspath_prepend(here)
-        (here / "shared_by_bodies.py").write_text("factor = 2\n")
-        text = CYLINDER.replace("(2 *", "(factor *") + "\n"
-        (here / "own.py").write_text(f"from shared_by_bodies import factor\n{text}")
-        done("generate", "own.py", "--out", "new")
-        monkeypatch.delitem(sys.modules, "shared_by_bodies")
-        (here / "shared_by_bodies.py").write_text("factor = 12\n")
-        done("generate", "own.py", "--out", "new")
-        assert built == ["own.py"] * 2
-        assert "12*radius" in (here / "new" / "cylinder.py").read_text()
-
-    def test_bad_input_is_told_again(self, here: Path, built: list[str]) -> None:
-        written(here)
-        first = run("generate", "concave.py", "--out", "new")
-        again = run("generate", "concave.py", "--out", "new")
-        assert (first.exit_code, again.exit_code) == (2, 2)
-        assert first.stderr == again.stderr
-
-    def test_a_name_that_is_taken_by_what_is_kept_is_refused(
-        self, here: Path, built: list[str]
-    ) -> None:
-        written(here)
-        done("generate", "cylinder.py", "--out", "new")
-        done("generate", "twin.py", "--out", "new")
-        result = run("generate", "cylinder.py", "twin.py", "--out", "new")
-        assert result.exit_code == 2
-        assert "two geometries are named 'cylinder'" in result.stderr
-
-
-class TestPoisoned:
-    """A cache that holds what was never built: `generate` cannot know, `--check` does not ask."""
-
-    def test_generate_takes_it(self, committed: Path, built: list[str]) -> None:
-        keep("hertz", WRONG)
-        done("generate")
-        assert (committed / "hertz.py").read_text() == WRONG
-
-    def test_check_reports_what_came_of_it(self, committed: Path, built: list[str]) -> None:
-        keep("hertz", WRONG)
-        done("generate")
-        result = run("generate", "--check")
-        assert result.exit_code == 1
-        assert "hertz.py: changed" in result.stdout
-        assert "-wrong = 1" in result.stdout
-        assert "wedge.py" not in result.stdout
-
-    def test_check_passes_on_what_is_right(self, committed: Path, built: list[str]) -> None:
-        keep("hertz", WRONG)
-        assert "is as generated" in done("generate", "--check")
-        assert built == [*library()]
-
-    def test_generate_is_right_after_a_check(self, committed: Path, built: list[str]) -> None:
-        """As the check says: update with derive generate."""
-        before = contents(committed)
-        keep("hertz", WRONG)
-        done("generate")
-        run("generate", "--check")
-        done("generate")
-        assert contents(committed) == before
-
-    def test_check_never_opens_it(
-        self, committed: Path, built: list[str], monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        def refuse(*_: object) -> None:
-            raise AssertionError("the cache was read")
-
-        monkeypatch.setattr(derive.cache.Cache, "get", refuse)
-        assert "is as generated" in done("generate", "--check")
-
-
-def test_nothing_changed_builds_nothing(tmp_path: Path) -> None:
-    """The real command with the whole library."""
-    keep_the_library()
-    assert real("generate", "--out", "package", cwd=tmp_path).returncode == 0
-    ended = real("generate", "--out", "package", cwd=tmp_path)
-    assert "Nothing to change in package" in ended.stdout
-    assert ended.stdout.count("kept") == len(library())
+    monkeypatch.setattr(derive.cache.Cache, "get", refuse)
+    assert "is as generated" in done("generate", "--check")
 
 
 def test_the_table_says_what_was_built_when() -> None:
@@ -931,15 +564,6 @@ def test_the_table_says_what_was_built_when() -> None:
 
 # ------------------------------------------------------------------ several processes
 
-UNPROVEN = """
-import derive.proof.numerical
-from derive.errors import NotProven
-
-def refuse(*_):
-    raise NotProven("tilt of 'cylinder': refused by a test")
-
-derive.proof.numerical.NumericalRoutes.__init__ = refuse
-"""
 WAITS = f"""import os, time
 from pathlib import Path
 Path("waits", str(os.getpid())).touch()
@@ -948,51 +572,18 @@ time.sleep(600)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "bad",
-    [
-        "concave.py",
-        *(
-            pytest.param(bad, marks=pytest.mark.slow)
-            for bad in ("syntax.py", "unit.py", "nowhere.py", "zeta")
-        ),
-    ],
-)
-def test_bad_input_is_told_by_several_processes_as_by_one(here: Path, bad: str) -> None:
+def test_bad_input_is_told_by_several_processes_as_by_one(here: Path) -> None:
     """The other body is not waited for."""
-    written(here)
     (here / "waits").mkdir()
     (here / "waits.py").write_text(WAITS)
-    before = contents(here)
-    one = run("generate", bad, "hertz", "--out", "new", "--jobs", "1")
+    (here / "concave.py").write_text(CYLINDER.replace("g=x", "g=-x"))
+    one = run("generate", "concave.py", "hertz", "--out", "new", "--jobs", "1")
     began = time.perf_counter()
-    two = run("generate", "waits.py", bad, "wedge", "--out", "new", "--jobs", "2")
+    two = run("generate", "waits.py", "concave.py", "wedge", "--out", "new", "--jobs", "2")
     assert time.perf_counter() - began < 60
     assert (one.exit_code, two.exit_code) == (2, 2), two.output
     assert one.stderr == two.stderr
-    assert len(lines(two.stderr)) == 1
-    assert {k: v for k, v in contents(here).items() if not k.startswith("waits/")} == before
-
-
-@pytest.mark.slow
-def test_what_is_not_proven_in_a_process_is_not_generated(here: Path) -> None:
-    (here / "waits").mkdir()
-    (here / "waits.py").write_text(WAITS)
-    (here / "refused.py").write_text(UNPROVEN + CYLINDER)
-    result = run("generate", "waits.py", "refused.py", "--out", "new", "--jobs", "2")
-    assert result.exit_code == 1
-    assert isinstance(result.exception, SystemExit)
-    assert result.stderr == "Not proven: tilt of 'cylinder': refused by a test\n"
-    assert not (here / "new").exists()
-
-
-def test_a_process_that_is_lost_is_told_in_one_line(here: Path) -> None:
-    (here / "lost.py").write_text("import os\nos._exit(1)\n")
-    (here / "cylinder.py").write_text(CYLINDER)
-    result = run("generate", "lost.py", "cylinder.py", "--out", "new", "--jobs", "2")
-    assert result.exit_code == 2
-    assert "--jobs 1" in result.stderr
-    assert len(lines(result.stderr)) == 1
+    assert "not convex" in two.stderr and len(lines(two.stderr)) == 1
     assert not (here / "new").exists()
 
 

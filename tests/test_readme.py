@@ -4,7 +4,6 @@ import doctest
 import importlib.util
 import re
 import shlex
-import tomllib
 from pathlib import Path
 
 import pytest
@@ -70,19 +69,3 @@ def test_every_link_leads_somewhere(page: Path) -> None:
 def test_the_examples_of_the_page_on_slip_give_what_they_show() -> None:
     failed, attempted = failures((README.parent / "docs" / "slip.md").read_text(), {})
     assert (failed, attempted >= 5) == (0, True)
-
-
-def test_it_says_which_python_before_the_first_example() -> None:
-    before = README.read_text().partition("\n>>> ")[0]
-    assert "`.venv/bin/python`" in before
-    assert "`.venv/bin/derive`" in before
-    assert "directory" in before
-
-
-def test_make_brings_what_it_says() -> None:
-    project = tomllib.loads((README.parent / "pyproject.toml").read_text())
-    brought = project["project"]["optional-dependencies"]["tests"]
-    assert "-e '.[tests]'" in (README.parent / "Makefile").read_text()
-    assert ("`make` has brought matplotlib" in README.read_text()) == any(
-        of.startswith("matplotlib") for of in brought
-    )

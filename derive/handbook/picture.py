@@ -1,7 +1,8 @@
 """Small pictures of curves as SVG, drawn in the page's own colours."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import floor, log10
 
 from markupsafe import Markup, escape
@@ -22,7 +23,7 @@ class Line:
 
 
 def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float = 0.0) -> Markup:
-    """Curves over one pair of axes; what is higher than `top`, if that is given, is cut off."""
+    """Curves over one pair of axes; each leaves them where it rises beyond `top`, if given."""
     xs = [x for line in lines for x in line.x]
     ys = [min(y, top) if top else y for line in lines for y in line.y]
     low_x, high_x = min(xs), max(xs)
@@ -51,9 +52,9 @@ def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float =
         )
         parts.append(f'<text x="{LEFT - 6}" y="{at + 4:.1f}" text-anchor="end">{y:.4g}</text>')
     for number, line in enumerate(lines):
-        points = (place(x, min(y, high)) for x, y in zip(line.x, line.y, strict=True))
-        drawn = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-        parts.append(f'<polyline class="curve curve-{number}" points="{drawn}"/>')
+        for run in _below(high, line):
+            drawn = " ".join("{:.1f},{:.1f}".format(*place(x, y)) for x, y in run)
+            parts.append(f'<polyline class="curve curve-{number}" points="{drawn}"/>')
     middle = (LEFT + WIDTH - RIGHT) / 2
     parts.append(f'<text x="{middle}" y="{HEIGHT - 6}" text-anchor="middle">{escape(along)}</text>')
     parts.append(
@@ -61,6 +62,26 @@ def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float =
         f'text-anchor="middle">{escape(upward)}</text></svg>'
     )
     return Markup("".join(parts))
+
+
+def _below(high: float, line: Line) -> Iterator[list[tuple[float, float]]]:
+    """The stretches of a curve that lie below a height, up to where they cross it.
+
+    >>> list(_below(1.0, Line("", [0.0, 2.0, 4.0], [0.0, 2.0, 0.0])))
+    [[(0.0, 0.0), (1.0, 1.0)], [(3.0, 1.0), (4.0, 0.0)]]
+    """
+    run: list[tuple[float, float]] = []
+    points = list(zip(line.x, line.y, strict=True))
+    for (x, y), (x_next, y_next) in pairwise([points[0], *points]):
+        if (y > high) != (y_next > high):
+            run.append((x + (x_next - x) * (high - y) / (y_next - y), high))
+        if y_next <= high:
+            run.append((x_next, y_next))
+        elif run:
+            yield run
+            run = []
+    if run:
+        yield run
 
 
 def ticks(low: float, high: float) -> list[float]:

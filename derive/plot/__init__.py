@@ -7,6 +7,7 @@
     given       what cannot be drawn, refused with one clear error
     tractions   pressure; shear, and its change over a half-cycle; slip and the friction's work
     zones       stick and slip over a cycle, or over a parameter
+    histories   any load history: stick and slip over time, shear, slip, friction's work, a film
     live        the same under sliders, in a notebook
     series      how far the series of the slip zones are off, against their size
 
@@ -22,6 +23,7 @@ from derive.errors import MissingLibrary
 if find_spec("matplotlib") is None:
     raise MissingLibrary("matplotlib", "drawing", "notebooks")
 
+from derive.plot.histories import film, friction_work, instants, slip_map, work
 from derive.plot.live import Live, Loads, sliders
 from derive.plot.measure import Measure, over, unit
 from derive.plot.series import errors, relative_errors
@@ -37,6 +39,9 @@ __all__ = [
     "Measure",
     "boundaries",
     "errors",
+    "film",
+    "friction_work",
+    "instants",
     "key",
     "over",
     "pressures",
@@ -45,10 +50,12 @@ __all__ = [
     "shear",
     "sliders",
     "slip",
+    "slip_map",
     "stick_slip",
     "style",
     "subplots",
     "sweep",
     "tractions",
     "unit",
+    "work",
 ]

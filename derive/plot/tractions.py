@@ -56,7 +56,7 @@ def pressures(
         x = places(-float(state.a), float(state.c))
         lines.append((x, body.pressure(x, state.a, state.c, **constants)))
     length = length or unit(np.concatenate([x for x, _ in lines]), "m")
-    stress = stress or unit(np.concatenate([_typical(p) for _, p in lines]), "Pa")
+    stress = stress or unit(np.concatenate([typical(p) for _, p in lines]), "Pa")
     with style():
         if axes is None:
             _, axes = subplots()
@@ -69,7 +69,7 @@ def pressures(
     return axes
 
 
-def _typical(p: Array) -> Array:
+def typical(p: Array) -> Array:
     """Pressures without the peak of a corner, which has no height."""
     finite = p[np.isfinite(p)]
     return finite if finite.size < 2 else finite[finite <= np.quantile(finite, 0.97)]
@@ -79,7 +79,7 @@ def peak(*drawn: Array) -> float:
     """The greatest of all pressures; that of a corner has no height: cut off above the rest."""
     finite = [p[np.isfinite(p)] for p in drawn]
     top = max(float(np.max(p, initial=0.0)) for p in finite)
-    rest = max(float(np.max(_typical(p), initial=0.0)) for p in finite)
+    rest = max(float(np.max(typical(p), initial=0.0)) for p in finite)
     return min(top, 1.35 * rest)
 
 
@@ -125,7 +125,7 @@ def tractions(
     p1, p2 = (body.pressure(x, s.a, s.c, **constants) for s in (first, second))
     shear = body.shear_change(x, first, second, dQ, dsigma, **law)
     zone = body.stick_zone(first, second, dQ, dsigma, mixed=mixed, **law)
-    length, stress = length or unit(x, "m"), stress or unit(_typical(np.append(p1, p2)), "Pa")
+    length, stress = length or unit(x, "m"), stress or unit(typical(np.append(p1, p2)), "Pa")
     with style():
         if axes is None:
             _, axes = subplots(2, 1, size=(5.6, 5.0), sharex=True)
@@ -137,7 +137,7 @@ def tractions(
             length(x), stress(p2), color=COLOURS["blue"], label="$p$" if same else "end, $p_2$"
         )
         limit = stress(f * (p1 + p2))
-        _band(below, length(x), limit, r"$\pm f\,(p_1 + p_2)$")
+        band(below, length(x), limit, r"$\pm f\,(p_1 + p_2)$")
         below.plot(
             length(x), stress(shear), color=COLOURS["vermilion"], linewidth=2, label=r"$\Delta q$"
         )
@@ -146,12 +146,12 @@ def tractions(
         known = np.isfinite(shear)
         if not np.any(known):
             _say_why(below, body, zone, "shear")
-        highest = np.max(np.abs(stress(shear[known])), initial=0.0) or np.max(_typical(limit))
+        highest = np.max(np.abs(stress(shear[known])), initial=0.0) or np.max(typical(limit))
         below.set_ylim(-1.6 * highest, 1.6 * highest)
         above.set(ylabel=stress.label("p"))
         below.set(xlabel=length.label("x"), ylabel=stress.label(r"\Delta q"))
-        _key(above)
-        _key(below)
+        key_above(above)
+        key_above(below)
     return axes
 
 
@@ -201,19 +201,19 @@ def shear(
             f"the shear is not known under Q = {Q:g}, sigma = {sigma:g}, dQ = {dQ:g}, dsigma = "
             f"{dsigma:g}: {_why_unknown(body, contact, changes, law)}"
         )
-    length, stress = length or unit(x, "m"), stress or unit(_typical(bound), "Pa")
+    length, stress = length or unit(x, "m"), stress or unit(typical(bound), "Pa")
     with style():
         if axes is None:
             _, axes = subplots()
-        _band(axes, length(x), stress(bound), r"$\pm f\,p$")
+        band(axes, length(x), stress(bound), r"$\pm f\,p$")
         for inner in q[1:-1]:
             axes.plot(length(x), stress(inner), color=COLOURS["sky"], linewidth=0.8)
         for end, colour, label in ((0, "vermilion", "upper end"), (-1, "blue", "lower end")):
             axes.plot(length(x), stress(q[end]), color=COLOURS[colour], linewidth=2, label=label)
-        highest = 1.6 * np.nanmax(np.abs(stress(q)), initial=0.0) or np.max(_typical(bound))
+        highest = 1.6 * np.nanmax(np.abs(stress(q)), initial=0.0) or np.max(typical(bound))
         axes.set_ylim(-highest, highest)
         axes.set(xlabel=length.label("x"), ylabel=stress.label("q"))
-        _key(axes)
+        key_above(axes)
     return axes
 
 
@@ -268,13 +268,13 @@ def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Meas
         told.add(name)
 
 
-def _band(axes: Axes, x: Array, limit: Array, label: str) -> None:
+def band(axes: Axes, x: Array, limit: Array, label: str) -> None:
     """What friction holds, both ways."""
     for side, told in ((1, label), (-1, None)):
         axes.plot(x, side * limit, color="#888888", linewidth=1, label=told)
 
 
-def _key(axes: Axes) -> None:
+def key_above(axes: Axes) -> None:
     """A legend in one row above."""
     axes.legend(
         loc="lower left",
@@ -336,7 +336,7 @@ def slip(
         axes[0].set(ylabel=depth.label("s"))
         axes[1].set(xlabel=length.label("x"), ylabel=joule.label("f\\,p\\,s"))
         if axes[1].get_legend_handles_labels()[1]:
-            _key(axes[1])
+            key_above(axes[1])
         for place in axes:
             place.set_ylim(bottom=0)
     return axes

@@ -176,10 +176,10 @@ def _areas(
             if np.any(where):
                 yield name, edges, where
     if np.any(there & ~known):
-        yield "not known", (low, high), _widened(there & ~known)
+        yield "not known", (low, high), widened(there & ~known)
 
 
-def _widened(unknown: Array) -> Array:
+def widened(unknown: Array) -> Array:
     """With a neighbour on either side, so that no gap is left beside what is known."""
     wide = unknown.copy()
     wide[1:] |= unknown[:-1]

@@ -37,13 +37,6 @@ def demand_array(value: Any, label: str) -> None:
         )
 
 
-def known_shape(value: Any) -> tuple[int, ...]:
-    """Its shape; 1 for a length that is not known yet, which agrees with every other."""
-    if type(value) is np.ndarray or type(value) is np.float64:
-        return value.shape
-    return tuple(1 if np.isnan(n) else n for n in value.shape)
-
-
 def over_chunks(
     function: Callable[..., Any], given: Mapping[str, Any], in_time: bool = False
 ) -> Any:

@@ -22,7 +22,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .kernels import BREAKS, COMPILED, kernel, real, results, truth, vector, whole
+from .kernels import (
+    BREAKS,
+    function,
+    kernel,
+    nothing,
+    real,
+    record,
+    results,
+    truth,
+    value_of,
+    vector,
+    whole,
+)
 from .shared import shared
 
 FARTHEST = 6
@@ -35,6 +47,9 @@ EPS = 2.0**-52
 
 AGREED = 1e-12
 """Two sums that agree to this, the later one is exact to rounding."""
+
+SHORT = 0.03
+"""A neighbour is short if it is shorter than this part of a part."""
 
 BESIDE = 0.1
 """Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
@@ -89,69 +104,25 @@ class Part(NamedTuple):
     end: Any
 
 
-if COMPILED:
-    from numba import types
-    from numba.core import cgutils
-    from numba.extending import intrinsic
+BESIDE_BREAK: Any = results(3)(whole, whole, real, vector)
+CURVE: Any = record(Curve, *map(function, (BESIDE_BREAK, BREAKS, BREAKS)))
+PART: Any = record(Part, whole, whole, *(real,) * 6)
+NODE: Any = results(7)
+INTEGRAND: Any = results(5)(NODE, results(3))
 
-    BESIDE_BREAK: Any = results(3)(whole, whole, real, vector)
-    CURVE: Any = types.NamedTuple(
-        tuple(map(types.FunctionType, (BESIDE_BREAK, BREAKS, BREAKS))), Curve
-    )
-    PART: Any = types.NamedTuple((whole, whole, *(real,) * 6), Part)
-    NODE: Any = results(7)
-    CUT: Any = PART(vector, whole, real, real, real, whole)
-    AT: Any = NODE(CURVE, PART, real, real, vector)
-    INTEGRAND: Any = results(5)(NODE, results(3))
-    OVER_PART: Any = (types.FunctionType(INTEGRAND), results(3), CURVE, PART, vector)
-    ADD: Any = real(*OVER_PART, whole, whole, real, vector, vector)
-    INTEGRATE: Any = types.void(*OVER_PART, vector)
-    CARRIED: Any = results(5)(CURVE, real, real, vector)
-    PRESSED: Any = real(CURVE, real, real, real, vector)
-    EXPANDED: Any = results(4)(CURVE, real, real, vector)
-    EXPANDED_AT: Any = real(CURVE, real, real, vector, whole)
-    INCLINED: Any = results(2)(CURVE, real, vector)
-    SMOOTH: Any = truth(CURVE, whole, vector)
+_beside_value, _breaks_value, _integrand = map(value_of, (BESIDE_BREAK, BREAKS, INTEGRAND))
 
-    def _value_of(signature: Any) -> Any:
-        """Turn a kernel into a value.  What uses numba's own such values is not kept on disk."""
-        function = types.FunctionType(signature)
 
-        @intrinsic  # type: ignore[untyped-decorator]
-        def value(_: Any, kernel: Any) -> Any:
-            def code(context: Any, builder: Any, *_: Any) -> Any:
-                compiled = kernel.dispatcher.get_compile_result(signature)
-                context.active_code_library.add_linking_library(compiled.library)
-                found = context.declare_function(builder.module, compiled.fndesc)
-                made = cgutils.create_struct_proxy(function)(context, builder)
-                made.jit_addr = made.c_addr = builder.bitcast(found, cgutils.voidptr_t)
-                return made._getvalue()
-
-            return function(kernel), code
-
-        return value
-
-    _beside_value, _breaks_value, _integrand = map(_value_of, (BESIDE_BREAK, BREAKS, INTEGRAND))
-
-    @shared
-    def curve_of(beside: Any, breaks: Any, corners: Any) -> Curve:
-        """A curve from its three kernels."""
-        return Curve(_beside_value(beside), _breaks_value(breaks), _breaks_value(corners))
-
-else:
-    BESIDE_BREAK = CURVE = PART = NODE = CUT = AT = INTEGRAND = ADD = INTEGRATE = None
-    CARRIED = PRESSED = EXPANDED = EXPANDED_AT = INCLINED = SMOOTH = None
-    curve_of = Curve
-
-    def _integrand(kernel: Any) -> Any:
-        """The function itself."""
-        return kernel
+@shared
+def curve_of(beside: Any, breaks: Any, corners: Any) -> Curve:
+    """A curve from its three kernels."""
+    return Curve(_beside_value(beside), _breaks_value(breaks), _breaks_value(corners))
 
 
 # ---------------------------------------------------------------- the contact's parts
 
 
-@kernel(CUT)
+@kernel(PART(vector, whole, real, real, real, whole))
 def _part(breaks: Any, piece: int, low: float, high: float, h: float, sense: int) -> Part:
     """What lies of a piece inside the window [low, high]."""
     width = high - low
@@ -172,7 +143,7 @@ def _part(breaks: Any, piece: int, low: float, high: float, h: float, sense: int
     return Part(piece, sense, length, past, ahead, length / h, start / h, end / h)
 
 
-@kernel(AT)
+@kernel(NODE(CURVE, PART, real, real, vector))
 def _at(curve: Any, part: Any, q: float, rest: float, own: Any) -> tuple[float, ...]:
     """The curve at the fractions q and 1 - q of a part, seen from the nearer break: a node.
 
@@ -188,7 +159,7 @@ def _at(curve: Any, part: Any, q: float, rest: float, own: Any) -> tuple[float, 
     return part.sense * slope, curvature, part.sense * change, t, start, end, along
 
 
-@kernel(INCLINED)
+@kernel(results(2)(CURVE, real, vector))
 def slope(curve: Any, x: float, own: Any) -> tuple[float, float]:
     """g'(x) and g''(x); at a break, of the piece on its right."""
     breaks = curve.breaks(own)
@@ -203,84 +174,73 @@ def slope(curve: Any, x: float, own: Any) -> tuple[float, float]:
 
 
 def _rule() -> Any:
-    """q, 1 - q and weights of the rule on (0, 1) with q = 1/(1 + exp(pi sinh t)), t > 0.
+    """q, 1 - q, weights and t of the rule on (0, 1) with q = 1/(1 + exp(pi sinh t)), t >= 0.
 
-    First those of step 1, t = 1, 2, ..., FARTHEST; then, level by level, those of half the step
-    that come between.  Where t < 0, q and 1 - q change places.
+    First those of step 1, t = 0, 1, ..., FARTHEST; then, level by level, those of half the step
+    that come between.  Where t < 0, q and 1 - q change places; t = 0 is met so twice, and weighs
+    half.
     """
-    levels = [np.arange(1.0, FARTHEST + 1)]
+    levels = [np.arange(FARTHEST + 1.0)]
     levels += [np.arange(0.5**n, FARTHEST, 2 * 0.5**n) for n in range(1, FINEST + 1)]
     t = np.concatenate(levels)
     q, rest = (1 / (1 + np.exp(sign * np.pi * np.sinh(t))) for sign in (1, -1))
-    return np.column_stack((q, rest, np.pi * np.cosh(t) * q * rest))
+    weight = np.pi * np.cosh(t) * q * rest
+    weight[0] /= 2
+    return np.column_stack((q, rest, weight, t))
 
 
 RULE = _rule()
-MIDDLE = math.pi / 4
-"""The weight where t = 0."""
 
 
-@kernel(ADD)
-def _add(
-    integrand: Any,
-    given: Any,
-    curve: Any,
-    part: Any,
-    own: Any,
-    level: int,
-    side: int,
-    reach: float,
-    sums: Any,
-    sizes: Any,
-) -> float:
-    """Add what a level brings on one side of a part; tell how far from its middle terms count.
+@kernel(whole(PART))
+def _coarsest(part: Any) -> int:
+    """The first level at which two sums that agree are believed.
 
-    From the third level on, the rule goes no farther than that.
+    A singularity close beyond an end, where the part's neighbour is short, shows on fine levels
+    alone: before, sums may agree by chance.
     """
-    step = 0.5**level
-    apart = 1.0 if level == 0 else 2 * step
-    nodes = int(FARTHEST / apart)
-    first = 0 if level == 0 else nodes
-    for j in range(nodes):
-        t = step + j * apart
-        if level > 1 and t >= reach + 0.5:
-            break
-        q, rest, weight = RULE[first + j, side], RULE[first + j, 1 - side], RULE[first + j, 2]
-        values = integrand(_at(curve, part, q, rest, own), given)
-        for i in range(sums.size):
-            size = sizes[i]
-            sums[i] += weight * values[i]
-            sizes[i] += abs(weight * values[i])
-            if sizes[i] != size:
-                reach = max(reach, t)
-                if t == FARTHEST:  # the sum has not come to its end
-                    sums[i] = math.nan
-    return reach
+    h = part.length / part.extent
+    for gap in (part.start + part.past / h, part.end + part.ahead / h):
+        if 0 < gap < SHORT * part.extent:
+            return 4
+    return 2
 
 
-@kernel(INTEGRATE)
+@kernel(nothing(function(INTEGRAND), results(3), CURVE, PART, vector, vector))
 def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, total: Any) -> None:
     """Add the integrals over a part to `total`: NaN where the sums do not agree or have no end.
 
-    All are infinite beyond the body's curve, where the first one is infinite or none.
+    All are infinite beyond the body's curve, where the first one is infinite or none.  From the
+    third level on, the rule goes no farther than terms have counted.
 
     integrand: its values, as many as are totalled, from a node and three numbers that are given.
     """
     if not part.length > 0:
         return
     sums, sizes, before = np.zeros(total.size), np.zeros(total.size), np.zeros(total.size)
-    values = integrand(_at(curve, part, 0.5, 0.5, own), given)
-    for i in range(total.size):
-        sums[i] = MIDDLE * values[i]
-        sizes[i] = abs(sums[i])
-    low = high = 0.0
+    coarsest, reach, done = _coarsest(part), 0.0, 0
     for level in range(FINEST + 1):
-        low = _add(integrand, given, curve, part, own, level, 0, low, sums, sizes)
-        high = _add(integrand, given, curve, part, own, level, 1, high, sums, sizes)
+        nodes = 1 + (FARTHEST << level)
+        for j in range(done, nodes):
+            weight, t = RULE[j, 2], RULE[j, 3]
+            if level > 1 and t >= reach + 0.5:
+                break
+            for side in range(2):
+                node = _at(curve, part, RULE[j, side], RULE[j, 1 - side], own)
+                values = integrand(node, given)
+                for i in range(total.size):
+                    size = sizes[i]
+                    sums[i] += weight * values[i]
+                    sizes[i] += abs(weight * values[i])
+                    if sizes[i] != size:
+                        reach = max(reach, t)
+                        if t == FARTHEST:  # the sum has not come to its end
+                            sums[i] = math.nan
+        done = nodes
         if not sizes[0] < math.inf:
             total[:] = math.inf
             return
-        agree = level > 1
+        agree = level >= coarsest
         for i in range(total.size):
             off = abs(sums[i] - 2 * before[i])
             allowed = AGREED * sizes[i] + EPS * sizes[0]
@@ -306,7 +266,7 @@ def _of_state(node: Any, _: Any) -> tuple[float, ...]:
     return force, curvature / root, curvature * root, slope / w, force * (start - end)
 
 
-@kernel(CARRIED)
+@kernel(results(5)(CURVE, real, real, vector))
 def state(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
     """Load, moment, tilt, K_N at the left and the right edge, for E* = 1.
 
@@ -339,20 +299,14 @@ def state(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
 # ---------------------------------------------------------------- pressure
 
 
-@shared
-def _asinh_root(z: float) -> float:
-    """asinh sqrt(z)."""
-    return math.log1p(2 * (z + math.sqrt(z) * math.sqrt(1 + z))) / 2
-
-
 @kernel(INTEGRAND)
 def _of_pressure(node: Any, given: Any) -> tuple[float, ...]:
     """g''(s) L(x, s), x being the window's end; its distance from the edge behind it is given."""
     _, curvature, _, _, start, end, _ = node
-    return curvature * _asinh_root(start * given[0] / end), 0.0, 0.0, 0.0, 0.0
+    return curvature * math.asinh(math.sqrt(start * given[0] / end)), 0.0, 0.0, 0.0, 0.0
 
 
-@kernel(PRESSED)
+@kernel(real(CURVE, real, real, real, vector))
 def pressure(curve: Any, x: float, a: float, c: float, own: Any) -> float:
     """The pressure at x for E* = 1; zero outside the contact, infinite at a corner alone."""
     h, left, right, total = a + c, a + x, c - x, np.zeros(1)
@@ -373,7 +327,8 @@ def pressure(curve: Any, x: float, a: float, c: float, own: Any) -> float:
         if corners[i] > 0 and A > 0 and B > 0:
             if away == 0:
                 return math.inf
-            total[0] += corners[i] * _asinh_root(min(B * left, A * right) / h / away)
+            ratio = min(B * left, A * right) / h / away
+            total[0] += corners[i] * math.asinh(math.sqrt(ratio))
     return total[0] / math.pi
 
 
@@ -411,7 +366,7 @@ def _of_second_by_parts(node: Any, given: Any) -> tuple[float, ...]:
     return -2 * change * (rise / t), 0.0, 0.0, 0.0, 0.0
 
 
-@kernel(SMOOTH)
+@kernel(truth(CURVE, whole, vector))
 def _is_smooth(curve: Any, i: int, own: Any) -> bool:
     """Whether g'' goes on at a break without a jump, neither zero nor infinite there."""
     _, left, of_left = curve.beside(i, -1, TINY, own)
@@ -419,7 +374,7 @@ def _is_smooth(curve: Any, i: int, own: Any) -> bool:
     return abs(left - right) + abs(of_left) + abs(of_right) < ALIKE * (left + right)
 
 
-@kernel(EXPANDED_AT)
+@kernel(real(CURVE, real, real, vector, whole))
 def _second(curve: Any, a: float, c: float, own: Any, sense: int) -> float:
     """The coefficient of s**(3/2) at the right edge, seen from behind at the left one.
 
@@ -490,7 +445,7 @@ def _third(curve: Any, a: float, c: float, own: Any, sense: int, K: float) -> fl
     return -(K / (16 * h * h) + rate / step) * 2 / 5
 
 
-@kernel(EXPANDED)
+@kernel(results(4)(CURVE, real, real, vector))
 def series(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
     """Coefficients of s**(3/2) and of s**(5/2) at both edges for E* = 1."""
     left, right = _second(curve, a, c, own, -1), _second(curve, a, c, own, 1)

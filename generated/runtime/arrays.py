@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .chunks import any_lazy, demand_array, is_lazy, known_shape, over_chunks
+from .chunks import any_lazy, demand_array, is_lazy, over_chunks
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Numbers = dict[str, Any]
@@ -62,9 +62,13 @@ def evaluated(function: Callable[..., Any], numbers: Numbers, kind: Any, block: 
 
     kind: the named tuple that it returns, None for an array.
     """
-    shape = shape_of(numbers)
     count = 1 if kind is None else len(kind._fields)
     with np.errstate(all="ignore"):
+        if set(map(type, numbers.values())) == {np.float64}:
+            result = function(**numbers)
+            found = [np.float64(v) for v in (result if count > 1 else (result,))]
+            return found[0] if kind is None else kind(*found)
+        shape = shape_of(numbers)
         if any(map(is_foreign, numbers.values())):
             return function(**numbers)
         if math.prod(shape) > block:
@@ -76,10 +80,8 @@ def evaluated(function: Callable[..., Any], numbers: Numbers, kind: Any, block: 
 
 
 def _shaped(value: Any, shape: tuple[int, ...]) -> Any:
-    """A result in the shape of the arguments, a number as a number."""
-    if np.shape(value) != shape:
-        value = np.broadcast_to(value, shape).copy()
-    return np.float64(value) if shape == () else value
+    """A result in the shape of the arguments."""
+    return value if np.shape(value) == shape else np.broadcast_to(value, shape).copy()
 
 
 def _in_blocks(function: Callable[..., Any], numbers: Numbers, count: int, block: int) -> list[Any]:
@@ -103,15 +105,15 @@ def _in_blocks(function: Callable[..., Any], numbers: Numbers, count: int, block
 
 
 def shape_of(numbers: Mapping[str, Any]) -> tuple[int, ...]:
-    """The shape to which all broadcast.
+    """The shape to which all broadcast; a length that Dask does not know yet agrees with all.
 
     Raises ValueError with their names and shapes if there is none.
     """
-    shapes = {known_shape(value) for value in numbers.values()} - {()}
-    if len(shapes) < 2:
-        return shapes.pop() if shapes else ()
+    shapes = {value.shape for value in numbers.values()}
+    if len(shapes) == 1:
+        return shapes.pop()
     try:
-        return np.broadcast_shapes(*shapes)
+        return np.broadcast_shapes(*(tuple(1 if n != n else n for n in shape) for shape in shapes))
     except ValueError:
         told = ", ".join(f"{name} {v.shape}" for name, v in numbers.items() if v.ndim)
         raise ValueError(

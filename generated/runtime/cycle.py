@@ -108,13 +108,6 @@ def contact(asked: Asked, P: Array, M: Array = 0.0, *, E_star: Array) -> Contact
     )
 
 
-class _Ends(NamedTuple):
-    """Edges of a contact whose tilt is given."""
-
-    a: Array
-    c: Array
-
-
 def contact_at_tilt(asked: Asked, P: Array, alpha: Array = 0.0, *, E_star: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
@@ -127,18 +120,14 @@ def contact_at_tilt(asked: Asked, P: Array, alpha: Array = 0.0, *, E_star: Array
     NaN unless P > 0, E_star > 0, the body's own parameters are positive and there is a contact.
     The derivatives follow from K_N: a contact grows by flat punches.
     """
-    found = asked.solved(
+    return asked.solved(
         "inverse.each_contact_at_tilt",
         {"P": P, "alpha": alpha},
         {"E_star": E_star},
         ("P", "alpha"),
-        _Ends,
+        Contact,
         over_modulus=("P",),
     )
-    if isinstance(found, Contact):
-        return found
-    given = numbers_of({"alpha": alpha}, {})["alpha"]
-    return Contact(found.a, found.c, np.where(np.isnan(found.a), np.nan, given)[()])
 
 
 # ---------------------------------------------------------------- the stick zone
@@ -182,14 +171,7 @@ def stick_zone(
         over_modulus=_LOADS,
         options={"mixed": bool(mixed)},
     )
-    return _with_codes(zone)
-
-
-def _with_codes(found: Any) -> Any:
-    """A result whose regime is a whole number."""
-    if any_lazy(found):
-        return found
-    return found._replace(regime=np.asarray(found.regime).astype(np.int64)[()])
+    return zone._replace(regime=zone.regime.astype(np.int64))
 
 
 def tension_threshold(

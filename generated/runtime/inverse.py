@@ -24,16 +24,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .elementary import LEAST, MOST
-from .kernels import COMPILED, LAW, LOOP, kernel, opened, real, results, truth, vector
+from .kernels import LAW, LOOP, kernel, opened, real, record, results, truth, vector
 
 STEPS = 100
-"""Most of Newton's steps, and most steps in a bracket."""
+"""Most steps of Newton's method, and of a search."""
 
 NEAR = 1.0
 """A load whose logarithm is off by less is met by Newton's steps, any other by scaling;"""
 
-NARROWED = 1.1
-"""or where it lies between widths of a smaller quotient: a kink is passed between them."""
+NARROWED = 0.1
+"""or where the logarithm of the width is known to this: a kink is passed there."""
 
 LONGEST = 4.0
 """Longest of Newton's steps in the logarithm of a distance."""
@@ -45,10 +45,7 @@ FINEST = 2.0**-10
 """Where a smaller part of a step leads no nearer, Newton's method has lost its way."""
 
 CLOSEST = 1e-9
-"""Closer than this part of the distance to a body's end, no edge is sought;"""
-
-STEEPER = 10.0
-"""nor where a function that rose so many times as fast from there would not be zero at the end."""
+"""Closer than this part of the distance to a body's end, no edge is sought."""
 
 EXACT = 1e-13
 """A contact that is off by less, but for the rounding of its edges, is found;"""
@@ -80,12 +77,56 @@ class Goal(NamedTuple):
     held: bool
 
 
-if COMPILED:
-    from numba import types
+class Search(NamedTuple):
+    """For the root of an increasing function of y, the logarithm of a distance.
 
-    GOAL: Any = types.NamedTuple((real, real, real, truth), Goal)
-else:
-    GOAL = None
+    low, high  between which it lies
+    top        the function at `high`; infinite where it has not been found, or the body ends
+    y, step    where to look next, and how far that is from the last place; 0 at the root
+    """
+
+    low: float
+    high: float
+    top: float
+    y: float
+    step: float
+
+
+GOAL: Any = record(Goal, real, real, real, truth)
+SEARCH: Any = record(Search, real, real, real, real, real)
+
+
+# ---------------------------------------------------------------- a root
+
+
+@kernel(SEARCH(real, real, real, real))
+def _begun(start: float, far: float, top: float, guess: float) -> Search:
+    """A search among the distances from a start, up to `far` where the function is `top`."""
+    low = math.log(max(EPS * abs(start), LEAST))
+    high = max(math.log(min(far, MOST)), low)
+    return Search(low, high, top, min(max(math.log(max(guess, LEAST)), low), high), 1.0)
+
+
+@kernel(SEARCH(SEARCH, real, real))
+def _next(search: Any, value: float, rate: float) -> Search:
+    """The search when the function's value at y, and its rate with y if known, are found.
+
+    Newton's step is taken where it stays between and at most halves the last one; else a step
+    twice as long as that, or half of what is left.
+    """
+    low, high, top, y, step = search
+    if value < 0:
+        low, room = y, (high - y) / 2
+    else:
+        high, top, room = y, value, (low - y) / 2
+    rounding = 2 * EPS * max(abs(y), 1.0)
+    by = -value / rate if rate > 0 else math.inf
+    if abs(by) <= rounding:
+        return Search(low, high, 0.0, y, 0.0)
+    if not (low < y + by < high and abs(by) <= step / 2):
+        by = math.copysign(min(2 * step, abs(room)), room)
+    done = abs(by) <= rounding or (top == math.inf and high - low < CLOSEST)
+    return Search(low, high, top, y + by, 0.0 if done else abs(by))
 
 
 # ---------------------------------------------------------------- one contact against the goal
@@ -136,6 +177,25 @@ def _miss(goal: Any, a: float, c: float, now: Any) -> float:
     return math.hypot(short, off)
 
 
+@kernel(results(2)(LAW, vector, GOAL, real, real))
+def _loaded(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
+    """The logarithm of the load over what is asked; its rate with a while c meets the condition."""
+    if c == math.inf:
+        return -1.0, 0.0
+    now = law.state(a, c, own)
+    load, _, _, left, _ = now
+    if c != c or load == math.inf:
+        return math.inf, 0.0
+    if not _carries(now):
+        return -1.0, 0.0
+    h = a + c
+    rate = math.pi * math.sqrt(h) / 2 * left / load
+    if not goal.held:
+        arm = (c - a) / 2 + h / 4 - goal.place
+        rate *= h / 4 / arm if arm > 0 else 0.0
+    return math.log(load / goal.load), rate
+
+
 # ---------------------------------------------------------------- Newton's method
 
 
@@ -143,7 +203,8 @@ def _miss(goal: Any, a: float, c: float, now: Any) -> float:
 def _width(law: Any, own: Any, breaks: Any, goal: Any) -> float:
     """Width of a contact with its middle at the place and nearly the load; NaN where none has it.
 
-    It starts from the curvature at the place, or beyond the nearest break where there is none.
+    It starts from the curvature at the place, or beyond the nearest break where there is none, and
+    goes on as the load of a parabola would.
     """
     curvature = law.slope(goal.place, own)[1]
     h = goal.load
@@ -154,43 +215,15 @@ def _width(law: Any, own: Any, breaks: Any, goal: Any) -> float:
         for at in breaks:
             nearest = min(nearest, abs(at - goal.place))
         h = max(h, 4 * nearest)
-    h = min(max(h, LEAST), MOST)
-    narrow, wide, beyond = 0.0, math.inf, False
-    growth = 8.0
+    search = _begun(0.0, math.inf, math.inf, h)
     for _ in range(STEPS):
-        a, c = h / 2 - goal.place, h / 2 + goal.place
-        now = law.state(a, c, own)
-        load, _, _, left, right = now
-        if load == math.inf:
-            wide, by, beyond = h, math.nan, True
-        elif not _carries(now):
-            narrow, by = h, math.nan
-        else:
-            need = math.log(goal.load / load)
-            if abs(need) < NEAR:
-                return h
-            if need > 0:
-                narrow = h
-            else:
-                wide, beyond = h, False
-            pull = math.pi * math.sqrt(h) / 8 * h * (left + right)
-            by = need * load / pull
-        if narrow > 0 and wide < NARROWED * narrow:
-            return narrow if beyond else wide
-        following = h * math.exp(min(max(by, -40.0), 40.0)) if by == by else math.nan
-        if wide == math.inf:
-            growth = min(growth**2, 1e20)
-            if not following > 2 * h:
-                following = growth * h
-        elif narrow == 0:
-            growth = min(growth**2, 1e20)
-            if not following < h / 2:
-                following = h / growth
-        elif not narrow < following < wide or wide > 64 * narrow:
-            following = math.sqrt(narrow) * math.sqrt(wide)
-        if not LEAST < following < MOST:
-            return math.nan
-        h = following
+        h = math.exp(search.y)
+        over, _ = _loaded(law, own, goal, h / 2 - goal.place, h / 2 + goal.place)
+        if abs(over) < NEAR:
+            return h
+        search = _next(search, over, 2.0)
+        if search.high - search.low < NARROWED:
+            return math.exp(search.low if search.top == math.inf else search.high)
     return math.nan
 
 
@@ -231,20 +264,15 @@ def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> A
         rounding = 4 * EPS * max(abs(a) / (a - from_a), abs(c) / (c - from_c))
         if length < SMALLEST + rounding:
             return a + by_a, c + by_c
-        part, better = 1.0, False
-        while part > FINEST and not better:
-            for way in range(2):
-                if way == 1:
-                    from_a, from_c = -goal.place, goal.place
-                next_a, next_c = _moved(a, from_a, part * by_a), _moved(c, from_c, part * by_c)
-                after = law.state(next_a, next_c, own)
-                missed = _miss(goal, next_a, next_c, after)
-                if missed < miss:
-                    a, c, now, miss, better = next_a, next_c, after, missed, True
-                    break
+        part, missed = 1.0, math.inf
+        while part > FINEST and not missed < miss:
+            next_a, next_c = _moved(a, from_a, part * by_a), _moved(c, from_c, part * by_c)
+            after = law.state(next_a, next_c, own)
+            missed = _miss(goal, next_a, next_c, after)
             part /= 4
-        if not better:
+        if not missed < miss:
             break
+        a, c, now, miss = next_a, next_c, after, missed
     return a, c
 
 
@@ -268,142 +296,56 @@ def _turned(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
     return centre - goal.place, math.pi * math.sqrt(h) / 4 * right * arm / load
 
 
-@kernel(results(2)(LAW, vector, GOAL, real, real))
-def _loaded(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
-    """The logarithm of the load over what is asked; its rate with a while c meets the condition."""
-    if c == math.inf:
-        return -1.0, 0.0
-    now = law.state(a, c, own)
-    load, _, _, left, _ = now
-    if c != c or load == math.inf:
-        return math.inf, 0.0
-    if not _carries(now):
-        return -1.0, 0.0
-    h = a + c
-    rate = math.pi * math.sqrt(h) / 2 * left / load
-    if not goal.held:
-        arm = (c - a) / 2 + h / 4 - goal.place
-        rate *= h / 4 / arm if arm > 0 else 0.0
-    return math.log(load / goal.load), rate
-
-
-@kernel(results(2)(real, results(3), real, real))
-def _next(y: float, bracket: Any, value: float, rate: float) -> Any:
-    """Where to look next for the root of an increasing function, and how far that is.
-
-    bracket: its two ends, and how far the last step went.
-    Newton's step is taken where it stays between and at most halves the last, else the middle;
-    none where it is below rounding.
-    """
-    low, high, last = bracket
-    if rate > 0 and abs(value) < math.inf:
-        by = -value / rate
-        if abs(by) <= 2 * EPS * max(abs(y), 1.0):
-            return y, 0.0
-        if low < y + by < high and abs(by) <= last / 2:
-            return y + by, abs(by)
-    middle = (low + high) / 2
-    return middle, abs(middle - y)
-
-
-@kernel(truth(real, real, real, real))
-def _in_vain(low: float, high: float, value: float, rate: float) -> bool:
-    """Whether a function with this value and rate at `low` has no root before its end at `high`.
-
-    Places are logarithms of distances, the rate is with the distance.
-    """
-    rest = math.exp(high) - math.exp(low)
-    return high - low < CLOSEST or (rate > 0 and value + STEEPER * rate * rest < 0)
-
-
 @kernel(real(LAW, vector, vector, GOAL, real, real))
 def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float, guess: float) -> float:
     """The right edge that meets the second condition with a left one; sought from a guess.
 
     Infinity where no contact with this left edge carries anything, NaN where none meets it.
     """
-    start, end = goal.place, math.inf
+    start, end, top = goal.place, math.inf, math.inf
     for at in breaks:
         if start < at < end:
-            if _turned(law, own, goal, a, at)[0] < 0:
+            value, _ = _turned(law, own, goal, a, at)
+            if value < 0:
                 start = at
             else:
-                end = at
-    far, growth = max(a + goal.place, EPS * abs(start), LEAST), 8.0
-    if end < math.inf:
-        far = end - start
-    else:
-        while _turned(law, own, goal, a, start + far)[0] < 0:
-            far *= growth
-            growth = min(growth**2, 1e40)
-            if not far < MOST:
-                return math.nan if _carries(law.state(a, start + MOST, own)) else math.inf
-    low = math.log(max(EPS * abs(start), 1e-40 * far))
-    high = math.log(far)
-    ends = _turned(law, own, goal, a, start + far)[0] == math.inf
-    value, rate = _turned(law, own, goal, a, start + math.exp(low))
-    if value >= 0:
-        return start + math.exp(low)
-    y, last = (low + high) / 2, high - low
-    if start + math.exp(low) < guess < start + far:
-        y = math.log(guess - start)
+                end, top = at, value
+    guess = guess if start < guess < end else min(start + a + goal.place, (start + end) / 2)
+    search = _begun(start, end - start, top, guess - start)
     for _ in range(STEPS):
-        value, rate = _turned(law, own, goal, a, start + math.exp(y))
-        if value < 0:
-            low = y
-        else:
-            high, ends = y, value == math.inf
-        y, last = _next(y, (low, high, last), value, rate * math.exp(y))
-        if ends and value < 0 and _in_vain(low, high, value, rate):
-            return math.nan
-        if last == 0:
+        far = math.exp(search.y)
+        value, rate = _turned(law, own, goal, a, start + far)
+        search = _next(search, value, rate * far)
+        if search.step == 0:
             break
-    return math.nan if ends else start + math.exp(y)
+    if search.top < math.inf:
+        return start + math.exp(search.y)
+    now = law.state(a, start + math.exp(search.high), own)
+    return math.nan if now[0] == math.inf or _carries(now) else math.inf
 
 
 @kernel(results(2)(LAW, vector, vector, GOAL, real))
 def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
     """The contact by one root inside the other; NaN where there is none."""
-    start, end, c = -goal.place, math.inf, math.nan
-    for i in range(breaks.size - 1, -1, -1):
-        at = -breaks[i]
+    start, end, top, c = -goal.place, math.inf, math.inf, math.nan
+    for i in range(breaks.size):
+        at = -breaks[breaks.size - 1 - i]
         if start < at < end:
             c = _right_edge(law, own, breaks, goal, at, c)
-            if _loaded(law, own, goal, at, c)[0] < 0:
+            value, _ = _loaded(law, own, goal, at, c)
+            if value < 0:
                 start = at
             else:
-                end = at
-    far, growth = max(size, EPS * abs(start), LEAST), 8.0
-    if end < math.inf:
-        far = end - start
-    else:
-        for _ in range(STEPS):
-            a = start + far
-            c = _right_edge(law, own, breaks, goal, a, c)
-            if not _loaded(law, own, goal, a, c)[0] < 0:
-                break
-            far *= growth
-            growth = min(growth**2, 1e40)
-            if not far < MOST:
-                return math.nan, math.nan
-    low = math.log(max(EPS * abs(start), 1e-40 * far))
-    high = math.log(far)
-    y, last, ends = (low + high) / 2, high - low, False
-    a = c = math.nan
+                end, top = at, value
+    search = _begun(start, end - start, top, min(size, (end - start) / 2))
     for _ in range(STEPS):
-        a = start + math.exp(y)
-        c = _right_edge(law, own, breaks, goal, a, c)
-        value, rate = _loaded(law, own, goal, a, c)
-        if value < 0:
-            low = y
-        else:
-            high, ends = y, value == math.inf
-        y, last = _next(y, (low, high, last), value, rate * math.exp(y))
-        if ends and value < 0 and _in_vain(low, high, value, rate):
-            return math.nan, math.nan
-        if last == 0:
+        far = math.exp(search.y)
+        c = _right_edge(law, own, breaks, goal, start + far, c)
+        value, rate = _loaded(law, own, goal, start + far, c)
+        search = _next(search, value, rate * far)
+        if search.step == 0:
             break
-    return a, c
+    return (start + far, c) if search.top < math.inf else (math.nan, math.nan)
 
 
 # ---------------------------------------------------------------- where the tilted body is level
@@ -434,30 +376,17 @@ def level(law: Any, own: Any, alpha: float) -> float:
         else:
             beyond = 0.0
     # the distance from one end of the interval is sought, to the right or to the left
-    side, start = (1.0, before) if before > -math.inf else (-1.0, beyond)
-    far, growth = beyond - before, 8.0
-    if far == math.inf:
-        far = abs(start) if start != 0 else 1.0
-        while side * (law.slope(start + side * far, own)[0] + alpha) < 0:
-            far *= growth
-            growth = min(growth**2, 1e40)
-            if not far < MOST:
-                return math.nan
-    low, high = math.log(max(EPS * abs(start), LEAST)), math.log(far)
-    if side * (law.slope(start + side * math.exp(low), own)[0] + alpha) >= 0:
-        return start + side * math.exp(low) if start != 0 else 0.0
-    y, last = (low + high) / 2, high - low
+    side, start, end = (1.0, before, beyond) if before > -math.inf else (-1.0, beyond, before)
+    far = side * (end - start)
+    guess = min(far / 2, abs(start) if start != 0 else 1.0)
+    search = _begun(start, far, math.inf if far == math.inf else 0.0, guess)
     for _ in range(STEPS):
-        slope, curvature = law.slope(start + side * math.exp(y), own)
-        excess = side * (slope + alpha)
-        if excess < 0:
-            low = y
-        else:
-            high = y
-        y, last = _next(y, (low, high, last), excess, curvature * math.exp(y))
-        if last == 0:
+        away = math.exp(search.y)
+        slope, curvature = law.slope(start + side * away, own)
+        search = _next(search, side * (slope + alpha), curvature * away)
+        if search.step == 0:
             break
-    return start + side * math.exp(y)
+    return start + side * math.exp(search.y) if search.top < math.inf else math.nan
 
 
 # ---------------------------------------------------------------- together
@@ -534,7 +463,9 @@ def each_contact(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(LOOP)
 def each_contact_at_tilt(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Edges a, c under loads P at tilts."""
+    """Edges a, c under loads P at tilts, and the tilts of those that there are."""
     law = opened(law)
     for i in range(given.shape[0]):
-        out[i, 0], out[i, 1] = contact_at_tilt(law, own[i], given[i, 0], given[i, 1])
+        alpha = given[i, 1]
+        a, c = contact_at_tilt(law, own[i], given[i, 0], alpha)
+        out[i, 0], out[i, 1], out[i, 2] = a, c, alpha if a == a else math.nan

@@ -86,13 +86,23 @@ if COMPILED:
     SERIES: Any = types.UniTuple(real, 4)(real, real, vector)
     BREAKS: Any = vector(vector)
     SIGNATURES = Law(PRESSURE, STATE, SLOPE, SERIES, BREAKS)
-    LAW: Any = types.NamedTuple(tuple(map(types.FunctionType, SIGNATURES)), Law)
+    nothing: Any = types.void
     ADDRESSES = types.Array(types.int64, 1, "C")
-    LOOP: Any = types.void(ADDRESSES, matrix, matrix, matrix)
+    LOOP: Any = nothing(ADDRESSES, matrix, matrix, matrix)
+
+    function = types.FunctionType
 
     def results(count: int) -> Any:
         """The type of so many numbers."""
         return types.UniTuple(real, count)
+
+    def record(kind: Any, *fields: Any) -> Any:
+        """The type of a named tuple."""
+        if len(set(fields)) == 1:
+            return types.NamedUniTuple(fields[0], len(fields), kind)
+        return types.NamedTuple(fields, kind)
+
+    LAW: Any = record(Law, *map(function, SIGNATURES))
 
     def kernel(signature: Any) -> Callable[[Kernel], Kernel]:
         """Compile a function for one signature, and keep it on disk."""
@@ -125,20 +135,40 @@ if COMPILED:
         text = "compiling the solvers, once for this installation: some twenty seconds ..."
         print(text, file=sys.stderr, flush=True)
 
+    def _holding(signature: Any, context: Any, builder: Any, address: Any) -> Any:
+        """A function as a value, from where its code is."""
+        made = cgutils.create_struct_proxy(function(signature))(context, builder)
+        made.jit_addr = made.c_addr = address
+        return made._getvalue()
+
     def _function_at(signature: Any) -> Any:
         """Turn the address of a compiled function into that function."""
-        function = types.FunctionType(signature)
 
         @intrinsic  # type: ignore[untyped-decorator]
         def at(_: Any, address: Any) -> Any:
             def code(context: Any, builder: Any, _: Any, given: Any) -> Any:
-                made = cgutils.create_struct_proxy(function)(context, builder)
-                made.jit_addr = made.c_addr = builder.inttoptr(given[0], cgutils.voidptr_t)
-                return made._getvalue()
+                pointer = builder.inttoptr(given[0], cgutils.voidptr_t)
+                return _holding(signature, context, builder, pointer)
 
-            return function(address), code
+            return function(signature)(address), code
 
         return at
+
+    def value_of(signature: Any) -> Any:
+        """Turn a kernel into a value.  What uses numba's own such values is not kept on disk."""
+
+        @intrinsic  # type: ignore[untyped-decorator]
+        def value(_: Any, given: Any) -> Any:
+            def code(context: Any, builder: Any, *_: Any) -> Any:
+                compiled = given.dispatcher.get_compile_result(signature)
+                context.active_code_library.add_linking_library(compiled.library)
+                found = context.declare_function(builder.module, compiled.fndesc)
+                pointer = builder.bitcast(found, cgutils.voidptr_t)
+                return _holding(signature, context, builder, pointer)
+
+            return function(signature)(given), code
+
+        return value
 
     _pressure_at, _state_at, _slope_at, _series_at, _breaks_at = map(_function_at, SIGNATURES)
 
@@ -171,13 +201,17 @@ else:
         def __call__(self, *_: Any) -> Any:
             return self
 
-    real = whole = truth = vector = matrix = _Type()
+    real = whole = truth = vector = matrix = nothing = function = record = _Type()
     PRESSURE = STATE = SLOPE = SERIES = BREAKS = LAW = LOOP = real
     SIGNATURES = Law(real, real, real, real, real)
 
     def results(count: int) -> Any:
         """The same for so many numbers."""
         return real
+
+    def value_of(signature: Any) -> Any:
+        """The function itself."""
+        return lambda given: given
 
     def kernel(signature: Any) -> Callable[[Kernel], Kernel]:
         """Leave a function as it is."""

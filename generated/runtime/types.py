@@ -91,13 +91,15 @@ class History(NamedTuple):
     """A load history instant by instant.
 
     a, c       the contact [-a, c]
-    m, n       the ends of all that sticks, [-m, n], in the motion that led here; NaN where nothing
-               does
+    m, n       the ends of all that sticks, [-m, n], in the motion that led here, at a rest, too;
+               NaN where nothing does
     intervals  how many stick intervals there are
-    regime     a code of Regime: FULL_STICK, COMPUTED, SLIDING, NONE, UNSOLVED
+    regime     a code of Regime: COMPUTED, or MODERATE where all is exact; FULL_STICK, SLIDING,
+               NONE, UNSOLVED
     q, slip    shear and forward slip so far at x, an axis more; None without x
     work       friction's, so far
-    error      estimated: of the ends in parts of the width, of shear in its mean over f P/(a + c)
+    error      estimated: of the ends in parts of the width, of shear in its mean over f P/(a + c);
+               0 where all is exact
     """
 
     a: Array

@@ -94,7 +94,7 @@ True""",
 {_LAW}>>> P, M = (of({{edges}}, **law) for of in (load, moment))
 >>> told = history(P, M, np.array([0.0, 1.0, -1.0]) * {{dQ}} / 2, 0.0, f=0.5, **law)
 >>> [Regime(code).name for code in told.regime]
-['FULL_STICK', 'COMPUTED', 'COMPUTED']""",
+['FULL_STICK', 'MODERATE', 'MODERATE']""",
     "steady_cycle": f"""\
 {_LAW}>>> P, M = (of({{edges}}, **law) for of in (load, moment))
 >>> steady = steady_cycle(P, M, np.array([0.0, 1.0, 0.0, -1.0]) * {{dQ}} / 2, 0.0, f=0.5, **law)

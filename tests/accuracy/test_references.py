@@ -4,18 +4,16 @@ import mpmath
 import pytest
 from mpmath import mpf
 
-from derive.proof.balls import ball, number
+from derive.proof.balls import ball
 from derive.proof.points import numeric
 from tests.accuracy import partial_slip
-from tests.accuracy.definitions import formula, pressure_along
+from tests.accuracy.definitions import formula
 from tests.accuracy.quadrature import integrals
-from tests.accuracy.reference import Problem, sheet_of
-from tests.derive.partial_slip import Cycle
+from tests.accuracy.reference import sheet_of
 
 pytestmark = pytest.mark.slow
 
 HERTZ = {"E_star": 1.25, "R": 1.5, "f": 0.5}
-WEDGE = {"E_star": 1.25, "phi": 0.25, "f": 0.5}
 EDGES = {"a": 1.5, "c": 1.25}
 
 
@@ -76,17 +74,6 @@ def test_definitions_are_the_sheets_formulas(body: str, a: float, c: float) -> N
             assert close(formula(body, name)(**known), expected, 20), name
 
 
-def test_a_power_of_two_is_a_cylinder() -> None:
-    """|x|**2/(2 L): R = L."""
-    with mpmath.workdps(36):
-        edges = {name: mpf(value) for name, value in EDGES.items()}
-        own = {"E_star": mpf("1.25"), "k": mpf(2), "L": mpf("1.5"), "x": mpf("0.3")}
-        assert close(formula("power", "load")(**edges, **own), hertz_load())
-        w = mpmath.sqrt((edges["a"] + own["x"]) * (edges["c"] - own["x"]))
-        expected = mpf("1.25") / (2 * mpf("1.5")) * w
-        assert close(formula("power", "pressure")(**edges, **own), expected)
-
-
 # ------------------------------------------------------------------ tensions
 
 
@@ -101,25 +88,6 @@ def test_closing_tension_of_a_cylinder_by_hand() -> None:
         lower, upper = partial_slip.closing("hertz").answer(start, given).numbers
         assert close(upper, expected)
         assert close(lower, -expected)
-
-
-@pytest.mark.parametrize(
-    ("body", "own", "start"), [("hertz", HERTZ, (1.27, 1.17)), ("wedge", WEDGE, (1.2, 1.2))]
-)
-def test_large_tension_in_many_digits_by_another_quadrature(
-    body: str, own: dict[str, float], start: tuple[float, float]
-) -> None:
-    given = {**own, **EDGES, "dQ": 0.0625, "dsigma": 0.25}
-    zone = Problem(partial_slip.between(body), digits=28).answer(start, given).numbers
-    assert all(0 < found < edge for found, edge in zip(zone, EDGES.values(), strict=True))
-    with mpmath.workdps(25):
-        known = {name: mpf(value) for name, value in given.items()}
-        p = formula(body, "pressure")
-        edges = (known["a"],) * 2, (known["c"],) * 2
-        pressures = (lambda x: p(**known, x=x),) * 2
-        changes = known["f"], known["dQ"], known["dsigma"]
-        cycle = Cycle(pressures, *edges, *changes, (1, -1))
-        assert max(map(abs, cycle.residuals(*zone))) < mpf(10) ** -18
 
 
 # ------------------------------------------------------------------ tractions
@@ -140,52 +108,3 @@ def test_shear_of_a_cylinder_is_cattaneos_and_mindlins() -> None:
         start = [float(b) for b in halves for _ in "ac"]
         (q,) = partial_slip.shear("hertz").answer(start, given).numbers
         assert close(q, (-p(half) - p(halves[0]) + 2 * p(halves[1])) / 2)
-
-
-def test_changes_of_large_tension_carry_the_shear_load() -> None:
-    given = {**WEDGE, **EDGES, "dQ": 0.0625, "dsigma": 0.25}
-    problem = partial_slip.change("wedge", large=True)
-    answer = Problem(partial_slip.between("wedge"), digits=28).answer((1.2, 1.2), given)
-    m, n = answer.unknowns
-    with mpmath.workdps(28):
-        known = {name: mpf(value) for name, value in given.items()}
-
-        def change(x: mpf) -> mpf:
-            return problem.told((m, n), {**known, "x": x})[0]
-
-        with mpmath.workdps(15):
-            stuck = mpmath.quad(change, [-m, mpf(0), n], maxdegree=4)
-            slid = sum(
-                mpmath.quad(change, ends)
-                for ends in ([-known["a"], -m - mpf(10) ** -20], [n + mpf(10) ** -20, known["c"]])
-            )
-        assert close(stuck + slid, known["dQ"], 6)
-
-
-@pytest.mark.parametrize("x", [-1.46875, 1.21875])
-def test_slip_under_moderate_tension_is_the_gap_beside_the_patch(x: float) -> None:
-    """2 f times it; it opens with g' + alpha less the pressure's strain, whose integral over x is
-    (2/(pi E*)) int p log((x - s)/(end - s)) ds."""
-    given = {**HERTZ, **EDGES, "dQ": 0.125, "dsigma": 0.015625, "x": x}
-    answer = partial_slip.slip("hertz").answer([1.37, 1.15], given)
-    m, n = answer.unknowns
-    with mpmath.workdps(32):
-        E, R = mpf("1.25"), mpf("1.5")
-        end, place = (n if x > 0 else -m), mpf(x)
-        alpha, p = (m - n) / (2 * R), formula("hertz", "pressure")
-
-        def pressed(s: mpf) -> mpf:
-            value = p(x=s, a=m, c=n, E_star=E, R=R)
-            return value * mpmath.log((place - s) / (end - s))
-
-        gap = (place**2 - end**2) / (2 * R) + alpha * (place - end)
-        gap -= 2 / (mpmath.pi * E) * mpmath.quad(pressed, [-m, (n - m) / 2, n])
-        assert close(answer.numbers[0], gap, 15)
-
-
-def test_pressures_in_balls_are_the_formulas() -> None:
-    with mpmath.workdps(30):
-        given = {name: mpf(value) for name, value in {**WEDGE, **EDGES}.items()}
-        along = pressure_along("wedge", given)
-        expected = formula("wedge", "pressure")(**given, x=mpf("0.75"))
-        assert close(number(along(ball(mpf("0.75")))), expected, 12)

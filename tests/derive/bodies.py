@@ -126,7 +126,11 @@ QUICK = {"hertz", "wedge", "shifted_wedge", "flat_rounded", "quartic", "two_radi
 CASES = [
     pytest.param(
         *(name, a, c),
-        marks=() if name in QUICK else pytest.mark.slow if i < 2 else pytest.mark.thorough,
+        marks=()
+        if name in QUICK and i < 4
+        else pytest.mark.slow
+        if i < 1
+        else pytest.mark.thorough,
         id=f"{name}[{-a:g},{c:g}]",
     )
     for name, body in BODIES.items()

@@ -1,6 +1,5 @@
 """Closed forms of bodies that are integrated: by hand, at limits, mirrored, made up, in time."""
 
-import sys
 import time
 from dataclasses import replace
 from functools import cache
@@ -18,14 +17,12 @@ from derive import Geometry, load_geometry, parameter
 from derive.derivation import NONE_IN_TIME, derive_sheet, with_closed_forms
 from derive.limit import LimitReached, LookAtClock, within
 from derive.proof.numerical import NumericalRoutes
-from derive.proof.points import Point, contacts, numeric
+from derive.proof.points import contacts, numeric
 from derive.proof.prove import prove_sheet
-from derive.proof.quadrature import Contact
 from derive.proof.verdict import DIGITS, POINTS, Proof, Verdict
 from derive.sheet import FormulaSheet
-from derive.symbols import E_star, a, c, x
+from derive.symbols import a, c, x
 from derive.theory.frame import Frame
-from tests.codegen.test_module import assumed
 
 pytestmark = pytest.mark.slow
 
@@ -37,16 +34,12 @@ phi = parameter("phi", "slope", unit="rad")
 k = parameter("k", "exponent", unit="-")
 
 MADE_UP = {
-    "parabola_and_cosh": x**2 / (2 * R) + A * cosh(x / b),
-    "power_and_parabola": Abs(x) ** Rational(5, 2) / L ** Rational(3, 2) + x**2 / (2 * R),
-    "decimal_power": Abs(x) ** 2.5 / L**1.5 + x**2 / (2 * R),
     "power_of_three_halves": Abs(x) ** Rational(3, 2) / sqrt(L),
     "shifted_power_on_a_wedge": Abs(x - b) ** k / (k * L ** (k - 1)) + phi * Abs(x),
     "power_from_a_kink_on": Max(0, x - b) ** Rational(7, 3) / L ** Rational(4, 3) + phi * Abs(x),
     "exponential": A * exp(x / b) + x**2 / (2 * R),
     "x_sinh_on_a_wedge": A * x * sinh(x / b) / b + phi * Abs(x),
     "skew_hyperbola_on_a_wedge": phi * sqrt(x**2 + b * x + b**2) + phi * Abs(x - b),
-    "cubed_root": (x**2 + b**2) ** Rational(3, 2) / L**2,
     "root_of_a_line": L + x / 2 - L * sqrt(1 + x / L),
     "simple_pole": -L * log(1 - x / L),
     "double_pole": L**2 / (L - x),
@@ -57,11 +50,6 @@ MADE_UP = {
     + phi * Abs(x),
 }
 LIBRARY = ("catenary", "circular_arc", "hyperbola", "power")
-KINDS = (
-    *("power_of_three_halves", "exponential", "root_of_a_line"),
-    *("simple_pole", "double_pole", *LIBRARY),
-)
-"""One of every kind of term."""
 CLOSED = tuple(f"{name}_closed" for name in ("tilt", "load", "moment")) + tuple(
     f"{name}_{side}_closed" for name in ("K_N", "L_N") for side in ("left", "right")
 )
@@ -83,21 +71,7 @@ def value(of: FormulaSheet, name: str, **given: Any) -> mpf:
 # ------------------------------------------------------------------ by hand
 
 
-def test_the_catenary_under_a_centred_load() -> None:
-    """g'' = cosh(s/b)/R and s = a cos(t): int cosh(s/b) sqrt(a^2 - s^2) ds = a^2 pi I_1(z)/z with
-    z = a/b, so that P = pi E* a b I_1(a/b)/(2 R).  I_1(z) = sum (z/2)^(2j+1)/(j! (j+1)!): at z = 1
-
-        1/2 + 1/16 + 1/384 + 1/18432 + 1/1474560 + 1/176947200 = 0.565159103955...,
-
-    the next term being 3.4e-11.  With E* = 4, R = 2, a = b = 1: P = pi I_1(1).
-    """
-    series = mpf(1) / 2 + mpf(1) / 16 + mpf(1) / 384 + mpf(1) / 18432 + mpf(1) / 1474560
-    series += mpf(1) / 176947200
-    found = value(sheet("catenary"), "load", a=1, c=1, b=1, R=2, E_star=4) / mpmath.pi
-    assert 0 < found - series < mpf("3.5e-11")
-
-
-@pytest.mark.parametrize("exponent", ["1.1", "1.5", "2.25", "3", "7.5"])
+@pytest.mark.parametrize("exponent", ["1.1", "1.5", "7.5"])
 def test_a_power_law_under_a_centred_load(exponent: str) -> None:
     """P = (E*/2) 2 int_0^a (k-1) s^(k-2)/L^(k-1) sqrt(a^2 - s^2) ds, and s = a sqrt(u) makes it
     a beta function: int_0^a s^(k-2) sqrt(a^2 - s^2) ds = (a^k/2) B((k-1)/2, 3/2)."""
@@ -108,7 +82,7 @@ def test_a_power_law_under_a_centred_load(exponent: str) -> None:
         assert abs(found / wanted - 1) < mpf(10) ** -35
 
 
-@pytest.mark.parametrize("ratio", ["1e-3", "1e-6", "0.05"])
+@pytest.mark.parametrize("ratio", ["1e-6", "0.05"])
 def test_a_small_arc_by_its_series(ratio: str) -> None:
     """g = x^2/(2R) + x^4/(8R^3) + x^6/(16R^5) + 5 x^8/(128R^7), and int s^(2j) sqrt(a^2 - s^2) ds
     over the contact is pi a^2/2, pi a^4/8, pi a^6/16, 5 pi a^8/128.  With e = a/R,
@@ -126,32 +100,7 @@ def test_a_small_arc_by_its_series(ratio: str) -> None:
         assert 0 < rest < e**8 / 6
 
 
-def test_a_centred_hyperbola_has_no_tilt_and_no_moment() -> None:
-    for name in ("tilt", "moment"):
-        assert value(sheet("hyperbola"), name, a=1, c=1, b="0.5", phi="0.25", E_star=1) == 0
-
-
-def test_the_load_of_arc_and_hyperbola_is_one_formula() -> None:
-    """x/sqrt(q) with q = q_0 + q_2 x^2: P = (E*/q_2) sqrt(A B) (E - (1 - m) K)."""
-    arc, hyperbola = (sheet(name)["load_closed"].expr for name in ("circular_arc", "hyperbola"))
-    own = {q.name: q.symbol for q in sheet("hyperbola").geometry.parameters}
-    assert (arc + hyperbola / own["phi"]).expand() == 0
-
-
 # ------------------------------------------------------------------ limits
-
-
-def test_a_hyperbola_far_from_its_apex_is_a_wedge() -> None:
-    """P = E* phi sqrt(a c) of the wedge; alpha = phi (theta - (pi - theta))/pi ... of its slopes
-    -phi and phi, weighted by the angles of both parts, 2 atan(sqrt(a/c)) and 2 atan(sqrt(c/a))."""
-    with mpmath.workdps(100):
-        at = {"a": mpf("0.5"), "c": mpf(2), "b": mpf(10) ** -20, "phi": mpf("0.25"), "E_star": 1}
-        wedge = {
-            "load": mpf("0.25"),
-            "tilt": -mpf("0.25") / mpmath.pi * 2 * (mpmath.atan(2) - mpmath.atan(mpf("0.5"))),
-        }
-        for name, wanted in wedge.items():
-            assert abs(value(sheet("hyperbola"), name, **at) - wanted) < mpf(10) ** -18
 
 
 @pytest.mark.parametrize(
@@ -208,27 +157,6 @@ def test_a_mirrored_body_carries_the_mirror_image(name: str) -> None:
 def demand_all(of: FormulaSheet) -> None:
     """Every closed form is there, and no other."""
     assert [key for key in of if of[key].closes] == sorted(CLOSED, key=[*of].index)
-
-
-def agreement(of: FormulaSheet, point: Point) -> dict[str, int]:
-    """Digits to which tilt, load and moment agree with their integrals."""
-    own = {q.symbol: point[q.symbol] for q in of.geometry.parameters}
-    contact = Contact(of.geometry, own, point[a], point[c], point[E_star])
-    found = {}
-    for name in ("tilt", "load", "moment"):
-        wanted, here = getattr(contact, name), numeric(of.flat(f"{name}_closed"))(point)
-        gap = abs(here / wanted - 1)
-        found[name] = 50 if gap == 0 else int(-mpmath.log10(gap))
-    return found
-
-
-@pytest.mark.parametrize("name", KINDS)
-def test_the_forms_agree_with_the_defining_integrals(name: str) -> None:
-    """At two contacts here, a > c and a < c; at all in the slow test."""
-    demand_all(sheet(name))
-    with mpmath.workdps(50):
-        for point in contacts(sheet(name))[:2]:
-            assert min(agreement(sheet(name), point).values()) >= DIGITS
 
 
 @pytest.mark.enough(
@@ -309,12 +237,6 @@ def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPat
     assert found.remark == "No closed form found: SymPy gave up; its integrals stay."
 
 
-def test_a_body_with_closed_formulas_is_as_it_was() -> None:
-    given = derive_sheet(load_geometry("wedge"))
-    assert with_closed_forms(given) is given
-    assert given.remark == ""
-
-
 # ------------------------------------------------------------------ in time
 
 
@@ -346,11 +268,6 @@ def test_the_search_ends_at_its_limit(
     assert found.remark == f"{NONE_IN_TIME} 0.25 s; its integrals stay."
 
 
-def test_a_limit_of_nothing_looks_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derive.derivation, "closed_forms", endless)
-    assert with_closed_forms(derive_sheet(load_geometry("catenary")), 0).remark
-
-
 def test_nothing_rings_behind_the_block() -> None:
     with within(0.05) as look:
         look()
@@ -359,15 +276,6 @@ def test_nothing_rings_behind_the_block() -> None:
         time.sleep(1)
     with within(1e300):
         pass
-
-
-def test_a_block_within_a_block_leaves_the_alarm_of_the_outer_one() -> None:
-    with pytest.raises(LimitReached), within(0.2):
-        with within(100):
-            pass
-        time.sleep(10)
-    with pytest.raises(LimitReached), within(0.05), within(100):
-        time.sleep(10)
 
 
 class Finalised:
@@ -384,26 +292,6 @@ def test_an_alarm_that_a_finaliser_swallows_rings_again_without_a_word() -> None
         time.sleep(10)
 
 
-def test_what_else_cannot_be_raised_is_told_as_ever() -> None:
-    told: list[object] = []
-    before = sys.unraisablehook
-    sys.unraisablehook = told.append
-    try:
-        with within(10):
-            Unhappy()
-        assert len(told) == 1
-        assert sys.unraisablehook == told.append
-    finally:
-        sys.unraisablehook = before
-
-
-class Unhappy:
-    """Raises in its finaliser."""
-
-    def __del__(self) -> None:
-        raise ValueError("nothing to do with time")
-
-
 # ------------------------------------------------------------------ the sheet, and the code
 
 
@@ -414,21 +302,3 @@ def test_the_sheet_says_which_is_evaluated() -> None:
     assert "m_1 = ((a + c)**2 - (-q_left_1 + q_right_1)**2)/(4*q_left_1*q_right_1)" in printed
     assert not sheet("hyperbola").is_closed("load")
     assert sheet("hyperbola").is_closed("load_closed")
-
-
-def test_the_code_does_not_depend_on_what_was_found() -> None:
-    """Nor, with it, on the time that there was."""
-    from derive.codegen.module import module_text
-
-    without = derive_sheet(load_geometry("catenary"))
-    texts = {module_text(assumed(of), "body.py") for of in (without, sheet("catenary"))}
-    assert len(texts) == 1
-
-
-def test_why_it_is_not_the_closed_form() -> None:
-    """A contact 1e-9 R wide on an arc: in float64 nothing is left of E - (1 - m) K, pi m/4."""
-    from scipy.special import ellipe, ellipk
-
-    m = -1e-18
-    lost = ellipe(m) - (1 - m) * ellipk(m)
-    assert abs(lost / (mpmath.pi * m / 4) - 1) > 0.5

@@ -4,7 +4,6 @@ import random
 from collections.abc import Callable
 
 import pytest
-from mpmath import mpf
 from sympy import (
     Abs,
     E,
@@ -91,13 +90,9 @@ def test_what_the_least_curvature_demands(g: Expr, wanted: list[str]) -> None:
     "g",
     [
         x**2 / R + x**3 / R**2 + x**4 / R**3,  # 36 <= 4 * 12 * 2
-        (x - b) ** 4 / R**3,
         (x - b) ** 6 / R**5 + (x + B) ** 4 / L**3,
-        (x - b) ** 4 / R**3 + x**2 / L,
         Max(0, x - b) ** 7 / L**6 + Max(0, -x - b - B) ** 5 / R**4 + phi * Abs(x - b / 2),
-        Max(0, x**2 - R * R1) ** 3 / R**5,
         phi * b * log(cosh(x / b)),  # 1 - tanh^2 is rounded to less than zero far away
-        phi * sqrt((x - L) ** 2 + b**2),
         pi * x**2 / R + E * Max(0, x - b) ** 3 / L**2,  # SymPy isolates no roots beside pi and E
         sqrt(2) * (x - sqrt(3) * b) ** 4 / R**3 + log(2) * Max(0, x - sqrt(3) * b) ** 5 / b**4,
     ],
@@ -112,7 +107,6 @@ def test_a_body_that_is_always_convex_meets_no_demand(g: Expr) -> None:
     [
         x**8 / L**7 + x**4 / B**3 - x**3 / b**2 + x**2 / R,
         phi * sqrt(x**2 + b**2) - psi * sqrt(x**2 + B**2),  # falls within or far away
-        x**6 / L**5 - x**5 / B**4 + x**4 / b**3 - x**3 / R**2 + x**2 / R1,
     ],
     ids=str,
 )
@@ -127,7 +121,6 @@ def test_a_body_convex_for_some_parameters_under_no_condition_found_is_refused(g
     "g",
     [
         x**2 / R - Abs(x) ** 3 / L**2,
-        x**5 / L**4 + x**2 / R,
         E * x**2 / R - pi * Max(0, x - b) ** 3 / L**2,
         x**8 / L**7 + x**4 / L**3 - 3 * x**3 / L**2 + x**2 / L,  # 56/64 + 3 - 9 + 2 at L/2
     ],
@@ -170,7 +163,6 @@ def test_a_curvature_that_is_negative_at_a_narrow_place_only_is_found(
     "g",
     [
         x**2 / b + b * exp(99999 * x / b),
-        b * exp(x / b) + b * exp(-1234567 * x / b),
         b * log(exp(99999 * x / b) + 1)
         + Abs(x) ** Rational(12345, 10000) * b ** Rational(-469, 2000),
         phi * Abs(x - b) + b * exp(-((100 * (x / b - 3)) ** 2)) / 50000 + x**2 / b,
@@ -198,11 +190,8 @@ def _least(curvature: Expr, lower: Expr, upper: Expr) -> Expr:
     "g",
     [
         x**4 / L**3 - x**3 / B**2 + x**2 / R,
-        x**6 / L**5 - x**4 / B**3 + x**2 / R,
         Max(0, x) ** 7 / L**6 - Max(0, x) ** 4 / B**3 + x**2 / R,
-        Max(0, x) ** 5 / L**4 - Max(0, x) ** 4 / B**3 + Max(0, x) ** 3 / b**2 + x**2 / R,
         Max(0, x) ** 4 / L**3 + Max(0, x) ** 3 * (1 / R**2 - 1 / B**2) + x**2 / R,
-        x**2 / R + Max(0, x) ** 3 / L**2 - Max(0, x - b) ** 3 / B**2,
         x**2 / R - Heaviside(b - Abs(x)) * (b**2 - x**2) ** 2 * (b + x) / L**4,
     ],
     ids=str,
@@ -237,13 +226,3 @@ def test_the_sheet_says_what_is_demanded_and_draws_contacts_that_meet_it() -> No
     drawn = contacts(sheet)
     assert len(drawn) == 24
     assert all(holds([condition], point) for point in drawn)
-
-
-def test_parameters_of_the_library_are_drawn_around_one() -> None:
-    """What is drawn decides the bytes of the examples and proofs that are printed."""
-    body = Geometry("power_law", g=R * (Abs(x) / R) ** parameter("k", "exponent", unit="-"))
-    assert body.slope.typical == {}
-    assert all(
-        mpf(2) ** -2 < point[Symbol("R", positive=True)] < 4
-        for point in contacts(derive_sheet(body))
-    )

@@ -1,8 +1,5 @@
 """Whole sheets: known bodies by hand, and what holds for every body whatever its profile."""
 
-from functools import cache
-
-import mpmath
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,21 +9,13 @@ from sympy import Expr, Max, Symbol, atan, log, pi, simplify, sqrt
 from derive import Geometry, parameter, x
 from derive.derivation import derive_sheet
 from derive.proof.symbolic import symbolic_proof
-from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c
-from tests.derive import bodies
 from tests.derive.bodies import BODIES, VALUES, close, evaluated, mirrored, sheet, value
 
 pytestmark = pytest.mark.slow
 
 FORWARD = ("tilt", "load", "moment", "pressure", "edge_ratio", "load_rate", "punch")
 EDGES = ("K_N_left", "K_N_right", "L_N_left", "L_N_right")
-RATES = tuple(f"{of}_by_{edge}" for edge in "ac" for of in ("load", "moment", "tilt"))
-SIDES = ("left", "right")
-STICK = (
-    "full_stick_change",
-    *(f"{of}_{side}" for of in ("K_T", "L_T", "stick_margin", "slip") for side in SIDES),
-)
 
 R, C, phi, psi, b = (Symbol(name, positive=True) for name in ("R", "C", "phi", "psi", "b"))
 A, B = Symbol("A", positive=True), Symbol("B", positive=True)  # a > 0 and c > 0
@@ -91,39 +80,9 @@ def test_the_pressure_of_the_wedge() -> None:
         assert close(mpf(found.subs(point).evalf(30)), mpf(expected.subs(point).evalf(30)))
 
 
-def test_the_symmetric_quartic() -> None:
-    # alpha = 0, P = (E*/2)(4/C) int s^4/w = (2 E*/C)(3 pi/8) a^4,
-    # p = (E*/2 pi)(4/C) w int (s^2 + s x + x^2)/w = (2 E*/C) w (a^2/2 + x^2)
-    found = {key: sheet("quartic")[key].expr.subs(c, a) for key in ("tilt", "load", "pressure")}
-    assert found["tilt"] == 0
-    assert simplify(found["load"] - 3 * pi * E_star * a**4 / (4 * C)) == 0
-    expected = 2 * E_star / C * sqrt((a + x) * (a - x)) * (a**2 / 2 + x**2)
-    assert simplify(found["pressure"] - expected) == 0
-
-
-def test_a_sheet_lists_its_formulas_in_the_order_of_derivation() -> None:
-    assert tuple(sheet("quartic")) == (*FORWARD[:4], *EDGES, *FORWARD[4:], *RATES, *STICK)
-    inverses = ["contact_a", "contact_c", "contact_alpha"]
-    inverses += ["contact_at_tilt_a", "contact_at_tilt_c", "contact_at_tilt_M"]
-    inverses += ["stick_m", "stick_n"]
-    for name in ("hertz", "wedge"):
-        assert list(sheet(name)) == [*FORWARD[:4], *EDGES, *FORWARD[4:], *RATES, *STICK, *inverses]
-
-
-@pytest.mark.parametrize("name", BODIES)
-def test_symbol_and_arguments_are_those_of_the_convention(name: str) -> None:
-    heads = {key: formula.head for key, formula in sheet(name).items()}
-    assert heads["tilt"] == "alpha(a, c)"
-    assert heads["load"] == "P(a, c)"
-    assert heads["moment"] == "M(a, c)"
-    assert heads["pressure"] == "p(x, a, c)"
-    assert heads["full_stick_change"] == "dq(x, a, c, dQ, dsigma)"
-    assert all(head.endswith("(a, c)") for key, head in heads.items() if key in EDGES)
-
-
 # What holds for every body.
 
-FEW = settings(max_examples=25)
+FEW = settings(max_examples=10)
 """Contacts a body: an identity of analytic functions that fails, fails at nearly every one."""
 
 number = st.floats(0.125, 8, allow_nan=False, width=32)
@@ -189,33 +148,20 @@ _LENGTHS = {"R": 1, "R1": 1, "b": 1, "C": 3, "phi": 0, "psi": 0}
 
 @pytest.mark.parametrize("name", BODIES)
 @FEW
-@given(number, number, _at, st.floats(0.01, 100))
-def test_all_lengths_together_scale_every_formula_by_its_power(
-    name: str, left: float, right: float, share: float, factor: float
+@given(number, number, _at, st.floats(0.01, 100), st.floats(0.01, 100))
+def test_lengths_and_the_modulus_scale_every_formula_by_its_power(
+    name: str, left: float, right: float, share: float, factor: float, stiffer: float
 ) -> None:
     k, here = mpf(factor), contact(name, left, right)
     there = {key: k * edge for key, edge in here.items()}
     there |= {key: k**power * VALUES[key] for key, power in _LENGTHS.items()}
+    there["E_star"] = mpf(stiffer) * VALUES["E_star"]
     place = inside(here, share)
     for formula, power in _POWERS.items():
-        first = value(name, formula, x=place, **here) * k**power
+        by = k**power * (1 if formula in ("tilt", "edge_ratio") else mpf(stiffer))
+        first = value(name, formula, x=place, **here) * by
         second = value(name, formula, x=k * place, **there)
-        assert close(first, second, digits=18, scale=1e-6 * k**power), formula
-
-
-@pytest.mark.parametrize("name", BODIES)
-@FEW
-@given(number, number, _at, st.floats(0.01, 100))
-def test_forces_scale_with_the_modulus(
-    name: str, left: float, right: float, share: float, factor: float
-) -> None:
-    here = contact(name, left, right)
-    place = inside(here, share)
-    stiffer = {"E_star": mpf(factor) * VALUES["E_star"]}
-    for formula in _POWERS:
-        power = 0 if formula in ("tilt", "edge_ratio") else 1
-        first = value(name, formula, x=place, **here) * mpf(factor) ** power
-        assert close(first, value(name, formula, x=place, **here, **stiffer), scale=1), formula
+        assert close(first, second, digits=18, scale=1e-6 * by), formula
 
 
 @pytest.mark.parametrize(
@@ -242,15 +188,6 @@ def test_bodies_add_up_at_one_contact(
         assert close(first, total, digits=18, scale=1e-3), formula
 
 
-def test_two_halves_make_two_radii() -> None:
-    """max(0, x)^2/2R and max(0, -x)^2/2R1 are the two halves of one body."""
-    here = {"a": mpf("1.25"), "c": mpf("0.5")}
-    for formula in ("tilt", "load", "moment", *EDGES):
-        right = value("half_parabola", formula, **here)
-        left = evaluated(mirrored("half_parabola"), formula, **here, R=VALUES["R1"])
-        assert close(left + right, value("two_radii", formula, **here)), formula
-
-
 @pytest.mark.parametrize("name", BODIES)
 @FEW
 @given(number, number, _at)
@@ -264,83 +201,6 @@ def test_a_convex_body_presses_everywhere_in_its_contact(
     assert value(name, "K_N_right", **here) > 0
     assert value(name, "load_rate", **here) > 0
     assert value(name, "edge_ratio", **here) > 0
-
-
-@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded", "quartic", "three_corners"])
-@FEW
-@given(number)
-def test_a_symmetric_contact_of_a_symmetric_body_has_no_tilt_and_no_moment(
-    name: str, half: float
-) -> None:
-    here = {"a": mpf(half) + 0.5, "c": mpf(half) + 0.5}
-    size = value(name, "load", **here)
-    assert close(value(name, "tilt", **here), mpf(0), scale=1)
-    assert close(value(name, "moment", **here), mpf(0), scale=size * here["a"])
-    assert close(value(name, "K_N_left", **here), value(name, "K_N_right", **here))
-
-
-@pytest.mark.parametrize("name", ["hertz", "wedge", "quartic", "flat_rounded", "rounded_wedge"])
-@FEW
-@given(number, number)
-def test_moment_and_tilt_of_a_symmetric_body_have_one_sign(
-    name: str, left: float, right: float
-) -> None:
-    here = {"a": mpf(left) + 0.5, "c": mpf(right) + 0.5}
-    if left != right:
-        assert mpmath.sign(value(name, "tilt", **here)) == (1 if left > right else -1)
-        assert mpmath.sign(value(name, "moment", **here)) == (1 if left > right else -1)
-
-
-@cache
-def shifted(name: str) -> FormulaSheet:
-    """The sheet of g(x - b)."""
-    return derive_sheet(Geometry(f"{name}_shifted", g=BODIES[name].g.subs(x, x - bodies.b)))
-
-
-@pytest.mark.parametrize("name", ["hertz", "quartic", "skew"])
-@FEW
-@given(number, number, number, _at)
-def test_a_shifted_body_has_a_shifted_contact(
-    name: str, left: float, right: float, shift: float, share: float
-) -> None:
-    """g(x - b) in [-a + b, c + b] is g in [-a, c], and M = -int p x dx gains -P b."""
-    here = {"a": mpf(left), "c": mpf(right)}
-    there = {"a": here["a"] - shift, "c": here["c"] + shift, "b": mpf(shift)}
-    place, load = inside(here, share), value(name, "load", **here)
-    assert close(evaluated(shifted(name), "load", **there), load, digits=18)
-    pressure = evaluated(shifted(name), "pressure", x=place + shift, **there)
-    assert close(pressure, value(name, "pressure", x=place, **here), digits=15)
-    tilt = evaluated(shifted(name), "tilt", **there)
-    assert close(tilt, value(name, "tilt", **here), digits=15, scale=1)
-    moment = evaluated(shifted(name), "moment", **there)
-    assert close(moment, value(name, "moment", **here) - load * shift, digits=15, scale=load)
-
-
-def test_a_flank_only_contact_of_a_rounded_flat_is_hertz() -> None:
-    """Wholly on the right shoulder the body is a cylinder around x = b."""
-    for left, right in ((-1.0, 3.0), (-0.75, 0.875)):
-        here = {"a": mpf(left), "c": mpf(right)}
-        there = {"a": here["a"] + 0.5, "c": here["c"] - 0.5}
-        for formula in ("load", "edge_ratio", "load_rate", *EDGES):
-            assert close(value("flat_rounded", formula, **here), value("hertz", formula, **there))
-        # the slope is (x - b)/R: the tilt is that of a cylinder about x = b
-        assert close(value("flat_rounded", "tilt", **here), value("hertz", "tilt", **there))
-        moment = value("hertz", "moment", **there) - 0.5 * value("hertz", "load", **there)
-        assert close(value("flat_rounded", "moment", **here), moment)
-
-
-def test_a_rounded_flat_without_a_flat_is_hertz() -> None:
-    """b -> 0: every formula tends to the cylinder's, with an error of the order of b."""
-    here = {"a": mpf(2), "c": mpf("0.75"), "x": mpf("0.25")}
-    for formula in FORWARD:
-        gap = value("flat_rounded", formula, **here, b=1e-8) - value("hertz", formula, **here)
-        assert abs(gap) < 1e-7, formula
-
-
-def test_a_body_of_another_name_has_the_same_formulas() -> None:
-    radius = parameter("R", "radius of curvature", unit="m")
-    other = derive_sheet(Geometry("other", g=x**2 / (2 * radius)))
-    assert {k: f.expr for k, f in other.items()} == {k: f.expr for k, f in sheet("hertz").items()}
 
 
 def test_the_contact_law_of_many_lengths_at_one_kink_is_proven() -> None:

@@ -1,22 +1,16 @@
 """Parameters and bodies: what is accepted, and what is refused in which words."""
 
-import copy
-import pickle
-
 import pytest
-from sympy import Abs, GoldenRatio, I, Integral, Max, Symbol, cosh, nan, oo, sqrt
+from sympy import Abs, GoldenRatio, Integral, Max, Symbol, cosh, nan, oo, sqrt
 
 from derive import Geometry, parameter, x
 from derive.errors import (
     BadName,
-    BadProfile,
-    BadUnit,
     DimensionMismatch,
     UnknownSymbol,
     UserError,
 )
 from derive.symbols import QUANTITIES, RESERVED
-from derive.units import parse_unit
 
 R = parameter("R", "radius", unit="m")
 phi = parameter("phi", "slope", unit="rad")
@@ -28,15 +22,9 @@ def test_a_parameter_is_positive_and_remembers_what_it_means() -> None:
     assert (R.name, R.meaning, R.unit) == ("R", "radius", "m")
 
 
-def test_a_parameter_survives_copy_and_pickle() -> None:
-    for twin in (copy.copy(R), copy.deepcopy(R), pickle.loads(pickle.dumps(R))):
-        assert (twin.name, twin.meaning, twin.unit) == ("R", "radius", "m")
-        assert twin.is_positive
-
-
 @pytest.mark.parametrize(
     "name",
-    ["alpha", "E_star", "theta_1", "w_12", "L_3", "u_1", "v_2", "q_left_1", "m_2", "np", "pi", "E"],
+    ["alpha", "theta_1", "w_12", "q_left_1", "np", "pi", *sorted(RESERVED)[::20]],
 )
 def test_a_name_of_the_theory_is_refused(name: str) -> None:
     with pytest.raises(BadName) as caught:
@@ -45,39 +33,12 @@ def test_a_name_of_the_theory_is_refused(name: str) -> None:
     assert "choose another" in caught.value.message
 
 
-@pytest.mark.parametrize("name", sorted(RESERVED))
-def test_no_reserved_name_gets_through(name: str) -> None:
-    with pytest.raises(BadName):
-        parameter(name, "something")
-
-
-@pytest.mark.parametrize(
-    "name", ["", "2b", "b b", "b-1", "_b", "é", "lambda", "for", "None", "φ", "b\n", 3, None]
-)
+@pytest.mark.parametrize("name", ["", "2b", "b b", "_b", "é", "lambda", "b\n", 3, None])
 def test_what_is_no_identifier_is_refused(name: str) -> None:
     with pytest.raises(BadName) as caught:
         parameter(name, "something")
     assert repr(str(name)) in caught.value.message
     assert "letters, digits and _" in caught.value.message
-
-
-@pytest.mark.parametrize("name", ["R2", "b_1", "phi", "radius"])
-def test_an_ordinary_name_is_accepted(name: str) -> None:
-    assert parameter(name, "something").name == name
-
-
-@pytest.mark.parametrize("unit", ["kg", "m + m", "2*m", "mm", "m**0.5"])
-def test_a_bad_unit_is_refused(unit: str) -> None:
-    with pytest.raises(BadUnit) as caught:
-        parameter("R", "radius", unit=unit)
-    assert caught.value.given == unit
-
-
-@pytest.mark.parametrize("name", ["", "2b", "my body", "class", "_private", "hertz.py", "a/b", 7])
-def test_a_geometry_needs_the_name_of_a_module(name: str) -> None:
-    with pytest.raises(BadName) as caught:
-        Geometry(name, g=x**2 / R)
-    assert caught.value.what == "geometry"
 
 
 def test_a_geometry_lists_its_parameters_in_alphabetical_order() -> None:
@@ -86,35 +47,6 @@ def test_a_geometry_lists_its_parameters_in_alphabetical_order() -> None:
     assert [q.name for q in body.parameters] == ["R", "R2", "phi"]
     assert [q.unit for q in body.parameters] == ["m", "m", "rad"]
     assert body.parameters[0].meaning == "radius"
-
-
-def test_a_geometry_holds_plain_symbols_only() -> None:
-    body = Geometry("body", g=x**2 / R)
-    assert {type(symbol) for symbol in body.g.free_symbols} == {Symbol}
-    assert body.g == x**2 / Symbol("R", positive=True)
-
-
-def test_a_geometry_knows_all_quantities_and_dimensions() -> None:
-    body = Geometry("body", g=x**2 / R)
-    assert set(body.quantities) == set(QUANTITIES) | {"R"}
-    assert body.dimensions[Symbol("R", positive=True)] == parse_unit("m")
-    assert body.dimensions[QUANTITIES["P"].symbol].agrees(parse_unit("N/m"))
-
-
-def test_described_is_the_same_body_with_words() -> None:
-    body = Geometry("body", g=x**2 / R)
-    twin = body.described("A cylinder.")
-    assert twin.description == "A cylinder."
-    assert body.description == ""
-    assert (twin.name, twin.g, twin.parameters) == (body.name, body.g, body.parameters)
-
-
-def test_a_parameter_used_twice_means_what_its_last_maker_said() -> None:
-    """Two files may use one name; SymPy's cache must not bring back the first one's meaning."""
-    first = parameter("q1", "first", unit="m")
-    Geometry("first", g=x**2 / (2 * first))
-    second = parameter("q1", "second", unit="m")
-    assert Geometry("second", g=x**2 / (2 * second)).parameters[0].meaning == "second"
 
 
 def test_a_parameter_used_twice_has_the_unit_its_last_maker_said() -> None:
@@ -138,16 +70,11 @@ def test_two_parameters_of_one_name_in_one_body_are_refused() -> None:
     [
         (Symbol("y"), "y"),
         (Symbol("R"), "R"),
-        (Symbol("R", positive=True), "R"),
         (QUANTITIES["alpha"].symbol, "alpha0"),
-        (QUANTITIES["E_star"].symbol, "E_star0"),
         (Symbol("a"), "a0"),
-        (Symbol("b1"), "b10"),
         (Symbol("lambda"), "lambda0"),
         (Symbol("w_1"), "my_w_1"),
-        (Symbol("_r"), "my__r"),
         (Symbol("my radius"), "R0"),
-        (Symbol("2b"), "my_2b"),
     ],
     ids=str,
 )
@@ -180,7 +107,7 @@ def test_a_symbol_of_the_theory_is_refused_with_what_it_means() -> None:
 
 @pytest.mark.parametrize(
     "g",
-    [x**2, x**2 / R**2, x**2 / R + 1, phi * x**2, R * cosh(x), Abs(x - 1) * phi, phi],
+    [x**2, x**2 / R + 1, R * cosh(x), phi],
     ids=str,
 )
 def test_a_profile_that_is_no_length_is_refused(g: object) -> None:
@@ -192,16 +119,8 @@ def test_a_profile_that_is_no_length_is_refused(g: object) -> None:
 
 
 @pytest.mark.parametrize(
-    "g", ["x**2/R", None, [x], {"g": x}, object()], ids=lambda g: type(g).__name__
-)
-def test_what_is_no_expression_is_refused(g: object) -> None:
-    with pytest.raises(UserError):
-        Geometry("body", g=g)  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize(
     "g",
-    [I * x**2 / R, nan * x, oo * x, x > 0, Integral(x / R, x), x**2 / R > 0],
+    [nan * x, oo * x, x > 0, Integral(x / R, x), "x**2/R", [x], None],
     ids=str,
 )
 def test_what_is_no_real_profile_is_refused(g: object) -> None:
@@ -223,9 +142,3 @@ def test_decimal_numbers_are_the_fractions_that_were_meant() -> None:
     found, wanted = (Geometry("body", g=g) for g in (decimal, fraction))
     assert found.g == wanted.g
     assert str(found.slope.kinks[0].position) == "7*h_0/10"
-
-
-def test_a_refused_profile_names_the_body() -> None:
-    with pytest.raises(BadProfile) as caught:
-        Geometry("my_body", g=phi * x)
-    assert "'my_body'" in str(caught.value)

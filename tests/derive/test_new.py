@@ -2,7 +2,7 @@
 
 import ast
 import subprocess
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,18 +13,11 @@ from ruff import find_ruff_bin
 
 from derive.cli import main
 from derive.errors import (
-    BadName,
-    BadOption,
     BadProfile,
     BadTarget,
-    BadText,
-    BadUnit,
-    DimensionMismatch,
     OpenUnits,
-    UserError,
 )
-from derive.library import library, load_geometry
-from derive.writing import target
+from derive.library import load_geometry
 from derive.writing.draft import NEUTRAL, Wanted, draft, said
 from derive.writing.lengths import units
 from derive.writing.meaning import read
@@ -37,16 +30,6 @@ from derive import Geometry, parameter, x
 
 R = parameter("R", "parameter of the profile", unit="m")
 geometry = Geometry("cylinder", g=x**2 / (2 * R))
-'''
-FLAT = '''"""Flat punch with rounded shoulders."""
-
-from sympy import Abs, Piecewise
-
-from derive import Geometry, parameter, x
-
-b = parameter("b", "half-width of the flat", unit="m")
-R = parameter("R", "parameter of the profile", unit="m")
-geometry = Geometry("flat", g=Piecewise((0, Abs(x) <= b), ((Abs(x) - b) ** 2 / (2 * R), True)))
 '''
 
 
@@ -72,39 +55,20 @@ def held(folder: Path) -> list[str]:
     ("text", "found"),
     [
         ("x**2/(2*R)", {"R": "m"}),
-        ("phi*Abs(x)", {"phi": "rad"}),
         ("phi*Abs(x) + x**2/R", {"phi": "rad", "R": "m"}),
-        ("C*x**4", {"C": "1/m**3"}),
         ("x**4/C", {"C": "m**3"}),
-        ("C*x**2", {"C": "1/m"}),
-        ("C*Abs(x)**1.5", {"C": "1/m**(1/2)"}),
         ("Abs(x)**(4/3)*C**(1/3)", {"C": "1/m"}),
         ("C*Abs(x)**k", {"C": "m**(1 - k)", "k": "-"}),
-        ("(C*Abs(x))**k", {"C": "m**(-(k - 1)/k)", "k": "-"}),
-        ("b*(Abs(x)/b)**k", {"b": "m", "k": "-"}),
         ("R*cosh(x/R) - R", {"R": "m"}),
-        ("R - sqrt(R**2 - x**2)", {"R": "m"}),
-        ("phi*sqrt(x**2 + b**2)", {"phi": "rad", "b": "m"}),
-        ("phi*b*log(cosh(x/b))", {"phi": "rad", "b": "m"}),
         ("b*exp(x*k)", {"b": "m", "k": "1/m"}),
-        ("Abs(x)*tan(phi)", {"phi": "rad"}),
         ("x*sin(phi) + x*cos(psi)", {"phi": "rad", "psi": "rad"}),
-        ("phi*(Abs(x) - b)", {"phi": "rad", "b": "m"}),
-        ("Max(0, x - b)**2/R", {"R": "m", "b": "m"}),
-        ("x*sign(x - b)*phi", {"phi": "rad", "b": "m"}),
-        ("phi*x*Heaviside(x - b)", {"phi": "rad", "b": "m"}),
         ("Piecewise((x**2/R, x < b), (phi*x, True))", {"R": "m", "b": "m", "phi": "rad"}),
-        ("Piecewise((0, x < b), (x, True))", {"b": "m"}),
         ("Piecewise((0, Abs(x)*phi < b), (b, True))", {"phi": "rad", "b": "m"}),
         # open, and taken for lengths
         ("x**4/(R*b**2)", {"R": "m", "b": "m"}),
-        ("x**3/(b*R)", {"R": "m", "b": "m"}),
         ("x**2*b/(R*k)", {"R": "m", "b": "m", "k": "m"}),
-        ("h0*(Abs(x)/b)", {"h0": "m", "b": "m"}),
         # nothing agrees: refused later
-        ("x**2 + R*0*x", {}),
         ("x + x**2/R + 1", {"R": "m"}),
-        ("x**2*R + x/R", {"R": "m"}),
     ],
 )
 def test_units_follow_from_g_being_a_length(text: str, found: dict[str, str]) -> None:
@@ -115,10 +79,8 @@ def test_units_follow_from_g_being_a_length(text: str, found: dict[str, str]) ->
     ("text", "given_units", "found"),
     [
         ("phi*x**2/R", {"R": "m"}, {"R": "m", "phi": "rad"}),
-        ("phi*x**2/R", {"phi": "-"}, {"R": "m", "phi": "-"}),
         ("phi*x**2/R", {"phi": "1/m"}, {"R": "-", "phi": "1/m"}),
         ("x**2/(2*R)", {"R": "N/Pa/m"}, {"R": "N/Pa/m"}),
-        ("C*Abs(x)**k", {"C": "m**(1 - k)"}, {"C": "m**(1 - k)", "k": "-"}),
     ],
 )
 def test_a_unit_that_is_given_is_kept(
@@ -131,9 +93,7 @@ def test_a_unit_that_is_given_is_kept(
     ("text", "parameters"),
     [
         ("phi*x**2/R", ("R", "phi")),
-        ("x**2/(R*k)", ("R", "k")),
         ("x**2*C*D*F", ("C", "D", "F")),
-        ("phi*x**2/R + psi*Abs(x)", ("R", "phi")),
     ],
 )
 def test_units_that_stay_open_are_asked_for(text: str, parameters: tuple[str, ...]) -> None:
@@ -146,69 +106,45 @@ def test_units_that_stay_open_are_asked_for(text: str, parameters: tuple[str, ..
     draft(Wanted("body", text, units=enough))  # what the message says helps
 
 
-@pytest.mark.parametrize("name", ["x**2", "x + 1", "Abs(x) + x**2", "R*x**2 + x/R", "cosh(x)"])
-def test_a_dimension_that_cannot_agree_is_refused_as_by_geometry(name: str) -> None:
-    with pytest.raises(DimensionMismatch) as caught:
-        draft(Wanted("body", name))
-    assert "a number has no unit: write it as a parameter with its unit" in caught.value.message
-    assert ("check the units" in caught.value.message) == ("R" in name)
-
-
 # The draft
 
 TEXTS = {
     "hertz": "x**2/(2*R)",
-    "wedge": "phi*abs(x)",
     "unequal_wedge": "Piecewise((-phi*x, x < 0), (psi*x, True))",
-    "shifted_wedge": "phi*Abs(x - b)",
     "flat_rounded": "Piecewise((0, Abs(x) - b <= 0), ((Abs(x) - b)**2/(2*R), True))",
-    "flat_cornered": "phi*max(0, abs(x) - b)",
     "rounded_wedge": "Piecewise((x**2/(2*R), Abs(x) < b), (b*Abs(x)/R - 0.5*b**2/R, True))",
-    "quartic": "x**4/C",
     "parabola_quartic": "x**2/2/R + x**4/C",
-    "two_radii": "Piecewise((x**2/(2*R1), 0 > x), (x**2/(2*R), True))",
-    "skew": "x**2/R + x**3/R**2 + x**4/R**3",
     "spline": "x**2/R + Max(0, x - b)**3/R**2",
-    "three_corners": "phi*(Abs(Abs(x) - b) + 2*Abs(x))",
 }
 
 
 @pytest.mark.parametrize("name", TEXTS)
-def test_a_text_makes_the_body_that_was_written_by_hand(name: str) -> None:
-    made = draft(Wanted(f"my_{name}", TEXTS[name])).geometry
+def test_a_text_makes_the_body_that_was_written_by_hand(name: str, tmp_path: Path) -> None:
+    """And its file is loaded as what was read."""
+    drafted = draft(Wanted(f"my_{name}", TEXTS[name]))
+    made = drafted.geometry
+    write_new(tmp_path / "body.py", drafted.text)
+    loaded = load_geometry(tmp_path / "body.py")
+    assert (loaded.name, loaded.g, loaded.parameters) == (made.name, made.g, made.parameters)
+    assert {q.meaning for q in loaded.parameters} == {NEUTRAL}
     assert made.name == f"my_{name}"
     assert (made.g - geometry(name).g).simplify() == 0
     by_hand = {p.name: p.unit for p in BODIES[name].g.free_symbols if p.name != "x"}
     assert {q.name: q.unit for q in made.parameters} == by_hand
 
 
-@pytest.mark.parametrize("name", TEXTS)
-def test_the_file_is_loaded_as_what_was_read(name: str, tmp_path: Path) -> None:
-    made = draft(Wanted(f"my_{name}", TEXTS[name]))
-    path = tmp_path / "body.py"
-    write_new(path, made.text)
-    loaded = load_geometry(path)
-    assert loaded.g == made.geometry.g
-    assert (loaded.name, loaded.parameters) == (made.geometry.name, made.geometry.parameters)
-    assert {q.meaning for q in loaded.parameters} == {NEUTRAL}
-
-
 def test_the_file_is_like_those_of_the_library() -> None:
-    assert draft(Wanted("cylinder", "x**2/(2*R)")).text == CYLINDER
+    assert draft(Wanted("cylinder", "x**2/(2*R)", title="  ")).text == CYLINDER
     text = "Piecewise((0, abs(x) <= b), ((Abs(x)-b)**2/(2*R), True))"
-    meanings = {"b": "half-width of the flat"}
-    wanted = Wanted("flat", text, title="Flat punch with rounded shoulders.", meanings=meanings)
-    assert draft(wanted).text == FLAT
+    made = draft(Wanted("flat", text, title="A flat punch.", meanings={"b": "half-width"})).text
+    assert made.startswith('"""A flat punch."""\n\nfrom sympy import Abs, Piecewise\n')
+    assert 'b = parameter("b", "half-width", unit="m")\n' in made
+    assert "Piecewise((0, Abs(x) <= b), ((Abs(x) - b) ** 2 / (2 * R), True))" in made
 
 
-def test_a_profile_without_parameters_imports_no_more_than_it_needs() -> None:
-    text = draft(Wanted("edge", "abs(x)/3")).text
-    assert "from derive import Geometry, x\n" in text
-    assert "from sympy import Abs\n" in text
-
-
-def test_the_file_passes_the_linter() -> None:
-    text = draft(Wanted("assorted", "max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4")).text
+@pytest.mark.parametrize("g", ["max(0, x)**2/R + 0.1*abs(x) + pi*sqrt(x**2)/4", "abs(x)/3"])
+def test_the_file_passes_the_linter(g: str) -> None:
+    text = draft(Wanted("assorted", g)).text
     command = [
         find_ruff_bin(),
         "check",
@@ -221,32 +157,16 @@ def test_the_file_passes_the_linter() -> None:
     assert done.returncode == 0, done.stdout
 
 
-def test_a_long_formula_is_no_title() -> None:
-    text = " + ".join(["phi*Abs(x)"] * 12)
-    assert draft(Wanted("long_one", text)).text.startswith('"""Profile long_one."""')
-
-
 TITLES = [
     'He said "wedge"',
     '"""',
     '"""\nimport os\nos.system("touch X")\n"""',
-    '"""; raise SystemExit; """',
     "\\",
-    "\\" * 3,
     '\\"""',
-    '"',
-    '""',
-    '"quoted',
     "two\nlines",
-    "tab\tand\rreturn",
     "null\0byte",
     "Schräge Flanken, π/2 − φ, 😀",
-    "bidi \u202e override",
     "lone \udc80 surrogate",
-    "{braces} %s %(x)s",
-    "'''",
-    "\\N{BULLET} \\x41 \\u0041",
-    "# noqa",
 ]
 
 
@@ -261,7 +181,7 @@ def test_titles_and_meanings_are_kept_and_never_run(words: str, tmp_path: Path) 
     assert held(tmp_path) == ["body.py"]
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(st.text(alphabet=st.one_of(st.characters(), st.sampled_from("\"\\\n'")), min_size=1))
 def test_any_words_are_data(words: str) -> None:
     text = draft(Wanted("body", "x**2/(2*R)", title=words, meanings={"R": words})).text
@@ -277,45 +197,6 @@ def test_any_words_are_data(words: str) -> None:
     assert ast.literal_eval(call.args[1]) == words
 
 
-def test_an_empty_title_is_none() -> None:
-    assert draft(Wanted("cylinder", "x**2/(2*R)", title="  ")).text == CYLINDER
-
-
-@pytest.mark.parametrize(
-    ("text", "column"), [("x**2/R + b - b", 9), ("0*b + Abs(x)", 2), ("Abs(x)*b/b", 7)]
-)
-def test_a_parameter_without_influence_is_refused(text: str, column: int) -> None:
-    with pytest.raises(BadText) as caught:
-        draft(Wanted("body", text))
-    assert caught.value.column == column
-    assert "cancels out" in caught.value.why
-
-
-@pytest.mark.parametrize(
-    ("text", "error", "part"),
-    [
-        ("-x**2/R", BadProfile, "not convex"),
-        ("phi*x", BadProfile, "straight"),
-        ("R", BadProfile, "there is no x in it, only parameters (R)"),
-        ("y**2/(2*R)", BadProfile, "no x in it, only parameters (y, R)"),
-        ("y**2/(R*k)", BadProfile, "write g(x) with it, such as x**2/(2*R)"),
-        ("10*x**2", DimensionMismatch, "write it as a parameter with its unit, such as R in"),
-        ("0", BadProfile, "straight"),
-        ("phi*x*sign(x - b)", BadProfile, "jumps"),
-        ("x**3/R**2", BadProfile, "not convex"),
-        ("Piecewise((x**2/R, x < b))", BadProfile, "not defined"),
-        ("Piecewise((phi*x, Abs(x - b) < R), (0, True))", UserError, ""),
-        ("x**2/R + 1", DimensionMismatch, "dimension"),
-    ],
-)
-def test_what_geometry_refuses_is_refused_here(
-    text: str, error: type[UserError], part: str
-) -> None:
-    with pytest.raises(error) as caught:
-        draft(Wanted("body", text))
-    assert part in caught.value.message
-
-
 def test_a_fault_of_the_reader_is_no_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise RecursionError("too deep")
@@ -327,78 +208,11 @@ def test_a_fault_of_the_reader_is_no_traceback(monkeypatch: pytest.MonkeyPatch) 
     assert "RecursionError: too deep" in caught.value.why
 
 
-@pytest.mark.parametrize(
-    ("name", "why"),
-    [
-        ("", "cannot be the name of a module"),
-        ("2b", "cannot be the name of a module"),
-        ("my body", "cannot be the name of a module"),
-        ("../evil", "cannot be the name of a module"),
-        ("a/b", "cannot be the name of a module"),
-        ("_types", "cannot be the name of a module"),
-        ("body.py", "cannot be the name of a module"),
-        ("class", "cannot be the name of a module"),
-        ("é", "cannot be the name of a module"),
-        ("body\n", "cannot be the name of a module"),
-        ("body\0", "cannot be the name of a module"),
-        ("contact", "taken by the theory"),
-        ("P", "taken by the theory"),
-        ("numpy", "hide the Python module"),
-        ("derive", "hide the Python module"),
-        ("random", "hide the Python module"),
-        *((name, "in the library already") for name in library()),
-    ],
-)
-def test_a_bad_name_is_refused(name: str, why: str) -> None:
-    with pytest.raises(BadName) as caught:
-        Wanted(name, "x**2/(2*R)")
-    assert caught.value.given == name
-    assert why in caught.value.why
-
-
 # Options
-
-
-@pytest.mark.parametrize(
-    ("given_options", "part"),
-    [
-        (["R"], "not of the form"),
-        (["=m"], "not of the form"),
-        (["R="], "not of the form"),
-        (["R=  "], "not of the form"),
-        ([""], "not of the form"),
-        (["R=m", "b=m", "R=m"], "a second time"),
-    ],
-)
-def test_a_malformed_option_is_refused(given_options: Sequence[str], part: str) -> None:
-    with pytest.raises(BadOption) as caught:
-        said("--unit", given_options)
-    assert part in caught.value.why
-    assert "--unit NAME=TEXT" in caught.value.message
 
 
 def test_a_meaning_may_hold_an_equals_sign() -> None:
     assert said("--meaning", ["R=radius, 1/R = 1/R1 + 1/R2"]) == {"R": "radius, 1/R = 1/R1 + 1/R2"}
-
-
-@pytest.mark.parametrize("option", ["units", "meanings"])
-@pytest.mark.parametrize(
-    ("text", "part"), [("x**2/(2*R)", "its parameters are R"), ("Abs(x)", "it has no parameters")]
-)
-def test_an_option_for_another_name_is_refused(option: str, text: str, part: str) -> None:
-    with pytest.raises(BadOption) as caught:
-        draft(Wanted("body", text, **{option: {"b": "m"}}))  # type: ignore[arg-type]
-    assert "no parameter 'b'" in caught.value.why
-    assert part in caught.value.why
-
-
-@pytest.mark.parametrize(
-    "unit", ["kg", "m^2", "m\0", "(" * 10**5, "m" * 100, "m**(1/0)", "9**9**9"]
-)
-def test_a_bad_unit_is_refused(unit: str) -> None:
-    with pytest.raises(BadUnit) as caught:
-        draft(Wanted("body", "x**2/(2*R)", units={"R": unit}))
-    assert "write a product of powers" in caught.value.message
 
 
 # The place
@@ -433,46 +247,31 @@ def test_a_place_that_is_none_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
     assert (tmp_path / "body.py").read_text() == (tmp_path / "text.txt").read_text() == "kept"
 
 
-def test_a_file_that_appears_meanwhile_is_kept(tmp_path: Path) -> None:
-    path = tmp_path / "body.py"
-    path.write_text("kept")
-    with pytest.raises(BadTarget) as caught:
-        write_new(path, "new")
-    assert caught.value == BadTarget(str(path), "is there already")
-    assert path.read_text() == "kept"
-    assert held(tmp_path) == ["body.py"]
-
-
-def test_a_link_that_leads_nowhere_is_not_followed(tmp_path: Path) -> None:
-    (tmp_path / "body.py").symlink_to(tmp_path / "elsewhere.py")
-    with pytest.raises(BadTarget):
-        write_new(tmp_path / "body.py", "new")
-    assert held(tmp_path) == ["body.py"]
-
-
 def _fail(*_: object, **__: object) -> None:
     raise OSError(28, "No space left on device")
 
 
-@pytest.mark.parametrize("step", ["derive.writing.target.os.fsync", "derive.writing.target._write"])
+def _interrupt(*_: object) -> None:
+    raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize(
+    ("step", "failing", "error"),
+    [
+        ("os.fsync", _fail, BadTarget),
+        ("_write", _fail, BadTarget),
+        ("os.fsync", _interrupt, KeyboardInterrupt),
+    ],
+)
 def test_a_failing_write_leaves_nothing_behind(
-    step: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    step: str,
+    failing: Callable[..., None],
+    error: type[BaseException],
 ) -> None:
-    monkeypatch.setattr(step, _fail)
-    with pytest.raises(BadTarget) as caught:
-        write_new(tmp_path / "body.py", "new")
-    assert "No space left on device" in caught.value.why
-    assert held(tmp_path) == []
-
-
-def test_an_interrupted_write_leaves_nothing_behind(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupt(_: int) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(target.os, "fsync", interrupt)
-    with pytest.raises(KeyboardInterrupt):
+    monkeypatch.setattr(f"derive.writing.target.{step}", failing)
+    with pytest.raises(error):
         write_new(tmp_path / "body.py", "new")
     assert held(tmp_path) == []
 
@@ -491,12 +290,6 @@ def test_a_file_system_without_links_will_do(
     with pytest.raises(BadTarget):
         write_new(tmp_path / "other.py", "new")
     assert held(tmp_path) == ["body.py"]
-
-
-def test_a_file_has_the_rights_of_any_new_file(tmp_path: Path) -> None:
-    (tmp_path / "plain").write_text("")
-    write_new(tmp_path / "body.py", "new")
-    assert (tmp_path / "body.py").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
 
 # The command
@@ -540,13 +333,6 @@ def test_a_formula_may_begin_with_a_minus(
     assert load_geometry(tmp_path / "wedge_2.py").g.has(load_geometry("wedge").parameters[0].symbol)
 
 
-def test_help_is_there() -> None:
-    for option in ("-h", "--help"):
-        result = CliRunner().invoke(main, ["new", option])
-        assert result.exit_code == 0
-        assert "NAME G" in result.output
-
-
 def test_a_file_is_never_overwritten(run: Callable[..., Result], tmp_path: Path) -> None:
     (tmp_path / "cylinder.py").write_text("mine")
     for arguments in ((), ("--out", "."), ("--out", "cylinder.py")):
@@ -560,32 +346,30 @@ def test_a_file_is_never_overwritten(run: Callable[..., Result], tmp_path: Path)
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        (("body", "x^2/R"), "write ** for a power"),
-        (("body", "2x"), "an operator is missing"),
         (("body", ""), "empty"),
         (("body", "__import__('os').system('touch X')"), "cannot be a name"),
         (("body", "(lambda: open('X', 'w'))()"), "lambda cannot stand"),
-        (("body", "[open('X', 'w')]"), "[ ]"),
         (("body", "x**2/R", "--title", "t", "--unit", "R=__import__('os')"), "is no unit"),
-        (("body", "9**9**9**9*x"), "exponent is too large"),
         (("body", "(" * 10**5), "characters"),
-        (("body", "x + :smile:"), ": stands for nothing"),
         (("body", "[bold]x"), "[ ]"),
         (("body", "x*\udc80"), "U+DC80"),
-        (("body", "-x**2/R"), "not convex"),
-        (("body", "x**2"), "dimension"),
+        (("body", "y**2/(2*R)"), "no x in it, only parameters (y, R)"),
+        (("body", "x**2/R + b - b"), "cancels out"),
+        (("body", "10*x**2"), "write it as a parameter with its unit, such as R in"),
         (("body", "phi*x**2/R"), "--unit"),
         (("body", "x**2/R", "--unit", "b=m"), "no parameter 'b'"),
+        (("body", "abs(x)", "--unit", "b=m"), "it has no parameters"),
         (("body", "x**2/R", "--unit", "R"), "NAME=TEXT"),
+        (("body", "x**2/R", "--unit", "R=  "), "NAME=TEXT"),
+        (("body", "x**2/R", "--unit", "R=m**(1/0)"), "write a product of powers"),
         (("body", "x**2/R", "--unit", "R=m", "--unit", "R=m"), "a second time"),
-        (("body", "x**2/R", "--meaning", "b=width"), "no parameter 'b'"),
         (("body", "x**2/R", "--out", "nowhere/"), "is no directory"),
         (("../body", "x**2/R"), "name of a module"),
+        (("class", "x**2/R"), "name of a module"),
+        (("contact", "x**2/R"), "taken by the theory"),
         (("hertz", "x**2/R"), "in the library"),
         (("sympy", "x**2/R"), "hide"),
         (("body",), "Missing argument"),
-        (("body", "x", "b"), "unexpected extra argument"),
-        (("body", "x", "--tittle", "b"), "No such option"),
     ],
 )
 def test_bad_input_is_one_message_and_status_2(
@@ -599,23 +383,3 @@ def test_bad_input_is_one_message_and_status_2(
     assert result.stdout == ""
     assert isinstance(result.exception, SystemExit)
     assert held(tmp_path) == []
-
-
-def test_the_caret_stands_under_its_character_in_a_terminal_too(
-    run: Callable[..., Result],
-) -> None:
-    lines = run("body", "x + b^2").stderr.splitlines()
-    assert lines[1] == "    x + b^2"
-    assert lines[2] == "         ^"
-
-
-@pytest.mark.slow
-def test_what_was_written_is_shown_and_generated(
-    run: Callable[..., Result], tmp_path: Path
-) -> None:
-    assert run("cylinder", "x**2/(2*R)", "--meaning", "R=radius").exit_code == 0
-    result = CliRunner().invoke(main, ["show", "cylinder.py"])
-    assert result.exit_code == 0, result.output
-    result = CliRunner().invoke(main, ["generate", "cylinder.py", "--out", "package"])
-    assert result.exit_code == 0, result.output
-    assert (tmp_path / "package" / "cylinder.py").is_file()

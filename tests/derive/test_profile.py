@@ -15,9 +15,7 @@ from sympy import (
     Integer,
     Max,
     Min,
-    Ne,
     Not,
-    Or,
     Piecewise,
     Rational,
     Symbol,
@@ -31,7 +29,6 @@ from sympy import (
     sign,
     simplify,
     sqrt,
-    sympify,
     zeta,
 )
 
@@ -63,14 +60,8 @@ def read(g: Expr) -> tuple[Expr, list[tuple[Expr, int, Expr]]]:
 _wedge = (phi * Abs(x), phi * Max(x, -x), -phi * Min(x, -x), phi * x * sign(x))
 _wedge += (
     phi * x * (2 * Heaviside(x) - 1),
-    phi * sqrt(x**2),
-    phi * Abs(-x),
-    Abs(phi * x),
-    phi * (Max(0, x) + Max(0, -x)),
     Piecewise((-phi * x, x < 0), (phi * x, True)),
-    Piecewise((phi * x, x >= 0), (-phi * x, x < 0)),
     Piecewise((0, Eq(x, 0)), (phi * Abs(x), True)),
-    phi * x * Piecewise((1, x > 0), (-1, True)),
     phi * Abs(Abs(x)),
 )
 _flat_rounded = (
@@ -78,19 +69,13 @@ _flat_rounded = (
     Max(0, beyond) ** 2 / (2 * R),
     (Max(0, x - b) ** 2 + Max(0, -x - b) ** 2) / (2 * R),
     Heaviside(beyond) * beyond**2 / (2 * R),
-    (1 + sign(beyond)) * beyond**2 / (4 * R),
-    (beyond + Abs(beyond)) ** 2 / (8 * R),
     Piecewise((0, And(x > -b, x < b)), (beyond**2 / (2 * R), True)),
-    Piecewise((beyond**2 / (2 * R), Or(x < -b, x > b)), (0, True)),
     Piecewise((beyond**2 / (2 * R), Not(And(x > -b, x < b))), (0, True)),
     Piecewise(((x + b) ** 2 / (2 * R), x < -b), (0, x < b), ((x - b) ** 2 / (2 * R), True)),
-    Piecewise((0, x**2 < b**2), (beyond**2 / (2 * R), True)),
-    beyond**2 / (2 * R) - Min(0, beyond) ** 2 / (2 * R),
 )
 _two_radii = (
     Piecewise((x**2 / (2 * R1), x < 0), (x**2 / (2 * R), True)),
     Max(0, x) ** 2 / (2 * R) + Min(0, x) ** 2 / (2 * R1),
-    x**2 * Heaviside(x) / (2 * R) + x**2 * Heaviside(-x) / (2 * R1),
     x**2 * ((1 + sign(x)) / R + (1 - sign(x)) / R1) / 4,
 )
 
@@ -122,9 +107,6 @@ def test_every_form_of_two_radii_has_one_slope(g: Expr) -> None:
     "g",
     [
         phi * (Abs(beyond) + Abs(x)),  # phi (b - |x| + |x|) within, phi (2|x| - b) beyond
-        phi * Max(b, 2 * Abs(x) - b),
-        phi * (Abs(x - b) + Abs(x + b)) - phi * b,
-        phi * (b + 2 * Max(0, Abs(x) - b)),
         phi * Max(b, 2 * x - b, -2 * x - b),
     ],
     ids=str,
@@ -149,14 +131,10 @@ def test_the_slope_is_the_derivative_by_hand(name: str) -> None:
 @pytest.mark.parametrize(
     ("g", "places", "sides"),
     [
-        (phi * Abs(x + b), ["-b"], [-1]),
         (phi * Abs(x - b), ["b"], [1]),
         (phi * (Abs(x - b) + Abs(x - 2 * b) + Abs(x + 3 * b)), ["-3*b", "b", "2*b"], [-1, 1, 1]),
         (Max(0, x**2 - R * R1) / R, ["-sqrt(R)*sqrt(R1)", "sqrt(R)*sqrt(R1)"], [-1, 1]),
-        (phi * (Abs(x) + Abs(x - b)), ["0", "b"], [1, 1]),
         (phi * Max(Abs(x - b) - b2, 0) + x**2 / R, ["b - b2", "b + b2"], [-1, 1]),
-        (phi * Abs(x - b + b2) + x**2 / R, ["b - b2"], [-1]),
-        (x**2 / R, [], []),
     ],
     ids=str,
 )
@@ -173,13 +151,9 @@ def test_kinks_are_found_from_left_to_right(g: Expr, places: list[str], sides: l
     [
         (Max(0, x**3 - b**3) / b2**2, ["b"]),
         (Max(0, -(x**3) - b**3) / b2**2, ["-b"]),
-        (Max(0, x**5 - b**5) / b2**4, ["b"]),
-        (Max(0, x**4 - b**4) / b2**3, ["-b", "b"]),
         (Max(0, x**3 - b2 * b**2) / R**2, ["b**(2/3)*b2**(1/3)"]),
         (Max(0, (x - b) * (x**2 + b2**2)) / b2**2, ["b"]),
-        (Max(0, x**3 - 8 * b**3) / R**2 + Max(0, -(x**3) - b**3) / b2**2, ["-b", "2*b"]),
         (Max(0, x**3 - b**3, 2 * x**3 - 16 * b**3) / R**2, ["b", "15**(1/3)*b"]),
-        (Piecewise((0, x**3 < b**3), ((x**3 - b**3) / R**2, True)), ["b"]),
         (Piecewise(((x**3 - b**3) / R**2, x**3 >= b**3), (0, True)), ["b"]),
     ],
     ids=str,
@@ -189,16 +163,6 @@ def test_the_sign_of_a_cubic_beyond_its_root_is_that_of_its_first_coefficient(
 ) -> None:
     """x**3 > b**3 for x > b, whatever b is: b is not compared with one metre, as at x = b - 1."""
     assert [str(kink.position) for kink in slope(g + x**2 / R).kinks] == places
-
-
-def test_places_in_order_through_a_sum_of_positive_parameters() -> None:
-    g = (Max(0, x - b) ** 2 + Max(0, x - b - b2) ** 2 + x**2) / R
-    assert [str(k.position) for k in slope(g).kinks] == ["b", "b + b2"]
-
-
-def test_a_corner_is_a_jump_of_the_slope_itself() -> None:
-    assert [k.is_corner for k in slope(phi * Abs(x)).kinks] == [True]
-    assert [k.is_corner for k in slope(_flat_rounded[0]).kinks] == [False, False]
 
 
 @pytest.mark.parametrize(
@@ -270,20 +234,6 @@ def test_a_kink_in_the_root_of_a_square_is_that_of_a_modulus(g: Expr, modulus: E
         )
 
 
-def test_an_odd_power_of_the_modulus_is_a_kink_of_high_order() -> None:
-    radius = Symbol("R", positive=True)
-    assert read(Abs(x) ** 3 / R**2) == (-3 * x**2 / radius**2, [(0, 1, 6 * x**2 / radius**2)])
-
-
-def test_a_double_zero_of_the_curvature_is_still_convex() -> None:
-    assert slope((x - b) ** 4 / R**3).kinks == ()
-
-
-@pytest.mark.parametrize("power", [6, 8], ids=str)
-def test_a_zero_of_the_curvature_of_high_order_is_still_convex(power: int) -> None:
-    assert slope((x - b) ** power / R ** (power - 1)).kinks == ()
-
-
 _coefficient = st.fractions(min_value=Fraction(1, 8), max_value=4, max_denominator=8)
 
 
@@ -314,71 +264,13 @@ def test_any_sum_of_convex_ramps_is_read_right(
 
 
 @pytest.mark.parametrize(
-    "g",
-    [
-        -(x**2) / R,
-        phi * Abs(x) - x**2 / R,
-        (x**2 - b**2) ** 2 / b**3,
-        x**3 / R**2,
-        x**2 / R + x**3 / R**2,
-        x**3 * Abs(x) / R**3,
-        -phi * Abs(x),
-        phi * Abs(beyond),
-        Piecewise((x**2 / R, x < b), (b**2 / R, True)),
-        phi * Min(x, 2 * x),
-        R - sqrt(x**4) / R,
-        Abs(x**2 - b**2) / R,
-    ],
-    ids=str,
-)
-def test_a_body_that_is_not_convex_is_refused(g: Expr) -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert "is not convex" in caught.value.why
-    assert "make it convex" in caught.value.remedy
-
-
-@pytest.mark.parametrize(
-    ("g", "step", "place"),
-    [
-        (Piecewise((x**2 / R, x < 0), (x**2 / R + b, True)), "b", "0"),
-        (phi * Abs(x) + b * Heaviside(x), "b", "0"),
-        (Piecewise((phi * b, Abs(x) < b), (2 * phi * Abs(x), True)), "b*phi", "b"),
-        (b * sign(x) + x**2 / R, "2*b", "0"),
-    ],
-    ids=str,
-)
-def test_a_body_with_a_step_is_refused(g: Expr, step: str, place: str) -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert caught.value.why.startswith("jumps by")
-    assert step in caught.value.why
-    assert place in caught.value.why
-    assert "shift one piece" in caught.value.remedy
-
-
-@pytest.mark.parametrize(
-    "g", [phi * x, b * 1, phi * x + b, Abs(b), phi * (Max(0, x) - Max(0, -x)), 0], ids=str
-)
-def test_a_straight_body_is_refused(g: Expr) -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert caught.value.why.startswith("is straight")
-    without = not sympify(g).has(x)
-    assert ("there is no x in it" in caught.value.why) == without
-    assert ("with it" if without else "convex somewhere") in caught.value.remedy
-
-
-@pytest.mark.parametrize(
     ("g", "domain", "limits", "cuts"),
     [
         (R * cosh(x / R), (-oo, oo), (-oo, oo), (0,)),
         (R * exp(x / R), (-oo, oo), (0, oo), (0,)),
         (sqrt(x**2 + R**2), (-oo, oo), (-1, 1), (0,)),
-        (sqrt((x - b) ** 2 + R**2), (-oo, oo), (-1, 1), (b,)),
         (R - sqrt(R**2 - x**2), (-R, R), (-oo, oo), (0,)),
         (Abs(x) ** Rational(3, 2) / sqrt(R), (-oo, oo), (-oo, oo), (0,)),
-        (R**2 / (R + x), (-R, oo), (-oo, 0), (0,)),
         pytest.param(
             Max(0, Abs(x) - b) ** Rational(5, 2) / R ** Rational(3, 2),
             *((-oo, oo), (-oo, oo), (-b, b)),
@@ -401,41 +293,12 @@ def test_what_is_no_polynomial_on_its_pieces_is_read_all_the_same(
 
 k = parameter("k", "exponent", unit="-")
 
-NOT_REAL = [
-    (-sqrt(b * x), "is not real near x = -0.001"),
-    (b * (x / b) ** Rational(4, 3), "is not real near x = -0.001"),
-    (x * log(x / b), "is not real near x = -0.001"),
-    (x**2 / R - b * log((x - b) / b), "is not real near x = -0.001"),
-    (-b * log(x / b), "is infinite at x = 0"),
-    (-b * log(x / b) + x**2 / (2 * R), "is infinite at x = 0"),
-    (-b * log(Abs(x) / b), "is infinite at x = 0"),
-    (-b * log(x**2 / b**2), "is infinite at x = 0"),
-    (b**2 / Abs(x), "is infinite at x = 0"),
-    (b**3 / x**2, "is infinite at x = 0"),
-    (b ** (k + 1) * Abs(x) ** -k, "is infinite at x = 0"),
-    (b * exp(b**2 / x**2), "is infinite at x = 0"),
-    (b**3 / (x - b) ** 2 + phi * Abs(x) + phi * Max(0, x - 2 * b), "is infinite at x = b"),
-    (b * (Abs(x) / b) ** k * log(Abs(x) / b) + x**2 / R, "has no value at x = 0"),
-    (phi * sqrt((x - b) ** 3 / b) + x**2 / R, "is not real near x = 4.2"),
-]
-"""Each has a curvature that is real, and positive where it is, on both sides of the place."""
-
-
-@pytest.mark.parametrize(("g", "why"), NOT_REAL, ids=str)
-def test_a_body_that_is_not_real_and_finite_around_the_origin_is_refused(g: Expr, why: str) -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert caught.value.why == why
-    assert "real and finite on both sides of x = 0" in caught.value.remedy
-    assert "shift it along x" in caught.value.remedy
-
 
 @pytest.mark.parametrize(
     ("g", "domain"),
     [
         (-b * log((x + b) / b), (-b, oo)),
         (-b * log(1 - x**2 / b**2), (-b, b)),
-        (b**3 / (x - b) ** 2 + phi * Abs(x), (-oo, b)),
         (b * (x**2 / b**2) ** Rational(3, 4), (-oo, oo)),
     ],
     ids=str,
@@ -477,64 +340,6 @@ def test_a_corner_whose_sign_hangs_on_a_parameter() -> None:
     assert [str(demand) for demand in found.demands] == ["phi > 1/200"]
 
 
-@pytest.mark.parametrize("g", [floor(x / R) * R, R * zeta(2 + x**2 / R**2)], ids=str)
-def test_a_function_that_cannot_be_derived_with_is_named(g: Expr) -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert "a function of x that cannot be derived with" in caught.value.why
-    assert "cosh" in caught.value.remedy
-
-
-@pytest.mark.parametrize(
-    "g",
-    [Max(0, R * cosh(x / R) - 2 * x**2 / R), Abs(R * cosh(x / R) - R)],
-    ids=str,
-)
-def test_a_branch_at_a_place_that_is_no_root_of_a_polynomial_is_refused(g: Expr) -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert "no polynomial in x" in caught.value.why
-    assert "polynomials" in caught.value.remedy
-
-
-@pytest.mark.parametrize(
-    "g",
-    [
-        Piecewise((x**2 / R, x < 0)),
-        Piecewise((x**2 / R, x < 0), (x**2 / R1, x > b)),
-        Piecewise((x**2 / R, Abs(x) > b)),
-    ],
-    ids=str,
-)
-def test_a_gap_in_a_piecewise_is_refused(g: Expr) -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert "is not defined near" in caught.value.why
-    assert "(expression, True)" in caught.value.remedy
-
-
-@pytest.mark.parametrize(
-    ("g", "larger"),
-    [
-        ((Max(0, x - b) ** 2 + Max(0, x - b2) ** 2) / R, "b2 = b + gap"),
-        (phi * (Abs(x - b) + Abs(x - b2)), "b2 = b + gap"),
-        (Max(0, phi * x, psi * x) + x**2 / R, "psi = phi + gap"),
-    ],
-    ids=str,
-)
-def test_kinks_of_open_order_are_refused(g: Expr, larger: str) -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert "order is open" in caught.value.why
-    assert larger in caught.value.remedy
-
-
-def test_what_the_refusal_of_an_open_order_proposes_is_accepted() -> None:
-    gap = parameter("gap", "by how much further", unit="m")
-    kinks = slope(phi * Abs(x - b) + psi * Abs(x - b - gap)).kinks
-    assert [str(kink.position) for kink in kinks] == ["b", "b + gap"]
-
-
 def test_two_parabolas_need_to_be_told_which_is_wider() -> None:
     """(x/(x - b))^2 = R1/R has two real roots unless R1 = R; x/(x - b) = sqrt(R1/R) > 0 lies beyond
     b where R1 > R, on the other side of the origin where R1 < R."""
@@ -549,32 +354,6 @@ def test_two_parabolas_need_to_be_told_which_is_wider() -> None:
     assert [float(place) for place in places] == pytest.approx([-1, 1 / 3], rel=1e-14)
 
 
-@pytest.mark.parametrize(
-    "g",
-    [Max(x**2 / (2 * R), x**2 / (2 * R1) - b), Max(0, x**2 - (R - R1) * b) / b],
-    ids=["two parabolas", "a difference under the root"],
-)
-def test_a_switch_that_may_or_may_not_be_real_is_not_overlooked(g: Expr) -> None:
-    """Where both parabolas meet depends on which is wider; the smaller must not win silently."""
-    with pytest.raises(BadProfile) as caught:
-        slope(g)
-    assert "may be real or not" in caught.value.why
-
-
-@pytest.mark.parametrize(
-    "g",
-    [
-        Piecewise((x**2 / (2 * R), x**5 - b**4 * x - b**5 < 0), (x**2 / R, True)),
-        x**2 / R + Max(0, x**5 - b**4 * x - b**5) / b**4,
-    ],
-    ids=["in a condition", "in a maximum"],
-)
-def test_a_switch_that_no_root_is_known_of_is_not_overlooked(g: Expr) -> None:
-    """x^5 - b^4 x - b^5 changes its sign near x = 1.17 b, and has no root in radicals."""
-    with pytest.raises(BadProfile):
-        slope(g)
-
-
 def test_a_switch_beside_another_is_not_taken_for_it() -> None:
     """x**2/(2 R) < -1e-30 x between -2e-30 R and 0; of a binary 1e-30 SymPy finds 0 alone."""
     radius = Symbol("R", positive=True)
@@ -584,41 +363,83 @@ def test_a_switch_beside_another_is_not_taken_for_it() -> None:
         assert len(slope(Max(x**2 / (2 * R), -small * x)).kinks) == 2
 
 
-@pytest.mark.parametrize(
-    "g",
-    [
+REFUSED = {
+    "is not convex; make it convex": [
+        -(x**2) / R,
+        x**3 / R**2,
+        -phi * Abs(x),
+        Piecewise((x**2 / R, x < b), (b**2 / R, True)),
+        Abs(x**2 - b**2) / R,
+    ],
+    "jumps by b at x = 0; shift one piece": [Piecewise((x**2 / R, x < 0), (x**2 / R + b, True))],
+    "jumps by -b*phi at x = -b; shift one piece": [
+        Piecewise((phi * b, Abs(x) < b), (2 * phi * Abs(x), True)),
+    ],
+    "is straight; convex somewhere": [phi * x + b, phi * (Max(0, x) - Max(0, -x))],
+    "is straight, as there is no x in it; with it": [Abs(b), 0],
+    # Each of these has a curvature that is real, and positive where it is, around the place.
+    "is not real near x = -0.001; real and finite on both sides of x = 0": [
+        b * (x / b) ** Rational(4, 3),
+        x**2 / R - b * log((x - b) / b),
+    ],
+    "is not real near x = 4.2; shift it along x": [phi * sqrt((x - b) ** 3 / b) + x**2 / R],
+    "is infinite at x = 0; shift it along x": [
+        -b * log(x / b),
+        -b * log(Abs(x) / b),
+        b**2 / Abs(x),
+        b ** (k + 1) * Abs(x) ** -k,
+    ],
+    "is infinite at x = b; shift it along x": [
+        b**3 / (x - b) ** 2 + phi * Abs(x) + phi * Max(0, x - 2 * b)
+    ],
+    "has no value at x = 0; shift it along x": [b * (Abs(x) / b) ** k * log(Abs(x) / b) + x**2 / R],
+    "a function of x that cannot be derived with; cosh": [
+        floor(x / R) * R,
+        R * zeta(2 + x**2 / R**2),
+    ],
+    "no polynomial in x; polynomials": [
+        Max(0, R * cosh(x / R) - 2 * x**2 / R),
+        Abs(R * cosh(x / R) - R),
+    ],
+    "is not defined near; (expression, True)": [
+        Piecewise((x**2 / R, x < 0)),
+        Piecewise((x**2 / R, Abs(x) > b)),
+    ],
+    "order is open; b2 = b + gap": [(Max(0, x - b) ** 2 + Max(0, x - b2) ** 2) / R],
+    "order is open; psi = phi + gap": [Max(0, phi * x, psi * x) + x**2 / R],
+    # Where both parabolas meet depends on which is wider; the smaller must not win silently.
+    "may be real or not; ": [
+        Max(x**2 / (2 * R), x**2 / (2 * R1) - b),
+        Max(0, x**2 - (R - R1) * b) / b,
+    ],
+    # A point sticks out between two pieces, which meet as if it were not there.
+    "has the value ; continuous": [
         Piecewise((-b, Eq(x, 0)), (x**2 / R, True)),
-        Piecewise((x**2 / R, Ne(x, 0)), (-b, True)),
-        Piecewise((-b, x**2 <= 0), (x**2 / R, True)),
         Piecewise((0, x < 0), (b, Eq(x, b) | Eq(x, 2 * b)), (x**2 / R, True)),
         x**2 / R + b * sign(x) ** 2,
     ],
-    ids=str,
+    # x^5 - b^4 x - b^5 changes its sign near x = 1.17 b, and has no root in radicals.
+    "; ": [
+        Piecewise((x**2 / (2 * R), x**5 - b**4 * x - b**5 < 0), (x**2 / R, True)),
+        x**2 / R + Max(0, x**5 - b**4 * x - b**5) / b**4,
+    ],
+    "; use <, <=, >, >=": [Piecewise((beyond**2 / R, Xor(x > -b, x < b)), (0, True))],
+}
+"""Bodies by why they are refused, and what the remedy says."""
+
+
+@pytest.mark.parametrize(
+    ("words", "g"), [(words, g) for words, bodies in REFUSED.items() for g in bodies], ids=str
 )
-def test_a_point_that_sticks_out_is_refused(g: Expr) -> None:
-    """It lies between two pieces, which meet as if it were not there."""
+def test_a_body_that_will_not_do_is_refused_with_the_reason(words: str, g: Expr) -> None:
+    why, remedy = words.split("; ")
     with pytest.raises(BadProfile) as caught:
         slope(g)
-    assert caught.value.why.startswith("has the value ")
-    assert "continuous" in caught.value.remedy
+    assert why in caught.value.why
+    assert remedy in caught.value.remedy
 
 
-def test_an_unusual_condition_is_refused() -> None:
-    with pytest.raises(BadProfile) as caught:
-        slope(Piecewise((beyond**2 / R, Xor(x > -b, x < b)), (0, True)))
-    assert "use <, <=, >, >=" in caught.value.remedy
-
-
-@pytest.mark.slow
-def test_whether_a_body_is_accepted_does_not_hang_on_its_name() -> None:
-    """Convex for psi > phi only: the same answer under every name."""
-    g = Piecewise((-phi * x, x < 0), ((psi - 2 * phi) * x, True))
-
-    def accepted(name: str) -> bool:
-        try:
-            slope(g, name)
-        except BadProfile:
-            return False
-        return True
-
-    assert len({accepted(f"n{i}") for i in range(32)}) == 1
+def test_what_the_refusal_of_an_open_order_proposes_is_accepted() -> None:
+    gap = parameter("gap", "by how much further", unit="m")
+    kinks = slope(phi * Abs(x - b) + psi * Abs(x - b - gap)).kinks
+    assert [str(kink.position) for kink in kinks] == ["b", "b + gap"]

@@ -21,20 +21,16 @@ from sympy import (
     Piecewise,
     Rational,
     Symbol,
-    acosh,
     atan,
     cosh,
-    exp,
-    log,
     pi,
     sign,
     sqrt,
     symbols,
-    tan,
 )
 
 from derive.errors import BadText
-from derive.symbols import RESERVED, x
+from derive.symbols import x
 from derive.writing.grammar import DEEPEST, parse
 from derive.writing.limits import LARGEST, MOST_TERMS, STEEPEST, reach, terms
 from derive.writing.meaning import names, read
@@ -47,70 +43,40 @@ third = Rational(1, 3)
 
 ACCEPTED = [
     ("x**2/(2*R)", x**2 / (2 * R)),
-    ("  x ** 2\t/ (2*R)\n", x**2 / (2 * R)),
-    ("phi*Abs(x)", phi * Abs(x)),
     ("phi*abs(x)", phi * Abs(x)),
     ("0.5*x**2/R", x**2 / (2 * R)),
-    (".5*x**2/R", x**2 / (2 * R)),
     ("5e-1*x**2/R", x**2 / (2 * R)),
     ("1E+2*x", 100 * x),
-    ("2.*x", 2 * x),
     ("0.1*x", Rational(1, 10) * x),
-    ("1e-3*x", x / 1000),
     ("007*x", 7 * x),
     ("1/3*x", x / 3),
     ("Abs(x)**(1/3)*b**(2/3)", Abs(x) ** third * b ** (2 * third)),
     ("abs(x)**1.5/sqrt(R)", Abs(x) ** Rational(3, 2) / sqrt(R)),
-    ("Abs(x)**k*b**(1 - k)", Abs(x) ** k * b ** (1 - k)),
     ("-x**2/R", -(x**2) / R),
-    ("(-x)**2/R", x**2 / R),
-    ("-x*-b/R", x * b / R),
     ("x**-2", x**-2),
-    ("x**+2", x**2),
     ("x**2**3", x**8),
-    ("(x**2)**3/R", x**6 / R),
     ("2**-1*x", x / 2),
-    ("--x", x),
     ("---x + +b", b - x),
-    ("x - b - R", x - b - R),
     ("x - (b - R)", x - b + R),
-    ("x/b/R", x / b / R),
     ("x/(b/R)", x * R / b),
-    ("x/b*R", x * R / b),
-    ("2*(x + b)*R", 2 * (x + b) * R),
-    ("Abs(x)*(x + b)*2/R", Abs(x) * (x + b) * 2 / R),
-    ("x**2/2/(R + b)", x**2 / 2 / (R + b)),
     ("sqrt(x**2 + b**2)*phi", sqrt(x**2 + b**2) * phi),
-    ("sqrt(x**2)*phi", Abs(x) * phi),
     ("Max(0, x - b)**2/R", Max(0, x - b) ** 2 / R),
     ("max(x, -x, b)", Max(x, -x, b)),
-    ("Max(b)", b),
     ("-min(x, -x)", -Min(x, -x)),
     ("x*sign(x) + x*Heaviside(x - b)", x * sign(x) + x * Heaviside(x - b)),
     ("R*cosh(x/R) - R", R * cosh(x / R) - R),
-    ("b*exp(x/b) + b*log(1 + x**2/b**2)", b * exp(x / b) + b * log(1 + x**2 / b**2)),
     ("x*atan(x/b)*2/pi", x * atan(x / b) * 2 / pi),
-    ("b*acosh(2)*tan(phi)", b * acosh(2) * tan(phi)),
     ("Piecewise((0, Abs(x) <= b), (x**2, True))", Piecewise((0, Abs(x) <= b), (x**2, True))),
-    ("Piecewise((b, x < 0))", Piecewise((b, x < 0))),
     ("Piecewise((0, -b < x < b), (x, True))", Piecewise((0, (-b < x) & (x < b)), (x, True))),
     ("Piecewise((0, x > -b and x < b), (x, True))", Piecewise((0, (x > -b) & (x < b)), (x, True))),
-    ("Piecewise((0, x > -b & x < b), (x, True))", Piecewise((0, (x > -b) & (x < b)), (x, True))),
     ("Piecewise((x, x < -b or b < x), (b, True))", Piecewise((x, (x < -b) | (b < x)), (b, True))),
-    ("Piecewise((x, x < -b | x > b), (b, True))", Piecewise((x, (x < -b) | (x > b)), (b, True))),
     ("Piecewise((x, not x < b), (b, True))", Piecewise((x, ~(x < b)), (b, True))),
     ("Piecewise((x, ~(x < b)), (b, True))", Piecewise((x, ~(x < b)), (b, True))),
-    ("Piecewise((x, not not x < b), (b, True))", Piecewise((x, x < b), (b, True))),
-    (
-        "Piecewise((x, x < b or x > R and x > k), (b, True))",
-        Piecewise((x, (x < b) | ((x > R) & (x > k))), (b, True)),
-    ),
     (
         "Piecewise((x, (x < b or x > R) and x > k), (b, True))",
         Piecewise((x, ((x < b) | (x > R)) & (x > k)), (b, True)),
     ),
     ("Piecewise((x, 0 < x), (b, True))", Piecewise((x, x > 0), (b, True))),
-    ("(((x)))", x),
     ("x0_1*x", Symbol("x0_1", positive=True) * x),
 ]
 
@@ -118,11 +84,6 @@ ACCEPTED = [
 @pytest.mark.parametrize(("text", "expr"), ACCEPTED, ids=[text for text, _ in ACCEPTED])
 def test_a_text_is_read_as_what_it_says(text: str, expr: Expr) -> None:
     assert read(text) == expr
-
-
-def test_numbers_are_exact() -> None:
-    assert not read("0.1*x + 1e-30*b").atoms(sympy.Float)
-    assert read("0.3*x").coeff(x) == Rational(3, 10)
 
 
 def test_names_come_in_the_order_of_the_text() -> None:
@@ -141,44 +102,24 @@ def test_every_function_of_the_list_is_callable_and_told() -> None:
 
 CODE = [
     ("__import__('os').system('touch X')", 0, "cannot be a name", "choose another"),
-    ("x + __import__('os')", 4, "cannot be a name", "import0"),
     ("eval('1')", 0, "eval is no function", "a function of those"),
-    ("exec(x)", 0, "exec is no function", "product"),
-    ("open(x)", 0, "open is no function", "product"),
     ("().__class__", 1, "missing before )", "write it"),
-    ("(x).__class__", 3, "attributes", "decimal point"),
     ("x.real", 1, "attributes", "decimal point"),
-    ("x._eval_subs", 1, "attributes", "decimal point"),
-    ("1 .real", 2, "attributes", "decimal point"),
-    ("sqrt.__globals__", 4, "attributes", "decimal point"),
     ("os.system(x)", 2, "attributes", "decimal point"),
     ("lambda: 0", 0, "lambda cannot stand", "leave it out"),
-    ("lambda x: x", 0, "lambda cannot stand", "leave it out"),
     ("f'{x}'", 0, "taken by the theory", "f0"),
-    ("F'{x}'", 1, "quotes", "leave it out"),
     ("'x'", 0, "quotes", "leave it out"),
-    ('x + "b"', 4, "quotes", "leave it out"),
-    ("`x`", 0, "quotes", "leave it out"),
     ("(y := x)", 3, "assigned", "right-hand side"),
-    ("y = x", 2, "assigned", "right-hand side"),
     ("x[0]", 1, "[ ]", "( )"),
-    ("[x]", 0, "[ ]", "( )"),
-    ("[x for x in b]", 0, "[ ]", "( )"),
     ("(x for x in b)", 3, "for cannot stand", "leave it out"),
     ("{x}", 0, "{ }", "( )"),
-    ("{x: b}", 0, "{ }", "( )"),
     ("Max(*x)", 4, "missing before *", "write it"),
-    ("Max(**x)", 4, "missing before **", "write it"),
     ("Max(x, evaluate=False)", 15, "assigned", "right-hand side"),
     ("x; b", 1, "; ends", "leave it out"),
     ("x if b else R", 2, "if cannot stand", "Piecewise"),
-    ("import os", 0, "import cannot stand", "leave it out"),
     ("x\\b", 1, "\\ stands for nothing", "LaTeX"),
-    ("\\frac{x}{b}", 0, "\\ stands for nothing", "LaTeX"),
     ("x # y", 2, "comments", "--title"),
     ("x @ b", 2, "matrices", "write *"),
-    ("await x", 0, "await cannot stand", "leave it out"),
-    ("None", 0, "None cannot stand", "leave it out"),
     ("...", 0, "attributes", "decimal point"),
 ]
 
@@ -186,140 +127,80 @@ CHARACTERS = [
     ("x^2/R", 1, "^ is no power", "write **"),
     ("x²/R", 1, "SUPERSCRIPT TWO (U+00B2)", "write **"),
     ("х**2/R", 0, "CYRILLIC SMALL LETTER HA (U+0445)", "ASCII"),
-    ("phi*аbs(x)", 4, "CYRILLIC SMALL LETTER A", "ASCII"),
     ("φ*x", 0, "GREEK SMALL LETTER PHI", "ASCII"),
-    ("2*π", 2, "GREEK SMALL LETTER PI", "write pi"),
     ("x − b", 2, "MINUS SIGN (U+2212)", "write -"),
-    ("x – b", 2, "EN DASH", "write -"),
-    ("2×x", 1, "MULTIPLICATION SIGN", "write *"),
     ("2·x", 1, "MIDDLE DOT", "write *"),
-    ("x÷2", 1, "DIVISION SIGN", "write /"),
     ("√x", 0, "SQUARE ROOT", "sqrt"),
-    ("½*x", 0, "VULGAR FRACTION", "1/2"),
     ("１*x", 0, "FULLWIDTH DIGIT ONE", "ASCII"),
-    ("٣*x", 0, "ARABIC-INDIC DIGIT THREE", "ASCII"),
     ("x\u00a0+ b", 1, "NO-BREAK SPACE", "ASCII"),
-    ("x\u200b", 1, "ZERO WIDTH SPACE", "ASCII"),
     ("x\u202e + b", 1, "RIGHT-TO-LEFT OVERRIDE", "ASCII"),
     ("x\0", 1, "'\\x00' is a character without a name", "ASCII"),
-    ("x\x1b[31m", 1, "'\\x1b'", "ASCII"),
     ("x\udc80", 1, "U+DC80", "ASCII"),
-    ("x\ufeff", 1, "ZERO WIDTH NO-BREAK SPACE", "ASCII"),
-    ("😀", 0, "GRINNING FACE", "ASCII"),
     ("x == b", 2, "== is no condition", "<="),
-    ("x != b", 2, "!= is no condition", "<="),
-    ("x!", 1, "! stands", "leave it out"),
     ("x // 2", 2, "rounds down", "write /"),
     ("x % 2", 2, "% stands", "0.05"),
     ("x << 2", 2, "<< is no condition", "write <"),
-    ("x >> 2", 2, ">> is no condition", "write >"),
     ("$x$", 0, "$ stands", "LaTeX"),
 ]
 
 GRAMMAR = [
     ("", 0, "empty", "x**2/(2*R)"),
-    ("   ", 3, "empty", "x**2/(2*R)"),
     ("2x", 1, "operator is missing", "2*x"),
-    ("2 x", 2, "operator is missing", "2*x"),
-    ("x R", 2, "operator is missing", "2*x"),
-    ("x 2", 2, "operator is missing", "2*x"),
     ("2(x)", 1, "operator is missing", "2*x"),
-    ("(x)(b)", 3, "operator is missing", "2*x"),
-    ("(x)b", 3, "operator is missing", "2*x"),
     ("1_000*x", 1, "operator is missing", "2*x"),
-    ("0x10", 1, "operator is missing", "2*x"),
-    ("1.2.3*x", 3, "operator is missing", "2*x"),
-    ("2e*x", 1, "operator is missing", "2*x"),
     ("R(x)", 0, "R is no function", "R*(...)"),
-    ("x(x + 1)", 0, "x is no function", "x*(...)"),
-    ("pi(2)", 0, "pi is no function", "pi*(...)"),
     ("gamma(x)", 0, "gamma is no function", "gamma*(...)"),
-    ("Symbol(x)", 0, "Symbol is no function", "Symbol*(...)"),
     ("Abs*x", 0, "Abs is a function", "Abs(...)"),
-    ("x + Max", 4, "Max is a function", "Max(...)"),
     ("Abs()", 4, "missing before )", "write it"),
     ("Abs(x, b)", 0, "Abs takes one argument, here are 2", "rest"),
-    ("log(x, 10)", 0, "log takes one argument", "rest"),
     (f"Max({', '.join('x' * 21)})", 0, "Max takes at most 20", "rest"),
-    ("Max(x,)", 6, "missing before )", "write it"),
     ("Max(x b)", 6, "operator is missing", "2*x"),
     ("x +", 3, "ends too early", "write a number"),
     ("x + * b", 4, "missing before *", "write it"),
-    ("x***2", 3, "missing before *", "write it"),
     ("*x", 0, "missing before *", "write it"),
-    ("/x", 0, "missing before /", "write it"),
     ("(x", 2, "not closed", "add )"),
-    ("Abs(x", 5, "not closed", "add )"),
     ("x)", 1, "closes nothing", "add ("),
     ("2,5*x", 1, "a comma", "2.5"),
-    ("(1, 2, 3)", 5, "a comma", "2.5"),
     ("|x|", 0, "|x| is no absolute value", "Abs(x)"),
-    ("phi*|x|", 4, "|x| is no absolute value", "Abs(x)"),
     ("x ~ b", 2, "~ cannot stand", "leave it out"),
-    ("x not b", 2, "not cannot stand", "leave it out"),
-    ("x + not b", 4, "not cannot stand", "leave it out"),
     ("and x", 0, "and cannot stand", "leave it out"),
     ("(" * 10**6 + "x" + ")" * 10**6, LONGEST, "2000001 characters", "shorten"),
     ("(" * 200 + "x" + ")" * 200, DEEPEST, "nested deeper than 30", "fewer"),
-    ("Abs(" * 200 + "x" + ")" * 200, 4 * DEEPEST + 3, "nested deeper than 30", "fewer"),
     ("x**" * 200 + "x", 3 * DEEPEST + 1, "nested deeper than 30", "fewer"),
     ("x" * (LONGEST + 1), LONGEST, "characters", "shorten"),
 ]
 
 NAMES = [
     ("n*x", 0, "parameter 'n' is taken by the theory", "such as n0"),
-    ("x**2 + a", 7, "parameter 'a' is taken by the theory", "such as a0"),
-    ("E_star*x", 0, "taken by the theory", "E_star0"),
     ("x*w_1", 2, "taken by the theory", "letters and digits"),
     ("x*I", 2, "taken by the theory", "such as I0"),
-    ("x*oo", 2, "taken by the theory", "such as oo0"),
     ("_b*x", 0, "cannot be a name", "such as b0"),
     ("Geometry*x", 0, "used by the geometry file itself", "Geometry0"),
-    ("x*Rational", 2, "used by the geometry file itself", "Rational0"),
 ]
 
 MEANING = [
     ("x < b", 2, "a condition is no value", "Piecewise"),
-    ("x & b", 2, "a condition is no value", "Piecewise"),
     ("not x", 0, "a condition is no value", "Piecewise"),
-    ("x*True", 2, "a condition is no value", "Piecewise"),
-    ("(x < b)*x", 3, "a condition is no value", "Piecewise"),
     ("Abs(x < b)", 6, "a condition is no value", "Piecewise"),
     ("(x, b)", 0, "a pair stands in a Piecewise only", "Piecewise"),
-    ("x*(2,5)", 2, "a pair stands in a Piecewise only", "decimal"),
     ("Piecewise(x)", 10, "Piecewise takes pairs", "(value, condition)"),
-    ("Piecewise(x, x < b)", 10, "Piecewise takes pairs", "(value, condition)"),
     ("Piecewise((x, b))", 14, "a value is no condition", "x < b"),
-    ("Piecewise((x, x + b))", 16, "a value is no condition", "x < b"),
     ("Piecewise((x, x and b))", 14, "a value is no condition", "x < b"),
-    ("Piecewise((x, (x, True)))", 14, "a pair stands in", "Piecewise"),
-    ("Piecewise((x < b, True))", 13, "a condition is no value", "Piecewise"),
     ("Piecewise((x, 1 < 2))", 16, "compares two constants", "compare x"),
     ("Piecewise((x, x > x))", 0, "is not finite", "another"),
     ("1/0", 1, "is not finite", "another"),
-    ("x/(b - b)", 1, "is not finite", "another"),
-    ("0**-1", 1, "is not finite", "another"),
     ("log(0)*x", 0, "is not finite", "another"),
-    ("tan(pi/2)", 0, "is not finite", "another"),
     ("sqrt(-1)*x", 0, "is not real", "another"),
-    ("(-8)**(1/3)", 4, "is not real", "another"),
-    ("sqrt(-x**2 - b)", 0, "is not real", "another"),
     ("acos(2)*x", 0, "is not real", "another"),
-    ("9**9**9", 1, "exponent is too large", "100"),
     ("9**9**9**9", 4, "exponent is too large", "100"),
     ("x**101", 1, "exponent is too large", "100"),
-    ("2**((b + 100)**100)", 1, "exponent is too large", "100"),
     ("2**(b*1e99)", 1, "exponent is too large", "100"),
-    ("1.000001**1000000", 8, "exponent is too large", "100"),
     ("(1.000001**100)**100", 9, "too large or too small", "another"),
     ("((x + b)**100)**100", 14, "powers above 100", "another"),
     ("(x + b + R + k)**50", 15, "1000 terms", "another"),
     ("x**60*x**60", 5, "powers above 100", "another"),
     ("exp(exp(exp(9)))", 4, "too large or too small", "another"),
-    ("exp(-exp(9))", 0, "too large or too small", "another"),
     ("1e101*x", 0, "number is too long", "40 digits"),
-    ("1e999999999*x", 0, "number is too long", "40 digits"),
-    ("1e-999999999*x", 0, "number is too long", "40 digits"),
     ("9" * 1000, 0, "number is too long", "40 digits"),
     ("*".join(["1e90"] * 20), 4, "too large or too small", "another"),
 ]
@@ -355,31 +236,6 @@ def test_a_bad_text_is_refused_at_its_place(text: str, column: int, why: str, re
     assert len(shown) < 100
     assert shown.isprintable()
     assert len(error.message.splitlines()) == 4
-
-
-@pytest.mark.parametrize("name", sorted(RESERVED - set(FUNCTIONS) - {"x", "pi"}))
-def test_no_name_of_the_theory_becomes_a_parameter(name: str) -> None:
-    with pytest.raises(BadText) as caught:
-        read(f"x + {name}")
-    assert caught.value.column == 4
-
-
-def test_a_long_text_is_shown_around_the_caret() -> None:
-    text = "x + " * 100 + "^" + " + b" * 100
-    with pytest.raises(BadText) as caught:
-        read(text)
-    shown, place = caret(caught.value.message)
-    assert shown.strip().startswith("...")
-    assert shown.endswith("...")
-    assert shown[place] == "^"
-
-
-def test_blanks_are_shown_as_one_column() -> None:
-    with pytest.raises(BadText) as caught:
-        read("x\t+\n^")
-    shown, place = caret(caught.value.message)
-    assert shown == "    x + ^"
-    assert place == 8
 
 
 def test_nothing_is_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -478,20 +334,14 @@ def read_or_skip(text: str) -> Expr:
 
 
 @pytest.mark.slow
-@settings(max_examples=200)
+@settings(max_examples=150)
 @given(formulas())
-def test_a_text_means_what_it_means_in_python(pair: Pair) -> None:
-    text, code = pair
-    assert read_or_skip(text) == computed(code)
-
-
-@pytest.mark.slow
-@settings(max_examples=200)
-@given(formulas())
-def test_the_python_that_is_written_is_exactly_what_was_read(pair: Pair) -> None:
-    expr = read_or_skip(pair[0])
+def test_a_text_means_what_it_means_in_python_and_what_is_written_of_it(pair: Pair) -> None:
+    text, wanted = pair
+    expr = read_or_skip(text)
+    assert expr == computed(wanted)
     python = Python()
-    code = python.write(parse(pair[0])).text
+    code = python.write(parse(text)).text
     assert sympy.sympify(computed(code)) == expr
     assert python.imports == set(re.findall(r"[A-Za-z]+", code)) - {"x", "R", "b", "k", "True"}
 
@@ -508,35 +358,22 @@ def test_any_text_is_read_or_refused(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "code"),
     [
-        ("1/3*x", "Rational(1, 3) * x"),
-        ("x/3", "x / 3"),
         ("x*1/3", "x * 1 / 3"),
         ("6*2/4*x", "Rational(6 * 2, 4) * x"),
         ("x**(1/3)", "x**Rational(1, 3)"),
         ("x**.5", "x**Rational(1, 2)"),
-        ("2.0*x", "2 * x"),
         ("2**-1*x", "Rational(2)**-1 * x"),
-        ("2**2*x", "2**2 * x"),
-        ("(1 - 3)/2*x", "Rational(1 - 3, 2) * x"),
         ("-1/2*x", "Rational(-1, 2) * x"),
-        ("-(1/2)*x", "-Rational(1, 2) * x"),
         ("2/sqrt(3)*x", "2 / sqrt(3) * x"),
         ("(x+b)-(x-b)", "x + b - (x - b)"),
-        ("x/(b*R)", "x / (b * R)"),
-        ("(-x)**2", "(-x)**2"),
-        ("-x**2", "-x**2"),
         ("x**-k", "x**-k"),
-        ("(x**2)**k", "(x**2)**k"),
         ("x*-b", "x * -b"),
-        ("((x))", "x"),
-        ("abs(x)", "Abs(x)"),
         ("Piecewise((0, 0 < x < b), (b, True))", "Piecewise((0, (x > 0) & (x < b)), (b, True))"),
         ("Piecewise((0, not x < b))", "Piecewise((0, ~(x < b)))"),
         (
             "Piecewise((0, (x < b or x > R) and x < k))",
             "Piecewise((0, ((x < b) | (x > R)) & (x < k)))",
         ),
-        ("Piecewise((0, pi > x))", "Piecewise((0, x < pi))"),
     ],
 )
 def test_python_keeps_the_user_s_order(text: str, code: str) -> None:
@@ -544,21 +381,7 @@ def test_python_keeps_the_user_s_order(text: str, code: str) -> None:
     assert sympy.sympify(computed(code)) == read(text)
 
 
-@pytest.mark.parametrize(
-    ("text", "needed"),
-    [
-        ("x**2/R", set()),
-        ("abs(x)/3 + 0.5*x", {"Abs", "Rational"}),
-        ("sqrt(x)*pi + max(x, 1)", {"sqrt", "pi", "Max"}),
-    ],
-)
-def test_python_knows_what_it_imports(text: str, needed: set[str]) -> None:
-    python = Python()
-    python.write(parse(text))
-    assert python.imports == needed
-
-
-@settings(max_examples=100)
+@settings(max_examples=40)
 @given(st.lists(st.lists(st.sampled_from(LEAVES), min_size=1, max_size=3), max_size=3))
 def test_the_bounds_of_what_is_multiplied_out_hold(factors: list[list[Pair]]) -> None:
     expr = Integer(1)

@@ -4,18 +4,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from sympy import (
-    Abs,
-    Heaviside,
     Integer,
     Integral,
     Max,
-    Min,
     Piecewise,
     Rational,
     Symbol,
     atan2,
     cosh,
-    elliptic_pi,
     hyper,
     log,
     sign,
@@ -44,17 +40,10 @@ def dimension(pressure: object, length: object) -> Dimension:
         ("N/m", 1, 1),
         ("rad", 0, 0),
         ("-", 0, 0),
-        ("1", 0, 0),
-        (" - ", 0, 0),
         ("1/m", 0, -1),
         ("m**3", 0, 3),
-        ("m**-2", 0, -2),
         ("m**(1/3)", 0, Rational(1, 3)),
-        ("Pa*sqrt(m)", 1, Rational(1, 2)),
         ("Pa/sqrt(m)", 1, Rational(-1, 2)),
-        ("Pa/m**(3/2)", 1, Rational(-3, 2)),
-        ("N/(m*Pa)", 0, 1),
-        ("(N/m)**2", 2, 2),
         ("m**(1 - n)", 0, 1 - n),
     ],
 )
@@ -66,23 +55,14 @@ def test_a_unit_is_read(text: str, pressure: object, metres: object) -> None:
     "text",
     [
         "kg",
-        "mm",
         "2*m",
         "m + m",
-        "m - 1",
         "m**0.5",
         "m**(1/0)",
-        "m**m**2.5",
         "m^2",
-        "sqrt(m, 2)",
         "m(",
-        "m m",
-        "f(m)",
         "m; m",
-        "'m'",
-        "m[0]",
         "__import__('os')",
-        "True",
         "m\0",
         "(" * 10_000 + "m" + ")" * 10_000,
     ],
@@ -92,12 +72,6 @@ def test_a_bad_unit_is_refused_with_a_remedy(text: str) -> None:
         parse_unit(text)
     assert repr(text) in caught.value.message
     assert "product of powers" in caught.value.message
-
-
-@pytest.mark.parametrize("given_unit", [None, 3, ["m"]], ids=repr)
-def test_a_unit_that_is_no_text_is_refused(given_unit: object) -> None:
-    with pytest.raises(BadUnit):
-        parse_unit(given_unit)  # type: ignore[arg-type]
 
 
 _unit = st.sampled_from(["m", "Pa", "N", "rad", "1", "sqrt(m)", "m**(1/3)", "N/m", "1/Pa"])
@@ -119,12 +93,8 @@ def test_units_multiply_divide_and_rise_as_their_exponents_do(
         (length * stress, "N/m"),
         (length + 3 * length, "m"),
         (sqrt(length) * stress, "Pa*sqrt(m)"),
-        (length**2 / length, "m"),
-        (Abs(length), "m"),
         (Max(0, length), "m"),
-        (Min(length, 2 * length), "m"),
         (sign(length), "-"),
-        (Heaviside(length), "-"),
         (atan2(length, 2 * length), "-"),
         (angle + 1, "-"),
         (tan(angle), "-"),
@@ -140,27 +110,16 @@ def test_the_dimension_of_an_expression(expr: object, unit: str) -> None:
     assert found.agrees(parse_unit(unit))
 
 
-def test_zero_has_every_dimension() -> None:
-    assert dimension_of(Integer(0), HELD) is None
-    check(Integer(0), "Pa", "zero", HELD)
-    check(Integer(0), "m", "zero", HELD)
-
-
 @pytest.mark.parametrize(
     "expr",
     [
         length + stress,
-        length + 1,
         Max(1, length),
         atan2(length, stress),
         cosh(length),
-        hyper((1, 2), (3,), length),
         hyper((length, 2), (3,), angle),
-        elliptic_pi(angle, stress),
         2**length,
-        angle ** (length / stress),
         Piecewise((length, length > 0), (stress, True)),
-        Piecewise((1, length > 1), (2, True)),
         Piecewise((1, length > stress), (2, True)),
         sqrt(length + length**2),
         Integral(length, (length, stress, angle)),

@@ -5,7 +5,6 @@ import logging
 import os
 import subprocess
 import sys
-import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -159,50 +158,6 @@ def test_the_quantiles_are_those_of_the_samples(monte_carlo: Any) -> None:
     found = monte_carlo.quantiles(expected(monte_carlo, samples).left)
     width = monte_carlo.LONGEST / monte_carlo.BINS
     assert np.all(np.abs(found - np.nanquantile(left, monte_carlo.QUANTILES)) < width)
-
-
-def test_the_samples_are_spread_as_they_are_said_to_be(monte_carlo: Any) -> None:
-    """Means and deviations to four standard errors, and no two quantities alike."""
-    count = 200_000
-    drawn = {name: monte_carlo.drawn(name, 0, 0, count) for name in monte_carlo.SCATTER}
-    for name, mean, deviation in (("P", 2e6, 2e5), ("M", 100.0, 30.0)):
-        assert abs(drawn[name].mean() - mean) < 4 * deviation / np.sqrt(count)
-        assert abs(drawn[name].std() / deviation - 1) < 4 / np.sqrt(2 * count)
-    assert abs(np.log(drawn["f"]).mean() - np.log(0.5)) < 4 * 0.15 / np.sqrt(count)
-    assert np.all(np.abs(np.corrcoef([*drawn.values()]) - np.eye(3)) < 4 / np.sqrt(count))
-
-
-SERVED = """
-    import sys
-    from distributed import LocalCluster
-
-    if __name__ == "__main__":
-        with LocalCluster(n_workers=1, threads_per_worker=1, host="127.0.0.1",
-                          dashboard_address="127.0.0.1:0", silence_logs=50) as cluster:
-            print(cluster.scheduler_address, flush=True)
-            sys.stdin.read()
-"""
-
-
-@pytest.mark.thorough
-def test_the_monte_carlo_runs_on_a_cluster_that_is_there(tmp_path: Path) -> None:
-    """One that was started elsewhere, and is sent the package."""
-    script = tmp_path / "served.py"
-    script.write_text(textwrap.dedent(SERVED))
-    with subprocess.Popen(
-        [sys.executable, str(script)],
-        cwd=tmp_path,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    ) as cluster:
-        assert cluster.stdout is not None and cluster.stdin is not None
-        address = cluster.stdout.readline().strip()
-        there = run("--samples=60000", "--chunk=50000", f"--scheduler={address}")
-        cluster.stdin.close()
-    here = run("--samples=60000", "--chunk=50000", "--workers=1")
-    assert there.returncode == 0, there.stderr
-    assert there.stdout.splitlines()[1:] == here.stdout.splitlines()[1:]
 
 
 @pytest.mark.parametrize(

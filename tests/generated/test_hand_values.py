@@ -151,48 +151,25 @@ def test_every_body_has_a_table() -> None:
     assert set(BODIES) == set(generated_bodies())
 
 
-def test_ids_are_unique() -> None:
-    assert len({str(row) for row in ROWS}) == len(ROWS)
-
-
-@pytest.mark.parametrize(
-    ("got", "expected", "verdict"),
-    [
-        (0.0, "0", True),
-        (-0.0, "0", True),
-        (5e-324, "0", False),
-        (np.nan, "nan", True),
-        (0.0, "nan", False),
-        (np.nan, "0", False),
-        (np.nan, "1", False),
-        (np.inf, "inf", True),
-        (-np.inf, "inf", False),
-        (1e308, "inf", False),
-        (np.inf, "1", False),
-        (1 + 4 * 2.0**-52, "1", True),
-        (1 + 5 * 2.0**-52, "1", False),
-        (-1 - 4 * 2.0**-52, "-1", True),
-        (-1 - 5 * 2.0**-52, "-1", False),
-        (1.0, "-1", False),
-    ],
-)
-def test_the_comparison_itself(got: float, expected: str, verdict: bool) -> None:
-    assert agrees(got, mpmath.mpf(expected)) is verdict
-
-
 @pytest.mark.parametrize(
     ("got", "expected", "scale", "verdict"),
     [
+        (-0.0, "0", 0.0, True),
+        (5e-324, "0", 0.0, False),
+        (np.nan, "nan", 0.0, True),
+        (0.0, "nan", 0.0, False),
+        (np.nan, "1", 0.0, False),
+        (np.inf, "inf", 0.0, True),
+        (-np.inf, "inf", 0.0, False),
+        (1 + 4 * 2.0**-52, "1", 0.0, True),
+        (1 + 5 * 2.0**-52, "1", 0.0, False),
         (1e-16, "0", 0.5, True),
         (1e-14, "0", 0.5, False),
         (2**-20 + 2.0**-52, "2**-20", 2.0, True),
         (2**-20 + 2.0**-44, "2**-20", 2.0, False),
-        (1e3, "1e3", 0.5, True),
         (np.nan, "0", 0.5, False),
-        (0.0, "nan", 0.5, False),
     ],
 )
-def test_the_comparison_with_a_scale(
-    got: float, expected: str, scale: float, verdict: bool
-) -> None:
-    assert agrees(got, evaluate(expected), ULPS_OF_SUMS, scale) is verdict
+def test_the_comparison_itself(got: float, expected: str, scale: float, verdict: bool) -> None:
+    ulps = ULPS_OF_SUMS if scale else ULPS
+    assert agrees(got, evaluate(expected), ulps, scale) is verdict

@@ -10,7 +10,7 @@ import pytest
 from mpmath import mpf
 from numpy.testing import assert_allclose
 
-from derive.library import library, load_geometry
+from derive.library import load_geometry
 from derive.units import parse_unit
 from generated import two_radii
 
@@ -52,10 +52,6 @@ def shrunk(name: str) -> tuple[dict[str, float], Any, Any]:
     """Parameters and contacts, small for the arc, which ends at its radius."""
     by = 0.25 if name == "circular_arc" else 1.0
     return OWN[name], by * A, by * C
-
-
-def test_the_tests_know_every_body() -> None:
-    assert sorted(OWN) == sorted(library())
 
 
 def states(name: str) -> tuple[Any, Any]:
@@ -137,21 +133,6 @@ def test_a_power_too_close_to_the_wedge_gives_no_number(k: float) -> None:
     assert np.isfinite(body.load(1.0, 1.5, **{**given, "k": 1.07}))
 
 
-@pytest.mark.parametrize(("k", "alpha"), [(1.1, 1e-6), (1.1, 1e-12), (1.1, 1e-25), (1.3, -1e-40)])
-def test_a_power_law_level_closer_to_its_apex_than_lengths_can_be(k: float, alpha: float) -> None:
-    """(|x|/L)**(k - 1) = alpha within 1e-100 m of it; the contact is micrometres wide all the same.
-
-    Its load and its tilt are asked back; a tilt this small does not change its width.
-    """
-    own, given = {"k": k, "L": 1e-2}, {"E_star": 115e9, "k": k, "L": 1e-2}
-    body = module("power")
-    found = body.contact_at_tilt(1e5, alpha, **given)
-    assert_allclose(body.load(found.a, found.c, **given), 1e5, rtol=1e-13)
-    assert_allclose(body.tilt(found.a, found.c, **own), alpha, atol=1e-15)
-    level = body.contact_at_tilt(1e5, 0.0, **given)
-    assert_allclose(found.a + found.c, level.a + level.c, rtol=1e-9)
-
-
 @pytest.mark.parametrize(
     ("name", "own", "load", "moment"),
     [
@@ -198,23 +179,6 @@ def test_an_edge_just_beyond_a_corner_is_met_to_its_rounding(beyond: float, tilt
     assert_allclose(again, load, rtol=2e-13)
 
 
-def test_an_edge_at_the_apex_of_a_sharp_power_by_hand() -> None:
-    """k = 3/2, L = 1, contact [-1, 0]: g'' = t**(-1/2)/2 at t = -x, and w = sqrt(t (1 - t)), so
-    P = (1/2) int g'' w = (1/4) int sqrt(1 - t) dt = 1/6.  K_N at the apex is infinite."""
-    body, own = module("power"), {"k": 1.5, "L": 1.0}
-    assert body.load(1.0, 0.0, E_star=1.0, **own) == pytest.approx(1 / 6, rel=1e-13)
-    # M = -mid P - (1/8) int g'' w (2 s + a - c) ds, mid = -1/2, and the integral is
-    # (1/2) int sqrt(1 - t) (1 - 2 t) dt = (1/2) (2/3 - 8/15) = 1/15
-    assert body.moment(1.0, 0.0, E_star=1.0, **own) == pytest.approx(1 / 12 - 1 / 120, rel=1e-13)
-
-
-def test_a_load_whose_edge_coefficients_leave_float64() -> None:
-    """cosh 690 = 1e299: K_N is infinite in float64, and P = (pi/2) r I_1(r) is not."""
-    r = 690.0
-    load = module("catenary").load(r, r, E_star=1.0, R=1.0, b=1.0)
-    assert load == pytest.approx(float(mpmath.pi / 2 * r * mpmath.besseli(1, r)), rel=1e-12)
-
-
 def test_a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> None:
     """A flank of slope phi, tilted to within 2e-14 phi or 1e-12 phi of lying level: rounding,
     2.2e-16 phi, is more than a hundredth of the one gap, and 2.2e-4 of the other."""
@@ -225,15 +189,6 @@ def test_a_tilt_that_hangs_on_its_own_rounding_has_no_contact() -> None:
     assert abs(off) <= 1e-9 + 16 * rounding(body, found.a[1], found.c[1], **given)
 
 
-def test_a_hyperbola_under_a_far_load() -> None:
-    """Its centre 1e5 to 1e9 m from a bend of half a metre, which the right edge has just left."""
-    own, a, c = {"b": 0.625, "phi": 0.125}, np.array([1e5, 1e8, 9.5e9]), np.array([-0.5, -2, -6])
-    body, given = module("hyperbola"), {"E_star": 1.0, **own}
-    found = body.contact(body.load(a, c, **given), body.moment(a, c, **given), **given)
-    assert_allclose(found.a, a, rtol=1e-13)
-    assert_allclose(found.c, c, rtol=1e-8)
-
-
 def test_a_hyperbola_tilted_almost_as_far_as_its_flanks() -> None:
     """phi (1 - 1e-3 to 1e-9) and loads over twelve decades, the load asked back."""
     own = {"b": 0.01, "phi": 0.1}
@@ -242,15 +197,6 @@ def test_a_hyperbola_tilted_almost_as_far_as_its_flanks() -> None:
     found = body.contact_at_tilt(load, 0.1 * (1 - gap), **given)
     off = np.abs(body.load(found.a, found.c, **given) / load - 1)
     assert np.all(off <= 1e-9 + 16 * rounding(body, found.a, found.c, **given))
-
-
-def test_a_load_over_the_straight_flank_of_a_wedge() -> None:
-    """All of it pressed by the apex, where g' jumps by phi; c far below a, and the centre -a/4."""
-    own = {"R": 0.05, "phi": 0.02}
-    found = module("wedge_parabola").contact(1.0, 1e-3, E_star=115e9, **own)
-    assert_allclose(found.a, 4e-3, rtol=1e-6)
-    # P = (E*/2) int g'' w ds = (E*/2) phi sqrt(a c)
-    assert_allclose(found.c, (2 * 1.0 / (115e9 * own["phi"])) ** 2 / 4e-3, rtol=1e-6)
 
 
 @EVERY

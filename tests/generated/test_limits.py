@@ -7,7 +7,6 @@ import mpmath
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy.special import iv
 
 from generated import (
     catenary,
@@ -18,7 +17,6 @@ from generated import (
     hyperbola,
     parabola_quartic,
     power,
-    quartic,
     rounded_wedge,
     two_radii,
     unequal_wedge,
@@ -76,38 +74,6 @@ def test_a_body_near_its_limit(body: Any, own: dict[str, float], limit: Any, clo
     assert_allclose(found, wanted, rtol=10 * close, err_msg="pressure")
 
 
-def test_a_quartic_under_a_centred_load_by_hand() -> None:
-    """P = (E*/2) int (3 s^2/L^3) sqrt(a^2 - s^2) ds, and int s^2 sqrt(a^2 - s^2) ds = pi a^4/8:
-    P = 3 pi E* a^4/(16 L^3); with E* = 2, L = 1, a = 2 that is 6 pi."""
-    assert_allclose(quartic.load(2.0, 2.0, E_star=2.0, L=1.0), 6 * np.pi, rtol=1e-15)
-
-
-def test_a_catenary_through_bessel_functions() -> None:
-    """g'' = cosh(s/b)/R and s = mid + (h/2) cos(theta): int cosh(s/b) sin^2 is a Bessel integral,
-
-    int_0^pi e^(z cos t) sin^2 t dt = pi I_1(z)/z,   z = h/(2 b),
-    P = (E*/2) (h/2)^2 cosh(mid/b) (pi I_1(z)/z)/R,  alpha = -(b/R) sinh(mid/b) I_0(z).
-    """
-    b, h, mid = 0.5, A + C, (C - A) / 2
-    z = h / (2 * b)
-    load = E / 2 * (h / 2) ** 2 * np.cosh(mid / b) * np.pi * iv(1, z) / z / R
-    assert_allclose(catenary.load(A, C, E_star=E, R=R, b=b), load, rtol=1e-14)
-    tilt = -b / R * np.sinh(mid / b) * iv(0, z)
-    assert_allclose(catenary.tilt(A, C, R=R, b=b), tilt, rtol=1e-13, atol=1e-15)
-
-
-def test_a_power_law_under_a_centred_load_by_the_gamma_function() -> None:
-    """P = (E*/2) 2 int_0^a (k-1) s^(k-2)/L^(k-1) sqrt(a^2 - s^2) ds, a beta function:
-
-    int_0^a s^(k-2) sqrt(a^2 - s^2) ds = a^k/2 B((k-1)/2, 3/2).
-    """
-    from scipy.special import beta
-
-    k, L, a = np.array([1.1, 1.5, 2.0, 3.7, 8.0]), 1.25, 0.75
-    load = E * (k - 1) / L ** (k - 1) * a**k / 2 * beta((k - 1) / 2, 1.5)
-    assert_allclose(power.load(a, a, E_star=E, k=k, L=L), load, rtol=1e-13)
-
-
 @pytest.mark.parametrize("k", [1.07, 1.3, 2.5, 20.0])
 def test_the_second_coefficient_of_a_centred_power_law_by_the_gamma_function(k: float) -> None:
     """r (3 + 2 r**2) = (a + s)**2 (5 a - s)/(a**2 - s**2)**(3/2), of which 5 a**3 + 3 a s**2 over
@@ -125,15 +91,6 @@ def test_the_second_coefficient_of_a_centred_power_law_by_the_gamma_function(k: 
         wanted = float(scale * betas)
     found = power.L_N(half, half, E_star=1.0, L=1.0, k=k)
     assert_allclose([*found], wanted, rtol=1e-13)
-
-
-def test_a_power_law_tends_to_the_wedge() -> None:
-    """At k = 1 it is the wedge of slope one: the polynomial through six exponents above it."""
-    k = 1 + 0.07 * np.arange(1, 7)
-    weights = [np.prod([(1 - o) / (p - o) for o in k if o != p]) for p in k]
-    found = [power.load(0.75, 0.5, E_star=E, k=p, L=1.0) for p in k]
-    wanted = wedge.load(0.75, 0.5, E_star=E, phi=1.0)
-    assert_allclose(np.dot(weights, found), wanted, rtol=1e-5)
 
 
 @pytest.mark.parametrize("place", [1.0332621980744286e-07, 1e-12, -1e-9, -1e-4, 1e-2])
@@ -156,4 +113,4 @@ def test_the_pressure_of_a_circular_arc_beside_its_lowest_point(place: float) ->
         above = [at + (right - at) * step for step in near]
         wanted = float(mpmath.quad(integrand, below) + mpmath.quad(integrand, above[::-1]))
     found = circular_arc.pressure(place, left, right, E_star=math.pi, R=3.0)
-    assert_allclose(found, wanted, rtol=1e-10)
+    assert_allclose(found, wanted, rtol=1e-13)

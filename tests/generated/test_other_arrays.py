@@ -130,14 +130,6 @@ def test_an_array_beside_edges_that_are_numbers_stays_on_the_device(name: str) -
             assert_allclose(held(one), known, rtol=1e-14)
 
 
-def test_numbers_become_float64_first_and_others_are_refused() -> None:
-    a = np.array([100, 120], np.int8)
-    found = wedge.load(OnDevice(a), 100.0, E_star=1.0, phi=0.25)
-    assert_allclose(found.held, wedge.load(a, 100.0, E_star=1.0, phi=0.25), rtol=1e-15)
-    with pytest.raises(TypeError, match="a must be a real number or an array of such"):
-        wedge.load(OnDevice([1j]), 1.0, E_star=1.0, phi=0.25)
-
-
 class OnlyConverts:
     """An array without the protocols, but for the way to NumPy: JAX's are such.
 

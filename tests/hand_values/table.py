@@ -22,7 +22,7 @@ Under stick_zone a and c are the edges of a contact that stays the same through 
 import ast
 import operator
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -75,26 +75,17 @@ FUNCTIONS: Mapping[str, Callable[[mpmath.mpf], mpmath.mpf]] = {
 }
 
 _NUMBER = re.compile(r"(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,4})?")
+_HEADING = re.compile(r"##? +(?P<title>.+)")
 _SIGNATURE = re.compile(r"`(?P<name>\w+)\((?P<parameters>[^()]*)\) -> (?P<fields>\w+(, \w+)*)`")
-_HEADING = re.compile(r"(?P<level>#+) +(?P<title>.+)")
-_RULE = re.compile(r"\|( *:?-+:? *\|)+")
-_PIPE = re.compile(r"(?<!\\)\|")
+_RULE = re.compile(r"\|( *:?-+:? *\|){3}")
+_BAR = re.compile(r"(?<!\\)\|")
+
+Signature = Mapping[str, mpmath.mpf | None]
+"""Parameters with their defaults; None where a value must be given."""
 
 
 class TableError(ValueError):
     """Something in a table that cannot be read, with its file and line."""
-
-    def __init__(self, path: Path, line: int, message: str) -> None:
-        super().__init__(f"{path}:{line}: {message}")
-
-
-@dataclass(frozen=True)
-class Signature:
-    """A function's parameters with their defaults (None: must be given) and its result's fields."""
-
-    function: str
-    parameters: Mapping[str, mpmath.mpf | None]
-    fields: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -107,27 +98,15 @@ class Row:
     inputs: Mapping[str, mpmath.mpf] = field(repr=False)
     expected: Mapping[str, mpmath.mpf] = field(repr=False)
     working: str = field(repr=False)
-    path: Path = field(repr=False)
-    line: int
+    place: str
 
     def __str__(self) -> str:
         return f"{self.body}-{self.function}({self.text})"
 
     @property
-    def place(self) -> str:
-        """Where the row stands, as file:line."""
-        return f"{self.path.name}:{self.line}"
-
-    @property
     def arguments(self) -> dict[str, float]:
         """The inputs as doubles, defaults included."""
         return {name: float(value) for name, value in self.inputs.items()}
-
-    @property
-    def key(self) -> tuple[object, ...]:
-        """What makes the row the same as another: its function and the values of its inputs."""
-        values = ((name, mpmath.nstr(value, DIGITS)) for name, value in self.inputs.items())
-        return self.function, *sorted(values)
 
 
 def evaluate(text: str) -> mpmath.mpf:
@@ -185,148 +164,82 @@ def named_values(text: str) -> dict[str, mpmath.mpf]:
     try:
         call = ast.parse(source, mode="eval").body
     except SyntaxError:
-        raise ValueError(f"cannot read '{text}': expected name=value, name=value, ...") from None
+        call = None
     if not (isinstance(call, ast.Call) and isinstance(call.func, ast.Name)) or call.args:
         raise ValueError(f"cannot read '{text}': expected name=value, name=value, ...")
-    values: dict[str, mpmath.mpf] = {}
-    for keyword in call.keywords:
-        if keyword.arg is None or keyword.arg in values:
-            raise ValueError(f"cannot read '{text}': expected each name=value once")
-        values[keyword.arg] = evaluate(_segment(keyword.value, source))
-    return values
-
-
-def read_signature(text: str) -> Signature:
-    """Read a line such as `contact(P, M=0, *, E_star, R) -> a, c, alpha`, backticks included."""
-    found = _SIGNATURE.fullmatch(text)
-    if not found:
-        raise ValueError(f"expected a signature such as `tilt(a, c, *, R) -> alpha`, not {text}")
-    parameters: dict[str, mpmath.mpf | None] = {}
-    for parameter in found["parameters"].split(","):
-        name, _, default = (part.strip() for part in parameter.partition("="))
-        if name != "*":
-            parameters[name] = evaluate(default) if default else None
-    return Signature(found["name"], parameters, tuple(found["fields"].split(", ")))
+    names = [keyword.arg for keyword in call.keywords]
+    if None in names or len(set(names)) < len(names):
+        raise ValueError(f"cannot read '{text}': expected each name=value once")
+    return {str(k.arg): evaluate(_segment(k.value, source)) for k in call.keywords}
 
 
 def read_table(path: Path) -> list[Row]:
     """Every row of a file, in its order; a TableError names the file and line of what is wrong."""
-    rows: dict[tuple[object, ...], Row] = {}
-    for row in _Reader(path).rows():
-        if row.key in rows:
-            first = rows[row.key].line
-            raise TableError(path, row.line, f"repeats the row of line {first}: {row.text}")
-        rows[row.key] = row
-    return list(rows.values())
+    rows: list[Row] = []
+    function, signature = "", None
+    for number, line in enumerate(path.read_text("utf-8").splitlines(), start=1):
+        place = f"{path.name}:{number}"
+        try:
+            if heading := _HEADING.fullmatch(line.strip()):
+                function, signature = _function(line, heading["title"]), None
+            elif function and line.startswith("`"):
+                signature = _signature(line.strip(), function)
+            elif _BAR.search(line):
+                cells = _cells(line.strip())
+                if signature is None:
+                    raise ValueError("a table outside a function's section, before its signature")
+                if cells != COLUMNS and not _RULE.fullmatch(line.strip()):
+                    row = _row(path.stem, function, signature, cells, place)
+                    if any(r.inputs == row.inputs for r in rows if r.function == function):
+                        raise ValueError(f"repeats a row: {row.text}")
+                    rows.append(row)
+        except ValueError as error:
+            raise TableError(f"{place}: {error}") from error
+    return rows
 
 
-class _Reader:
-    """Walks a file line by line, keeping the function, its signature and the table it is in."""
+def _function(line: str, title: str) -> str:
+    """The function that a heading names; none if it is one of prose."""
+    if line.startswith("# ") or not title.isidentifier():
+        return ""
+    if title not in RESULTS:
+        raise ValueError(f"unknown function {title}: expected one of {', '.join(RESULTS)}")
+    return title
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.function = ""
-        self.signature: Signature | None = None
-        self.table_lines = 0  # of the present table, read so far
 
-    def rows(self) -> Iterator[Row]:
-        for number, line in enumerate(self.path.read_text("utf-8").splitlines(), start=1):
-            try:
-                row = self._read(line.strip(), number)
-            except ValueError as error:
-                raise TableError(self.path, number, str(error)) from error
-            if row:
-                yield row
-
-    def _read(self, line: str, number: int) -> Row | None:
-        if heading := _HEADING.fullmatch(line):
-            self._enter(heading)
-        elif _PIPE.search(line):
-            return self._table_line(line, number)
-        elif self.function and line.startswith("`"):
-            self._sign(line)
-        self.table_lines = 0
-        return None
-
-    def _enter(self, heading: re.Match[str]) -> None:
-        if len(heading["level"]) > 2:
-            return
-        title = heading["title"].strip()
-        self.function, self.signature = "", None
-        if heading["level"] == "##" and title.isidentifier():
-            if title not in RESULTS:
-                raise ValueError(f"unknown function {title}: expected one of {', '.join(RESULTS)}")
-            self.function = title
-
-    def _sign(self, line: str) -> None:
-        self.signature = read_signature(line)
-        if self.signature.function != self.function:
-            raise ValueError(f"the signature of {self.signature.function} under {self.function}")
-        if self.signature.fields != RESULTS[self.function]:
-            raise ValueError(f"{self.function} gives {', '.join(RESULTS[self.function])}")
-
-    def _table_line(self, line: str, number: int) -> Row | None:
-        if not self.signature:
-            raise ValueError("a table outside a function's section, or before its signature")
-        cells = _cells(line)
-        self.table_lines += 1
-        if self.table_lines == 1:
-            if cells != COLUMNS:
-                raise ValueError(f"a table starts with | {' | '.join(COLUMNS)} |")
-        elif self.table_lines == 2:
-            if not _RULE.fullmatch(line) or len(cells) != len(COLUMNS):
-                raise ValueError("expected the line | --- | --- | --- | under the table's head")
-        else:
-            return self._row(cells, self.signature, number)
-        return None
-
-    def _row(self, cells: list[str], signature: Signature, number: int) -> Row:
-        if len(cells) != len(COLUMNS):
-            raise ValueError(f"expected three cells, {', '.join(COLUMNS)}, not {len(cells)}")
-        inputs, expected, working = cells
-        if not working:
-            raise ValueError("the working is empty: say how a person gets the value")
-        return Row(
-            body=self.path.stem,
-            function=self.function,
-            text=_code(inputs),
-            inputs=_inputs(_code(inputs), signature),
-            expected=_expected(_code(expected), signature),
-            working=working,
-            path=self.path,
-            line=number,
-        )
+def _signature(text: str, function: str) -> Signature:
+    """Read a line such as `contact(P, M=0, *, E_star, R) -> a, c, alpha`, backticks included."""
+    found = _SIGNATURE.fullmatch(text)
+    if not found:
+        raise ValueError(f"expected a signature such as `tilt(a, c, *, R) -> alpha`, not {text}")
+    if found["name"] != function:
+        raise ValueError(f"the signature of {found['name']} under {function}")
+    if tuple(found["fields"].split(", ")) != RESULTS[function]:
+        raise ValueError(f"{function} gives {', '.join(RESULTS[function])}")
+    parameters = (p.partition("=") for p in found["parameters"].split(",") if p.strip() != "*")
+    return {name.strip(): evaluate(default) if default else None for name, _, default in parameters}
 
 
 def _cells(line: str) -> list[str]:
-    r"""Split a table's line; `\|` stands for a bar inside a cell."""
-    before, *cells, after = _PIPE.split(line)
-    if before or after or not cells:
-        raise ValueError("a table's line starts and ends with |")
-    return [cell.strip().replace(r"\|", "|") for cell in cells]
+    r"""Split a table's line; `\|` stands for a bar, and backticks around a cell are left out."""
+    before, *cells, after = _BAR.split(line)
+    if before or after or len(cells) != len(COLUMNS):
+        raise ValueError(f"a row is | {' | '.join(COLUMNS)} |")
+    return [cell.replace(r"\|", "|").strip().removeprefix("`").removesuffix("`") for cell in cells]
 
 
-def _code(cell: str) -> str:
-    """Take the backticks off a cell."""
-    inside = cell[1:-1] if cell.startswith("`") and cell.endswith("`") else cell
-    return inside.strip()
-
-
-def _inputs(text: str, signature: Signature) -> dict[str, mpmath.mpf]:
+def _row(body: str, function: str, signature: Signature, cells: list[str], place: str) -> Row:
+    text, expected, working = cells
+    if not working:
+        raise ValueError("the working is empty: say how a person gets the value")
     given = named_values(text)
-    if unknown := given.keys() - signature.parameters:
-        raise ValueError(f"{signature.function} takes no {', '.join(sorted(unknown))}")
-    values = {**signature.parameters, **given}
-    if missing := [name for name, value in values.items() if value is None]:
-        raise ValueError(f"{signature.function} needs {', '.join(missing)}")
-    return values
-
-
-def _expected(text: str, signature: Signature) -> dict[str, mpmath.mpf]:
-    fields = signature.fields
-    if len(fields) == 1:
-        return {fields[0]: evaluate(text)}
-    values = named_values(text)
+    if unknown := given.keys() - signature:
+        raise ValueError(f"{function} takes no {', '.join(sorted(unknown))}")
+    inputs = {**signature, **given}
+    if missing := [name for name, value in inputs.items() if value is None]:
+        raise ValueError(f"{function} needs {', '.join(missing)}")
+    fields = RESULTS[function]
+    values = {fields[0]: evaluate(expected)} if len(fields) == 1 else named_values(expected)
     if tuple(values) != fields:
         raise ValueError(f"expected a value for each of {', '.join(fields)}, in this order")
-    return values
+    return Row(body, function, text, inputs, values, working, place)

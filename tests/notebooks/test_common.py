@@ -19,10 +19,6 @@ def test_examples() -> None:
     assert (done.failed, done.attempted >= 3) == (0, True)
 
 
-def test_a_table_ends_no_cell_within_a_formula() -> None:
-    assert "|" not in common.in_cell(r"\left|x\right| \middle| y")
-
-
 def test_loads_swing_in_phase_between_both_states() -> None:
     of = common.cycle((0.9, 1.1), (0.0, 0.2), DQ, PULL, count=9)
     assert_allclose([load[[0, 4, 8]] for load in of.loads[:2]], [[0.9, 1.1, 0.9], [0, 0.2, 0]])
@@ -32,14 +28,6 @@ def test_loads_swing_in_phase_between_both_states() -> None:
 
 
 PAPER = pytest.mark.slow  # all claims of the paper are made for the one that is asked for
-
-
-@PAPER
-@pytest.mark.parametrize("dsigma", [0.0, PULL, -PULL])
-def test_a_symmetric_contact_has_the_printed_coefficient(dsigma: float) -> None:
-    state = wedge.contact(1.0, 0.0, **LAW)
-    found = common.series(wedge, state, DQ, dsigma, **GIVEN)
-    assert_allclose(found["printed"][:2], found["order 1"][:2])
 
 
 @PAPER

@@ -16,12 +16,6 @@ matplotlib.use("Agg")
 EACH = pytest.mark.parametrize("path", running.notebooks(), ids=lambda path: path.stem)
 
 
-def test_the_notebooks_are_found() -> None:
-    names = [path.name for path in running.notebooks()]
-    assert len(names) >= 11
-    assert [int(name[:2]) for name in names] == list(range(1, len(names) + 1))
-
-
 @pytest.mark.slow
 @EACH
 def test_a_fresh_run_gives_what_is_committed(path: Path) -> None:
@@ -59,15 +53,6 @@ def test_no_result_is_typed(path: Path) -> None:
             assert not re.search(r"\d ?\\?%|\d\.\d{3}", cell.source), cell.source
 
 
-@EACH
-def test_links_lead_to_notebooks(path: Path) -> None:
-    for cell in running.read(path).cells:
-        for link in re.findall(
-            r"\]\(([^)#:]+)\)", cell.source if "markdown" in cell.cell_type else ""
-        ):
-            assert (path.parent / link).exists(), link
-
-
 # ------------------------------------------------------------------ what runs them
 
 
@@ -80,23 +65,12 @@ def stream(text: str, name: str = "stdout") -> dict[str, object]:
     return {"output_type": "stream", "name": name, "text": text}
 
 
-def test_a_stream_in_pieces_becomes_one() -> None:
-    cleaned = running.clean(notebook_of(stream("a"), stream("b"), stream("c", "stderr")))
-    assert running.texts(cleaned) == ["stdout: ab", "stderr: c"]
-
-
 def test_warnings_errors_and_paths_are_faults() -> None:
     error = {"output_type": "error", "ename": "ValueError", "evalue": "no", "traceback": []}
     there = "/".join(("", "home", "someone", "file"))
     found = running.faults(notebook_of(stream("w", "stderr"), error, stream(f"in {there}")))
     assert [fault.split(":")[0] for fault in found] == ["a path", "a warning", "an error"]
     assert running.faults(notebook_of(stream("N/m and Pa/sqrt(m)"))) == []
-
-
-def test_the_number_of_a_widget_is_left_out() -> None:
-    data = {"application/vnd.jupyter.widget-view+json": {"model_id": "1f"}, "text/plain": "Box(1f)"}
-    shown = {"output_type": "display_data", "data": data, "metadata": {}}
-    assert "1f" not in nbformat.writes(running.clean(notebook_of(shown)))
 
 
 @pytest.mark.slow
@@ -113,12 +87,6 @@ def test_a_run_that_differs_is_told(tmp_path: Path) -> None:
         [sys.executable, "-c", code, str(path)], cwd=running.ROOT, capture_output=True, text=True
     )
     assert "-stdout: 2" in done.stdout and "+stdout: 3" in done.stdout, done.stderr
-
-
-def test_a_word_that_no_notebook_holds_is_refused() -> None:
-    with pytest.raises(SystemExit) as left:
-        running.main(["--check", "nothing of that name"])
-    assert left.value.code == 2
 
 
 def test_the_readme_s_picture_is_that_of_its_code(tmp_path: Path) -> None:

@@ -19,7 +19,7 @@ def wavy(seed: int) -> Floats:
     return coefficients @ np.cos(np.outer(np.arange(10), np.arccos(X)))
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_a_solution_meets_every_condition(seed: int) -> None:
     b = wavy(seed)
     t, s, _, places = PROBLEM.solve(b, -BOUND, BOUND, np.array([0.4]))
@@ -32,7 +32,7 @@ def test_a_solution_meets_every_condition(seed: int) -> None:
     np.testing.assert_array_equal(places[inside], 0)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_the_guess_does_not_matter(seed: int) -> None:
     b, guess = wavy(seed), np.sign(wavy(seed + 100)).astype(np.int8)
     loads = np.array([0.4])
@@ -40,14 +40,6 @@ def test_the_guess_does_not_matter(seed: int) -> None:
     guess[20] = 0
     guessed = PROBLEM.solve(b, -BOUND, BOUND, loads, guess)
     np.testing.assert_allclose(guessed.traction, plain.traction, atol=1e-10)
-
-
-def test_one_node_a_round_comes_to_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    b, loads = wavy(3), np.array([0.4])
-    plain = PROBLEM.solve(b, -BOUND, BOUND, loads)
-    monkeypatch.setattr("tests.reference.bounded.ROUNDS", 0)
-    slow = PROBLEM.solve(b, -BOUND, BOUND, loads)
-    np.testing.assert_allclose(slow.traction, plain.traction, atol=1e-10)
 
 
 def test_more_than_the_bounds_carry_is_refused() -> None:

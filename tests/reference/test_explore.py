@@ -8,7 +8,6 @@ from tests.reference.explore import (
     Kind,
     Point,
     at_constant_loads,
-    at_mean_loads,
     cycle,
     explored,
     threshold,
@@ -121,9 +120,3 @@ def test_pressure_that_falls_faster_than_shear_is_seen_at_the_start() -> None:
     half = Point(7.0, 0.1, 0.4).cycle.half_cycle
     ways = [(way, way.exact(LARGE)) for way in (half, half.back())]
     assert not all(starts_within(way, LARGE, zone) for way, zone in ways)
-
-
-def test_mean_loads_stand_still() -> None:
-    point = Point(2.0, 0.1, 0.2, 0.1)
-    still = at_mean_loads(point.cycle.half_cycle)
-    assert still == pytest.approx(cycle(2 * threshold(), (0.1, 0.1)).half_cycle.exact(LARGE))

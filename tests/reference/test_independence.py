@@ -27,10 +27,3 @@ def test_neither_derive_nor_generated_is_imported() -> None:
         assert {name.partition(".")[0] for name in names} <= ALLOWED, path.name
         inner = {name for name in names if name.startswith("tests")}
         assert all(name.startswith("tests.reference") for name in inner), path.name
-
-
-def test_no_module_is_fetched_by_name() -> None:
-    for path in Path(__file__).parent.glob("*.py"):
-        if path.name != Path(__file__).name:
-            text = path.read_text(encoding="utf-8")
-            assert "importlib" not in text and "__import__" not in text, path.name

@@ -31,11 +31,3 @@ def test_displacement_by_a_half_ellipse_is_a_parabola_to_second_order() -> None:
         errors.append(np.abs(u - u[count] + x**2 / 2).max())
     assert errors[-1] < 1e-3
     assert np.log2(errors[0] / errors[-1]) / 2 == pytest.approx(2, abs=0.2)
-
-
-def test_a_smooth_body_pushed_is_moved_along() -> None:
-    # the stiffness is positive: work of any traction without resultant
-    surface = Surface(graded([-1, 1], 40))
-    t = np.sin(7 * surface.x)
-    t -= surface.force @ t / surface.force.sum()
-    assert (surface.force * t) @ surface.influence @ t > 0

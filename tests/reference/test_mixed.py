@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from tests.reference import mixed
 from tests.reference.cases import HERTZ, HERTZ_LOAD, Known
 from tests.reference.conditions import LARGE, MODERATE
 from tests.reference.explore import cycle, narrowest, threshold, window
@@ -34,10 +33,6 @@ def test_hertz() -> None:
     assert 1 - exact.zone.n == pytest.approx(1 - found.zone.n, rel=0.05)
 
 
-def test_the_threshold_is_where_the_moderate_zone_reaches_the_edge() -> None:
-    assert cycle(0.9999999 * threshold()).half_cycle.exact(MODERATE).n == pytest.approx(1, abs=1e-6)
-
-
 def test_the_window_opens_where_the_moderate_zone_is_wide_enough() -> None:
     # a + n = 8 dQ/(pi dsigma), a = 1: there both solutions meet
     def room(part: float) -> float:
@@ -63,13 +58,6 @@ def test_the_window_closes_where_the_large_zone_is_wide_enough() -> None:
     assert turning(half).zone == pytest.approx(half.exact(LARGE), abs=2e-6)
     with pytest.raises(NotInWindow):
         turning(cycle(1.092 * threshold()).half_cycle)
-
-
-def test_finer_pieces_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    half = cycle(threshold()).half_cycle
-    fine = turning(half)
-    monkeypatch.setattr(mixed, "CELLS", 50)
-    assert turning(half).zone == pytest.approx(fine.zone, abs=1e-8)
 
 
 def test_the_solver_ends_the_half_cycle_as_phase_three_does() -> None:

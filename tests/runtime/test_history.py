@@ -1,10 +1,14 @@
-"""Load histories and steady cycles: against closed forms, exact zones, the independent solver."""
+"""Load histories and steady cycles: against closed forms, exact zones, the independent solver.
+
+What is known exactly is computed on elements, too, where a test asks for that.
+"""
 
 import json
 import math
 import os
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,7 +16,7 @@ import numpy as np
 import pytest
 
 from derive.runtime.body import Asked, Body, Parameter
-from derive.runtime.history import public
+from derive.runtime.history import batch, public
 from derive.runtime.kernels import COMPILED
 from derive.runtime.types import Regime
 from tests.reference.friction import Friction
@@ -47,6 +51,19 @@ def steady_cycle(case, *loads, **given):
     return call(public.steady_cycle, case, *loads, **given)
 
 
+@pytest.fixture
+def on_elements(monkeypatch):
+    """The solver alone, where the answer is known exactly, too."""
+
+    def run(loop, law, rows, own, out):
+        if loop == "history.reversals.each_history":
+            out[:] = np.nan
+        else:
+            batch.run(loop, law, rows, own, out)
+
+    monkeypatch.setattr(public, "run", run)
+
+
 def covered(found, m, n, at=slice(None)):
     """Whether the ends are within the stated error, and that is small."""
     h = (found.a + found.c)[at]
@@ -57,24 +74,119 @@ def covered(found, m, n, at=slice(None)):
 # ---------------------------------------------------------------- closed forms
 
 
-def test_cattaneo_and_mindlin_first_loading():
-    """n = a sqrt(1 - Q/(f P)), q = f (p - p of [-n, n])."""
-    Q, x = np.linspace(0.05, 0.95, 19) * F * LOAD, np.linspace(-0.97, 0.97, 41)
-    found = history(hertz, LOAD, 0.0, Q, 0.0, x=x)
+def first_loading(Q, x):
+    """n = a sqrt(1 - Q/(f P)), q = f (p - p of [-n, n]); forward slip is 2 f times the gap beside
+    the patch, halved for a first rise."""
     n = np.sqrt(1 - Q / (F * LOAD))
+    stuck = np.sqrt(np.maximum(n[:, None] ** 2 - x**2, 0))
+    q = F / 2 * (np.sqrt(1 - x**2) - stuck)
+    ratio = np.maximum(abs(x) / n[:, None], 1)
+    gap = n[:, None] ** 2 / 2 * (ratio * np.sqrt(ratio**2 - 1) - np.arccosh(ratio))
+    return n, q, F * gap
+
+
+FIRST = np.linspace(0.05, 0.95, 19) * F * LOAD, np.linspace(-0.97, 0.97, 41)
+
+
+def test_cattaneo_and_mindlin_first_loading(on_elements):
+    Q, x = FIRST
+    found = history(hertz, LOAD, 0.0, Q, 0.0, x=x)
+    n, q, slip = first_loading(Q, x)
     assert np.all(found.regime == COMPUTED) and np.all(found.intervals == 1)
     assert covered(found, n, n)
     assert np.median(abs(found.n - n)) / 2 < 1e-3
-    stuck = np.sqrt(np.maximum(n[:, None] ** 2 - x**2, 0))
-    q = F / 2 * (np.sqrt(1 - x**2) - stuck)
     assert np.mean(abs(found.q - q)) < 1e-3 * F * LOAD / 2
-    # forward slip is 2 f times the gap beside the patch, halved for a first rise
-    ratio = np.maximum(abs(x) / n[:, None], 1)
-    gap = n[:, None] ** 2 / 2 * (ratio * np.sqrt(ratio**2 - 1) - np.arccosh(ratio))
-    assert np.max(abs(found.slip - F * gap)) < 0.01 * np.max(F * gap)
+    assert np.max(abs(found.slip - slip)) < 0.01 * np.max(slip)
 
 
-def test_finer_when_asked():
+@pytest.mark.parametrize("sign", [1, -1])
+def test_first_loading_is_exact(sign):
+    Q, x = FIRST
+    found = history(hertz, LOAD, 0.0, sign * Q, 0.0, x=x)
+    n, q, slip = first_loading(Q, x)
+    assert np.all(found.regime == Regime.MODERATE) and np.all(found.error == 0)
+    assert found.m == pytest.approx(n, rel=1e-12) and found.n == pytest.approx(n, rel=1e-12)
+    assert sign * found.q == pytest.approx(q, abs=1e-12)
+    assert sign * found.slip == pytest.approx(slip, abs=1e-12)
+
+
+# ---------------------------------------------------------------- stacks of reversals
+
+PHASED = [(hertz, LOAD, 0.02, 0.6), (wedge, 1.0, 0.1, -0.4), (flat_rounded, 1.0, 0.05, 0.4)]
+"""Body, P, M and k of sigma = k Q; 8/(pi h) is 1.27, 1.27 and 0.9 or so."""
+
+
+@pytest.mark.parametrize(("case", "P", "M", "k"), PHASED, ids=["Hertz", "wedge", "flat"])
+def test_reversals_in_phase_as_on_elements(case, P, M, k, request):
+    Q = np.concatenate([[0.0], np.random.default_rng(3).uniform(-0.8, 0.8, 16)]) * F * P
+    edges = history(case, P, M, Q, k * Q)
+    x = np.linspace(-0.98 * edges.a[0], 0.98 * edges.c[0], 24)
+    exact = history(case, P, M, Q, k * Q, x=x)
+    request.getfixturevalue("on_elements")
+    found = history(case, P, M, Q, k * Q, x=x)
+    assert exact.regime.tolist() == [Regime.FULL_STICK, *[Regime.MODERATE] * 16]
+    h = exact.a + exact.c
+    off = np.maximum(abs(found.m - exact.m), abs(found.n - exact.n)) / h
+    assert np.all(off <= found.error) and np.median(off) < 1e-3
+    mean = F * P / h
+    assert np.all(np.mean(abs(found.q - exact.q), axis=1) < 3e-3 * mean)
+    assert found.slip == pytest.approx(exact.slip, abs=3e-3 * abs(exact.slip).max())
+    assert found.work == pytest.approx(exact.work, abs=2e-3 * exact.work[-1])
+
+
+def test_a_loop_that_is_closed_is_forgotten():
+    """Shear, slip and the zone are as if it had not been; its work is done each time."""
+    way = np.array([0.0, 0.8, -0.2, 0.3, -0.2, 0.8, 0.9]) * F * LOAD
+    loop = way[[0, 1, 2, *[3, 2] * 3, 5, 6]]
+    x = np.linspace(-0.9, 0.9, 7)
+    once, thrice, plain = (
+        history(hertz, LOAD, 0.0, Q, 0.5 * Q, x=x) for Q in (way, loop, way[[0, 6]])
+    )
+    for found in (once, thrice):
+        assert found.m[-1] == pytest.approx(plain.m[-1], rel=1e-12)
+        assert found.q[-1] == pytest.approx(plain.q[-1], abs=1e-12)
+        assert found.slip[-1] == pytest.approx(plain.slip[-1], abs=1e-12)
+    inner = once.work[4] - once.work[2]
+    assert inner > 0
+    assert thrice.work[-1] - once.work[-1] == pytest.approx(2 * inner, rel=1e-9)
+
+
+def test_a_closed_loop_ends_with_the_zone_of_its_own_motion():
+    Q = np.array([0.0, 0.8, 0.2, 0.8]) * F * LOAD
+    found = history(hertz, LOAD, 0.0, Q, 0.0)
+    assert found.m[1:] == pytest.approx(np.sqrt([0.2, 0.7, 0.7]), rel=1e-12)
+
+
+def test_work_of_reversals_is_what_friction_takes_where_it_slips():
+    """int f p slip dx by another rule; a first loading takes half of a branch twice as high."""
+    Q = np.array([0.3, -0.3, 0.3]) * F * LOAD
+    n = math.sqrt(0.7)
+    angle = np.linspace(-np.pi / 2, np.pi / 2, 40001)
+    x = np.sin(angle)
+    ratio = np.maximum(abs(x) / n, 1)
+    slip = 2 * F * n**2 / 2 * (ratio * np.sqrt(ratio**2 - 1) - np.arccosh(ratio))
+    branch = np.trapezoid(F / 2 * np.cos(angle) ** 2 * slip, angle)
+    found = history(hertz, LOAD, 0.0, Q, 0.0)
+    assert found.work == pytest.approx(branch * np.array([0.5, 1.5, 2.5]), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("P", "M", "sigma", "part"),
+    [
+        (LOAD, 0.0, 1.4, 0.3),  # 8/(pi h) = 1.27
+        (LOAD, [0.0, 0.01, 0.0, 0.0], 0.5, 0.3),
+        ([LOAD, LOAD, 0.9 * LOAD, LOAD], 0.0, 0.5, 0.3),
+        (LOAD, 0.0, [0.5, 0.5, 0.5, 0.4], 0.3),
+    ],
+    ids=["not moderate", "M varies", "P varies", "out of phase"],
+)
+def test_what_is_no_stack_of_reversals_is_computed(P, M, sigma, part):
+    Q = part * F * LOAD * np.array([1.0, -1.0, 0.5, -0.5])
+    found = history(hertz, P, M, Q, sigma * Q, tol=4e-3)
+    assert np.all(found.regime == COMPUTED) and np.all(found.error > 0)
+
+
+def test_finer_when_asked(on_elements):
     Q = np.linspace(0.2, 0.8, 7) * F * LOAD
     n = np.sqrt(1 - Q / (F * LOAD))
     coarse, fine = (history(hertz, LOAD, 0.0, Q, 0.0, tol=tol) for tol in (4e-3, 5e-4))
@@ -290,11 +402,45 @@ def test_arguments_broadcast():
         history(hertz, 1.0, 0.0, Q, 0.0, tol=0.0)
 
 
+@pytest.mark.skipif(not COMPILED, reason="nothing is compiled")
+@pytest.mark.parametrize("varied", [0.0, 0.1], ids=["exact", "on elements"])
+def test_threads_give_the_same_as_one(varied, monkeypatch):
+    import numba
+
+    Q = 0.1 * np.sin(T[:9]) * np.linspace(0.5, 1, 5)[:, None]
+    loads = LOAD * (1 + varied * np.cos(T[:9])), 0.0, Q, 0.0
+    told = []
+    for threads in (1, 3):
+        monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", threads)
+        told.append(history(hertz, *loads, x=[0.5], tol=4e-3))
+    with ThreadPoolExecutor(1) as other:
+        told.append(other.submit(history, hertz, *loads, x=[0.5], tol=4e-3).result())
+    for fields in zip(*told, strict=True):
+        np.testing.assert_array_equal(fields[0], fields[1])
+        np.testing.assert_array_equal(fields[0], fields[2])
+
+
+def test_a_bar_is_for_a_person_at_a_terminal(monkeypatch):
+    tqdm = pytest.importorskip("tqdm")
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: False)
+    plain = iter("abc")
+    assert batch._shown(plain, 3) is plain
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    assert batch._shown(plain, 1) is plain
+    shown = batch._shown(plain, 3)
+    assert isinstance(shown, tqdm.tqdm) and list(shown) == ["a", "b", "c"]
+    monkeypatch.setitem(sys.modules, "tqdm", None)  # as if it were not installed
+    assert batch._shown(plain, 3) is plain
+
+
 SHORT = """
 import json
 from tests.runtime.test_history import F, LOAD, hertz, history
-found = history(hertz, [LOAD, 0.9 * LOAD], 0.0, [0.1, -0.05], [0.0, 0.1], x=[0.5], tol=1.0)
-print(json.dumps([found.m.tolist(), found.n.tolist(), found.q.tolist(), found.work.tolist()]))
+told = []
+for P in ([LOAD, LOAD], [LOAD, 0.9 * LOAD]):  # exact, and on elements
+    found = history(hertz, P, 0.0, [0.1, -0.05], [0.05, -0.025], x=[0.5], tol=1.0)
+    told += [found.m.tolist(), found.n.tolist(), found.q.tolist(), found.work.tolist()]
+print(json.dumps(told))
 """
 
 

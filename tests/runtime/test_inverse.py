@@ -81,19 +81,19 @@ def _each_level(law, given, own, out):
         out[i, 0] = inverse.level(law, own[i], given[i, 0])
 
 
-def solved(case, P, second, loop=each_contact, count=3):
+def solved(case, P, second, loop=each_contact):
     given = np.stack(np.broadcast_arrays(np.asarray(P, float), second), axis=1)
-    out = np.empty((len(given), count))
+    out = np.empty((len(given), 3))
     loop(case.law, given, np.tile(case.own, (len(given), 1)), out)
     return out.T
 
 
 def at_tilt(case, P, alpha):
-    return solved(case, P, alpha, each_contact_at_tilt, 2)
+    return solved(case, P, alpha, each_contact_at_tilt)[:2]
 
 
 def level(case, *tilts):
-    return solved(case, tilts, 0.0, _each_level, 1)[0]
+    return solved(case, tilts, 0.0, _each_level)[0]
 
 
 def states(case, a, c):

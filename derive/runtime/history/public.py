@@ -5,13 +5,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import shape_of
-from ..body import Asked, kernel_of, numbers_of
+from ..arrays import Numbers, shape_of
+from ..body import Asked, numbers_of
 from ..chunks import any_lazy
 from ..cycle import march
 from ..types import Array, History, Regime, SteadyCycle
+from .batch import run
+from .lazy import over_chunks
 
 _LOADS = ("P", "M", "Q", "sigma")
+
+_INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"}
+_CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": "p"}
+"""Axes of the results: time, and places."""
 
 
 class _Given(NamedTuple):
@@ -41,20 +47,33 @@ def history(
         |q| <= f p, int q dx = Q, and slip only where |q| = f p, against it: one convex problem a
             step on elements; it begins with the contact under P[0], M[0] and no shear, then Q[0]
             and sigma[0] are applied
+        constant P and M, sigma = k Q, |k| <= 8/(pi (a + c)), |Q| < f P: exact, MODERATE; a stack
+            of reversals, each with load(m, n) = P - dQ/(2 f) and tilt(m, n) = alpha - dsigma/(4 f
+            E*) by the changes since it, 2 Q and 2 sigma before the first one
 
     Arguments broadcast; time lies along the last axis, and between two instants all loads go
-    straight.
+    straight.  Many histories are shared by the cores; Dask arrays stay lazy.
     {arguments}
 
     Returns History(a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m];
-    error).
+    error).  Slip is told, and no rate, since time is not given: what slips between two instants is
+    np.diff(slip, axis=-2) where x is a row.
     NaN where there is no contact; m and n where it slides, slip and work from then on.
     """
-    given = _given(asked, (P, M, Q, sigma), f, E_star, x, tol, False)
+    numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
+    if any_lazy(numbers.values()):
+        return over_chunks(asked.call, History, _INSTANTS, numbers, x, tol)
+    given = _given(asked, numbers, x, tol)
     places = np.shape(x) if x is not None else ()
     count = math.prod(places) if x is not None else 0
     out = np.empty((given.rows.shape[0], given.instants * (8 + 2 * count)))
-    kernel_of("history.solve.each_history")(asked.body.law, given.rows, given.own, out)
+    law = asked.body.law
+    run("history.reversals.each_history", law, given.rows, given.own, out)
+    rest = np.flatnonzero(np.isnan(out[:, 5]))
+    if rest.size:
+        computed = np.empty((rest.size, out.shape[1]))
+        run("history.solve.each_history", law, given.rows[rest], given.own[rest], computed)
+        out[rest] = computed
     shape = (*given.cycles, given.instants)
     found = out.reshape((*shape, 8 + 2 * count))
     a, c, m, n, intervals, regime, work, error = (found[..., i] for i in range(8))
@@ -82,21 +101,26 @@ def steady_cycle(
     """What a closed load history settles to: the permanent stick zone, slip and work a cycle.
 
         as by stick_zone where that is exact; else the history is repeated until slip repeats, and
-            what sticks is what has not slipped in the last round
+            what sticks is what slips less in the last round, to and fro added, than 1e-5 of the
+            most; how far the ends move with thirty times that is part of the error
 
     Arguments broadcast; time lies along the last axis, and from the last instant the loads go back
-    to the first.
+    to the first.  Many cycles are shared by the cores; Dask arrays stay lazy.
     {arguments}
 
     Returns SteadyCycle(m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift;
     error).  Slip range, shear and work are computed on elements, where m and n are exact, too.
     NaN where the contact is lost or slides; m and n where no place sticks all the time.
     """
-    given = _given(asked, (P, M, Q, sigma), f, E_star, x, tol, True)
+    numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
+    if any_lazy(numbers.values()):
+        return over_chunks(asked.call, SteadyCycle, _CYCLES, numbers, x, tol)
+    numbers |= dict(zip(_LOADS, _closed(tuple(numbers[k] for k in _LOADS)), strict=True))
+    given = _given(asked, numbers, x, tol)
     places = np.shape(x) if x is not None else ()
     count = math.prod(places) if x is not None else 0
     out = np.empty((given.rows.shape[0], 7 + 2 * count))
-    kernel_of("history.solve.each_cycle")(asked.body.law, given.rows, given.own, out)
+    run("history.solve.each_cycle", asked.body.law, given.rows, given.own, out)
     found = out.reshape((*given.cycles, 7 + 2 * count))
     m, n, regime, work, rounds, drift, error = (found[..., i] for i in range(7))
     exact = march(asked, *_closed((P, M, Q, sigma)), f=f, E_star=E_star)
@@ -126,28 +150,29 @@ def _closed(loads: tuple[Array, ...]) -> list[Any]:
     return [np.concatenate([v, v[..., :1]], axis=-1) for v in full]
 
 
-def _given(
-    asked: Asked,
-    loads: tuple[Array, ...],
-    f: Array,
-    E_star: Array,
-    x: Array,
-    tol: float,
-    closes: bool,
-) -> _Given:
-    """Check what is given, and lay it out in rows.
+def _numbers(
+    asked: Asked, loads: tuple[Array, ...], f: Array, E_star: Array, x: Array, tol: float
+) -> Numbers:
+    """What broadcasts, by name.
 
-    Raises TypeError for what is no real number and for Dask arrays, ValueError for a tolerance that
-    is not positive and for constants that change in time.
+    Raises TypeError for what is no real number, and for places that are a Dask array; ValueError
+    for a tolerance that is not positive.
     """
     if not tol > 0:
         raise ValueError(f"tol must be positive; got {tol!r:.60}")
+    if any_lazy([x]):
+        raise TypeError("x must be there, a number or a NumPy array; got a Dask array")
     named = dict(zip(_LOADS, loads, strict=True))
     numbers = numbers_of(named, {"f": f, "E_star": E_star, **asked.own})
-    if any_lazy(numbers.values()):
-        raise TypeError("a load history takes NumPy arrays; use map_blocks for Dask arrays")
-    if closes:
-        numbers |= dict(zip(_LOADS, _closed(tuple(numbers[k] for k in _LOADS)), strict=True))
+    shape_of(numbers)
+    return numbers
+
+
+def _given(asked: Asked, numbers: Numbers, x: Array, tol: float) -> _Given:
+    """Lay out what is given in rows.
+
+    Raises ValueError for constants that change in time.
+    """
     *cycles, instants = shape_of(numbers) or (1,)
     shape = (*cycles, instants)
     held = {}

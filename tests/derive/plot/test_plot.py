@@ -11,17 +11,15 @@ import matplotlib
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import to_hex, to_rgb
+from matplotlib.colors import to_hex
 from numpy.testing import assert_allclose, assert_array_equal
 
 from derive import plot
 from derive.errors import MissingLibrary
 from derive.plot import live as live_module
-from derive.plot.style import CYCLE, FORWARD, REVERSE, STICK
-from derive.plot.tractions import places
-from derive.plot.zones import LARGE, MIXED, MODERATE, senses
-from generated import flat_rounded, hertz, wedge
-from generated.runtime.types import March, Regime, StickZone
+from derive.plot.style import FORWARD, REVERSE
+from generated import hertz, wedge
+from generated.runtime.types import March, Regime
 
 matplotlib.use("Agg")
 
@@ -66,12 +64,9 @@ def span(of: PolyCollection) -> tuple[float, float, float, float]:
     ("values", "of", "name"),
     [
         ([7e-4, -1e-5], "m", "mm"),
-        (3e-6, "m", "µm"),
         (0.5, "m", "m"),
         ([np.inf, 9e8, np.nan], "Pa", "MPa"),
-        (0.0, "Pa", "Pa"),
         (2e5, "N/m", "MN/m"),
-        (np.nan, "m", "m"),
     ],
 )
 def test_a_unit_suits_the_values(values: Any, of: str, name: str) -> None:
@@ -80,15 +75,8 @@ def test_a_unit_suits_the_values(values: Any, of: str, name: str) -> None:
 
 def test_a_measure_divides_and_leaves_out_what_is_infinite() -> None:
     assert_array_equal(plot.unit(0.002, "m")([0.001, np.inf, np.nan]), [1.0, np.nan, np.nan])
-
-
-@pytest.mark.parametrize("size", [0.0, -1.0, np.nan, np.inf])
-def test_a_measure_has_a_size(size: float) -> None:
     with pytest.raises(ValueError, match="is positive"):
-        plot.over(size, "a")
-
-
-def test_an_unknown_unit_is_refused() -> None:
+        plot.over(0.0, "a")
     with pytest.raises(ValueError, match="no unit 'ft' is known: give one of m, Pa"):
         plot.unit(1.0, "ft")
 
@@ -101,43 +89,10 @@ def test_the_style_lasts_no_longer_than_its_context() -> None:
     assert dict(matplotlib.rcParams) == before
 
 
-def test_the_style_is_put_back_after_an_error() -> None:
-    before = dict(matplotlib.rcParams)
-    with pytest.raises(KeyError), plot.style():
-        raise KeyError
-    assert dict(matplotlib.rcParams) == before
-
-
 def test_a_saved_picture_has_the_same_bytes_each_time(tmp_path: Any) -> None:
-    written = []
-    for name in ("one", "two"):
-        axes = plot.pressures(hertz, [STATE], **STEEL)
-        for suffix in (".svg", ".png"):
-            plot.save(axes.figure, tmp_path / f"{name}{suffix}")
-        written.append([(tmp_path / f"{name}{suffix}").read_bytes() for suffix in (".svg", ".png")])
-    assert written[0] == written[1]
-
-
-# Matrices of Machado, Oliveira and Fernandes (2009) for full protanopia and deuteranopia.
-PROTAN = [
-    [0.152286, 1.052583, -0.204868],
-    [0.114503, 0.786281, 0.099216],
-    [-0.0038, -0.0482, 1.052],
-]
-DEUTAN = [
-    [0.367322, 0.860646, -0.227968],
-    [0.280085, 0.672501, 0.047413],
-    [-0.0118, 0.0429, 0.9689],
-]
-
-
-@pytest.mark.parametrize("seen", [np.eye(3), PROTAN, DEUTAN], ids=["all", "protan", "deutan"])
-@pytest.mark.parametrize("colours", [CYCLE[:4], (FORWARD, REVERSE, STICK)], ids=["lines", "areas"])
-def test_colours_are_told_apart(seen: Any, colours: tuple[str, ...]) -> None:
-    """By any reader: no two are seen closer than a tenth of the cube's edge."""
-    shown = [np.asarray(seen) @ np.square(to_rgb(colour)) for colour in colours]
-    apart = [np.linalg.norm(a - b) for i, a in enumerate(shown) for b in shown[:i]]
-    assert min(apart) > 0.1
+    for name in ("one.svg", "two.svg"):
+        plot.save(plot.pressures(hertz, [STATE], **STEEL).figure, tmp_path / name)
+    assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
 
 
 # ------------------------------------------------------------------ pressure and tractions
@@ -172,11 +127,6 @@ def test_the_apex_of_a_wedge_is_cut_off() -> None:
     assert beside < axes.get_ylim()[1]
 
 
-def test_one_contact_instead_of_a_list_is_refused() -> None:
-    with pytest.raises(ValueError, match="give a list of what"):
-        plot.pressures(hertz, STATE, **STEEL)
-
-
 NO_CONTACT = hertz.contact(-1.0, 0.0, **STEEL)
 SEVERAL = hertz.contact(np.array([P, 2 * P]), M, **STEEL)
 
@@ -184,16 +134,16 @@ SEVERAL = hertz.contact(np.array([P, 2 * P]), M, **STEEL)
 @pytest.mark.parametrize(
     ("states", "labels", "told"),
     [
+        (STATE, (), "give a list of what"),
         ([], (), "states is empty; give a list of one Contact"),
         ([STATE, NO_CONTACT], (), r"states\[1\] is no contact: its edges are NaN"),
         ([SEVERAL], (), r"states\[0\] holds contacts in the shape \(2,\), and one is drawn"),
         ([3.0], (), r"states\[0\] is 3.0, which is no Contact; give what `contact` returns"),
         ([STATE, STATE], ["one"], "1 labels are given for 2 states; give one for each, or none"),
-        ([STATE], ["one", "two"], "2 labels are given for 1 states"),
     ],
 )
 def test_pressures_that_cannot_be_drawn_are_refused(
-    states: list[Any], labels: list[str], told: str
+    states: Any, labels: list[str], told: str
 ) -> None:
     with pytest.raises(ValueError, match=told):
         plot.pressures(hertz, states, labels, **STEEL)
@@ -206,10 +156,8 @@ def test_pressures_that_cannot_be_drawn_are_refused(
     [
         ({"first": NO_CONTACT}, "first is no contact: its edges are NaN"),
         ({"second": SEVERAL}, r"second holds contacts in the shape \(2,\)"),
-        ({"second": None}, "second is None, which is no Contact"),
         ({"dQ": np.ones(3)}, r"dQ is values in the shape \(3,\); one half-cycle is drawn"),
         ({"dsigma": np.nan}, "dsigma is nan"),
-        ({"f": [0.3, 0.6]}, "f is values in the shape"),
     ],
 )
 def test_a_half_cycle_that_cannot_be_drawn_is_refused(
@@ -240,13 +188,6 @@ def test_a_mixed_cycle_shows_its_zone_where_it_is_asked_for() -> None:
     assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
 
 
-def test_places_are_dense_at_both_edges_and_end_there() -> None:
-    x = places(-1.0, 2.0)
-    assert_allclose((x[0], x[-1]), (-1, 2))
-    assert np.all(np.diff(x) > 0)
-    assert np.diff(x)[0] < 0.01 * np.diff(x).max()
-
-
 @pytest.mark.parametrize(
     ("dsigma", "colours"), [(MODERATE_PULL, (FORWARD, FORWARD)), (LARGE_PULL, (FORWARD, REVERSE))]
 )
@@ -265,15 +206,6 @@ def test_tractions_are_those_of_the_module(dsigma: float, colours: tuple[str, st
     assert left.get_x() + left.get_width() == pytest.approx(-1e3 * zone.m)
     assert right.get_x() == pytest.approx(1e3 * zone.n)
     assert tuple(to_hex(patch.get_facecolor()) for patch in below.patches) == colours
-
-
-def test_both_pressures_are_drawn_where_the_load_varies() -> None:
-    second = hertz.contact(1.1 * P, M, **STEEL)
-    above, _ = plot.tractions(hertz, STATE, second, DQ, 0.0, **FRICTION)
-    x, p1 = line(above, "start, $p_1$").get_data()
-    expected = hertz.pressure(1e-3 * x, STATE.a, STATE.c, **STEEL)
-    assert_allclose(1e6 * p1, expected, rtol=1e-9, atol=1e-3 * expected.max())
-    assert line(above, "end, $p_2$").get_ydata().max() > p1.max()
 
 
 def test_the_shear_of_a_cycle_is_that_of_the_module_and_keeps_within_its_band() -> None:
@@ -305,12 +237,6 @@ def test_a_shear_that_is_not_known_is_refused(loads: tuple[float, ...], told: st
         plot.shear(hertz, STATE, *loads, **FRICTION)
 
 
-@pytest.mark.parametrize("between", [-1, 1.5])
-def test_states_between_are_counted(between: Any) -> None:
-    with pytest.raises(ValueError, match="give a whole number of states, 0 or more"):
-        plot.shear(hertz, STATE, DQ, 0.0, DQ, 0.0, between=between, **FRICTION)
-
-
 def test_where_nothing_is_known_the_picture_says_so() -> None:
     assert hertz.stick_zone(STATE, STATE, DQ, WINDOW, **FRICTION).regime == Regime.MIXED
     _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
@@ -318,20 +244,6 @@ def test_where_nothing_is_known_the_picture_says_so() -> None:
     assert not below.patches
     assert np.all(np.isfinite(below.get_ylim()))
     above, _ = plot.slip(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
-    assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
-
-
-def test_shear_is_known_where_forward_slip_overtakes_and_slip_is_not() -> None:
-    """Just past the threshold forward slip overtakes: the wedge at 0.930 of 0.20602, whose window
-    opens at 0.9322 (tests/reference/FINDINGS.md)."""
-    law = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
-    here = wedge.contact(1.0, 0.0, E_star=1.0, phi=1.0)
-    zone = wedge.stick_zone(here, here, 0.15, 0.93 * 0.20602, **law)
-    assert zone.regime == Regime.MIXED and np.isfinite(zone.m)
-    _, below = plot.tractions(wedge, here, here, 0.15, 0.93 * 0.20602, **law)
-    assert not below.texts
-    assert [patch.get_hatch() for patch in below.patches] == [None, "..."]
-    above, _ = plot.slip(wedge, here, here, 0.15, 0.93 * 0.20602, **law)
     assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
 
 
@@ -349,29 +261,6 @@ def test_slip_and_the_work_of_friction() -> None:
 
 
 # ------------------------------------------------------------------ maps
-
-
-def test_senses_are_those_of_the_shear() -> None:
-    regime = np.array([MODERATE, LARGE, LARGE, MIXED, MIXED, Regime.SLIDING, Regime.FULL_STICK])
-    known = np.array([1.0, 1.0, 1.0, 1.0, np.nan, np.nan, 1.0])
-    dsigma = np.array([0.0, 1.0, -1.0, 1.0, 1.0, 0.0, 0.0])
-    left, right = senses(StickZone(known, known, regime), dsigma)
-    assert left.tolist() == [1, 1, -1, 1, 0, 0, 0]
-    assert right.tolist() == [1, -1, 1, 0, 0, 0, 0]
-
-
-def test_senses_agree_with_the_shear_at_the_edges() -> None:
-    for dsigma in (MODERATE_PULL, LARGE_PULL, -LARGE_PULL):
-        zone = hertz.stick_zone(STATE, STATE, DQ, dsigma, **FRICTION)
-        beside = np.array([-0.999 * STATE.a, 0.999 * STATE.c])
-        dq = hertz.shear_change(beside, STATE, STATE, DQ, dsigma, **FRICTION)
-        assert_array_equal(np.sign(dq), [int(way) for way in senses(zone, dsigma)])
-
-
-def test_the_codes_are_those_of_every_module() -> None:
-    for module in (hertz, flat_rounded, wedge):
-        codes = module.Regime.MODERATE, module.Regime.LARGE, module.Regime.MIXED
-        assert codes == (MODERATE, LARGE, MIXED)
 
 
 def cycle(dsigma: float, count: int = 41) -> tuple[np.ndarray, March]:
@@ -444,15 +333,6 @@ def test_a_sweep_leaves_open_what_is_not_known() -> None:
     assert "not known" in [text.get_text() for text in axes.get_legend().get_texts()]
 
 
-def test_a_sweep_may_change_the_contact() -> None:
-    loads = np.linspace(0.5e6, 1e6, 11)
-    states = hertz.contact(loads, 0.0, **STEEL)
-    zone = hertz.stick_zone(states, states, DQ, 0.0, **FRICTION)
-    axes = plot.sweep(1e-6 * loads, states, zone, 0.0)
-    (stick,) = areas(axes)[STICK]
-    assert span(stick)[3] == pytest.approx(1e3 * states.c.max())
-
-
 def test_a_sweep_needs_the_tension_where_its_sign_decides() -> None:
     """Large tension of either sign: the left edge slips forward only if it is positive."""
     friction = np.linspace(0.4, 0.8, 5)
@@ -476,8 +356,6 @@ def test_a_sweep_needs_the_tension_where_its_sign_decides() -> None:
     ("changed", "told"),
     [
         ({"parameter": 1.0}, r"parameter has the shape \(\); a map needs two values or more"),
-        ({"parameter": [1.0]}, r"parameter has the shape \(1,\)"),
-        ({"parameter": np.ones((2, 2))}, r"parameter has the shape \(2, 2\)"),
         ({"parameter": [0.0, np.nan]}, "parameter holds NaN"),
         ({"dsigma": np.ones(3)}, r"dsigma has the shape \(3,\) where 2 values stand"),
         ({"contact": hertz.contact(np.ones(3), 0.0, **STEEL)}, r"contact.a has the shape \(3,\)"),
@@ -555,6 +433,7 @@ def test_the_live_picture_knows_where_nothing_is_known() -> None:
     for loads, said in (
         (START._replace(dsigma=WINDOW), "mixed"),
         (START._replace(dQ=8e5, f=0.3), "sliding"),
+        (START._replace(P=-1.0), "no contact"),
     ):
         told = live.show(loads)
         assert told.startswith(said)
@@ -564,7 +443,8 @@ def test_the_live_picture_knows_where_nothing_is_known() -> None:
 
 
 REACHED = [
-    *(START._replace(P=part * LARGEST.P, M=M) for part in (1, 0.1, 0.005) for M in (-300, 0, 300)),
+    START._replace(P=0.1 * LARGEST.P, M=300),
+    START._replace(P=0.005 * LARGEST.P, M=-300),
     LARGEST,
     LARGEST._replace(M=-300.0, dsigma=-800e6),
     LARGEST._replace(f=0.005),
@@ -572,7 +452,7 @@ REACHED = [
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("body", ["hertz", "wedge_parabola", "flat_rounded"])
+@pytest.mark.parametrize("body", ["wedge_parabola", "flat_rounded"])
 @pytest.mark.parametrize("loads", REACHED)
 def test_the_live_picture_holds_all_that_the_sliders_reach(body: str, loads: plot.Loads) -> None:
     module: ModuleType = import_module(f"generated.{body}")
@@ -595,52 +475,18 @@ def test_the_live_picture_holds_all_that_the_sliders_reach(body: str, loads: plo
     assert (live.above.axis(), live.below.axis()) == limits  # and comes back
 
 
-def test_the_live_picture_without_a_contact_says_so() -> None:
-    live = plot.Live(hertz, LARGEST, **STEEL)
-    assert live.show(START._replace(P=-1.0)).startswith("no contact")
-    assert live.png()
-
-
 @pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
         ({"P": -1.0}, "largest.P is -1.0; it is where a slider ends: give a positive number"),
-        ({"P": 0.0}, "largest.P is 0.0.*positive"),
-        ({"P": np.nan}, "largest.P is nan"),
         ({"M": -1.0}, "largest.M is -1.0.*give a number that is not negative"),
         ({"M": 1.0}, r"start.M is 60.0, and its slider runs from -1 to 1: give"),
-        ({"f": np.ones(2)}, "largest.f is"),
     ],
 )
 def test_loads_that_no_slider_can_have_are_refused(changed: dict[str, Any], told: str) -> None:
     with pytest.raises(ValueError, match=told):
         plot.sliders(hertz, LARGEST._replace(**changed), START, **STEEL)
-
-
-def test_largest_loads_without_a_contact_are_refused() -> None:
-    with pytest.raises(ValueError, match=r"there is no contact under largest\.P"):
-        plot.Live(hertz, LARGEST, E_star=115e9, R=-1.0)
-
-
-@pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
-def test_sliders_without_moment_and_tension() -> None:
-    box = plot.sliders(
-        hertz, LARGEST._replace(M=0.0, dsigma=0.0), START._replace(M=0, dsigma=0), **STEEL
-    )
-    assert box.children[2].value.startswith("moderate")
-
-
-def test_the_live_picture_is_redrawn_in_place() -> None:
-    """What makes it quick: no axes and no artists are made anew."""
-    live = plot.Live(flat_rounded, LARGEST, E_star=115e9, R=0.02, b=1e-3)
-    pictures, drawn = set(), set()
-    for tension in (0.0, 100e6, 500e6):
-        live.show(START._replace(dsigma=tension))
-        pictures.add(live.png())
-        drawn.add(tuple(len(place.get_children()) for place in live.figure.axes))
-    assert len(drawn) == 1
-    assert len(pictures) == 3
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
@@ -683,13 +529,10 @@ def test_without_ipywidgets_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> 
         plot.sliders(hertz, LARGEST, START, **STEEL)
 
 
-@pytest.mark.parametrize("body", ["power", "circular_arc"])
-def test_an_integrated_body_is_drawn_as_any_other(body: str) -> None:
-    module: ModuleType = import_module(f"generated.{body}")
-    own = {"k": 3.0, "L": 1.0} if body == "power" else {"R": 1.0}
-    state = module.contact(0.05, 0.001, E_star=1.0, **own)
-    axes = plot.pressures(module, [state], E_star=1.0, **own)
+def test_an_integrated_body_is_drawn_as_any_other() -> None:
+    body = import_module("generated.power")
+    law = {"E_star": 1.0, "k": 3.0, "L": 1.0}
+    state = body.contact(0.05, 0.001, **law)
+    axes = plot.pressures(body, [state], length=plot.over(1.0, "L"), **law)
     x, p = axes.get_lines()[0].get_data()
-    assert np.trapezoid(p, x) == pytest.approx(
-        0.05 / (1.0 if axes.get_xlabel().endswith("[m]") else 1e-3), rel=1e-3
-    )
+    assert np.trapezoid(p, x) == pytest.approx(0.05, rel=1e-3)

@@ -40,19 +40,6 @@ def test_a_cylinder_by_hand(left: float, right: float) -> None:
     assert close(here.pressure(place), expected)
 
 
-@pytest.mark.parametrize(("left", "right"), [(2.0, 1.0), (0.75, 3.0)])
-def test_a_wedge_by_hand(left: float, right: float) -> None:
-    """P = E* phi sqrt(ac), M = P (a - c)/4, p = (2 E* phi/pi) artanh sqrt(v/u) for x > 0."""
-    here = contact("wedge", left, right)
-    load = mpf("1.25") * mpf("0.25") * mpmath.sqrt(mpf(left) * right)
-    assert close(here.load, load)
-    assert close(here.moment, load * (mpf(left) - right) / 4, scale=load)
-    place = mpf("0.375")
-    v_over_u = left * (right - place) / (right * (left + place))
-    expected = 2 * mpf("0.3125") / mpmath.pi * mpmath.atanh(mpmath.sqrt(v_over_u))
-    assert close(here.pressure(place), expected)
-
-
 @pytest.mark.parametrize(("name", "left", "right"), CASES)
 def test_it_takes_the_slope_from_g_as_it_was_written(name: str, left: float, right: float) -> None:
     here, body = contact(name, left, right), BODIES[name]
@@ -80,24 +67,6 @@ def test_powers_of_a_ramp(ramp: Expr, power: Expr) -> None:
     n, one = mpf(power.p) / power.q, mpf(1)
     here = Contact(body, {q.symbol: one for q in body.parameters}, one, one, one)
     assert close(here.tilt, -n * mpmath.beta(n / 2, one / 2) / (2 * mpmath.pi))
-
-
-@pytest.mark.parametrize("line", [x - b / 8, Abs(x) - b / 9])
-def test_a_parabola_against_lines(line: Expr) -> None:
-    """Max(x**2/b, line) at b = 1: the line holds between both places where they cross."""
-    body, one = Geometry("against", Max(x**2 / b, line)), mpf(1)
-    here = Contact(body, {q.symbol: one for q in body.parameters}, one, one, one)
-    slopes = [value_at(here.slope, mpf(place)) for place in ("0.0625", "0.5", "0.9375")]
-    assert slopes == [mpf("0.125"), 1, mpf("1.875")]
-
-
-def test_places_and_angles() -> None:
-    here = contact("hertz", 2.0, 1.0)
-    assert (here.h, here.mid) == (3, mpf("-0.5"))
-    assert close(value_at(here.at, mpf(0)), mpf(1))
-    assert close(value_at(here.at, +mpmath.pi), mpf(-2))
-    for place in (mpf("-1.75"), mpf("-0.5"), mpf("0.875")):
-        assert close(value_at(here.at, here.angle(place)), place)
 
 
 def test_resultants_by_hand() -> None:

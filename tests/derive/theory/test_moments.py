@@ -1,15 +1,11 @@
 """I_k: the recursion against direct integration."""
 
-import mpmath
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from mpmath import mpf
-from sympy import Expr, Integer, Symbol, expand, lambdify, pi
+from sympy import Expr, lambdify
 
-from derive.symbols import h, mid, x
-from derive.theory.moments import full_moment, kink_moment, slope_moment, weighted
-from tests.derive.bodies import BODIES, CASES, VALUES, close, sheet
+from derive.theory.moments import full_moment, kink_moment
+from tests.derive.bodies import VALUES, close, sheet
 from tests.derive.integrals import over_contact
 
 
@@ -17,20 +13,6 @@ def number(expr: Expr, **given: float) -> mpf:
     held = sorted(expr.free_symbols, key=str)
     numbers = VALUES | given
     return mpf(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
-
-
-@pytest.mark.parametrize(
-    ("k", "expected"),
-    [
-        (0, pi),
-        (1, pi * mid),
-        (2, pi * (mid**2 + h**2 / 8)),  # cos^2 has the mean 1/2
-        (3, pi * (mid**3 + 3 * mid * h**2 / 8)),
-        (4, pi * (mid**4 + 6 * mid**2 * h**2 / 8 + 3 * h**4 / 128)),  # cos^4 has the mean 3/8
-    ],
-)
-def test_powers_over_the_whole_contact(k: int, expected: Expr) -> None:
-    assert expand(full_moment(k) - expected) == 0
 
 
 @pytest.mark.parametrize("k", range(8))
@@ -51,32 +33,3 @@ def test_the_recursion_up_to_a_kink_is_the_integral_over_its_side(name: str, k: 
         )
         expr = kink_moment(k, frame).xreplace({frame.theta: frame.angle, frame.w: frame.root})
         assert close(number(expr, a=left, c=right), direct, scale=1)
-
-
-@given(st.lists(st.integers(-5, 5), min_size=1, max_size=6))
-def test_a_polynomial_is_weighted_term_by_term(coefficients: list[int]) -> None:
-    polynomial = sum((n * x**k for k, n in enumerate(coefficients)), Integer(0))
-    direct = over_contact(lambda s: sum(n * s**k for k, n in enumerate(coefficients)), 1.25, 2.0)
-    assert close(number(weighted(polynomial), a=1.25, c=2.0), direct, scale=1)
-
-
-def test_a_parameter_in_a_polynomial_is_a_constant() -> None:
-    t = Symbol("t1", positive=True)
-    assert expand(weighted(t * x + t**2) - (t * full_moment(1) + t**2 * pi)) == 0
-
-
-@pytest.mark.parametrize(("name", "left", "right"), CASES)
-def test_the_slope_s_moments_are_its_integrals(name: str, left: float, right: float) -> None:
-    body, frame = BODIES[name], sheet(name).frame
-    for k in range(3):
-        direct = over_contact(lambda s: s**k * body.slope(s), left, right, body.kinks)  # noqa: B023
-        found = number(frame.flat(slope_moment(k, frame)), a=left, c=right)
-        assert close(found, direct, scale=1)
-
-
-def test_moments_of_a_contact_without_width_are_those_of_a_point() -> None:
-    """h -> 0 around x0: int s^k/w -> pi x0^k."""
-    for k in range(5):
-        assert close(
-            number(full_moment(k), a=-0.75, c=0.75), mpmath.pi * mpf("0.75") ** k, digits=28
-        )

@@ -3,12 +3,9 @@
 import mpmath
 import pytest
 from mpmath import mpf
-from sympy import Rational, Symbol, factor, limit, oo, pi, simplify
 
-from derive.symbols import E_star, a, c, w, x
-from derive.theory.pressure import logarithmic_part, pressure, smooth_part
 from tests.derive import integrals
-from tests.derive.bodies import BODIES, CASES, CORNERED, VALUES, close, sheet, value
+from tests.derive.bodies import BODIES, CASES, CORNERED, VALUES, close, value
 
 ALL = pytest.mark.parametrize(("name", "left", "right"), CASES)
 SHARES = ("0.03125", "0.28125", "0.53125", "0.84375")
@@ -44,45 +41,6 @@ def test_the_pressure_deforms_the_half_plane_to_the_body(name: str) -> None:
         assert close(found, expected, digits=9, scale=1)
 
 
-@ALL
-def test_the_pressure_vanishes_at_both_edges_as_a_root(
-    name: str, left: float, right: float
-) -> None:
-    edges = {"a": mpf(left), "c": mpf(right)}
-    for at, inward in ((-edges["a"], 1), (edges["c"], -1)):
-        near, nearer = (
-            value(name, "pressure", x=at + inward * step, **edges)
-            for step in (mpf("1e-16"), mpf("1e-18"))
-        )
-        assert 0 < near < mpf("1e-6")
-        assert close(near / nearer, mpf(10), digits=12)
-
-
-@pytest.mark.parametrize("name", ["hertz", "wedge", "quartic", "shifted_wedge", "skew"])
-def test_sympy_finds_the_pressure_zero_at_both_edges(name: str) -> None:
-    p = sheet(name).flat("pressure")
-    numbers = {s: Rational(VALUES[s.name]) for s in p.free_symbols if s.name in VALUES}
-    p = p.subs(numbers).subs({a: 2, c: 1})
-    assert limit(p, x, -2, "+") == 0
-    assert limit(p, x, 1, "-") == 0
-
-
-SLOW = pytest.param("three_corners", marks=pytest.mark.slow)
-
-
-@pytest.mark.enough("wedge", "shifted_wedge", "unequal_wedge", "wedge_on_parabola")
-@pytest.mark.slow
-@pytest.mark.parametrize("name", [*(n for n in CORNERED if n != "three_corners"), SLOW])
-def test_the_pressure_at_a_corner_is_infinite_from_both_sides(name: str) -> None:
-    p = sheet(name).flat("pressure")
-    numbers = {s: Rational(VALUES[s.name]) for s in p.free_symbols if s.name in VALUES}
-    p = p.subs(numbers).subs({a: 2, c: 1})
-    for kink in sheet(name).geometry.slope.kinks:
-        at = kink.position.subs({Symbol("b", positive=True): Rational(1, 2)})
-        assert limit(p, x, at, "+") == oo
-        assert limit(p, x, at, "-") == oo
-
-
 @pytest.mark.parametrize("name", CORNERED)
 def test_the_pressure_at_a_corner_grows_as_its_logarithm(name: str) -> None:
     """p ~ (E*/2 pi) [step of g'] log(1/|x - x_j|): halving the distance adds (..) log 2."""
@@ -96,43 +54,3 @@ def test_the_pressure_at_a_corner_grows_as_its_logarithm(name: str) -> None:
             )
             gained = VALUES["E_star"] / (2 * mpmath.pi) * step * mpmath.log(2)
             assert close(near - far, gained, digits=5)
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        *("flat_rounded", "two_radii", "half_parabola"),
-        pytest.param("spline", marks=pytest.mark.slow),
-    ],
-)
-def test_the_pressure_passes_smoothly_where_the_slope_has_no_corner(name: str) -> None:
-    for kink in BODIES[name].kinks:
-        below, above = (
-            value(name, "pressure", x=mpf(kink) + d, a=2.0, c=1.5)
-            for d in (mpf("-1e-20"), mpf("1e-20"))
-        )
-        assert close(below, above, digits=16)
-
-
-@ALL
-def test_the_pressure_is_positive_throughout(name: str, left: float, right: float) -> None:
-    for share in range(1, 64):
-        place = -mpf(left) + (mpf(left) + right) * (mpf(share) / 64 + mpf("1e-5"))
-        assert value(name, "pressure", x=place, a=left, c=right) > 0
-
-
-@pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded", "skew"])
-def test_the_pressure_is_a_root_times_a_polynomial_and_logarithms(name: str) -> None:
-    """p = (E*/2) [w R + (2/pi) sum side_j D_j L_j]."""
-    frame = sheet(name).frame
-    smooth, logarithms = smooth_part(frame), logarithmic_part(frame)
-    assert smooth.is_polynomial(x)
-    assert logarithms == sum(k.kink.side * factor(k.kink.jump) * k.L for k in frame.kinks)
-    whole = E_star / 2 * (w * smooth + 2 / pi * logarithms)
-    assert simplify(pressure(frame) - whole) == 0
-
-
-def test_straight_flanks_leave_logarithms_only_and_a_polynomial_none() -> None:
-    assert smooth_part(sheet("wedge").frame) == 0
-    assert smooth_part(sheet("three_corners").frame) == 0
-    assert logarithmic_part(sheet("quartic").frame) == 0

@@ -5,20 +5,18 @@ from functools import cache
 
 import mpmath
 import pytest
-from sympy import Piecewise, Rational, Symbol, symbols
+from sympy import Piecewise, Rational
 
 from derive.derivation import derive_sheet
 from derive.geometry import Geometry, parameter
 from derive.library import load_geometry
-from derive.notation import latex_of, text_of
+from derive.notation import text_of
 from derive.proof.points import contacts, numeric, numeric_by_steps
 from derive.proof.prove import prove_sheet
-from derive.runtime import elementary
-from derive.runtime import segments as runtime
 from derive.sheet import FormulaSheet
 from derive.symbols import x
 from derive.theory.edges import Edge, pressure_series
-from derive.theory.segments import FUNCTIONS, Parts, definitions_of, has_parts, segment, written_out
+from derive.theory.segments import Parts, has_parts, written_out
 
 BODIES = ("flat_rounded", "rounded_wedge", "two_radii", "wedge_parabola", "flat_sloped")
 
@@ -99,13 +97,3 @@ def test_a_sum_that_is_not_the_formula_is_refuted() -> None:
     proven = prove_sheet(replace(sheet, formulas={**sheet.formulas, "load": wrong}))
     assert not proven["load"].proof.holds
     assert proven["tilt"].proof.holds
-
-
-def test_every_function_has_a_definition_and_a_way_to_be_computed() -> None:
-    for function in FUNCTIONS:
-        held = [f"{letter}" for letter in function.letters]
-        assert len(set(held)) == len(held)
-        assert hasattr(runtime, function.__name__) or hasattr(elementary, function.__name__)
-    t = Symbol("t_1", nonnegative=True)
-    assert [text_of(v) for v in definitions_of([segment(t)]).values()] == ["t - sin(t)*cos(t)"]
-    assert latex_of(symbols("sin_1")) == r"\sin_{1}"

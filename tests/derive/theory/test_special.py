@@ -8,7 +8,7 @@ import pytest
 from mpmath import mpf
 from sympy import Expr, Rational, S, Symbol, cosh, exp, lambdify, sinh
 
-from derive.symbols import a, c, h, x
+from derive.symbols import a, c, x
 from derive.theory.frame import RootFrame
 from derive.theory.special import Exponential, Power, Root, Special, X
 from tests.derive.integrals import over_contact
@@ -122,20 +122,6 @@ def test_the_rate_of_a_power_next_to_an_edge(edge: int, side: int, left: str, ri
     assert abs(found - wanted) < mpf(10) ** -15 * abs(wanted)
 
 
-def test_the_limit_at_an_exponent_of_one_half() -> None:
-    """t**(1/2): the second rate has Gamma(0) in its rule, and the limit of exponents beside it."""
-    edges = {"a": mpf("0.75"), "c": mpf("1.25")}
-    half = number(sum_of(Power(S.Zero, 1, S.Half), S.One, (1 + X) ** 2, 2), **edges)
-    beside = [
-        number(
-            sum_of(Power(S.Zero, 1, S.Half + sign * Rational(1, 10**12)), S.One, (1 + X) ** 2, 2),
-            **edges,
-        )
-        for sign in (1, -1)
-    ]
-    assert abs(half - sum(beside) / 2) < mpf(10) ** -20 * abs(half)
-
-
 @pytest.mark.parametrize(("left", "right"), CONTACTS)
 @pytest.mark.parametrize("kind", [exp, sinh, cosh])
 @pytest.mark.parametrize("order", range(3))
@@ -182,14 +168,3 @@ def test_parameter_and_characteristic_by_hand(quadratic: Expr, m: str, n: str) -
     for symbol, value in ((frame.m, m), (frame.n, n)):
         found = frame.definitions[symbol].xreplace(ends).subs({a: 1, c: 1})
         assert found.equals(Rational(value))
-
-
-def test_both_are_below_one_and_real_for_every_sign() -> None:
-    for quadratic in QUADRATICS.values():
-        frame = RootFrame(quadratic.expand(), 1)
-        ends = {s: frame.definitions[s] for s in (frame.left, frame.right)}
-        for left, right in CONTACTS:
-            for symbol in (frame.m, frame.n):
-                found = frame.definitions[symbol].xreplace(ends)
-                assert number(found, a=mpf(left), c=mpf(right)) < 1
-    assert h == a + c

@@ -1,0 +1,73 @@
+"""Histories of Dask arrays, chunk by chunk: Dask's own generalised functions."""
+
+import math
+import sys
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Numbers, shape_of
+from ..chunks import is_lazy
+
+WHOLE = ("intervals", "regime")
+"""Results that are whole numbers."""
+
+
+def over_chunks(
+    call: Callable[..., Any], kind: Any, axes: Mapping[str, str], numbers: Numbers, x: Any, tol: Any
+) -> Any:
+    """What a history's function makes of arguments some of which are Dask arrays: lazy, too.
+
+    kind: the named tuple that `call` returns.
+    axes: those of its results, as in the signature of a generalised function: t is time, p a place.
+    numbers: what broadcasts, time along the last axis, by name.
+
+    Raises ValueError for time in several chunks.
+    """
+    dask = sys.modules["dask.array"]
+    *_, instants = shape_of(numbers)
+    held = {name: value for name, value in numbers.items() if value.ndim == 0}
+    long = {
+        name: (dask if is_lazy(v) else np).broadcast_to(v, (*v.shape[:-1], instants))
+        for name, v in numbers.items()
+        if v.ndim
+    }
+    for name, value in long.items():
+        if is_lazy(value) and value.numblocks[-1] > 1:
+            raise ValueError(
+                f"the last axis of {name} is time and must lie in one chunk; its chunks are "
+                f"{value.chunks[-1]}: give {name}.rechunk({{-1: -1}})"
+            )
+    fields = [name for name in kind._fields if x is not None or "p" not in axes[name]]
+    made = dask.apply_gufunc(
+        partial(
+            _on_chunk,
+            call=call,
+            names=tuple(long),
+            fields=fields,
+            given={**held, "x": None if x is None else np.ravel(x), "tol": tol},
+        ),
+        f"{','.join(['(t)'] * len(long))}->{','.join(f'({axes[name]})' for name in fields)}",
+        *long.values(),
+        output_dtypes=[np.int64 if name in WHOLE else np.float64 for name in fields],
+        output_sizes={} if x is None else {"p": math.prod(np.shape(x))},
+    )
+    found: dict[str, Any] = dict.fromkeys(kind._fields) | dict(zip(fields, made, strict=True))
+    for name in fields:
+        if "p" in axes[name]:
+            found[name] = found[name].reshape((*found[name].shape[:-1], *np.shape(x)))
+    return kind(**found)
+
+
+def _on_chunk(
+    *values: Any,
+    call: Callable[..., Any],
+    names: tuple[str, ...],
+    fields: list[str],
+    given: Mapping[str, Any],
+) -> tuple[Any, ...]:
+    """The results for one chunk."""
+    told = call(**dict(zip(names, values, strict=True)), **given)
+    return tuple(getattr(told, name) for name in fields)
