@@ -101,7 +101,7 @@ def steady_cycle(
     """What a closed load history settles to: the permanent stick zone, slip and work a cycle.
 
         as by stick_zone where that is exact; else the history is repeated until slip repeats, and
-            what sticks is what slips less in the last round, to and fro added, than 1e-5 of the
+            what sticks is what slips less in the last round, to and fro added, than 1e-4 of the
             most; how far the ends move with thirty times that is part of the error
 
     Arguments broadcast; time lies along the last axis, and from the last instant the loads go back

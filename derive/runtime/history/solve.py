@@ -43,6 +43,10 @@ FEWEST, MIDDLE = 64, 256
 REACH = 3.84
 """How far an edge may move in a step, over the width of the contact, times the elements."""
 
+LAST = 0.05
+"""The last step before an instant over the others: what sticks at the instant is what sticks in it,
+though a slip zone that shrinks was longer before."""
+
 MOST_FRONTS = 12
 """Places to crowd elements towards, at most."""
 
@@ -52,7 +56,7 @@ ROUNDS = 40
 REPEATED = 1e-4
 """Slip of two rounds that differs by less, over the most, is the same."""
 
-THRESHOLD = 1e-5
+THRESHOLD = 1e-4
 """Slip in a round that is none, over the most; thirty times as much is tried, too."""
 
 
@@ -102,15 +106,13 @@ def _apart(places: Any, size: float, apart: float) -> Any:
 
 
 @kernel(matrix(LAW, vector, real, matrix, vector, whole, vector))
-def followed(
-    law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any
-) -> Any:
+def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
     """A history on one mesh: a row an instant of the features, then q and slip at the places and q
     at the samples.  The error is that of a front between two elements."""
     instants, asked = loads.shape[1], places.size
     found = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
     found[:, 5] = NONE
-    rows = path(law, own, loads, f, REACH / count, 1 if count < MIDDLE else 2)
+    rows = path(law, own, loads, f, REACH / count, 1 if count < MIDDLE else 2, LAST)
     known = False
     for k in range(rows.shape[0]):
         known = known or rows[k, A] + rows[k, C] > 0
@@ -248,9 +250,7 @@ def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> 
 
 
 @kernel(matrix(LAW, vector, real, matrix, vector, whole, vector))
-def repeated(
-    law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any
-) -> Any:
+def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
     """A cycle on one mesh: m, n, regime, work, rounds, drift, error of a front; then at the places
     the range of slip and q at the first instant."""
     asked = places.size
@@ -258,7 +258,7 @@ def repeated(
     found = told[0]
     found[2] = NONE
     least = 1 if count < MIDDLE else 2
-    rows = path(law, own, loads, f, REACH / count, least)
+    rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
             return told

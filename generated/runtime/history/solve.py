@@ -44,6 +44,10 @@ FEWEST, MIDDLE = 64, 256
 REACH = 3.84
 """How far an edge may move in a step, over the width of the contact, times the elements."""
 
+LAST = 0.05
+"""The last step before an instant over the others: what sticks at the instant is what sticks in it,
+though a slip zone that shrinks was longer before."""
+
 MOST_FRONTS = 12
 """Places to crowd elements towards, at most."""
 
@@ -53,7 +57,7 @@ ROUNDS = 40
 REPEATED = 1e-4
 """Slip of two rounds that differs by less, over the most, is the same."""
 
-THRESHOLD = 1e-5
+THRESHOLD = 1e-4
 """Slip in a round that is none, over the most; thirty times as much is tried, too."""
 
 
@@ -111,7 +115,7 @@ def followed(
     instants, asked = loads.shape[1], places.size
     found = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
     found[:, 5] = NONE
-    rows = path(law, own, loads, f, REACH / count, 1 if count < MIDDLE else 2)
+    rows = path(law, own, loads, f, REACH / count, 1 if count < MIDDLE else 2, LAST)
     known = False
     for k in range(rows.shape[0]):
         known = known or rows[k, A] + rows[k, C] > 0
@@ -259,7 +263,7 @@ def repeated(
     found = told[0]
     found[2] = NONE
     least = 1 if count < MIDDLE else 2
-    rows = path(law, own, loads, f, REACH / count, least)
+    rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
             return told
