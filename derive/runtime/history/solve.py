@@ -1,8 +1,9 @@
-r"""Histories and steady cycles on two meshes, and the estimate of their error.
+r"""Histories and steady cycles on ever finer meshes, and the estimate of their error.
 
-What is told is that of the fine mesh.  Its error is put at the difference between both, which is
-about twice what the fine one is off, and for ends half an element more, since a front is found
-between two elements.
+Each mesh has twice the elements of the one before and is crowded towards the ends of the stick zone
+that were found on that one; it is the last where both agree to the tolerance.  What is told is that
+of the last.  Its error is put at the difference between the last two, which is more than what the
+last is off, and for ends part of an element more, since a front is found between two elements.
 """
 
 import math
@@ -10,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
+from ..kernels import LOOP, kernel, matrix, opened, real, results, vector, whole
+from ..shared import shared
 from .elements import influence, inverse_of
 from .path import INSTANT, A, C, path
 from .steps import (
@@ -105,7 +107,7 @@ def _apart(places: Any, size: float, apart: float) -> Any:
         apart *= 2
 
 
-@kernel(matrix(LAW, vector, real, matrix, vector, whole, vector))
+@shared
 def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
     """A history on one mesh: a row an instant of the features, then q and slip at the places and q
     at the samples.  The error is that of a front between two elements."""
@@ -195,20 +197,22 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         places = given[row, 3 + 4 * count :]
-        first, elements = FEATURES + 2 * asked, FEWEST
-        fine = followed(law, own[row], f, loads, places, elements, np.empty(0))
-        met = False
-        while not met and elements < _most(tol):
-            coarse, elements = fine, 2 * elements
-            widest = np.nanmax(coarse[:, 0] + coarse[:, 1])
-            fronts = _apart(np.concatenate((-coarse[:, 2], coarse[:, 3])), widest, 10 * tol)
+        first, elements, met = FEATURES + 2 * asked, FEWEST, False
+        coarse, fronts = np.empty((0, 0)), np.empty(0)
+        while True:
             fine = followed(law, own[row], f, loads, places, elements, fronts)
-            met = True
-            for k in range(count):
-                told = fine[k]
-                mean = f * loads[0, k] / (told[0] + told[1])
-                told[7] = _error(told, coarse[k], mean, first)
-                met = met and (told[7] <= tol or told[5] in (NONE, SLIDING))
+            if elements > FEWEST:
+                met = True
+                for k in range(count):
+                    told = fine[k]
+                    mean = f * loads[0, k] / (told[0] + told[1])
+                    told[7] = _error(told, coarse[k], mean, first)
+                    met = met and (told[7] <= tol or told[5] in (NONE, SLIDING))
+            if met or elements >= _most(tol):
+                break
+            coarse, elements = fine, 2 * elements
+            fronts = np.concatenate((-coarse[:, 2], coarse[:, 3]))
+            fronts = _apart(fronts, np.nanmax(coarse[:, 0] + coarse[:, 1]), 10 * tol)
         for k in range(count):
             for i in range(first):
                 out[row, k * first + i] = fine[k, i]
@@ -249,19 +253,18 @@ def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> 
     return -found[0], found[1]
 
 
-@kernel(matrix(LAW, vector, real, matrix, vector, whole, vector))
+@shared
 def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
     """A cycle on one mesh: m, n, regime, work, rounds, drift, error of a front; then at the places
     the range of slip and q at the first instant."""
     asked = places.size
-    told = np.full((1, 7 + 2 * asked), math.nan)
-    found = told[0]
+    found = np.full(7 + 2 * asked, math.nan)
     found[2] = NONE
     least = 1 if count < MIDDLE else 2
     rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
-            return told
+            return found
     ends = mesh_for(law, own, rows, count, fronts)
     x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
     A_ = influence(ends)
@@ -286,7 +289,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
             code, more = step(law, own, f, ends, gone, row, A_, B, z, state, room)
             if code != COMPUTED:
                 found[2] = code
-                return told
+                return found
             work += more
             for i in range(x.size):
                 way[i] += abs(state[SLIPPED, i])
@@ -327,7 +330,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
             t = min(max((places[i] - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
             found[7 + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
         found[7 + asked + i], _ = at_place(law, own, f, ends, x, state, rows[-1], places[i])
-    return told
+    return found
 
 
 @kernel(LOOP)
@@ -343,15 +346,20 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         places = given[row, 3 + 4 * count :]
         elements, met = FEWEST, False
-        fine = repeated(law, own[row], f, loads, places, elements, np.empty(0))[0]
-        while not met and elements < _most(tol):
+        coarse, fronts = np.empty(0), np.empty(0)
+        while True:
+            fine = repeated(law, own[row], f, loads, places, elements, fronts)
+            if elements > FEWEST:
+                met = fine[2] == coarse[2]
+                if fine[2] == COMPUTED:
+                    away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
+                    away /= fine[0] + fine[1]
+                    fine[6] += away
+                    met = met and away <= tol
+                elif not met:
+                    fine[6] = math.nan
+            if met or elements >= _most(tol):
+                break
             coarse, elements = fine, 2 * elements
             fronts = _apart(np.array([-coarse[0], coarse[1]]), coarse[0] + coarse[1], 10 * tol)
-            fine = repeated(law, own[row], f, loads, places, elements, fronts)[0]
-            if fine[2] == COMPUTED:
-                away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
-                fine[6] += away / (fine[0] + fine[1])
-            elif fine[2] != coarse[2]:
-                fine[6] = math.nan
-            met = fine[6] <= tol or fine[2] in (NONE, SLIDING)
         out[row] = fine

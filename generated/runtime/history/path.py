@@ -57,9 +57,7 @@ def _turns(loads: Any, k: int, f: float) -> Any:
 
 
 @kernel(matrix(LAW, vector, matrix, real, real, whole, real))
-def path(
-    law: Any, own: Any, loads: Any, f: float, reach: float, least: int, short: float
-) -> Any:
+def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, short: float) -> Any:
     """The rows; the first one is the contact at the first instant without shear.
 
     least: steps between two instants at least; short: the last one over the others, 0 for none

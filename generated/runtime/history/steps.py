@@ -22,7 +22,7 @@ NONE, SLIDING, FULL_STICK, UNSOLVED, COMPUTED = 0.0, 4.0, 5.0, 6.0, 9.0
 """Codes of Regime."""
 
 QUIET, FLAT = 1e-3, 0.03
-"""Slip that may be none, over the most in a step; and how much of a slip zone may slip so little."""
+"""Slip that may be none, over the most in a step, and the part of a slip zone that may slip so."""
 
 ROUNDING = 1e-12
 """A load that is nearer to sliding slides; a step whose loads change by less is none."""
