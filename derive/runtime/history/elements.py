@@ -238,17 +238,40 @@ def _stuck_force(x: float, a: float, c: float, dQ: float, dsigma: float) -> floa
     return dQ / math.pi * angle + dsigma / 4 * math.sqrt(max(half**2 - away**2, 0.0))
 
 
+@kernel(real(real, vector, vector, real, real))
+def _stuck_on_the_way(x: float, before: Any, now: Any, dQ: float, dsigma: float) -> float:
+    """The mean of the same while the edges a, c move evenly; from where an edge passes x on it
+    changes like a root."""
+    a, c, da, dc = before[0], before[1], now[0] - before[0], now[1] - before[1]
+    comes, goes = not -a < x < c, not -now[0] < x < now[1]
+    passed, total = 0.0, 0.0
+    if comes != goes:
+        left = x <= -a if comes else x <= -now[0]
+        passed = (-a - x) / da if left else (x - c) / dc
+        rest = passed if comes else 1 - passed
+        still = before if comes else now
+        total = rest * _stuck_force(x, still[0], still[1], dQ, dsigma)
+    for k in range(_TIMES.size):
+        t, share = _TIMES[k], _SHARES[k]
+        if comes and not goes:
+            t, share = passed + (1 - passed) * t * t, share * 2 * t * (1 - passed)
+        elif goes and not comes:
+            t, share = passed * (1 - t * t), share * 2 * t * passed
+        total += share * _stuck_force(x, a + t * da, c + t * dc, dQ, dsigma)
+    return total
+
+
 @kernel(whole(vector, vector, vector, real, real, vector))
 def add_full_stick(ends: Any, before: Any, now: Any, dQ: float, dsigma: float, q: Any) -> int:
     """Add to q the change under which all sticks, while the edges a, c move evenly."""
     still = before[0] == now[0] and before[1] == now[1]
-    for k in range(1 if still else _TIMES.size):
-        t = 1.0 if still else _TIMES[k]
-        share = 1.0 if still else _SHARES[k]
-        a, c = before[0] + t * (now[0] - before[0]), before[1] + t * (now[1] - before[1])
-        last = _stuck_force(ends[0], a, c, dQ, dsigma)
-        for i in range(q.size):
-            following = _stuck_force(ends[i + 1], a, c, dQ, dsigma)
-            q[i] += share * (following - last) / (ends[i + 1] - ends[i])
-            last = following
+    last = 0.0
+    for i in range(ends.size):
+        if still:
+            following = _stuck_force(ends[i], now[0], now[1], dQ, dsigma)
+        else:
+            following = _stuck_on_the_way(ends[i], before, now, dQ, dsigma)
+        if i > 0:
+            q[i - 1] += (following - last) / (ends[i] - ends[i - 1])
+        last = following
     return 1

@@ -50,8 +50,8 @@ LAST = 0.05
 """The last step before an instant over the others: what sticks at the instant is what sticks in it,
 though a slip zone that shrinks was longer before."""
 
-MOST_FRONTS = 12
-"""Places to crowd elements towards, at most."""
+EACH = 16
+"""Elements of a mesh over the places it is crowded towards, at least."""
 
 ROUNDS = 40
 """Most rounds of a cycle."""
@@ -92,9 +92,10 @@ def _most(tol: float) -> int:
     return 256 if tol >= 1e-3 else 512 if tol >= 1e-4 else 1024
 
 
-@kernel(vector(vector, real, real))
-def _apart(places: Any, size: float, apart: float) -> Any:
-    """Places in their order, some of those that lie closer together than `apart`."""
+@kernel(vector(vector, real, real, whole))
+def _apart(places: Any, size: float, apart: float, most: int) -> Any:
+    """At most so many places in their order, of those that lie closer together than `apart` some;
+    twice that, and so on, where there are too many."""
     found = np.sort(places[np.isfinite(places)])
     while True:
         kept = 0
@@ -103,7 +104,7 @@ def _apart(places: Any, size: float, apart: float) -> Any:
                 found[kept] = place
                 kept += 1
         found = found[:kept].copy()
-        if kept <= MOST_FRONTS:
+        if kept <= most:
             return found
         apart *= 2
 
@@ -213,7 +214,8 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
                 break
             coarse, elements = fine, 2 * elements
             fronts = np.concatenate((-coarse[:, 2], coarse[:, 3]))
-            fronts = _apart(fronts, np.nanmax(coarse[:, 0] + coarse[:, 1]), 10 * tol)
+            widest = np.nanmax(coarse[:, 0] + coarse[:, 1])
+            fronts = _apart(fronts, widest, 10 * tol, elements // EACH)
         for k in range(count):
             for i in range(first):
                 out[row, k * first + i] = fine[k, i]
@@ -362,5 +364,6 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
             if met or elements >= _most(tol):
                 break
             coarse, elements = fine, 2 * elements
-            fronts = _apart(np.array([-coarse[0], coarse[1]]), coarse[0] + coarse[1], 10 * tol)
+            fronts = np.array([-coarse[0], coarse[1]])
+            fronts = _apart(fronts, coarse[0] + coarse[1], 10 * tol, elements // EACH)
         out[row] = fine

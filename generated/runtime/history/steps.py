@@ -21,8 +21,9 @@ SHEAR, BOUND, PLACES, SLIP, SLIPPED = range(5)
 NONE, SLIDING, FULL_STICK, UNSOLVED, COMPUTED = 0.0, 4.0, 5.0, 6.0, 9.0
 """Codes of Regime."""
 
-QUIET, FLAT = 1e-3, 0.03
-"""Slip that may be none, over the most in a step, and the part of a slip zone that may slip so."""
+QUIET, FINE, FLAT = 1e-3, 8.0, 0.03
+"""Slip that may be none, over the most in a step, and less on a mesh of more elements than 250; the
+part of a slip zone that may slip so little."""
 
 ROUNDING = 1e-12
 """A load that is nearer to sliding slides; a step whose loads change by less is none."""
@@ -102,9 +103,9 @@ def sticking(x: Any, state: Any, a: float, c: float) -> Any:
     An element that sticks alone is no interval, unless there is no other.
     """
     first, last, runs, slips, length, lone = -1, -1, 0, 0, 0, -1
-    least = 0.0
+    quiet, least = min(QUIET, (FINE / x.size) ** 2), 0.0
     for i in range(x.size):
-        least = max(least, QUIET * abs(state[SLIPPED, i]))
+        least = max(least, quiet * abs(state[SLIPPED, i]))
     for i in range(x.size):
         slips += state[BOUND, i] > 0 and state[PLACES, i] != 0
         if state[BOUND, i] == 0 or (state[PLACES, i] != 0 and abs(state[SLIPPED, i]) > least):
