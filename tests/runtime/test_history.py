@@ -189,8 +189,8 @@ def test_what_is_no_stack_of_reversals_is_computed(P, M, sigma, part):
 def test_finer_when_asked(on_elements):
     Q = np.linspace(0.2, 0.8, 7) * F * LOAD
     n = np.sqrt(1 - Q / (F * LOAD))
-    coarse, fine = (history(hertz, LOAD, 0.0, Q, 0.0, tol=tol) for tol in (4e-3, 5e-4))
-    assert np.max(abs(fine.n - n)) < np.max(abs(coarse.n - n)) / 3
+    coarse, fine = (history(hertz, LOAD, 0.0, Q, 0.0, tol=tol) for tol in (4e-3, 2e-4))
+    assert np.max(abs(coarse.n - n)) / 2 < 4e-3 and np.max(abs(fine.n - n)) / 2 < 2e-4
     assert np.max(fine.error) < np.min(coarse.error)
 
 
@@ -380,7 +380,8 @@ def test_mirrored_loads_mirror_the_answer(case):
     P, M = 1 + 0.2 * np.sin(T), 0.05 * np.cos(T)
     Q, sigma = 0.15 * np.sin(T + 1), 0.2 * np.cos(T + 2)
     here, there = (history(case, P, s * M, s * Q, sigma, x=[0.3 * s]) for s in (1, -1))
-    assert there.m == pytest.approx(here.n, abs=3e-3)
+    assert np.all(abs(there.m - here.n) < (here.error + there.error) * (here.a + here.c))
+    assert np.max(here.error) < 0.01
     assert there.q == pytest.approx(-here.q, abs=3e-3)
     assert there.work == pytest.approx(here.work, rel=0.01)
 

@@ -4,7 +4,7 @@ elements    the mesh, the influence of shear on displacement, pressure and full-
 nearest     the shear within friction that is nearest to a trial one: one convex problem a step
 path        the loads and contacts on the way from instant to instant
 steps       the state, its steps, and what is told of it
-solve       histories and steady cycles on two meshes, and the estimate of their error
+solve       histories and steady cycles on ever finer meshes, and the estimate of their error
 reversals   moderate tension in phase at constant normal loads: exact, a stack of reversals
 batch       many cases at once, on all cores
 lazy        histories of Dask arrays

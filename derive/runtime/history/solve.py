@@ -1,8 +1,9 @@
-r"""Histories and steady cycles on two meshes, and the estimate of their error.
+r"""Histories and steady cycles on ever finer meshes, and the estimate of their error.
 
-What is told is that of the fine mesh.  Its error is put at the difference between both, which is
-about twice what the fine one is off, and for ends half an element more, since a front is found
-between two elements.
+Each mesh has twice the elements of the one before and is crowded towards the ends of the stick zone
+that were found on that one; it is the last where both agree to the tolerance.  What is told is that
+of the last.  Its error is put at the difference between the last two, which is more than what the
+last is off, and for ends part of an element more, since a front is found between two elements.
 """
 
 import math
@@ -10,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
+from ..kernels import LOOP, kernel, matrix, opened, real, results, vector, whole
+from ..shared import shared
 from .elements import influence, inverse_of
 from .path import INSTANT, A, C, path
 from .steps import (
@@ -18,6 +20,7 @@ from .steps import (
     COMPUTED,
     FULL_STICK,
     NONE,
+    SLIDING,
     SLIP,
     SLIPPED,
     UNSOLVED,
@@ -36,11 +39,18 @@ SAMPLES = 24
 FEATURES = 8
 """a, c, m, n, intervals, regime, work and error of an instant."""
 
-ELEMENTS, FEWEST, MOST = 256.0, 96, 640
-"""Elements at a tolerance of 1e-3, and of any mesh."""
+FEWEST, MIDDLE = 64, 256
+"""Elements of the first mesh; from where on steps are halved."""
 
-PARTS = 2
-"""Steps between two instants on the fine mesh at least."""
+REACH = 3.84
+"""How far an edge may move in a step, over the width of the contact, times the elements."""
+
+LAST = 0.05
+"""The last step before an instant over the others: what sticks at the instant is what sticks in it,
+though a slip zone that shrinks was longer before."""
+
+EACH = 16
+"""Elements of a mesh over the places it is crowded towards, at least."""
 
 ROUNDS = 40
 """Most rounds of a cycle."""
@@ -48,7 +58,7 @@ ROUNDS = 40
 REPEATED = 1e-4
 """Slip of two rounds that differs by less, over the most, is the same."""
 
-THRESHOLD = 1e-5
+THRESHOLD = 1e-4
 """Slip in a round that is none, over the most; thirty times as much is tried, too."""
 
 
@@ -75,29 +85,43 @@ def _between_elements(ends: Any, m: float, n: float, a: float, c: float) -> floa
     return off
 
 
-@kernel(whole(real, whole))
-def elements_for(tol: float, level: int) -> int:
-    """Elements of the coarse mesh, level 0, and of the fine one."""
-    count = ELEMENTS * 1e-3 / max(tol, 1e-6)
-    count = min(max(count, float(FEWEST)), float(MOST))
-    return int(count if level == 1 else count / 2)
+@kernel(whole(real))
+def _most(tol: float) -> int:
+    """Elements of the finest mesh."""
+    return 256 if tol >= 1e-3 else 512 if tol >= 1e-4 else 1024
 
 
-@kernel(matrix(LAW, vector, real, matrix, vector, real, whole))
-def followed(law: Any, own: Any, f: float, loads: Any, places: Any, tol: float, level: int) -> Any:
+@kernel(vector(vector, real, real, whole))
+def _apart(places: Any, size: float, apart: float, most: int) -> Any:
+    """At most so many places in their order, of those that lie closer together than `apart` some;
+    twice that, and so on, where there are too many."""
+    found = np.sort(places[np.isfinite(places)])
+    while True:
+        kept = 0
+        for place in found:
+            if kept == 0 or place - found[kept - 1] > apart * size:
+                found[kept] = place
+                kept += 1
+        found = found[:kept].copy()
+        if kept <= most:
+            return found
+        apart *= 2
+
+
+@shared
+def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
     """A history on one mesh: a row an instant of the features, then q and slip at the places and q
     at the samples.  The error is that of a front between two elements."""
     instants, asked = loads.shape[1], places.size
     found = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
     found[:, 5] = NONE
-    count = elements_for(tol, level)
-    rows = path(law, own, loads, f, 1.28 / count, PARTS - 1 + level)
+    rows = path(law, own, loads, f, REACH / count, 1 if count < MIDDLE else 2, LAST)
     known = False
     for k in range(rows.shape[0]):
         known = known or rows[k, A] + rows[k, C] > 0
     if not (known and f > 0):
         return found
-    ends = mesh_for(law, own, rows, count, np.empty(0))
+    ends = mesh_for(law, own, rows, count, fronts)
     x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
     A_ = influence(ends)
     B = inverse_of(A_)
@@ -174,15 +198,26 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         places = given[row, 3 + 4 * count :]
-        fine = followed(law, own[row], f, loads, places, tol, 1)
-        coarse = followed(law, own[row], f, loads, places, tol, 0)
-        first = FEATURES + 2 * asked
+        first, elements, met = FEATURES + 2 * asked, FEWEST, False
+        coarse, fronts = np.empty((0, 0)), np.empty(0)
+        while True:
+            fine = followed(law, own[row], f, loads, places, elements, fronts)
+            if elements > FEWEST:
+                met = True
+                for k in range(count):
+                    told = fine[k]
+                    mean = f * loads[0, k] / (told[0] + told[1])
+                    told[7] = _error(told, coarse[k], mean, first)
+                    met = met and (told[7] <= tol or told[5] in (NONE, SLIDING))
+            if met or elements >= _most(tol):
+                break
+            coarse, elements = fine, 2 * elements
+            fronts = np.concatenate((-coarse[:, 2], coarse[:, 3]))
+            widest = np.nanmax(coarse[:, 0] + coarse[:, 1])
+            fronts = _apart(fronts, widest, 10 * tol, elements // EACH)
         for k in range(count):
-            told = fine[k]
-            mean = f * loads[0, k] / (told[0] + told[1])
-            told[7] = _error(told, coarse[k], mean, first)
             for i in range(first):
-                out[row, k * first + i] = told[i]
+                out[row, k * first + i] = fine[k, i]
 
 
 # ---------------------------------------------------------------- steady cycles
@@ -220,21 +255,19 @@ def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> 
     return -found[0], found[1]
 
 
-@kernel(matrix(LAW, vector, real, matrix, vector, real, whole))
-def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, tol: float, level: int) -> Any:
+@shared
+def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
     """A cycle on one mesh: m, n, regime, work, rounds, drift, error of a front; then at the places
     the range of slip and q at the first instant."""
     asked = places.size
-    told = np.full((1, 7 + 2 * asked), math.nan)
-    found = told[0]
+    found = np.full(7 + 2 * asked, math.nan)
     found[2] = NONE
-    count = elements_for(tol, level)
-    least = PARTS - 1 + level
-    rows = path(law, own, loads, f, 1.28 / count, least)
+    least = 1 if count < MIDDLE else 2
+    rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
-            return told
-    ends = mesh_for(law, own, rows, count, np.empty(0))
+            return found
+    ends = mesh_for(law, own, rows, count, fronts)
     x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
     A_ = influence(ends)
     B = inverse_of(A_)
@@ -258,7 +291,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, tol: float, 
             code, more = step(law, own, f, ends, gone, row, A_, B, z, state, room)
             if code != COMPUTED:
                 found[2] = code
-                return told
+                return found
             work += more
             for i in range(x.size):
                 way[i] += abs(state[SLIPPED, i])
@@ -299,7 +332,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, tol: float, 
             t = min(max((places[i] - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
             found[7 + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
         found[7 + asked + i], _ = at_place(law, own, f, ends, x, state, rows[-1], places[i])
-    return told
+    return found
 
 
 @kernel(LOOP)
@@ -314,11 +347,22 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         places = given[row, 3 + 4 * count :]
-        fine = repeated(law, own[row], f, loads, places, tol, 1)[0]
-        coarse = repeated(law, own[row], f, loads, places, tol, 0)[0]
-        if fine[2] == COMPUTED:
-            away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
-            fine[6] += away / (fine[0] + fine[1])
-        elif fine[2] != coarse[2]:
-            fine[6] = math.nan
+        elements, met = FEWEST, False
+        coarse, fronts = np.empty(0), np.empty(0)
+        while True:
+            fine = repeated(law, own[row], f, loads, places, elements, fronts)
+            if elements > FEWEST:
+                met = fine[2] == coarse[2]
+                if fine[2] == COMPUTED:
+                    away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
+                    away /= fine[0] + fine[1]
+                    fine[6] += away
+                    met = met and away <= tol
+                elif not met:
+                    fine[6] = math.nan
+            if met or elements >= _most(tol):
+                break
+            coarse, elements = fine, 2 * elements
+            fronts = np.array([-coarse[0], coarse[1]])
+            fronts = _apart(fronts, coarse[0] + coarse[1], 10 * tol, elements // EACH)
         out[row] = fine

@@ -20,16 +20,24 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels import LAW, kernel, matrix, real, vector, whole
+from ..kernels import LAW, kernel, matrix, real, results, vector, whole
 
 COSINE, EVEN, PLACE = 0.0, 1.0, 2.0
-"""Kinds of a part of the mesh: crowded at both its ends, even, crowded at one place."""
+"""Kinds of a part of the mesh: crowded at both its ends, even, crowded at its middle."""
+
+GRADING = 4.0
+"""Distance from a place that is crowded towards, over the width of an element there."""
 
 _TIMES, _SHARES = np.polynomial.legendre.leggauss(5)
 _TIMES, _SHARES = (1 + _TIMES) / 2, _SHARES / 2
 
 _INNER = 0.5 - 0.5 / math.sqrt(3.0)
 """Gauss's rule of two nodes on (0, 1)."""
+
+TERMS, AGREED = 20, 1e-7
+"""Terms of the series of a smooth pressure, and when they are enough."""
+
+_COSINES = np.cos(np.pi * np.arange(4 * TERMS) / (2 * TERMS))
 
 
 # ---------------------------------------------------------------- mesh
@@ -47,24 +55,24 @@ def _elements_before(parts: Any, x: float) -> float:
         if kind == COSINE:
             u = math.acos(1 - 2 * u) / math.pi
         elif kind == PLACE:
-            away = 2 * u - 1
-            u = (1 + math.copysign(math.sqrt(abs(away)), away)) / 2
+            away, side = 2 * u - 1, count / (2 * GRADING)
+            u = (1 + math.copysign(math.log1p(abs(away) * math.expm1(side)) / side, away)) / 2
         total += count * u
     return total
 
 
-@kernel(vector(matrix, real, real, vector))
-def mesh(parts: Any, start: float, end: float, breaks: Any) -> Any:
-    """Ends of the elements: as many in each part as it asks for, one of them at every break."""
-    total = _elements_before(parts, end)
-    count = max(round(total), 8)
+@kernel(vector(matrix, real, real, vector, whole))
+def mesh(parts: Any, start: float, end: float, breaks: Any, count: int) -> Any:
+    """Ends of so many elements, shared out as the parts ask for, one of them at every break."""
+    first = _elements_before(parts, start)
+    each = (_elements_before(parts, end) - first) / count
     ends = np.empty(count + 1)
     ends[0], ends[count] = start, end
     for i in range(1, count):
         low, high = ends[i - 1], end
-        for _ in range(48):
+        for _ in range(40):
             middle = (low + high) / 2
-            if _elements_before(parts, middle) < i * total / count:
+            if _elements_before(parts, middle) < first + i * each:
                 low = middle
             else:
                 high = middle
@@ -159,9 +167,44 @@ def inverse_of(A: Any) -> Any:
 # ---------------------------------------------------------------- what acts on elements
 
 
+@kernel(results(2)(LAW, vector, real, real, vector))
+def _smooth(law: Any, own: Any, a: float, c: float, series: Any) -> Any:
+    """Chebyshev's series of the pressure over sqrt((a + x)(c - x)): its last terms and the largest.
+
+    It spares many pressures that are integrals; at a corner or kink it does not converge."""
+    count, tail, most = series.size, 0.0, 0.0
+    values = np.empty(count)
+    for j in range(count):
+        angle = math.pi * (j + 0.5) / count
+        s = (a + c) * math.cos(angle / 2) ** 2
+        root = (a + c) / 2 * math.sin(angle)
+        values[j] = law.pressure(s - a, a, c, own) / root
+    for k in range(count):
+        series[k] = 0.0
+        for j in range(count):
+            series[k] += values[j] * _COSINES[k * (2 * j + 1) % (4 * count)] * (2.0 / count)
+        most = max(most, abs(series[k]))
+        if k >= count - 3:
+            tail = max(tail, abs(series[k]))
+    return tail, most
+
+
+@kernel(real(vector, real, real, real))
+def _summed(series: Any, x: float, a: float, c: float) -> float:
+    """The pressure of such a series, by Clenshaw's rule."""
+    t = (2 * x + a - c) / (a + c)
+    u = v = 0.0
+    for k in range(series.size - 1, 0, -1):
+        u, v = 2 * t * u - v + series[k], u
+    return (t * u - v + series[0] / 2) * math.sqrt(max((a + x) * (c - x), 0.0))
+
+
 @kernel(whole(LAW, vector, vector, real, real, real, vector))
 def mean_pressures(law: Any, own: Any, ends: Any, a: float, c: float, load: float, p: Any) -> int:
     """Means of the pressure over the elements into p, made to carry the load."""
+    series = np.empty(TERMS)
+    tail, most = _smooth(law, own, a, c, series)
+    smooth = tail < AGREED * most
     total = 0.0
     for i in range(p.size):
         low, high = max(ends[i], -a), min(ends[i + 1], c)
@@ -170,17 +213,17 @@ def mean_pressures(law: Any, own: Any, ends: Any, a: float, c: float, load: floa
             continue
         size = high - low
         left, right = low + a <= 1e-9 * size, c - high <= 1e-9 * size
-        if left or right:
-            # p = sqrt(s) (k + l s) from an edge, at the nodes of the rule for sqrt(s)
-            for k in range(2):
+        for k in range(2):
+            if left or right:
+                # p = sqrt(s) (k + l s) from an edge, at the nodes of the rule for sqrt(s)
                 s = size * (0.28994919792569 if k == 0 else 0.82116191318542)
                 weight = 0.27755599823067 if k == 0 else 0.38911066843600
-                at = law.pressure(low + s if left else high - s, a, c, own)
-                p[i] += weight * at * math.sqrt(size / s) * size
-        else:
-            near = law.pressure(low + size * _INNER, a, c, own)
-            far = law.pressure(high - size * _INNER, a, c, own)
-            p[i] = size * (near + far) / 2
+                weight *= math.sqrt(size / s)
+                x = low + s if left else high - s
+            else:
+                x, weight = low + size * (_INNER if k == 0 else 1 - _INNER), 0.5
+            at = _summed(series, x, a, c) if smooth else law.pressure(x, a, c, own)
+            p[i] += weight * at * size
         total += p[i]
     for i in range(p.size):
         p[i] *= load / (total * (ends[i + 1] - ends[i])) if total > 0 else 0.0
@@ -196,17 +239,40 @@ def _stuck_force(x: float, a: float, c: float, dQ: float, dsigma: float) -> floa
     return dQ / math.pi * angle + dsigma / 4 * math.sqrt(max(half**2 - away**2, 0.0))
 
 
+@kernel(real(real, vector, vector, real, real))
+def _stuck_on_the_way(x: float, before: Any, now: Any, dQ: float, dsigma: float) -> float:
+    """The mean of the same while the edges a, c move evenly; from where an edge passes x on it
+    changes like a root."""
+    a, c, da, dc = before[0], before[1], now[0] - before[0], now[1] - before[1]
+    comes, goes = not -a < x < c, not -now[0] < x < now[1]
+    passed, total = 0.0, 0.0
+    if comes != goes:
+        left = x <= -a if comes else x <= -now[0]
+        passed = (-a - x) / da if left else (x - c) / dc
+        rest = passed if comes else 1 - passed
+        still = before if comes else now
+        total = rest * _stuck_force(x, still[0], still[1], dQ, dsigma)
+    for k in range(_TIMES.size):
+        t, share = _TIMES[k], _SHARES[k]
+        if comes and not goes:
+            t, share = passed + (1 - passed) * t * t, share * 2 * t * (1 - passed)
+        elif goes and not comes:
+            t, share = passed * (1 - t * t), share * 2 * t * passed
+        total += share * _stuck_force(x, a + t * da, c + t * dc, dQ, dsigma)
+    return total
+
+
 @kernel(whole(vector, vector, vector, real, real, vector))
 def add_full_stick(ends: Any, before: Any, now: Any, dQ: float, dsigma: float, q: Any) -> int:
     """Add to q the change under which all sticks, while the edges a, c move evenly."""
     still = before[0] == now[0] and before[1] == now[1]
-    for k in range(1 if still else _TIMES.size):
-        t = 1.0 if still else _TIMES[k]
-        share = 1.0 if still else _SHARES[k]
-        a, c = before[0] + t * (now[0] - before[0]), before[1] + t * (now[1] - before[1])
-        last = _stuck_force(ends[0], a, c, dQ, dsigma)
-        for i in range(q.size):
-            following = _stuck_force(ends[i + 1], a, c, dQ, dsigma)
-            q[i] += share * (following - last) / (ends[i + 1] - ends[i])
-            last = following
+    last = 0.0
+    for i in range(ends.size):
+        if still:
+            following = _stuck_force(ends[i], now[0], now[1], dQ, dsigma)
+        else:
+            following = _stuck_on_the_way(ends[i], before, now, dQ, dsigma)
+        if i > 0:
+            q[i - 1] += (following - last) / (ends[i] - ends[i - 1])
+        last = following
     return 1

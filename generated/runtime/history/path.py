@@ -23,11 +23,6 @@ SMALL = 0.02
 """Width of the first contact of a new one, over that at the next instant."""
 
 
-LAST = 0.05
-"""The last step before an instant over the others: what sticks at the instant is what sticks in it,
-though a slip zone that shrinks was longer before."""
-
-
 @kernel(whole(LAW, vector, vector))
 def _touch(law: Any, own: Any, row: Any) -> int:
     """Find the contact under a row's loads."""
@@ -61,11 +56,12 @@ def _turns(loads: Any, k: int, f: float) -> Any:
     return found
 
 
-@kernel(matrix(LAW, vector, matrix, real, real, whole))
-def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int) -> Any:
+@kernel(matrix(LAW, vector, matrix, real, real, whole, real))
+def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, short: float) -> Any:
     """The rows; the first one is the contact at the first instant without shear.
 
-    least: steps between two instants at least.
+    least: steps between two instants at least; short: the last one over the others, 0 for none
+    that is shorter.
     """
     instants = loads.shape[1]
     ends, parts = np.empty((instants, 7)), np.ones(instants, np.int64)
@@ -116,7 +112,9 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int) -> 
         turns = _turns(loads, k, f)
         last = start
         for j in range(1, parts[k] + 2):
-            part = j / parts[k] if j < parts[k] else 1 - LAST / parts[k]
+            if j == parts[k] and short == 0:
+                continue
+            part = j / parts[k] if j < parts[k] else 1 - short / parts[k]
             t = 1.0 if j > parts[k] else start + (1 - start) * part**power
             for turn in (min(turns[0], turns[1]), max(turns[0], turns[1])):
                 if last < turn < t:

@@ -106,7 +106,7 @@ def steady_cycle(
 
         as by stick_zone where that is exact, with `mixed` where the normal loads are constant
         else the history is repeated until slip repeats, and what sticks is what slips less in the
-            last round, to and fro added, than 1e-5 of the most; how far the ends move with thirty
+            last round, to and fro added, than 1e-4 of the most; how far the ends move with thirty
             times that is part of the error
 
     Arguments broadcast; time lies along the last axis, and from the last instant the loads go back

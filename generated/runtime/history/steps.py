@@ -21,16 +21,18 @@ SHEAR, BOUND, PLACES, SLIP, SLIPPED = range(5)
 NONE, SLIDING, FULL_STICK, UNSOLVED, COMPUTED = 0.0, 4.0, 5.0, 6.0, 9.0
 """Codes of Regime."""
 
+QUIET, FINE, FLAT = 1e-3, 8.0, 0.03
+"""Slip that may be none, over the most in a step, and less on a mesh of more elements than 250; the
+part of a slip zone that may slip so little."""
+
 ROUNDING = 1e-12
 """A load that is nearer to sliding slides; a step whose loads change by less is none."""
 
 
 @kernel(vector(LAW, vector, matrix, whole, vector))
 def mesh_for(law: Any, own: Any, rows: Any, count: int, fronts: Any) -> Any:
-    """Elements for a path: about `count`, more where edges move, crowded towards edges and kinks.
-
-    fronts: more places to crowd towards.
-    """
+    """Elements for a path: more of them where edges move, crowded towards edges, kinks and
+    `fronts`, the places where stick intervals are known to end."""
     left = right = -math.inf
     inner_left = inner_right = math.inf
     for i in range(rows.shape[0]):
@@ -51,10 +53,11 @@ def mesh_for(law: Any, own: Any, rows: Any, count: int, fronts: Any) -> Any:
             parts[3 + k] = np.array([EVEN, start, start + way, 0.7 * count * way / h])
     for k in range(breaks.size + fronts.size):
         place = breaks[k] if k < breaks.size else fronts[k - breaks.size]
+        share = 0.12 if k < breaks.size else 1.0 / max(fronts.size, 4)
         if -left < place < right:
-            reach = 0.1 * h if k < breaks.size else 0.06 * h
-            parts[5 + k] = np.array([PLACE, place - reach, place + reach, 0.12 * count])
-    return mesh(parts, -left, right, breaks)
+            reach = 0.1 * h
+            parts[5 + k] = np.array([PLACE, place - reach, place + reach, share * count])
+    return mesh(parts, -left, right, breaks, count)
 
 
 # ---------------------------------------------------------------- what sticks
@@ -80,6 +83,19 @@ def _end(x: Any, state: Any, last: int, side: int, edge: float) -> float:
     return min(end, edge) if side > 0 else max(end, edge)
 
 
+@kernel(whole(vector, matrix, whole, whole, real, real))
+def _inward(x: Any, state: Any, last: int, side: int, edge: float, least: float) -> int:
+    """The last element of a stick interval: behind those that do slip, though by next to nothing,
+    unless there are so many that shear has come back to its old extreme there."""
+    i = last
+    while state[PLACES, i] != 0 and state[PLACES, i - side] == state[PLACES, i]:
+        i -= side
+    if state[PLACES, i] != 0:
+        i -= side
+    few = abs(x[last] - x[i]) <= FLAT * max(abs(edge - x[last]), abs(x[last] - x[last - side]))
+    return i if few and abs(state[SLIPPED, i]) <= least else last
+
+
 @kernel(results(4)(vector, matrix, real, real))
 def sticking(x: Any, state: Any, a: float, c: float) -> Any:
     """m, n, the number of stick intervals, and the number of elements that slip.
@@ -87,9 +103,12 @@ def sticking(x: Any, state: Any, a: float, c: float) -> Any:
     An element that sticks alone is no interval, unless there is no other.
     """
     first, last, runs, slips, length, lone = -1, -1, 0, 0, 0, -1
+    quiet, least = min(QUIET, (FINE / x.size) ** 2), 0.0
     for i in range(x.size):
-        if state[BOUND, i] == 0 or state[PLACES, i] != 0:
-            slips += state[BOUND, i] > 0
+        least = max(least, quiet * abs(state[SLIPPED, i]))
+    for i in range(x.size):
+        slips += state[BOUND, i] > 0 and state[PLACES, i] != 0
+        if state[BOUND, i] == 0 or (state[PLACES, i] != 0 and abs(state[SLIPPED, i]) > least):
             length = 0
             continue
         length, lone = length + 1, i
@@ -102,6 +121,9 @@ def sticking(x: Any, state: Any, a: float, c: float) -> Any:
         return math.nan, math.nan, 0.0, float(slips)
     if first < 0:
         first, last, runs = lone, lone, 1
+    else:
+        first = _inward(x, state, first, -1, -a, least)
+        last = _inward(x, state, last, 1, c, least)
     m, n = -_end(x, state, first, -1, -a), _end(x, state, last, 1, c)
     return m, n, float(runs), float(slips)
 
@@ -145,6 +167,19 @@ def _slid(w: Any, before: Any, s: Any, state: Any) -> float:
     return work
 
 
+@kernel(whole(vector, matrix, whole))
+def _guessed(old: Any, state: Any, afresh: int) -> int:
+    """Places of what has come into contact: as at the edge before, or sticking all over."""
+    place = 0.0
+    for k in range(2 * old.size):
+        i = k if k < old.size else 2 * old.size - 1 - k
+        if old[i] > 0 and not afresh:
+            place = state[PLACES, i]
+        elif state[BOUND, i] > 0 and (k >= old.size or place != 0 or afresh):
+            state[PLACES, i] = place
+    return 1
+
+
 @kernel(
     results(2)(LAW, vector, real, vector, vector, vector, matrix, matrix, vector, matrix, matrix)
 )
@@ -169,9 +204,9 @@ def step(
         return NONE, 0.0
     afresh = not before[A] + before[C] > 0
     old = state[BOUND].copy()
-    mean_pressures(law, own, ends, now[A], now[C], now[P], state[BOUND])
-    for i in range(count):
-        state[BOUND, i] *= f
+    if afresh or before[A] != now[A] or before[C] != now[C] or not old.any():
+        mean_pressures(law, own, ends, now[A], now[C], now[P], state[BOUND])
+        state[BOUND] *= f
     if abs(now[Q]) >= f * now[P] * (1 - ROUNDING):
         sense = math.copysign(1.0, now[Q])
         for i in range(count):
@@ -191,9 +226,7 @@ def step(
             now[SIGMA] - before[SIGMA],
             trial,
         )
-    for i in range(count):
-        if state[BOUND, i] > 0 and (old[i] == 0 or afresh):
-            state[PLACES, i] = 0.0
+    _guessed(old, state, afresh)
     if not nearest(A_, B, z, w, trial, state[BOUND], given, state[PLACES], state[SHEAR], s, room):
         return UNSOLVED, math.nan
     return COMPUTED, _slid(w, old, s, state)

@@ -1,0 +1,417 @@
+"""Load histories and steady cycles: how far off they are, and whether they say so.
+
+    python -m tests.accuracy.histories [--quick]
+
+prints a table; nothing depends on the time but the medians of steady cycles.
+"""
+
+import sys
+from collections.abc import Iterator
+from itertools import pairwise
+from time import process_time
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from generated import catenary, flat_rounded, hertz, rounded_wedge, wedge
+from generated.runtime.body import kernel_of
+from generated.runtime.types import Regime
+from tests.reference.bounded import NoSolution
+from tests.reference.friction import Friction
+from tests.reference.kernel import Surface
+from tests.reference.mesh import graded
+from tests.reference.normal import Body, press
+
+F = 0.5
+EXACT = (Regime.MODERATE, Regime.LARGE, Regime.FULL_STICK)
+
+
+class Case(NamedTuple):
+    """A body told twice: as a generated module, and as a profile; a load that is at home on it."""
+
+    module: Any
+    own: dict[str, float]
+    profile: Body
+    load: float
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """What the module's functions ask for."""
+        return {"f": F, "E_star": 1.0, **self.own}
+
+    @property
+    def width(self) -> float:
+        """The contact's under the load alone."""
+        found = self.module.contact(self.load, 0.0, E_star=1.0, **self.own)
+        return float(found.a + found.c)
+
+
+def _rounded(x: Any) -> Any:
+    return np.where(abs(x) < 0.3, x**2 / 0.6, abs(x) - 0.15)
+
+
+CASES = {
+    "hertz": Case(hertz, {"R": 1.0}, Body(lambda x: x**2 / 2), np.pi / 4),
+    "wedge": Case(wedge, {"phi": 1.0}, Body(np.abs, kinks=(0.0,)), 1.0),
+    "flat_rounded": Case(
+        flat_rounded,
+        {"R": 1.0, "b": 0.5},
+        Body(lambda x: np.maximum(0, abs(x) - 0.5) ** 2 / 2, kinks=(-0.5, 0.5)),
+        1.0,
+    ),
+    "rounded_wedge": Case(
+        rounded_wedge, {"phi": 1.0, "b": 0.3}, Body(_rounded, kinks=(-0.3, 0.3)), 1.0
+    ),
+    "catenary": Case(catenary, {"R": 1.0, "b": 1.0}, Body(lambda x: np.cosh(x) - 1), 1.0),
+}
+
+
+def on_elements(case: Case, loads: Any, tol: float = 1e-3, cycle: bool = False) -> Any:
+    """What the solver alone says, without what is exact: rows of features."""
+    loads = np.array(np.broadcast_arrays(*loads), dtype=float)
+    given = np.hstack([[F, tol, 0.0], loads.ravel()])[None]
+    own = np.array([[case.own[parameter.name] for parameter in case.module._BODY.parameters]])
+    out = np.empty((1, 7 if cycle else 8 * loads.shape[1]))
+    name = "each_cycle" if cycle else "each_history"
+    kernel_of(f"history.solve.{name}")(case.module._BODY.law, given, own, out)
+    return out[0] if cycle else out.reshape(-1, 8)
+
+
+# ---------------------------------------------------------------- random histories
+
+
+def random_loads(case: Case, rng: Any, instants: int, varies: bool, smooth: bool) -> Any:
+    """P, M, Q and sigma: legs between random instants, or sums of three waves."""
+    t = np.linspace(0, 2 * np.pi, instants)
+
+    def wave() -> Any:
+        if not smooth:
+            return rng.uniform(-1, 1, instants)
+        parts = [rng.uniform(-1, 1) / k * np.sin(k * t + rng.uniform(0, 7)) for k in (1, 2, 3)]
+        return sum(parts) / 1.8
+
+    P = case.load * (1 + 0.3 * wave() * varies)
+    M = 0.03 * P * case.width * (wave() if varies else rng.uniform(-1, 1))
+    return P, M, 0.7 * F * P * wave(), 2 * F * P / case.width * wave()
+
+
+class Reference(NamedTuple):
+    """Nodes; at every instant q, f p and places; how far an end between two nodes may be off."""
+
+    x: Any
+    q: Any
+    bound: Any
+    places: Any
+
+    def ends(self, i: int) -> tuple[float, float, bool]:
+        """m and n, close to the outermost nodes that stick, and whether all between them stick:
+        (f p - |q|)**2 rises from an end like a straight line."""
+        q, bound, places, x = self.q[i], self.bound[i], self.places[i], self.x
+        inside = np.flatnonzero((bound > 0) & (places == 0))
+        if len(inside) < 6:
+            return np.nan, np.nan, False
+        found = []
+        for last, out in ((inside[0], -1), (inside[-1], 1)):
+            near, far = last - out, last - 2 * out
+            g, G = (bound[[near, far]] - places[last + out] * q[[near, far]]) ** 2
+            end = x[near] + (x[near] - x[far]) * g / (G - g) if g < G else x[last]
+            found.append(np.clip(end, *sorted((x[last], x[last + out]))))
+        return -found[0], found[1], bool(np.all(np.diff(inside) == 1))
+
+
+def reference(case: Case, loads: Any, a: Any, c: Any, count: int, steps: int) -> Reference:
+    """The same history by tests/reference, in even steps; the last one before an instant is short,
+    since what sticks at the instant is what sticks in it."""
+    places = [-a.max(), -a.min(), c.min(), c.max()]
+    margin = 0.03 * (places[-1] - places[0])
+    breaks = [places[0] - margin, *places, 0.0, places[-1] + margin, *case.profile.kinks]
+    surface = Surface(graded(breaks, count))
+    friction = Friction(surface, F, None, None, [])  # type: ignore[arg-type]
+    given = np.column_stack(np.broadcast_arrays(*loads))
+    q, guess, where = np.zeros_like(surface.x), None, None
+    told = []
+    for first, second in pairwise(np.vstack([given[:1] * [1, 1, 0, 0], given])):
+        for before, part in pairwise([*np.linspace(0, 1, steps + 1)[:-1], 1 - 0.05 / steps, 1]):
+            P, M, Q, _ = first + part * (second - first)
+            contact = press(case.profile, surface, P, M, guess)
+            guess = contact.places
+            dsigma = (part - before) * (second - first)[3]
+            q, _, where = friction._step(q, contact, Q, dsigma, where)
+        told.append((q, F * contact.p, where))
+    return Reference(surface.x, *map(np.array, zip(*told, strict=True)))
+
+
+class Compared(NamedTuple):
+    """Of one history: mean errors of shear over f P, those of ends over the width, the stated
+    ones, whether every instant was answered."""
+
+    shear: list[float]
+    ends: list[float]
+    stated: list[float]
+    answered: bool
+
+
+def compared(case: Case, loads: Any, count: int = 64, steps: int = 16) -> Compared:
+    """A history beside the reference's."""
+    plain = case.module.history(*loads, **case.constants)
+    told = reference(case, loads, plain.a, plain.c, count, steps)
+    found = case.module.history(*loads, x=told.x, **case.constants)
+    shear, ends, stated = [], [], []
+    for i, P in enumerate(np.broadcast_to(loads[0], found.m.shape)):
+        shear.append(float(np.trapezoid(abs(found.q[i] - told.q[i]), told.x) / (F * P)))
+        m, n, single = told.ends(i)
+        if single and found.intervals[i] == 1:
+            h = found.a[i] + found.c[i]
+            for here, there in ((-found.m[i], -m), (found.n[i], n)):
+                near = np.searchsorted(told.x, there)
+                element = told.x[near] - told.x[near - 1]
+                ends.append(max(abs(here - there) - element / 2, 0.0) / h)
+                stated.append(float(found.error[i]))
+    answered = bool(np.all(np.isfinite(found.m)) and np.all(np.isfinite(found.error)))
+    return Compared(shear, ends, stated, answered)
+
+
+def random_histories(count: int, instants: int) -> Iterator[str]:
+    """(a) Beside the independent solver."""
+    rng = np.random.default_rng(11)
+    shear: list[float] = []
+    ends: list[float] = []
+    stated: list[float] = []
+    lost = answered = 0
+    for k in range(count):
+        case = list(CASES.values())[k % len(CASES)]
+        loads = random_loads(case, rng, instants, varies=k // 5 % 2 == 0, smooth=k // 10 % 2 == 0)
+        try:
+            one = compared(case, loads)
+        except NoSolution:
+            lost += 1
+            continue
+        answered += one.answered
+        shear, ends, stated = shear + one.shear, ends + one.ends, stated + one.stated
+    off, told = np.array(ends), np.array(stated)
+    near, covered = np.sum(off < 5e-3), np.mean(off <= told)
+    yield f"random histories            {count - lost}, {answered} answered; {lost} not by it"
+    yield f"  shear, mean and worst     {np.mean(shear):.1e} {np.max(shear):.1e} of f P"
+    yield f"  ends within 5e-3          {near} of {len(off)}, median {np.median(off):.1e}"
+    yield f"  ends within what is said  {covered:.1%}, stated median {np.median(told):.1e}"
+
+
+# ---------------------------------------------------------------- closed cases
+
+
+class Closed(NamedTuple):
+    """A cycle in phase: load, moment, dQ over f P, dsigma; how P (over itself) and M vary."""
+
+    body: str
+    P: float
+    M: float
+    dQ: float
+    dsigma: float
+    dP: float = 0.0
+    dM: float = 0.0
+
+    def loads(self, t: Any) -> Any:
+        """At t from -1/2 to 1/2."""
+        Q = 2 * self.dQ * F * self.P * t
+        return self.P * (1 + self.dP * t), self.M + self.dM * t, Q, self.dsigma * t
+
+    def exact(self) -> Any:
+        """The module's exact zone."""
+        case = CASES[self.body]
+        P, M, Q, sigma = self.loads(np.array([-0.5, 0.5]))
+        given = {"E_star": 1.0, **case.own}
+        first, second = (case.module.contact(p, m, **given) for p, m in zip(P, M, strict=True))
+        dQ, dsigma = Q[1] - Q[0], sigma[1] - sigma[0]
+        return case.module.stick_zone(first, second, dQ, dsigma, f=F, **given)
+
+
+CLOSED = (
+    Closed("hertz", np.pi / 4, 0.0, 0.3, 0.0),
+    Closed("hertz", np.pi / 4, 0.02, 0.2, 0.6),
+    Closed("hertz", np.pi / 4, 0.02, 0.3, 0.2, 0.1, 0.02),
+    Closed("hertz", np.pi / 4, 0.0, 0.15, 0.8, 0.05),
+    Closed("wedge", 1.0, 0.1, 0.3, 0.1),
+    Closed("wedge", 1.0, 0.1, 0.15, 1.0, 0.1, 0.03),
+    Closed("flat_rounded", 1.0, 0.05, 0.3, 0.1, 0.1, 0.02),
+    Closed("rounded_wedge", 1.0, 0.02, 0.3, 0.1, 0.1),
+    Closed("catenary", 1.0, 0.02, 0.25, 0.1, 0.1, 0.01),
+)
+
+
+def first_loading(tol: float) -> tuple[float, float]:
+    """Cattaneo and Mindlin's, n = a sqrt(1 - Q/(f P)): the worst error, and the least stated one
+    over that."""
+    part = np.array([0.2, 0.5, 0.8])
+    found = on_elements(CASES["hertz"], (np.pi / 4, 0.0, part * F * np.pi / 4, 0.0), tol)
+    exact = np.sqrt(1 - part)
+    off = np.max(abs(found[:, 2:4] - exact[:, None]), axis=1) / 2
+    return float(off.max()), float(np.min(found[:, 7] / off))
+
+
+def turning_points(one: Closed, tol: float) -> tuple[float, float]:
+    """The same of both ends of the second cycle."""
+    t = np.array([-0.5, 0.5, -0.5, 0.5, -0.5])
+    found = on_elements(CASES[one.body], one.loads(t), tol)[3:]
+    exact = one.exact()
+    assert exact.regime in (Regime.MODERATE, Regime.LARGE), one
+    off = np.maximum(abs(found[:, 2] - exact.m), abs(found[:, 3] - exact.n))
+    off /= exact.m + exact.n
+    return float(off.max()), float(np.min(found[:, 7] / off))
+
+
+def settled(one: Closed, tol: float) -> tuple[float, float]:
+    """The same of the steady cycle."""
+    t = np.array([-0.5, 0.5, -0.5])
+    found, exact = on_elements(CASES[one.body], one.loads(t), tol, cycle=True), one.exact()
+    off = max(abs(found[0] - exact.m), abs(found[1] - exact.n)) / (exact.m + exact.n)
+    return float(off), float(found[6] / off)
+
+
+def closed_cases(cases: Any, tols: Any) -> Iterator[str]:
+    """(b) Beside exact zones: the worst error, and whether what is stated covers it."""
+    for tol in tols:
+        told = [first_loading(tol)]
+        yield f"closed cases, tol {tol:g}       error    stated over it, least"
+        yield "  first loading             {:.1e}  {:.1f}".format(*told[0])
+        for name, function in (("turning points", turning_points), ("steady cycles", settled)):
+            told = [function(one, tol) for one in cases]
+            worst, ratio = max(t[0] for t in told), min(t[1] for t in told)
+            yield f"  {name:24}  {worst:.1e}  {ratio:.1f}"
+
+
+# ---------------------------------------------------------------- steady cycles
+
+
+def in_phase(case: Case, rng: Any) -> Any:
+    """A random cycle there and back: P varies by 0 to 40 %, M within +-0.03 P h."""
+    t = np.array([-0.5, 0.5, -0.5])
+    P = case.load * (1 + rng.uniform(0, 0.4) * rng.choice([-1, 1]) * t)
+    M = case.load * case.width * (rng.uniform(-0.03, 0.03) + rng.uniform(-0.03, 0.03) * t)
+    Q = F * case.load * 2 * rng.uniform(0.05, 0.35) * t
+    return P, M, Q, F * case.load / case.width * rng.uniform(-3, 3) * t
+
+
+def steady_cycles(count: int) -> Iterator[str]:
+    """(c) Whether all are answered, and as stick_zone does where that is exact."""
+    for name, case in CASES.items():
+        rng = np.random.default_rng(4)
+        answered = exact = within = 0
+        off, stated, times = [], [], []
+        for _ in range(count):
+            loads = in_phase(case, rng)
+            start = process_time()
+            found = on_elements(case, loads, cycle=True)
+            times.append(process_time() - start)
+            answered += found[2] in (Regime.SLIDING, Regime.NO_STICK) or bool(
+                np.isfinite(found[0]) and np.isfinite(found[6])
+            )
+            known = case.module.steady_cycle(*loads, **case.constants)
+            stated.append(found[6])
+            if known.regime in EXACT:
+                exact += 1
+                h = known.m + known.n
+                off.append(max(abs(found[0] - known.m), abs(found[1] - known.n)) / h)
+                within += off[-1] <= found[6] + 1e-9
+        yield (
+            f"steady cycles, {name:13}  {answered} of {count} answered, {within} of {exact} exact "
+            f"ones within the stated error, worst {max(off, default=0):.1e}, stated median "
+            f"{np.nanmedian(stated):.1e}, {1e3 * np.median(times):.0f} ms"
+        )
+
+
+# ---------------------------------------------------------------- wrong numbers, energy
+
+
+def out_of_phase(instants: int = 65) -> Any:
+    """P leads Q by a quarter: a cycle that march once answered wrongly, now refused."""
+    t = np.linspace(0, 2 * np.pi, instants)
+    load = CASES["hertz"].load
+    return load * (1 + 0.2 * np.sin(t)), 0.0 * t, 0.3 * F * load * np.cos(t), 0.0 * t
+
+
+def refused() -> Iterator[str]:
+    """(d) What march does not cover, and what is answered instead."""
+    case = CASES["hertz"]
+    part = np.array([0.9, 1, 1.1, 1.2, 1.3, 1.2, 1.1, 1])
+    for name, loads in (
+        ("P a quarter ahead of Q", out_of_phase()),
+        ("sliding", (case.load, 0.0, part * F * case.load, 0.0)),
+    ):
+        march = case.module.march(*loads, **case.constants)
+        found = case.module.steady_cycle(*loads, **case.constants)
+        yield (
+            f"{name:26}  march {Regime(int(march.regime.flat[0])).name}, "
+            f"m {np.nanmax([0, *march.m]):.4f}; steady {Regime(int(found.regime)).name} "
+            f"{found.m:.4f} +- {found.error:.0e}"
+        )
+
+
+def works(case: Case, loads: Any) -> tuple[float, float]:
+    """Friction's work in a steady cycle, and that of the loads Q and sigma at a place that sticks:
+
+    (2/E*) times the integral over the cycle of Q du + (x0 Q - X) dsigma/4, with u the displacement
+    at x0 by q and X the integral of q x.
+    """
+    own = case.constants
+    thrice = [np.concatenate([v, v[1:], v[1:]]) for v in np.broadcast_arrays(*loads)]
+    plain = case.module.history(*thrice, **own)
+    a, c = plain.a.max(), plain.c.max()
+    nodes = (c - a) / 2 - (a + c) / 2 * np.cos(np.linspace(0, np.pi, 601))
+    x, w = (nodes[1:] + nodes[:-1]) / 2, np.diff(nodes)
+    found = case.module.history(*thrice, x=x, **own)
+    last = slice(-len(loads[0]), None)
+    q, Q, sigma = found.q[last], thrice[2][last], thrice[3][last]
+    x0 = float(x[np.argmin(abs(x))])
+    distance = abs(nodes - x0)
+    primitive = np.sign(nodes - x0) * distance * (np.log(distance) - 1)
+    u = -(q @ np.diff(primitive)) / np.pi
+    X = q @ (w * x)
+    by_loads = 2 * (np.trapezoid(Q, u) + np.trapezoid((x0 * Q - X) / 4, sigma))
+    return float(found.work[-1] - found.work[last][0]), float(by_loads)
+
+
+def contraction(case: Case, loads: Any) -> float:
+    """The largest growth of the distance of two histories under the same loads, from one instant
+    to the next, over the first distance; they begin with another shear."""
+    P, M, Q, sigma = (np.array(v, dtype=float) for v in np.broadcast_arrays(*loads))
+    other = Q.copy()
+    other[0] = -Q[0] + 0.1 * F * P[0]
+    plain = case.module.history(P, M, Q, sigma, **case.constants)
+    nodes = np.linspace(-plain.a.max(), plain.c.max(), 301)
+    x = (nodes[1:] + nodes[:-1]) / 2
+    here, there = (case.module.history(P, M, v, sigma, x=x, **case.constants).q for v in (Q, other))
+    apart = abs(x[:, None] - x) + (x[1] - x[0]) * np.exp(-1.5) * np.eye(x.size)
+    influence = -np.log(apart / (2 * (nodes[-1] - nodes[0])))
+    distance = np.sqrt([d @ influence @ d for d in here - there])
+    return float(np.max(np.diff(distance[1:])) / distance[1])
+
+
+def energy() -> Iterator[str]:
+    """(e) Work and contraction."""
+    for name, loads in (("hertz", out_of_phase()), ("wedge", _gliding(65))):
+        friction, by_loads = works(CASES[name], loads)
+        off = friction / by_loads - 1
+        yield f"work, {name:20}  by friction over that of the loads, less 1: {off:.1e}"
+        rng = np.random.default_rng(3)
+        growth = contraction(CASES[name], random_loads(CASES[name], rng, 9, True, False))
+        yield f"contraction, {name:13}  largest growth of the distance: {growth:.1e}"
+
+
+def _gliding(instants: int) -> Any:
+    """Constant normal load; tension a quarter ahead of shear."""
+    t = np.linspace(0, 2 * np.pi, instants)
+    return 1.0 + 0 * t, 0.05 + 0 * t, 0.2 * np.sin(t), 0.2 * np.cos(t)
+
+
+def table(quick: bool = False) -> Iterator[str]:
+    """All lines."""
+    yield from random_histories(5 if quick else 50, 6 if quick else 9)
+    yield from closed_cases(CLOSED[:4] if quick else CLOSED, (1e-3,) if quick else (1e-3, 1e-5))
+    yield from steady_cycles(8 if quick else 400)
+    yield from refused()
+    yield from energy()
+
+
+if __name__ == "__main__":
+    for line in table("--quick" in sys.argv[1:]):
+        print(line, flush=True)

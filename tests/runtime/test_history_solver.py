@@ -1,0 +1,116 @@
+"""The solver of load histories: a small part of what tests/accuracy/histories.py measures."""
+
+import numpy as np
+import pytest
+
+from generated.runtime.types import Regime
+from tests.accuracy.histories import (
+    CASES,
+    CLOSED,
+    F,
+    compared,
+    contraction,
+    first_loading,
+    in_phase,
+    on_elements,
+    out_of_phase,
+    random_loads,
+    settled,
+    turning_points,
+    works,
+)
+
+pytestmark = pytest.mark.slow
+
+
+# ---------------------------------------------------------------- the independent solver
+
+
+@pytest.mark.parametrize(
+    ("body", "varies", "smooth"),
+    [("hertz", True, False), ("wedge", True, True), ("flat_rounded", False, False)],
+)
+def test_a_random_history_is_that_of_the_independent_solver(body, varies, smooth):
+    loads = random_loads(CASES[body], np.random.default_rng(12), 6, varies, smooth)
+    found = compared(CASES[body], loads, count=40, steps=10)
+    assert found.answered and len(found.ends) >= 6
+    assert np.mean(found.shear) < 3e-3
+    ends, stated = np.array(found.ends), np.array(found.stated)
+    assert np.mean(ends < 5e-3) > 0.9 and np.mean(ends <= stated) > 0.9
+
+
+# ---------------------------------------------------------------- exact zones
+
+
+@pytest.mark.parametrize("tol", [1e-3, 1e-5])
+def test_a_first_loading_is_cattaneo_s_and_mindlin_s(tol):
+    off, covered = first_loading(tol)
+    assert off < tol and covered > 1
+
+
+@pytest.mark.parametrize("one", CLOSED, ids=str)
+def test_turning_points_and_steady_cycles_come_to_the_exact_zone(one):
+    for off, covered in (turning_points(one, 1e-3), settled(one, 1e-3)):
+        assert off < 2e-3 and covered > 1
+
+
+@pytest.mark.parametrize(
+    "one", [CLOSED[1], pytest.param(CLOSED[2], marks=pytest.mark.thorough)], ids=str
+)
+def test_and_closer_when_asked(one):
+    """Large tension; moderate tension at varying loads."""
+    off, covered = turning_points(one, 1e-5)
+    assert off < 2e-5 and covered > 1
+
+
+@pytest.mark.parametrize("body", ["hertz", "rounded_wedge"])
+def test_every_cycle_in_phase_is_answered_and_agrees_with_the_exact_one(body):
+    case, rng, exact = CASES[body], np.random.default_rng(6), 0
+    for _ in range(6):
+        loads = in_phase(case, rng)
+        m, n, regime, _, _, _, error = on_elements(case, loads, cycle=True)
+        assert regime in (Regime.COMPUTED, Regime.FULL_STICK) and np.isfinite(error)
+        known = case.module.steady_cycle(*loads, **case.constants)
+        if known.regime in (Regime.MODERATE, Regime.LARGE):
+            exact += 1
+            off = max(abs(m - known.m), abs(n - known.n)) / (known.m + known.n)
+            assert off < error < 0.02
+    assert exact >= 2
+
+
+# ---------------------------------------------------------------- wrong numbers that there were
+
+
+def test_what_march_does_not_cover_it_refuses_and_a_steady_cycle_answers():
+    case, t = CASES["hertz"], np.linspace(0, 2 * np.pi, 33)
+    ahead = np.pi / 4
+    leading = case.load, 0.0, 0.3 * F * case.load * np.cos(t), 0.4 * F * np.cos(t + ahead)
+    for loads in (out_of_phase(33), leading):
+        march = case.module.march(*loads, **case.constants)
+        assert np.all(march.regime == Regime.OUT_OF_PHASE) and np.all(np.isnan(march.m))
+        found = case.module.steady_cycle(*loads, **case.constants)
+        assert found.regime == Regime.COMPUTED and 0.3 < found.m < 1 and 0.3 < found.n < 1
+
+
+def test_a_cycle_that_slides_has_no_zone():
+    case, part = CASES["hertz"], np.array([0.9, 1, 1.1, 1.2, 1.3, 1.2, 1.1, 1])
+    loads = case.load, 0.0, part * F * case.load, 0.0
+    assert np.all(np.isnan(case.module.march(*loads, **case.constants).m))
+    found = case.module.steady_cycle(*loads, **case.constants)
+    assert found.regime == Regime.SLIDING and np.isnan(found.m)
+    history = case.module.history(*loads, **case.constants)
+    assert np.all((history.regime == Regime.SLIDING) == (part >= 1))
+
+
+# ---------------------------------------------------------------- energy
+
+
+def test_friction_takes_what_the_loads_give():
+    friction, by_loads = works(CASES["hertz"], out_of_phase(33))
+    assert friction == pytest.approx(by_loads, rel=5e-3)
+
+
+@pytest.mark.parametrize("body", ["hertz", "wedge"])
+def test_two_histories_under_the_same_loads_never_separate(body):
+    loads = random_loads(CASES[body], np.random.default_rng(3), 7, True, False)
+    assert contraction(CASES[body], loads) < 0.02
