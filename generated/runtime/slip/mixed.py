@@ -54,7 +54,6 @@ from .bounded import (
     share,
     solved,
 )
-from .large import large_slip
 from .moderate import patch
 from .newton import EPS, narrowed
 from .quadrature import double_exponential
@@ -74,7 +73,7 @@ from .tables import (
 TERMS = (16, 24, 36, 54)
 """Terms of the tables, one after the other."""
 
-LEVEL = 1
+LEVEL = 2
 """Level of the quadrature of slip zones."""
 
 AGREED = 1e-7
@@ -318,17 +317,15 @@ def _is_sound(of: Any, state: Any) -> bool:
     return state.n < table.end <= of.c and -state.m <= turns <= last and off <= SLACK * most
 
 
-@kernel(results(2)(LAW, vector, vector, real, real))
-def _turning(law: Any, own: Any, cycle: Any, sense: float, middle: float) -> Any:
-    """m and n of a cycle as seen.
-
-    middle: a place that sticks all the time.
-    NaN where the phases are not these, or tables do not agree.
-    """
+@kernel(results(2)(LAW, vector, vector, real))
+def turning(law: Any, own: Any, cycle: Any, sense: float) -> Any:
+    """m and n of a cycle as seen; NaN where the phases are not these, or tables do not agree."""
     a, c = cycle[0], cycle[1]
-    if not (cycle[4] > 0 and cycle[5] > 0 and a + c > 0 and -a < middle < c):
+    if not (cycle[4] > 0 and cycle[5] > 0 and a + c > 0):
         return math.nan, math.nan
     of = friction(law, own, cycle, sense, -1.0, math.nan)
+    grown = placed(of, _width(of), math.nan, LEVEL)
+    middle = grown.n - (grown.m + grown.n) / 4
     state = State(math.nan, math.nan, no_gain(), math.nan, math.nan, 0)
     for count in TERMS:
         coarser, changed = state, math.inf
@@ -344,55 +341,42 @@ def _turning(law: Any, own: Any, cycle: Any, sense: float, middle: float) -> Any
     return math.nan, math.nan
 
 
-@kernel(results(2)(LAW, vector, matrix, vector, real))
-def _moderate(law: Any, own: Any, ends: Any, cycle: Any, sense: float) -> Any:
-    """m and n under moderate tension, as seen."""
-    real_cycle = cycle.copy()
-    real_cycle[5] = sense * cycle[5]
-    m, n = patch(law, own, ends, 0, 1, 1.0, real_cycle)
-    return (m, n) if sense > 0 else (n, m)
+@kernel(results(3)(LAW, vector, matrix, vector, real))
+def _moderate(law: Any, own: Any, ends: Any, cycle: Any, times: float) -> Any:
+    """m and n under moderate tension so many times as large, seen so that it is positive.
 
-
-@kernel(real(vector, real))
-def _past(cycle: Any, n: float) -> float:
-    """How far a + n of the moderate zone is past H, in parts of the contact."""
-    a, c, dQ, dsigma = cycle[0], cycle[1], cycle[4], cycle[5]
-    return float((a + n - 8 * dQ / (math.pi * dsigma)) / (a + c))
-
-
-@kernel(results(2)(LAW, vector, matrix, vector, real))
-def _turned_round(law: Any, own: Any, ends: Any, cycle: Any, sense: float) -> Any:
-    """m and n of a cycle as seen.
-
-    What sticks all the time lies about the middle of the zone of moderate tension, or of large
-    tension.  A little past the end of the moderate zone, where tables fail, n parts from the
-    moderate one like the square of what a + n is past H, and m far less: by how much is taken from
-    a tension a little larger.
+    And how far a + n is past H, in parts of the contact.
     """
-    m_0, n_0 = _moderate(law, own, ends, cycle, sense)
-    m, n = _turning(law, own, cycle, sense, (n_0 - m_0) / 2)
-    if m < math.inf:
-        return m, n
-    past, near = _past(cycle, n_0), cycle.copy()
-    if 0 < past <= STRIP:
-        near[5] = cycle[5] * (1 + STRIP)
-        m_1, n_1 = _moderate(law, own, ends, near, sense)
-        rate = (_past(near, n_1) - past) / STRIP
-        near[5] = cycle[5] * (1 + (BESIDE - past) / rate)
-        m_1, n_1 = _moderate(law, own, ends, near, sense)
-        part = (past / _past(near, n_1)) ** 2
-        m, n = _turning(law, own, near, sense, (n_1 - m_1) / 2)
-        return m_0 + part * (m - m_1), n_0 + part * (n - n_1)
-    large = large_slip(law, own, cycle, sense, AGREED)
-    return _turning(law, own, cycle, sense, (large.n - large.m) / 2)
+    tried = cycle.copy()
+    tried[5] *= times
+    m, n = patch(law, own, ends, 0, 1, 1.0, tried)
+    a = cycle[0]
+    if tried[5] < 0:
+        m, n, a = n, m, cycle[1]
+    past = a + n - 8 * cycle[4] / (math.pi * abs(tried[5]))
+    return m, n, past / (cycle[0] + cycle[1])
 
 
 @kernel(results(2)(LAW, vector, matrix, vector))
 def turned_round(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
     """m and n of a cycle of constant loads in which slip turns round; NaN where they are not found.
 
+    A little past the end of the moderate zone, where tables fail, n parts from the moderate one
+    like the square of what a + n is past H, and m far less: by how much is taken from a tension a
+    little larger.
+
     ends, cycle: as in zone.py.
     """
     sense, as_seen = sense_of(cycle), seen(cycle)
-    m, n = _turned_round(law, own, ends, as_seen, sense)
+    m, n = turning(law, own, as_seen, sense)
+    m_0, n_0, past = _moderate(law, own, ends, cycle, 1.0)
+    if math.isnan(m) and 0 < past <= STRIP:
+        rate = (_moderate(law, own, ends, cycle, 1 + STRIP)[2] - past) / STRIP
+        times = 1 + (BESIDE - past) / rate
+        m_1, n_1, beyond = _moderate(law, own, ends, cycle, times)
+        more = as_seen.copy()
+        more[5] *= times
+        m, n = turning(law, own, more, sense)
+        part = (past / beyond) ** 2
+        m, n = m_0 + part * (m - m_1), n_0 + part * (n - n_1)
     return (m, n) if sense > 0 else (n, m)
