@@ -323,8 +323,12 @@ def solved(of: Any, left: float, right: float, level: int) -> Any:
             left, right, best, part = now_left, now_right, miss, 1.0
             shrink = LONGEST / max(LONGEST, length)
             to_left, to_right = by_left * shrink, by_right * shrink
-            if length < max(small, 16 * EPS * width / min(left, right, stuck)):
-                if miss > (MET * pulls(of.cycle[4], of.cycle[5], stuck)[0]) ** 2:
+            rounding = 16 * EPS * width / min(left, right, stuck)
+            if length < max(small, rounding):
+                if (
+                    rounding < small
+                    and miss > (MET * pulls(of.cycle[4], of.cycle[5], stuck)[0]) ** 2
+                ):
                     break
                 left, right = moved(width, left, right, to_left, to_right)
                 return Slip(of.a - left, of.c - right, left, right, slip.left, slip.right)
