@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 
 from derive.runtime.inverse import contact_at_tilt
 from derive.runtime.kernels import LOOP, Law, kernel, opened
-from derive.runtime.slip import mixed, tables
-from derive.runtime.slip.large import large_slip
+from derive.runtime.slip import bounded, mixed, newton, tables
+from derive.runtime.slip.large import large_zone
 from derive.runtime.slip.mixed import turned_round, turning
 from tests.reference.conditions import HalfCycle, Patch
 from tests.reference.loads import State
@@ -33,8 +33,7 @@ def each_zone(law, given, own, out):
         out[i, 0], out[i, 1] = turned_round(law, own[i], ends, cycle)
         low, lean = load - dQ / (2 * F), tilt - dsigma / (4 * F)
         out[i, 2], out[i, 3] = contact_at_tilt(law, own[i], low, lean)
-        left, right = large_slip(law, own[i], cycle, 1e-12)
-        out[i, 4], out[i, 5] = a - left, c - right
+        out[i, 4], out[i, 5] = large_zone(law, own[i], cycle)
 
 
 def cycles(case, a, c, shear, tension):
@@ -157,20 +156,22 @@ def test_random_cycles_are_all_solved():
         assert np.all((m + n > 0)[turns] & (m < a)[turns] & (n < c)[turns])
 
 
-def test_nothing_turns_round_without_a_middle_or_loads():
+def test_nothing_turns_round_without_shear_or_tension():
     law, own = laws.wedge.functions, laws.wedge.own
-    for dQ, dsigma, middle in ((0.0, 0.2, 0.0), (0.15, 0.0, 0.0), (0.15, 0.2, 1.5)):
-        zone = turning.py_func(law, own, 1.0, 1.0, dQ, dsigma, F, middle)
+    for dQ, dsigma in ((0.0, 0.2), (0.15, 0.0)):
+        zone = turning.py_func(law, own, np.array([1.0, 1.0, 1.0, 1.0, dQ, dsigma, F]), 1.0)
         assert all(math.isnan(end) for end in zone)
 
 
 def test_the_text_gives_what_its_compiled_form_gives(monkeypatch):
     given = cycles(laws.wedge, 1.5, 1.25, 0.2, -1.1)
-    m, n, m_0, n_0 = zones(laws.wedge, given)[0, :4]
-    for module in (mixed, tables):
+    m, n = zones(laws.wedge, given)[0, :2]
+    for module in (bounded, mixed, newton, tables):
         for name, value in vars(module).items():
             if hasattr(value, "py_func"):
                 monkeypatch.setattr(module, name, value.py_func)
     law = Law(*(function.py_func for function in laws.wedge.functions))
-    zone = mixed.turning(law, laws.wedge.own, *map(float, given[0]), F, (n_0 - m_0) / 2)
-    assert_allclose(zone, (m, n), rtol=1e-11)
+    a, c, dQ, dsigma = map(float, given[0])
+    cycle = np.array([c, a, c, a, dQ, -dsigma, F])  # seen from behind
+    zone = mixed.turning(law, laws.wedge.own, cycle, -1.0)
+    assert_allclose(zone, (n, m), rtol=1e-11)

@@ -13,7 +13,7 @@ from scipy.integrate import quad
 from scipy.optimize import root
 
 from derive.runtime.kernels import COMPILED
-from derive.runtime.slip import quadrature, shear
+from derive.runtime.slip import bounded, quadrature, shear
 from tests.runtime.laws import flat_rounded, hertz, wedge
 
 NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = range(7)
@@ -313,7 +313,7 @@ def test_the_text_is_what_was_compiled(known, monkeypatch):
     law = type(case.functions)(*(function.py_func for function in case.functions))
     x, _ = places(case, cycle, zone, count=3)
     found = change(case, x, cycle, zone), slip(case, x, cycle, zone)
-    for module in (quadrature, shear):
+    for module in (bounded, quadrature, shear):
         for name, function in vars(module).items():
             if hasattr(function, "py_func"):
                 monkeypatch.setattr(module, name, function.py_func)

@@ -1,6 +1,8 @@
 """Partial slip: stick zones, slip zones and shear of a cycle, from a body's law.
 
 quadrature  nodes and weights on a slip zone
+newton      Newton's method in a bracket, and for two slip zones
+bounded     slip zones beside which shear stays bounded
 moderate    the stick zone as a contact of the same body
 large       the stick zone between slip zones of opposite signs
 growth      whether slip grows all the way, as both assume

@@ -23,7 +23,7 @@ import numpy as np
 from ..inverse import contact
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
 from ..types import Array
-from .large import EXACT, large_slip
+from .large import large_zone
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .series import slip_zones
 from .zone import FULL_STICK, LARGE, MIXED, NONE, SLIDING, UNSOLVED, stick_zone
@@ -189,8 +189,7 @@ def _stuck(
         )
         m, n = cycle[2] - left, cycle[3] - right
     elif regime == LARGE:
-        left, right = large_slip(law, own, cycle, EXACT)
-        m, n = a - left, c - right
+        m, n = large_zone(law, own, cycle)
     else:
         m, n = patch(law, own, contacts, start, now, 1.0, cycle)
     rounding = ROUNDING * (a + c)

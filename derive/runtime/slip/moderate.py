@@ -7,6 +7,7 @@ from typing import Any
 
 from ..inverse import contact_at_tilt
 from ..kernels import LAW, kernel, matrix, real, results, vector, whole
+from .newton import EPS, narrowed
 
 A, C, TILT, LOAD, MOMENT = range(5)
 """What is known of a contact, in this order."""
@@ -16,8 +17,6 @@ FACTOR = 8.0
 
 STEPS = 100
 """Steps at most until a width is bracketed, and until it is found."""
-
-EPS = 2.0**-52
 
 
 @kernel(results(2)(LAW, vector, matrix, whole, whole, real, vector))
@@ -49,22 +48,14 @@ def _width_under(law: Any, own: Any, load: float, edge: float, side: float, widt
         width, steps = width * FACTOR, steps + 1
     while _keeping(law, own, edge, width / FACTOR, side)[0] > load and steps < STEPS:
         width, steps = width / FACTOR, steps + 1
-    low, high = width / FACTOR, width
-    before = high - low
+    least = width / FACTOR
+    bracket = (least, width, width, width - least)
     for _ in range(STEPS - steps):
-        now, rate, _ = _keeping(law, own, edge, width, side)
-        if now < load:
-            low = width
-        else:
-            high = width
-        step = (load - now) / rate if rate > 0 else math.inf
-        if abs(step) <= 4 * EPS * width:
-            return width
-        if not (low < width + step < high and abs(step) < before / 2):
-            step = (low + high) / 2 - width
-        width, before = width + step, abs(step)
-        if high - low <= 4 * EPS * width:
-            return width
+        tried = bracket[2]
+        now, rate, _ = _keeping(law, own, edge, tried, side)
+        bracket = narrowed(bracket, now - load, rate, 2 * EPS * width)
+        if bracket[1] - bracket[0] <= 4 * EPS * width:
+            return tried
     return math.nan
 
 
@@ -79,5 +70,7 @@ def closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
     width = _width_under(law, own, load, edge, side, width)
     if not width > 0:
         return math.nan
-    _, _, tilt = _keeping(law, own, edge, width, side)
+    now, _, tilt = _keeping(law, own, edge, width, side)
+    # beside a kink rounding of the other edge is much of the tilt: what the load lacks tells it
+    tilt += side * 4 * (load - now) / (math.pi * width)
     return 4 * cycle[6] * ((ends[0, TILT] + ends[1, TILT]) / 2 - tilt)

@@ -1,9 +1,9 @@
-"""Nodes and weights on a slip zone, and the pressures there.
+"""Nodes and weights on a slip zone.
 
 A slip zone begins where the stick zone ends and goes as far as the larger contact.  A place in it
 is told by its distance y from the stick zone: x = side (start + y), side -1 on the left and +1 on
-the right, start = m or n.  It is cut where the smaller contact ends and at the breaks of the body's
-curve.  On each part one of these rules is taken:
+the right, start = m or n.  It is cut where the smaller contact ends, and where what slip leaves
+changes its formula.  On each part one of these rules is taken:
 
 * Gauss's in an angle, y = low + (high - low) sin(angle)**2: roots at both ends are smooth there;
 * the same with angle = (pi/2) sin(t)**2: next to a break, where pressure has a logarithm, with t**7
@@ -13,8 +13,6 @@ curve.  On each part one of these rules is taken:
 
 `level` 0 takes 16 nodes of the first rule, 24 of the second on parts that end in a break; level 1
 twice as many.  Levels 2 and 3 take the third rule on all parts, its steps 2**-5 and 2**-6.
-
-A cycle is a vector that begins with a1, c1, a2, c2, the edges of both contacts.
 """
 
 import math
@@ -22,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels import LAW, kernel, matrix, real, results, vector, whole
+from ..kernels import kernel, matrix, real, vector, whole
 
 FINEST = 3
 """The finest level."""
@@ -41,7 +39,7 @@ def _gauss(count: int, times: int) -> Any:
     return q, weight
 
 
-def _double_exponential(step: float) -> Any:
+def double_exponential(step: float) -> Any:
     """Nodes and weights on (0, 1)."""
     count = round(REACH / step)
     t = step * np.arange(-count, count + 1)
@@ -51,43 +49,41 @@ def _double_exponential(step: float) -> Any:
 
 _RULES = [
     *(_gauss(count, times) for count, times in ((16, 1), (32, 1), (24, 2), (48, 2))),
-    *(_double_exponential(step) for step in (2.0**-5, 2.0**-6)),
+    *(double_exponential(step) for step in (2.0**-5, 2.0**-6)),
 ]
 _NODES, _WEIGHTS = np.concatenate(_RULES, axis=1)
 _FIRST = np.cumsum([0, *(len(rule[0]) for rule in _RULES)])
-_SMOOTH, _KINKED = np.array([0, 1, 4, 5]), np.array([2, 3, 4, 5])
+_SMOOTH, _BROKEN = np.array([0, 1, 4, 5]), np.array([2, 3, 4, 5])
 """Numbers of the rules of each level."""
 
 
 @kernel(real(vector, real, real, real, real, real))
-def _next_cut(breaks: Any, side: float, start: float, slip: float, length: float, y: float) -> Any:
+def _next_cut(cuts: Any, side: float, start: float, slip: float, length: float, y: float) -> Any:
     """The first cut behind y, at `length` at last."""
     cut = length
     if y < slip < cut:
         cut = slip
-    for place in breaks:
+    for place in cuts:
         if y < side * place - start < cut:
             cut = side * place - start
     return cut
 
 
 @kernel(whole(vector, real, real, real, real, whole))
-def _rule_on(breaks: Any, side: float, start: float, low: float, high: float, level: int) -> Any:
+def _rule_on(cuts: Any, side: float, start: float, low: float, high: float, level: int) -> Any:
     """Number of the rule for a part."""
-    for place in breaks:
+    for place in cuts:
         y = side * place - start
         if y in (low, high):
-            return _KINKED[level]
+            return _BROKEN[level]
     return _SMOOTH[level]
 
 
 @kernel(matrix(vector, real, real, real, real, whole))
-def slip_nodes(
-    breaks: Any, side: float, start: float, slip: float, length: float, level: int
-) -> Any:
+def slip_nodes(cuts: Any, side: float, start: float, slip: float, length: float, level: int) -> Any:
     """Nodes, as distances y from the stick zone, and their weights: two rows.
 
-    breaks  of the body's curve, law.breaks(own)
+    cuts    places where what slip leaves changes its formula
     side    -1 on the left, +1 on the right
     start   m or n
     slip    y where the smaller contact ends
@@ -95,52 +91,18 @@ def slip_nodes(
     """
     count, low = 0, 0.0
     while low < length:
-        high = _next_cut(breaks, side, start, slip, length, low)
-        rule = _rule_on(breaks, side, start, low, high, level)
+        high = _next_cut(cuts, side, start, slip, length, low)
+        rule = _rule_on(cuts, side, start, low, high, level)
         count += _FIRST[rule + 1] - _FIRST[rule]
         low = high
     found = np.empty((2, count))
     count, low = 0, 0.0
     while low < length:
-        high = _next_cut(breaks, side, start, slip, length, low)
-        rule = _rule_on(breaks, side, start, low, high, level)
+        high = _next_cut(cuts, side, start, slip, length, low)
+        rule = _rule_on(cuts, side, start, low, high, level)
         for i in range(_FIRST[rule], _FIRST[rule + 1]):
             found[0, count] = low + (high - low) * _NODES[i]
             found[1, count] = (high - low) * _WEIGHTS[i]
             count += 1
         low = high
-    return found
-
-
-@kernel(real(LAW, vector, vector, real))
-def both_pressures(law: Any, own: Any, cycle: Any, x: float) -> Any:
-    """p1 + p2; at a corner, where it is infinite, nothing."""
-    p = law.pressure(x, cycle[0], cycle[1], own)
-    if cycle[0] == cycle[2] and cycle[1] == cycle[3]:
-        p += p
-    else:
-        p += law.pressure(x, cycle[2], cycle[3], own)
-    return p if p < math.inf else 0.0
-
-
-@kernel(results(2)(vector, real))
-def reaches(cycle: Any, side: float) -> Any:
-    """How far the smaller and the larger contact reach on one side: both a, or both c."""
-    edge = 1 if side > 0 else 0
-    return min(cycle[edge], cycle[2 + edge]), max(cycle[edge], cycle[2 + edge])
-
-
-@kernel(matrix(LAW, vector, vector, real, real, whole))
-def slip_zone(law: Any, own: Any, cycle: Any, side: float, slip: float, level: int) -> Any:
-    """The slip zone on one side: y, weights, and p1 + p2 for E* = 1, three rows.
-
-    slip: its length in the smaller contact, min(a1, a2) - m or min(c1, c2) - n, positive.
-    """
-    smaller, larger = reaches(cycle, side)
-    start = smaller - slip
-    nodes = slip_nodes(law.breaks(own), side, start, slip, slip + (larger - smaller), level)
-    found = np.empty((3, nodes.shape[1]))
-    for i in range(nodes.shape[1]):
-        found[0, i], found[1, i] = nodes[0, i], nodes[1, i]
-        found[2, i] = both_pressures(law, own, cycle, side * (start + nodes[0, i]))
     return found

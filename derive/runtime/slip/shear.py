@@ -38,7 +38,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, opened, real, results, truth, vector
-from .quadrature import both_pressures, reaches, slip_nodes, slip_zone
+from .bounded import ZONE, beside, change, friction, seen, sense_of
 
 MODERATE, LARGE, MIXED, FULL_STICK = 1.0, 2.0, 3.0, 5.0
 """Codes of Regime."""
@@ -68,14 +68,6 @@ def _alike(cycle: Any) -> Any:
     return cycle[0] == cycle[2] and cycle[1] == cycle[3]
 
 
-@kernel(real(vector, real, real))
-def _sense(cycle: Any, side: float, regime: float) -> Any:
-    """kappa, the sense of slip on one side."""
-    if regime != LARGE:
-        return 1.0
-    return side if cycle[5] < 0 else -side
-
-
 @kernel(real(LAW, vector, real, real, real))
 def _beside_corner(law: Any, own: Any, x: float, m: float, n: float) -> Any:
     """x, moved off a corner in the stick zone, inward: p is infinite there, dq is not."""
@@ -94,24 +86,6 @@ def _summed(law: Any, own: Any, cycle: Any, x: float) -> Any:
 
 
 @kernel(real(LAW, vector, vector, real, real, real, real))
-def _felt(law: Any, own: Any, cycle: Any, side: float, m: float, n: float, x: float) -> Any:
-    """(W(x)/pi) int (p1 + p2)/(|w| |xi - x|) dxi over one slip zone, x in the stick zone."""
-    end, away, across = (n, n - x, m + x) if side > 0 else (m, m + x, n - x)
-    smaller, larger = reaches(cycle, side)
-    length, stuck = larger - end, m + n
-    if not length > 0:
-        return 0.0
-    at_start = both_pressures(law, own, cycle, side * end)
-    zone = slip_zone(law, own, cycle, side, smaller - end, LEVEL)
-    total = 0.0
-    for i in range(zone.shape[1]):
-        y = zone[0, i]
-        total += zone[1, i] * (zone[2, i] - at_start) / (math.sqrt(y * (y + stuck)) * (y + away))
-    angle = math.atan2(math.sqrt(length * across), math.sqrt(away * (length + stuck)))
-    return (math.sqrt(away * across) * total + 2 * at_start * angle) / math.pi
-
-
-@kernel(real(LAW, vector, vector, real, real, real, real))
 def change_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x: float) -> Any:
     """dq at x; zero outside both contacts, NaN where the stick zone is not known."""
     if regime == FULL_STICK and _alike(cycle):
@@ -121,11 +95,14 @@ def change_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float,
         return math.nan
     f = cycle[6]
     if x <= -m or x >= n:
-        side = -1.0 if x < (n - m) / 2 else 1.0
-        return _sense(cycle, side, regime) * f * _summed(law, own, cycle, x)
+        on_left = x < (n - m) / 2
+        forward = regime != LARGE or on_left != (cycle[5] < 0)
+        return (f if forward else -f) * _summed(law, own, cycle, x)
     if regime == LARGE:
-        felt = _felt(law, own, cycle, -1.0, m, n, x) - _felt(law, own, cycle, 1.0, m, n, x)
-        return _sense(cycle, -1.0, regime) * f * felt
+        sense, cycle = sense_of(cycle), seen(cycle)
+        of = friction(law, own, cycle, sense, -1.0, math.nan)
+        m, n = (m, n) if sense > 0 else (n, m)
+        return change(beside(of, m, n, of.a - m, of.c - n, LEVEL), sense * x)
     x = _beside_corner(law, own, x, m, n)
     return f * (_summed(law, own, cycle, x) - 2 * law.pressure(x, m, n, own))
 
@@ -214,35 +191,21 @@ def each_shear(law: Any, given: Any, own: Any, out: Any) -> None:
 # ---------------------------------------------------------------- slip
 
 
-@kernel(real(LAW, vector, vector, vector, real, real, real, real, real))
-def _slipped(
-    law: Any,
-    own: Any,
-    cycle: Any,
-    cuts: Any,
-    there: float,
-    side: float,
-    m: float,
-    n: float,
-    other: float,
-) -> Any:
-    """What p1 + p2 in the slip zone on one side adds to slip, over 2 f kappa/pi.
+@kernel(real(ZONE, real, real, truth))
+def _slipped(zone: Any, stuck: float, there: float, here: bool) -> Any:
+    """What r in a slip zone adds to slip, over 2/pi.
 
-    int (p1 + p2)/|w| times the integral over t from 0 to y that the text above gives.
+    int r/|w| times the integral over t from 0 to y that the text above gives.
 
     there  y, distance of a place from the stick zone
-    other  side of that place
-    cuts   the breaks of the body's curve, and that place
+    here   whether it lies in this slip zone
     """
-    stuck, end = m + n, n if side > 0 else m
-    smaller, larger = reaches(cycle, side)
-    nodes = slip_nodes(cuts, side, end, smaller - end, larger - end, LEVEL)
     root, arc = math.sqrt(there * (there + stuck)), math.asinh(math.sqrt(there / stuck))
     total = 0.0
-    for i in range(nodes.shape[1]):
-        y = nodes[0, i]
+    for i in range(zone.y.size):
+        y = zone.y[i]
         across = y + stuck
-        if side == other:
+        if here:
             summed = math.sqrt(y * (there + stuck)) + math.sqrt(there * across)
             logarithm = -math.log(max(stuck * abs(y - there) / (summed * summed), TINY))
             smooth = root + (y + across) * arc
@@ -250,8 +213,7 @@ def _slipped(
             summed = math.sqrt(across * (there + stuck)) + math.sqrt(there * y)
             logarithm = math.log(summed * summed / (stuck * (across + there)))
             smooth = (y + across) * arc - root
-        p = both_pressures(law, own, cycle, side * (end + y))
-        total += nodes[1, i] * p * (logarithm - smooth / math.sqrt(y * across))
+        total += zone.weight[i] * zone.r[i] * (logarithm - smooth / math.sqrt(y * across))
     return total
 
 
@@ -264,18 +226,13 @@ def slip_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x
         return 0.0
     if regime not in (MODERATE, LARGE):
         return math.nan
-    breaks = law.breaks(own)
-    cuts = np.empty(breaks.size + 1)
-    for i in range(breaks.size):
-        cuts[i] = breaks[i]
-    cuts[breaks.size] = x
-    other = 1.0 if x > n else -1.0
+    sense, cycle = sense_of(cycle), seen(cycle)
+    x, m, n = (x, m, n) if sense > 0 else (-x, n, m)
+    of = friction(law, own, cycle, sense, 1.0 if regime == MODERATE else -1.0, x)
     there = x - n if x > n else -m - x
-    total = 0.0
-    for side in (-1.0, 1.0):
-        kappa = _sense(cycle, side, regime)
-        total += kappa * _slipped(law, own, cycle, cuts, there, side, m, n, other)
-    return 2 * cycle[6] / math.pi * abs(total)
+    slip = beside(of, m, n, of.a - m, of.c - n, LEVEL)
+    total = _slipped(slip.left, m + n, there, x < -m) + _slipped(slip.right, m + n, there, x > n)
+    return 2 / math.pi * abs(total)
 
 
 @kernel(LOOP)

@@ -32,9 +32,10 @@ import numpy as np
 
 from ..inverse import contact
 from ..kernels import LAW, kernel, matrix, real, results, truth, vector, whole
-from .large import large_slip, pulls
+from .bounded import FRICTION, SLIP, change, friction, pressure_at, pulls
+from .large import large_slip
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
-from .quadrature import slip_nodes, slip_zone
+from .quadrature import slip_nodes
 
 PARTS = 8
 """Parts of a half-cycle at which the growth of slip is tested."""
@@ -74,15 +75,15 @@ def leads(way: Any, stuck: float, a: float, c: float) -> Any:
     return more + by_turning, more - by_turning
 
 
-@kernel(truth(matrix, vector, real, real))
-def slips_at_the_start(way: Any, cycle: Any, left: float, right: float) -> Any:
-    """Whether slip of the senses `left` and `right` begins at either end of the cycle."""
+@kernel(truth(matrix, vector, real))
+def slips_at_the_start(way: Any, cycle: Any, right: float) -> Any:
+    """Whether slip begins at either end of the cycle: forward on the left, of this sense right."""
     for end in (0, way.shape[0] - 1):
         a, c = way[end, A], way[end, C]
         lead_left, lead_right = leads(way, a + c, a, c)
         pull_left, pull_right = pulls(cycle[4], cycle[5], a + c)
         if not (
-            left * pull_left >= cycle[6] * abs(lead_left)
+            pull_left >= cycle[6] * abs(lead_left)
             and right * pull_right >= cycle[6] * abs(lead_right)
         ):
             return False
@@ -144,7 +145,16 @@ def grows(law: Any, own: Any, way: Any, cycle: Any) -> Any:
     return True
 
 
-# ---------------------------------------------------------------- large tension
+# ---------------------------------------------------------------- large tension, dsigma >= 0
+
+
+@kernel(matrix(matrix))
+def mirrored(way: Any) -> Any:
+    """The same way seen from behind."""
+    behind = way.copy()
+    behind[:, A], behind[:, C] = way[:, C], way[:, A]
+    behind[:, TILT], behind[:, MOMENT] = -way[:, TILT], -way[:, MOMENT]
+    return behind
 
 
 @kernel(truth(matrix, vector, real, real))
@@ -154,7 +164,6 @@ def holds_at_the_start(way: Any, cycle: Any, m: float, n: float) -> Any:
     Shear in full stick and pressure both change as a line over w; so it holds all over a slip zone
     to come if it does at its inner end, -m or n, and slip begins at its edge.
     """
-    kappa = -1.0 if cycle[5] < 0 else 1.0
     for sense in (1, -1):
         end = 0 if sense > 0 else way.shape[0] - 1
         a, c = way[end, A], way[end, C]
@@ -163,7 +172,7 @@ def holds_at_the_start(way: Any, cycle: Any, m: float, n: float) -> Any:
             x = -m if side < 0 else n
             shear = cycle[4] - math.pi * cycle[5] * (x - (c - a) / 2) / 4
             pressure = (left * (c - x) + right * (a + x)) / (a + c)
-            if not -side * kappa * shear >= -sense * cycle[6] * pressure:
+            if not -side * shear >= -sense * cycle[6] * pressure:
                 return False
     return True
 
@@ -197,85 +206,61 @@ def _still_driven(way: Any, cycle: Any, k: int, sense: float, m: float, n: float
     a, c = way[k, A], way[k, C]
     if not (m < a and n < c and m + n > 0):
         return False
-    kappa = -1.0 if cycle[5] < 0 else 1.0
     left, right = leads(way, a + c, a, c)
     near_left, far_left = _force_rates(a - m, m + n, a + c, left, right)
     near_right, far_right = _force_rates(c - n, m + n, a + c, right, left)
     pull_left, pull_right = pulls(cycle[4], cycle[5], m + n)
-    moving = sense * cycle[6] * kappa
+    moving = sense * cycle[6]
     at_left = pull_left - moving * (near_left - far_right)
     at_right = pull_right - moving * (far_left - near_right)
-    return kappa * at_left >= 0 and kappa * at_right <= 0
+    return at_left >= 0 and at_right <= 0
 
 
-@kernel(real(matrix, real, real))
-def _felt(zone: Any, stuck: float, away: float) -> Any:
-    """int p/(|w| (y + away)) dy over a slip zone, `away` from a place in the stick zone."""
-    total = 0.0
-    for i in range(zone.shape[1]):
-        y = zone[0, i]
-        total += zone[1, i] * zone[2, i] / (math.sqrt(y * (y + stuck)) * (y + away))
-    return total
-
-
-@kernel(truth(LAW, vector, vector, real, real, real, real))
-def _within_friction(
-    law: Any, own: Any, so_far: Any, slip_left: float, slip_right: float, m: float, n: float
-) -> Any:
+@kernel(truth(FRICTION, SLIP, real, real))
+def _within_friction(of: Any, so_far: Any, m: float, n: float) -> Any:
     """Whether kappa dq > f (p1 - p) at places where slip is still to come.
 
-    so_far: the cycle between the first contact and the one on the way, and its slip zones;
+    of, so_far: the cycle between the first contact and the one on the way, and its zone;
     [-m, n]: what sticks in the end.
     """
-    last_m, last_n = m, n
-    m, n = min(so_far[0], so_far[2]) - slip_left, min(so_far[1], so_far[3]) - slip_right
-    left = right = np.empty((3, 0))
     for side in (-1, 1):
-        end, now = (last_m, m) if side < 0 else (last_n, n)
+        end, now = (m, so_far.m) if side < 0 else (n, so_far.n)
         for k in range(PLACES):
             x = side * (end + (k + 0.5) / PLACES * (now - end))
-            p = law.pressure(x, so_far[0], so_far[1], own)
-            fallen = p - law.pressure(x, so_far[2], so_far[3], own)
-            if not fallen > 0 or not -m < x < n:
+            fallen = of.cycle[6] * (pressure_at(of, 0, x) - pressure_at(of, 2, x))
+            if not fallen > 0 or not -so_far.m < x < so_far.n:
                 continue
-            if not left.size:
-                left = slip_zone(law, own, so_far, -1.0, slip_left, 2)
-                right = slip_zone(law, own, so_far, 1.0, slip_right, 2)
-            felt = _felt(left, m + n, m + x) - _felt(right, m + n, n - x)
-            change = math.sqrt((x + m) * (n - x)) / math.pi * felt
-            if not -side * change >= fallen * (1 - SLACK):
+            if not -side * change(so_far, x) >= fallen * (1 - SLACK):
                 return False
     return True
 
 
-@kernel(truth(LAW, vector, matrix, vector, real, real))
-def grows_apart(law: Any, own: Any, way: Any, cycle: Any, m: float, n: float) -> Any:
+@kernel(truth(LAW, vector, matrix, vector, real, real, real))
+def grows_apart(law: Any, own: Any, way: Any, cycle: Any, sense: float, m: float, n: float) -> Any:
     """Whether slip of opposite signs goes on at every part of the way, from both ends."""
     last = way.shape[0] - 1
     if not (m <= min(way[0, A], way[last, A]) and n <= min(way[0, C], way[last, C])):
         return False
-    so_far = np.empty(7)
-    so_far[6] = cycle[6]
-    for sense in (1, -1):
-        end = 0 if sense > 0 else last
-        so_far[0], so_far[1] = way[end, A], way[end, C]
-        before_m, before_n = so_far[0], so_far[1]
+    for direction in (1, -1):
+        end = 0 if direction > 0 else last
+        before_m, before_n = way[end, A], way[end, C]
         for k in range(1, last):
-            there = k if sense > 0 else last - k
-            a, c = way[there, A], way[there, C]
-            so_far[2], so_far[3] = a, c
-            so_far[4], so_far[5] = cycle[4] * k / last, cycle[5] * k / last
-            left, right = large_slip(law, own, so_far, AGREED)
-            now_m, now_n = min(so_far[0], a) - left, min(so_far[1], c) - right
-            if not (now_m <= min(before_m, a) and now_n <= min(before_n, c)):
+            there = k if direction > 0 else last - k
+            a, c, part = way[there, A], way[there, C], k / last
+            so_far = cycle.copy()
+            so_far[0], so_far[1], so_far[2], so_far[3] = way[end, A], way[end, C], a, c
+            so_far[4], so_far[5] = part * cycle[4], part * cycle[5]
+            slip = large_slip(law, own, so_far, sense, AGREED)
+            if not (
+                slip.m <= min(before_m, a)
+                and slip.n <= min(before_n, c)
+                and _still_driven(way, cycle, there, direction, slip.m, slip.n)
+                and _within_friction(friction(law, own, so_far, sense, -1.0, math.nan), slip, m, n)
+            ):
                 return False
-            if not _still_driven(way, cycle, there, sense, now_m, now_n):
-                return False
-            if not _within_friction(law, own, so_far, left, right, m, n):
-                return False
-            before_m, before_n = now_m, now_n
+            before_m, before_n = slip.m, slip.n
         if not (m <= before_m and n <= before_n):
             return False
-        if not _still_driven(way, cycle, last - end, sense, m, n):
+        if not _still_driven(way, cycle, last - end, direction, m, n):
             return False
     return True

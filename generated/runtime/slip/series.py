@@ -25,6 +25,7 @@ from typing import Any, NamedTuple
 
 from ..kernels import COMPILED, LAW, LOOP, Law, kernel, opened, real, results, vector, whole
 from ..types import Array
+from .newton import log_step, moved
 
 if COMPILED:
     from numba import types
@@ -107,30 +108,29 @@ def _sum(
 
 @kernel(results(2)(SERIES, real, real, whole))
 def _step(of: Any, left: Array, right: Array, order: Array) -> Any:
-    """Newton's step of both slip zones."""
+    """Newton's step of the logarithms of both slip zones over the stick zone."""
     stuck, by_tension = of.h - left - right, math.pi * of.dsigma / 8
     near_left = _sum(of.left, of.left_2, left, of.da, stuck, order, 0)
     far_left = _sum(of.left, of.left_2, left, of.da, stuck, order, 1)
     near_right = _sum(of.right, of.right_2, right, of.dc, stuck, order, 0)
     far_right = _sum(of.right, of.right_2, right, of.dc, stuck, order, 1)
-    # what the conditions are off by, and their rates with h_s
+    # what the conditions are off by, and their rates with h_s = h - left - right
     off_left, off_right = -of.dQ - by_tension * stuck, -of.dQ + by_tension * stuck
     off_left += of.kappa_left * near_left[0] + of.kappa_right * far_right[0]
     off_right += of.kappa_right * near_right[0] + of.kappa_left * far_left[0]
     widens_left = of.kappa_left * near_left[2] + of.kappa_right * far_right[2] - by_tension
     widens_right = of.kappa_right * near_right[2] + of.kappa_left * far_left[2] + by_tension
-    # rates with the slip zones, h_s = h - left - right
-    left_by_left = of.kappa_left * near_left[1] - widens_left
-    left_by_right = of.kappa_right * far_right[1] - widens_left
-    right_by_left = of.kappa_left * far_left[1] - widens_right
-    right_by_right = of.kappa_right * near_right[1] - widens_right
-    determinant = left_by_left * right_by_right - left_by_right * right_by_left
-    if determinant == 0:
-        return math.nan, math.nan
-    return (
-        (left_by_right * off_right - right_by_right * off_left) / determinant,
-        (right_by_left * off_left - left_by_left * off_right) / determinant,
+    at_left = (
+        off_left,
+        of.kappa_left * near_left[1] - widens_left,
+        of.kappa_right * far_right[1] - widens_left,
     )
+    at_right = (
+        off_right,
+        of.kappa_left * far_left[1] - widens_right,
+        of.kappa_right * near_right[1] - widens_right,
+    )
+    return log_step(left, right, at_left, at_right, stuck)
 
 
 @kernel(results(2)(SERIES, real, real, whole))
@@ -153,16 +153,11 @@ def _solved(of: Any, left: Array, right: Array, order: Array) -> Any:
         if not (stuck > 0 and left > 0 and right > 0):
             break
         by_left, by_right = _step(of, left, right, order)
-        narrows = (by_left + by_right) / stuck
-        by_left, by_right = by_left / left + narrows, by_right / right + narrows
         length = max(abs(by_left), abs(by_right))
         if not length < math.inf:
             break
         part = 1.0 if length < LONGEST else LONGEST / length
-        over_left = left / stuck * math.exp(part * by_left)
-        over_right = right / stuck * math.exp(part * by_right)
-        stuck = of.h / (1 + over_left + over_right)
-        left, right = over_left * stuck, over_right * stuck
+        left, right = moved(of.h, left, right, part * by_left, part * by_right)
         longest = max(left, right, abs(of.da), abs(of.dc))
         if length * min(left, right) <= max(SMALL * min(left, right), ROUNDING * longest):
             return left, right

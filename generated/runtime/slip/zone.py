@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, truth, vector
+from .bounded import seen, sense_of
 from .growth import (
     PARTS,
     followed,
@@ -22,6 +23,7 @@ from .growth import (
     grows_apart,
     holds_at_the_start,
     leads,
+    mirrored,
     slips_at_the_start,
     sticks_all_over,
 )
@@ -65,19 +67,20 @@ def _slides(ends: Any, cycle: Any) -> Any:
 
 @kernel(results(3)(LAW, vector, matrix, vector))
 def _large(law: Any, own: Any, way: Any, cycle: Any) -> Any:
-    """Opposite slip at the edges: forward at the left if the tension rises; else MIXED."""
-    kappa = -1.0 if cycle[5] < 0 else 1.0
-    if slips_at_the_start(way, cycle, kappa, -kappa):
-        left, right = large_slip(law, own, cycle, EXACT)
-        if math.isnan(left):
-            return math.nan, math.nan, UNSOLVED
-        m, n = min(cycle[0], cycle[2]) - left, min(cycle[1], cycle[3]) - right
+    """Slip to opposite sides, forward at the edge that tension loads more; else MIXED."""
+    sense, cycle = sense_of(cycle), seen(cycle)
+    way = way if sense > 0 else mirrored(way)
+    if slips_at_the_start(way, cycle, -1.0):
+        slip = large_slip(law, own, cycle, sense, EXACT)
+        m, n = slip.m, slip.n
+        if math.isnan(m):
+            return m, n, UNSOLVED
         if (
-            math.pi * (m + n) * abs(cycle[5]) / 8 >= cycle[4]
+            math.pi * (m + n) * cycle[5] / 8 >= cycle[4]
             and holds_at_the_start(way, cycle, m, n)
-            and (way.shape[0] == 2 or grows_apart(law, own, way, cycle, m, n))
+            and (way.shape[0] == 2 or grows_apart(law, own, way, cycle, sense, m, n))
         ):
-            return m, n, LARGE
+            return (m, n, LARGE) if sense > 0 else (n, m, LARGE)
     return math.nan, math.nan, MIXED
 
 
@@ -114,7 +117,7 @@ def stick_zone(law: Any, own: Any, cycle: Any) -> Any:
             m, n = min(m, way[k, A]), min(n, way[k, C])
         if m + n > 0:
             return m, n, FULL_STICK
-    if slips_at_the_start(way, cycle, 1.0, 1.0) and (steady or grows(law, own, way, cycle)):
+    if slips_at_the_start(way, cycle, 1.0) and (steady or grows(law, own, way, cycle)):
         m, n = patch(law, own, way, 0, last, 1.0, cycle)
         if m + n > 0:
             return m, n, MODERATE
