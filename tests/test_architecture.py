@@ -266,7 +266,7 @@ def test_every_generated_file_has_its_source() -> None:
     bodies = {p.name for p in (DERIVE / "geometries").glob("*.py") if p.name != "__init__.py"}
     held = {p.relative_to(GENERATED).as_posix() for p in GENERATED.rglob("*") if p.is_file()}
     kept = {name for name in held if "__pycache__" not in name}
-    assert kept == runtime | bodies | {"__init__.py", "full_stick.py", "py.typed"}
+    assert kept == runtime | bodies | {"__init__.py", "edge.py", "full_stick.py", "py.typed"}
 
 
 def test_the_runtime_alone_knows_numba_and_formulas_do_not_load_it() -> None:
