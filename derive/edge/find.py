@@ -205,7 +205,7 @@ def _zone(
     moves: dict[str, float],
     f: float,
 ) -> Zone:
-    """The slip zone of one edge, to the order whose errors together are the least."""
+    """The slip zone of one edge, to the second order where that is the better known."""
     fit, (K_T, K_T_error, L_T, L_T_error) = last[side].pressure, stuck[side]
     theirs = SIDES[1 - SIDES.index(side)]
     pair = theirs in last and theirs in stuck
@@ -223,7 +223,8 @@ def _zone(
     def length(order: int, change: dict[str, float]) -> tuple[float, float]:
         v = values | change
         before = then and Pressure(then.K_N + v["K_N"] - fit.K_N, then.L_N)
-        L_T_alone, h, other = v["L_T"], None, None
+        L_T_alone: float | None = v["L_T"]
+        h = other = None
         if pair:
             them = last[theirs].pressure
             old = first[theirs].pressure if moves[theirs] else None
@@ -245,19 +246,21 @@ def _zone(
         )
         return float(found.d), float(found.error)
 
-    best: tuple[float, float, float, int] | None = None
-    for order in (1, 2):
+    def told(order: int) -> tuple[float, float, float]:
         d, series = length(order, {})
         parts = [
             length(order, {name: values[name] + e})[0] - d
             for name, e in errors.items()
             if e and not (pair and name == "L_T")
         ]
-        error = float(np.sqrt(np.sum(np.square(parts))))
-        if not best or hypot(error, series) < hypot(best[1], best[2]) or np.isnan(best[0]):
-            best = d, error, series, order
-    assert best is not None
-    d, error, series, order = best
+        return d, float(np.sqrt(np.sum(np.square(parts)))), series
+
+    # the second term counts unless what is fitted makes it less certain than it is worth
+    first_d, first_error, first_series = told(1)
+    d, error, series = told(2)
+    order = 2
+    if not error < hypot(first_error, first_series):
+        d, error, series, order = first_d, first_error, first_series, 1
     over = reach(fit.K_N, K_T, L_N=fit.L_N, L_T=L_T)
     part = d / float(over) if over > 0 else nan
     return Zone(side, K_T, K_T_error, moves[side], d, error, series, order, part)

@@ -159,12 +159,12 @@ def _split(text: str, shown: str) -> _Lines:
         for number, line in enumerate(text.splitlines(), 1)
         if line.strip() and not _COMMENT.match(line.strip())
     ]
-    best: tuple[int, _Lines] = (0, _Lines((), False))
+    best: tuple[tuple[int, int], _Lines] = ((0, 0), _Lines((), False))
     for separator, comma in ((";", False), (";", True), ("\t", False), ("\t", True), (",", False)):
         best = _better(best, lines, separator, comma)
     for comma in (False, True):
         best = _better(best, lines, "", comma)
-    if not best[0]:
+    if not best[0][1]:
         numbers = sum(_is_number(line, True) for _, line in lines)
         if numbers:
             raise BadTable(
@@ -175,11 +175,15 @@ def _split(text: str, shown: str) -> _Lines:
 
 
 def _better(
-    best: tuple[int, _Lines], lines: Sequence[tuple[int, str]], separator: str, comma: bool
-) -> tuple[int, _Lines]:
-    """The better of two ways to split lines: that which finds more rows with two numbers."""
+    best: tuple[tuple[int, int], _Lines],
+    lines: Sequence[tuple[int, str]],
+    separator: str,
+    comma: bool,
+) -> tuple[tuple[int, int], _Lines]:
+    """The better of two ways to split lines: more rows of numbers alone, of two numbers or more."""
     rows = tuple((number, _fields(line, separator)) for number, line in lines)
-    score = sum(sum(_is_number(f, comma) for f in fields) > 1 for _, fields in rows)
+    counts = [(sum(_is_number(f, comma) for f in of), len(of)) for _, of in rows]
+    score = sum(n == size > 1 for n, size in counts), sum(n > 1 for n, _ in counts)
     return (score, _Lines(rows, comma)) if score > best[0] else best
 
 

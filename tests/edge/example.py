@@ -15,7 +15,7 @@ from tests.reference.normal import Body, press
 PATH = Path(__file__).parents[2] / "examples" / "edge_flat_rounded.csv"
 LAW = {"E_star": 115e3, "R": 150.0, "b": 1.0}
 A, C = 3.0, 2.6
-F, DQ = 0.5, 60.0
+F, DQ = 0.5, 600.0
 """Coefficient of friction, and by how much the shear load swings [N/mm]."""
 
 SPACING = 0.14

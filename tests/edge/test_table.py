@@ -180,13 +180,12 @@ def test_the_command_by_hand(tmp_path: Path) -> None:
     path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X, P, Q))
     result = run(path, "--f", 0.5, "--html", page, "--csv", table)
     assert result.exit_code == 0, result.output
-    assert "282.84" in result.output
     found = find(read(path), "t.csv", 0.5)
+    for edge in found.edges:
+        assert_allclose(edge.pressure.K_N, 200e6 * np.sqrt(2) * np.sqrt(1000), rtol=0.01)
     for zone in found.zones:
         assert_allclose(zone.d, 1e-3 * (1 - np.sqrt(0.7)), rtol=0.01)
     assert "<svg" in page.read_text() and table.read_text().startswith("load_step,side,edge")
-    loads = find(read(path)[:1], "t.csv", 0.5) if False else None
-    assert loads is None
 
 
 def test_loads_in_place_of_shear(tmp_path: Path) -> None:
