@@ -4,7 +4,6 @@ zone     slip zone from coefficients: an edge alone, with the width, with the ot
 near     tractions, slip and friction's work next to an edge
 fit      coefficients from nodal pressures, from full-stick shear, from reaction forces
 elastic  the composite modulus
-match    loads of a body whose edge is the same
 both     both edges by the conditions of ../slip/series.py, compiled
 """
 
