@@ -76,7 +76,7 @@ def package_files(modules: Files) -> dict[str, str]:
 
 def modules_in(folder: Path) -> dict[str, str]:
     """Texts of the modules of bodies that a generated package holds, by name."""
-    paths = [p for p in sorted(folder.glob("*.py")) if not p.name.startswith("_")]
+    paths = [p for p in sorted(folder.glob("[!_]*.py")) if p.name != "edge.py"]
     return {p.stem: p.read_text(encoding="utf-8") for p in paths}
 
 
