@@ -373,6 +373,55 @@ def check(
         sys.exit(FELL_SHORT)
 
 
+@main.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option("--f", "friction", type=float, required=True, help="Coefficient of friction.")
+@click.option("--dQ", "dQ", type=float, metavar="N/M", help="Change of the shear load instead.")
+@click.option("--dsigma", type=float, metavar="PA", help="Change of bulk tension with it.")
+@click.option("--unit", "units", multiple=True, metavar="NAME=UNIT", help="Unit of x or of p.")
+@click.option("--html", type=click.Path(path_type=Path), help="Write a page with pictures, too.")
+@click.option("--csv", "table", type=click.Path(path_type=Path), help="Write results in SI units.")
+def edge(
+    file: Path,
+    friction: float,
+    dQ: float | None,
+    dsigma: float | None,
+    units: tuple[str, ...],
+    html: Path | None,
+    table: Path | None,
+) -> None:
+    """Coefficients and slip zones of both edges from FILE, a finite-element table.
+
+    FILE has a line of names with units, such as x [mm], p [MPa], dq [MPa], above its numbers; dq is
+    the change of shear of a run without slip.  A column `step` tells load steps; the half-cycle
+    leads from the first to the last.
+    """
+    from derive.edge import report
+    from derive.edge.find import find
+    from derive.edge.table import read
+    from derive.writing.draft import said
+
+    if not 0 < friction < inf:
+        raise click.BadParameter("must be above zero", param_hint="--f")
+    given = said("--unit", units)
+    if wrong := given.keys() - {"x", "p"}:
+        raise click.BadParameter(f"{wrong.pop()!r} is not x or p", param_hint="--unit")
+    steps = read(file, given)
+    found = find(steps, file.name, friction, dQ, dsigma)
+    click.echo(report.as_text(found))
+    if html is not None:
+        from derive.handbook.shelf import put_page
+
+        put_page(report.as_page(found, steps, file.name), html)
+        click.echo(f"Wrote {_shown(html.absolute())}")
+    if table is not None:
+        try:
+            table.write_text(report.as_csv(found), encoding="utf-8")
+        except OSError as error:
+            raise click.BadParameter(str(error), param_hint="--csv") from None
+        click.echo(f"Wrote {_shown(table.absolute())}")
+
+
 def _draft(file: Path | None, new: Path, inline: bool) -> None:
     """Read a paper's displays and write them down as claims."""
     from derive.paper.draft import draft, write

@@ -58,7 +58,7 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     return Parameter(name, meaning, unit)
 
 
-MODULES = ("full_stick", "runtime")
+MODULES = ("edge", "full_stick", "runtime")
 """What a generated package holds beside its bodies."""
 
 _FOR_X = ", for the place along the contact: `from derive import x` has it"

@@ -435,7 +435,7 @@ class TestGenerate:
     def test_out_holds_what_was_asked_for_and_no_more(self, here: Path) -> None:
         done("generate", "hertz", "--out", "new")
         own = {n for n in contents(here / "new") if not n.startswith(("_", "runtime/"))}
-        assert own == {"hertz.py", "full_stick.py", "py.typed"}
+        assert own == {"edge.py", "hertz.py", "full_stick.py", "py.typed"}
 
     def test_out_replaces_a_package_made_before(self, here: Path) -> None:
         done("generate", "hertz", "--out", "new")

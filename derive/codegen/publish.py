@@ -13,6 +13,7 @@ from pathlib import Path
 
 from derive.codegen.mark import MARK
 from derive.errors import BadOutput
+from derive.runtime import edge
 
 _RUNTIME = Path(__file__).parent.parent / "runtime"
 _TITLE = '"""Contact laws as NumPy functions, one module a body; every formula is proven."""\n'
@@ -22,6 +23,19 @@ _COMPILED = "__pycache__"
 
 FULL_STICK = "full_stick"
 """The module of what belongs to no body."""
+
+_EDGE = "\n".join(
+    (
+        '"""The edge of a contact without its geometry: slip zones from coefficients."""\n',
+        "from .runtime.edge import (",
+        *(f"    {name}," for name in edge.__all__),
+        ")\n",
+        "__all__ = [",
+        *(f'    "{name}",' for name in edge.__all__),
+        "]\n",
+    )
+)
+"""The module that publishes what the runtime knows of an edge alone."""
 
 _FOLDERS = {_RUNTIME.name, *(path.name for path in _RUNTIME.rglob("*") if path.is_dir())} - {
     _COMPILED
@@ -53,6 +67,7 @@ def package_files(modules: Files) -> dict[str, str]:
     """All files of a package that holds `modules`, texts by module name, and the runtime."""
     files = {"__init__.py": f"{MARK}\n{_TITLE}", "py.typed": ""}
     files |= {f"{name}.py": text for name, text in sorted(modules.items())}
+    files["edge.py"] = f"{MARK}\n{_EDGE}"
     for path in sorted(_RUNTIME.rglob("*.py")):
         name = path.relative_to(_RUNTIME.parent).as_posix()
         files[name] = f"{MARK}\n{path.read_text(encoding='utf-8')}"
@@ -61,7 +76,7 @@ def package_files(modules: Files) -> dict[str, str]:
 
 def modules_in(folder: Path) -> dict[str, str]:
     """Texts of the modules of bodies that a generated package holds, by name."""
-    paths = [p for p in sorted(folder.glob("*.py")) if not p.name.startswith("_")]
+    paths = [p for p in sorted(folder.glob("[!_]*.py")) if p.name != "edge.py"]
     return {p.stem: p.read_text(encoding="utf-8") for p in paths}
 
 

@@ -3,6 +3,7 @@
 types       what functions return
 arrays      how a formula serves everything that broadcasts
 chunks      the same for Dask arrays
+edge/       an edge without its geometry
 elementary  small functions that formulas call
 segments    functions of the parts of a contact that lines and parabolas cover
 shared      functions that serve arrays, and kernels once numba compiles them

@@ -158,11 +158,12 @@ def stick_zone(
     NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
     MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
     or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    steady_cycle answers every cycle, with an estimate of its error where that is computed.
     """
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, for all cycles; got {mixed!r:.60}")
     zone: StickZone = asked.solved(
-        "slip.zone.each_stick_zone",
+        f"slip.{'mixed' if mixed else 'zone'}.each_stick_zone",
         _between(first, second, dQ=dQ, dsigma=dsigma),
         {"f": f, "E_star": E_star},
         (*_BOTH, "dQ", "dsigma", "f"),
@@ -213,7 +214,7 @@ def _tensions(
     asked: Asked, name: str, first: Any, second: Any, dQ: Array, f: Array, E_star: Array
 ) -> Threshold:
     found: Threshold = asked.solved(
-        f"slip.zone.each_{name}",
+        f"slip.threshold.each_{name}",
         _between(first, second, dQ=dQ),
         {"f": f, "E_star": E_star},
         (*_BOTH, "dQ", "f"),
@@ -468,7 +469,7 @@ def march(
     A whole cycle is NaN, and its regime says why: OUT_OF_PHASE unless all loads are as far on their
     way between both states at every instant, to 1e-6 of their change; NOT_CLOSED unless the last
     instant leads back to the first; SLIDING where |Q| >= f P at any instant; NONE where a contact
-    does not exist.
+    does not exist.  For cycles out of phase steady_cycle, for what is no cycle history.
     """
     _demand_order(order, 0, 3)
     numbers = numbers_of(

@@ -14,4 +14,5 @@ special      terms of g' whose integrals are special functions: one rule a kind 
 closed_forms  what those rules and the polynomials of g' make together
 stick        full stick and its edges, what keeps an edge from slipping, the stick zone
 slip         slip zones by series in their length, to any order
+edge         slip and shear next to an edge alone, from its coefficients
 """

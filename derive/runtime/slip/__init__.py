@@ -7,8 +7,9 @@ moderate    the stick zone as a contact of the same body
 large       the stick zone between slip zones of opposite signs
 growth      whether slip grows all the way, as both assume
 tables      functions of one variable by Chebyshev series
-mixed       the stick zone where slip reverses within a half-cycle
 zone        which of these a cycle is
+mixed       the stick zone where slip reverses within a half-cycle, too
+threshold   tensions at which a cycle is no longer moderate
 series      slip zones by series in their length
 shear       the change of shear, and how far the surfaces slip
 march       a cycle instant by instant

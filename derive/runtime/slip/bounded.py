@@ -26,13 +26,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kernels import COMPILED, LAW, PRESSURE, kernel, real, results, vector, whole
+from ..kernels import LAW, PRESSURE, function, kernel, real, record, results, vector, whole
 from .newton import EPS, log_step, moved, narrowed
 from .quadrature import slip_nodes
-from .tables import TABLE, Table, record, tabled
-
-if COMPILED:
-    from numba import types
+from .tables import TABLE, Table, tabled
 
 SMALL = 1e-9
 """After a step below this, compared with the slip zone, the next one is below rounding,"""
@@ -116,7 +113,7 @@ class Slip(NamedTuple):
     right: Any
 
 
-FUNCTION = types.FunctionType(PRESSURE) if COMPILED else PRESSURE
+FUNCTION = function(PRESSURE)
 GAIN = record(Gain, TABLE, real)
 FRICTION = record(
     Friction, FUNCTION, vector, real, vector, vector, real, real, real, real, real, GAIN, GAIN
@@ -156,7 +153,10 @@ def friction(law: Any, own: Any, cycle: Any, sense: float, kappa: float, also: f
     """Of a cycle as seen.  also: one more place where integrals are cut."""
     a, c = min(cycle[0], cycle[2]), min(cycle[1], cycle[3])
     da, dc = max(cycle[0], cycle[2]) - a, max(cycle[1], cycle[3]) - c
-    cuts, nothing = np.append(sense * law.breaks(own), also), no_gain()
+    breaks, nothing = law.breaks(own), no_gain()
+    cuts = np.full(breaks.size + 1, also)
+    for i in range(breaks.size):
+        cuts[i] = sense * breaks[i]
     return Friction(law.pressure, own, sense, cycle, cuts, a, c, da, dc, kappa, nothing, nothing)
 
 
@@ -206,7 +206,10 @@ def slip_zone(of: Any, side: float, start: float, slip: float, level: int) -> An
     if side > 0:
         beyond, kappa, gain = of.dc, of.kappa, of.right
     nodes = slip_nodes(of.cuts, side, start, slip, slip + beyond, level)
-    places = np.append(side * (start + nodes[0]), side * start)
+    count = nodes.shape[1]
+    places = np.full(count + 1, side * start)
+    for i in range(count):
+        places[i] = side * (start + nodes[0, i])
     r = kappa * lacking(of, gain, places)
     return Zone(nodes[0], nodes[1], r[:-1], slip + beyond, r[-1])
 

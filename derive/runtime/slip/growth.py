@@ -151,8 +151,9 @@ def grows(law: Any, own: Any, way: Any, cycle: Any) -> Any:
 def mirrored(way: Any) -> Any:
     """The same way seen from behind."""
     behind = way.copy()
-    behind[:, A], behind[:, C] = way[:, C], way[:, A]
-    behind[:, TILT], behind[:, MOMENT] = -way[:, TILT], -way[:, MOMENT]
+    for k in range(way.shape[0]):
+        behind[k, A], behind[k, C] = way[k, C], way[k, A]
+        behind[k, TILT], behind[k, MOMENT] = -way[k, TILT], -way[k, MOMENT]
     return behind
 
 

@@ -35,7 +35,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kernels import LAW, kernel, matrix, real, results, truth, vector, whole
+from ..kernels import (
+    LAW,
+    LOOP,
+    kernel,
+    matrix,
+    opened,
+    real,
+    record,
+    results,
+    truth,
+    vector,
+    whole,
+)
 from .bounded import (
     FRICTION,
     GAIN,
@@ -57,17 +69,17 @@ from .moderate import patch
 from .newton import EPS, narrowed
 from .quadrature import double_exponential
 from .tables import (
+    ANGLES,
     GAUSS,
     GAUSS_WEIGHTS,
     Table,
-    abel,
     chebyshev_place,
-    record,
     series_of,
     summed,
     table_place,
     tabled,
 )
+from .zone import MIXED, UNSOLVED, ends_of, stick_zone
 
 TERMS = (16, 24, 36, 54)
 """Terms of the tables, one after the other."""
@@ -143,8 +155,10 @@ def _with_gains(of: Any, part: float, a: float, kappa: float, left: Any, right: 
     """Of a part of the loads, slip zones on the left as far as a, and gains."""
     cycle, cuts = of.cycle.copy(), np.empty(of.cuts.size + 4)
     cycle[4], cycle[5] = part * cycle[4], part * cycle[5]
-    cuts[:4] = (left.table.start, left.table.end, right.table.start, right.table.end)
-    cuts[4:] = of.cuts
+    cuts[0], cuts[1] = left.table.start, left.table.end
+    cuts[2], cuts[3] = right.table.start, right.table.end
+    for i in range(of.cuts.size):
+        cuts[4 + i] = of.cuts[i]
     return Friction(
         of.pressure, of.own, of.sense, cycle, cuts, a, of.c, 0.0, 0.0, kappa, left, right
     )
@@ -154,6 +168,58 @@ def _with_gains(of: Any, part: float, a: float, kappa: float, left: Any, right: 
 def _width(of: Any) -> float:
     """H."""
     return float(8 * of.cycle[4] / (math.pi * of.cycle[5]))
+
+
+# ---------------------------------------------------------------- Abel's equation
+
+
+@kernel(vector(matrix))
+def _eliminated(rows: Any) -> Any:
+    """The solution of linear equations, by Gauss's elimination; their right sides come last."""
+    count = len(rows)
+    for k in range(count):
+        pivot = k
+        for i in range(k + 1, count):
+            if abs(rows[i, k]) > abs(rows[pivot, k]):
+                pivot = i
+        if not abs(rows[pivot, k]) > 0:
+            return np.full(count, math.nan)
+        for j in range(k, count + 1):
+            rows[k, j], rows[pivot, j] = rows[pivot, j], rows[k, j]
+        for i in range(k + 1, count):
+            factor = rows[i, k] / rows[k, k]
+            for j in range(k, count + 1):
+                rows[i, j] -= factor * rows[k, j]
+    found = np.empty(count)
+    for k in range(count - 1, -1, -1):
+        found[k] = rows[k, count]
+        for j in range(k + 1, count):
+            found[k] -= rows[k, j] * found[j]
+        found[k] /= rows[k, k]
+    return found
+
+
+@kernel(vector(real, vector))
+def abel(width: float, right: Any) -> Any:
+    """The series Lambda whose integrals at the places v are `right`.
+
+    int_0^(pi/2) sqrt(width - (v sin(phi))**2) cos(phi) Lambda(v cos(phi)) dphi = right
+    """
+    count = len(right)
+    rows = np.zeros((count, count + 1))
+    for i in range(count):
+        v = chebyshev_place(i, count)
+        for j in range(ANGLES):
+            phi = math.pi / 2 * GAUSS[j]
+            far = math.sqrt(max(width - (v * math.sin(phi)) ** 2, 0.0)) * math.cos(phi)
+            t = 2 * v * math.cos(phi) - 1
+            term = math.pi / 2 * GAUSS_WEIGHTS[j] * far
+            last = t * term
+            for k in range(count):
+                rows[i, k] += term
+                term, last = 2 * t * term - last, term
+        rows[i, count] = right[i]
+    return _eliminated(rows)
 
 
 # ---------------------------------------------------------------- the three phases
@@ -379,3 +445,17 @@ def turned_round(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
         part = (past / beyond) ** 2
         m, n = m_0 + part * (m - m_1), n_0 + part * (n - n_1)
     return (m, n) if sense > 0 else (n, m)
+
+
+@kernel(LOOP)
+def each_stick_zone(law: Any, given: Any, own: Any, out: Any) -> None:
+    """As in zone.py, and the zones of mixed cycles at constant normal loads."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        cycle, body = given[i], own[i]
+        m, n, regime = stick_zone(law, body, cycle)
+        steady = cycle[0] == cycle[2] and cycle[1] == cycle[3]
+        if regime == MIXED and math.isnan(m) and steady:
+            m, n = turned_round(law, body, ends_of(law, body, cycle), cycle)
+            regime = UNSOLVED if math.isnan(m) else MIXED
+        out[i, 0], out[i, 1], out[i, 2] = m, n, regime

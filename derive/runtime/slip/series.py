@@ -22,12 +22,9 @@ takes the width of the contact for that of the stick zone: d = |K_T|/(f K) + da/
 import math
 from typing import Any, NamedTuple
 
-from ..kernels import COMPILED, LAW, LOOP, Law, kernel, opened, real, results, vector, whole
+from ..kernels import LAW, LOOP, Law, kernel, opened, real, record, results, vector, whole
 from ..types import Array
 from .newton import log_step, moved
-
-if COMPILED:
-    from numba import types
 
 NEAR = ((1 / 2, 1 / 16, -1 / 128), (3 / 8, 1 / 32, 0.0), (5 / 16, 0.0, 0.0))
 """binomial(1/2, j) B(i + 3/2, j + 1/2)/pi: of C_i d**(i + j + 1) h_s**(1/2 - j), C = K, L, N."""
@@ -74,9 +71,7 @@ class Series(NamedTuple):
 
 
 TERMS: Any = results(3)
-SERIES: Any = None
-if COMPILED:
-    SERIES = types.NamedTuple((real,) * 7 + (TERMS,) * 4, Series)
+SERIES: Any = record(Series, *(real,) * 7, *(TERMS,) * 4)
 
 
 @kernel(TERMS(TERMS, real, real, whole, whole))
@@ -133,7 +128,7 @@ def _step(of: Any, left: Array, right: Array, order: Array) -> Any:
 
 
 @kernel(results(2)(SERIES, real, real, whole))
-def _solved(of: Any, left: Array, right: Array, order: Array) -> Any:
+def solved(of: Any, left: Array, right: Array, order: Array) -> Any:
     """Both conditions cut behind an order, by Newton's method from slip zones of the first order.
 
     The unknowns are log(d/h_s): slip zones stay positive and leave some stick.  Slip zones are
@@ -208,7 +203,7 @@ def slip_zones(
             (K_left_2, L_left_2, N_left_2),
             (K_right_2, L_right_2, N_right_2),
         )
-        left, right = _solved(of, left, right, order)
+        left, right = solved(of, left, right, order)
     left, right = left + gain_left, right + gain_right
     if left >= gain_left and right >= gain_right and left + right < h:
         return left, right

@@ -1,18 +1,14 @@
-"""Functions of one place, kept as Chebyshev series, and Abel's equation for such a series.
+"""Functions of one place, kept as Chebyshev series.
 
 A series is in s, 0 to 1; its terms come from values at the places `chebyshev_place`.
 """
 
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..kernels import COMPILED, kernel, matrix, real, vector, whole
-
-if COMPILED:
-    from numba import types
+from ..kernels import kernel, real, record, vector, whole
 
 ANGLES = 64
 """Nodes of Gauss's rule."""
@@ -37,18 +33,7 @@ class Table(NamedTuple):
     terms: Any
 
 
-def record(kind: Callable[..., Any], *fields: Any) -> Any:
-    """The type of a NamedTuple of such fields."""
-    return types.NamedTuple(fields, kind) if COMPILED else real
-
-
 TABLE = record(Table, real, real, real, vector)
-
-
-@kernel(real(real))
-def root(x: float) -> float:
-    """sqrt(x), or zero of what rounding made negative."""
-    return math.sqrt(max(x, 0.0))
 
 
 @kernel(real(whole, whole))
@@ -101,52 +86,3 @@ def tabled(table: Any, x: float) -> float:
     else:
         s = 2 / math.pi * math.asin(math.sqrt(y / length))
     return summed(table.terms, s)
-
-
-@kernel(vector(matrix))
-def _eliminated(rows: Any) -> Any:
-    """The solution of linear equations, by Gauss's elimination; their right sides come last."""
-    count = len(rows)
-    for k in range(count):
-        pivot = k
-        for i in range(k + 1, count):
-            if abs(rows[i, k]) > abs(rows[pivot, k]):
-                pivot = i
-        if not abs(rows[pivot, k]) > 0:
-            return np.full(count, math.nan)
-        for j in range(k, count + 1):
-            rows[k, j], rows[pivot, j] = rows[pivot, j], rows[k, j]
-        for i in range(k + 1, count):
-            factor = rows[i, k] / rows[k, k]
-            for j in range(k, count + 1):
-                rows[i, j] -= factor * rows[k, j]
-    found = np.empty(count)
-    for k in range(count - 1, -1, -1):
-        found[k] = rows[k, count]
-        for j in range(k + 1, count):
-            found[k] -= rows[k, j] * found[j]
-        found[k] /= rows[k, k]
-    return found
-
-
-@kernel(vector(real, vector))
-def abel(width: float, right: Any) -> Any:
-    """The series Lambda whose integrals at the places v are `right`.
-
-    int_0^(pi/2) sqrt(width - (v sin(phi))**2) cos(phi) Lambda(v cos(phi)) dphi = right
-    """
-    count = len(right)
-    rows = np.zeros((count, count + 1))
-    for i in range(count):
-        v = chebyshev_place(i, count)
-        for j in range(ANGLES):
-            phi = math.pi / 2 * GAUSS[j]
-            far = root(width - (v * math.sin(phi)) ** 2) * math.cos(phi)
-            t = 2 * v * math.cos(phi) - 1
-            term = math.pi / 2 * GAUSS_WEIGHTS[j] * far
-            last = t * term
-            for k in range(count):
-                rows[i, k] += term
-                term, last = 2 * t * term - last, term
-        rows[i, count] = right[i]
-    return _eliminated(rows)

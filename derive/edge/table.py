@@ -1,0 +1,380 @@
+"""Tables as finite-element programs export them: separators, header lines, units, load steps.
+
+A table has a line of names above its numbers.  Beside the place along the interface and the
+pressure there may be a shear traction, of a run in which nothing slips, and the load step; several
+columns of pressure are load steps, too.  Other columns are left alone.  Units stand behind the
+names, in brackets, or in a line of their own.
+"""
+
+import csv
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from derive.errors import UserError
+
+LARGEST = 20_000_000
+"""Bytes of a file."""
+
+LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "in": 0.0254}
+STRESSES = {
+    **{"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9, "n/m2": 1.0, "n/mm2": 1e6},
+    **{"psi": 6894.757293168361, "ksi": 6894757.293168361},
+}
+
+NAMES = {
+    "x": (
+        *("x", "x coordinate", "x location", "coord1", "coor1", "position", "distance", "path"),
+        *("true distance", "true distance along path", "x distance", "location", "arc length"),
+    ),
+    "p": ("p", "pressure", "cpress", "contact pressure", "contpres", "normal traction"),
+    "q": (
+        *("q", "dq", "shear", "cshear", "cshear1", "shear traction", "shear stress", "contfric"),
+        *("frictional stress", "frictional shear", "tangential traction"),
+    ),
+    "step": ("step", "load step", "loadstep", "time", "frame", "increment", "inc", "substep"),
+}
+"""What columns are called."""
+
+MEANT = {"x": "the place along the interface", "p": "the contact pressure"}
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?nan|[+-]?inf(inity)?", re.I)
+_COMMENT = re.compile(r"(#|!|%|//|\*\*)")
+_UNIT = re.compile(r"[\[(]\s*([^\])]*?)\s*[\])]")
+
+
+@dataclass
+class BadTable(UserError):
+    """A table that cannot be read, or is none of a contact."""
+
+    given: str
+    why: str
+    remedy: str
+
+    @property
+    def message(self) -> str:
+        """What is wrong with the table, and where."""
+        return f"{self.given}: {self.why}; {self.remedy}"
+
+
+@dataclass(frozen=True)
+class Step:
+    """One load step: nodes [m], pressure [Pa], shear [Pa] where the table has it."""
+
+    name: str
+    x: np.ndarray
+    p: np.ndarray
+    q: np.ndarray | None
+
+
+@dataclass(frozen=True)
+class _Lines:
+    """Rows of fields, each with the number of its line."""
+
+    rows: tuple[tuple[int, tuple[str, ...]], ...]
+    comma: bool
+
+
+def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]:
+    """The load steps of a table, in SI units.
+
+    units: of x and p, where the table does not say; shear has the pressure's.
+
+    Raises BadTable.
+    """
+    shown = path.name
+    lines = _split(_text(path), shown)
+    head, data = _parted(lines, shown)
+    names, found = _header(head, len(data[0][1]), shown)
+    columns = _columns(names, shown)
+    scale = {what: _unit(what, names, columns, found, units or {}, shown) for what in ("x", "p")}
+    place = _numbers(data, columns["x"][0], names, lines.comma, shown) * scale["x"]
+    labels = _labels(data, columns)
+    shear = columns.get("q", [])
+    if len(columns["p"]) > 1 and (labels or len(shear) not in (0, 1, len(columns["p"]))):
+        raise BadTable(
+            shown,
+            f"there are {len(columns['p'])} columns of pressure"
+            + (" and a column of load steps" if labels else f" and {len(shear)} of shear"),
+            "give load steps by columns, each with its shear, or by a column, not both",
+        )
+    steps = []
+    for number, column in enumerate(columns["p"]):
+        p = _numbers(data, column, names, lines.comma, shown) * scale["p"]
+        q = None
+        if shear:
+            own = shear[number] if len(shear) == len(columns["p"]) else shear[0]
+            q = _numbers(data, own, names, lines.comma, shown) * scale["p"]
+        for label in dict.fromkeys(labels) if labels else [""]:
+            rows = [i for i, of in enumerate(labels) if of == label] if labels else slice(None)
+            name = label or (names[column] if len(columns["p"]) > 1 else "")
+            x = place[rows]
+            way = slice(None, None, -1 if np.all(np.diff(x) < 0) else 1)  # from left to right
+            shear_here = None if q is None else q[rows][way]
+            steps.append(Step(name, x[way], p[rows][way], shear_here))
+    return tuple(steps)
+
+
+def _text(path: Path) -> str:
+    """The file as text.
+
+    Raises BadTable.
+    """
+    try:
+        if path.is_dir():
+            raise BadTable(str(path), "is a directory", "name one file")
+        size = path.stat().st_size
+        if size > LARGEST:
+            raise BadTable(path.name, f"has {size} bytes", f"give at most {LARGEST}")
+        raw = path.read_bytes()
+    except OSError as error:
+        why = f"cannot be read ({error.strerror})"
+        raise BadTable(str(path), why, "name a file that is there") from error
+    coding = "utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+    try:
+        text = raw.decode(coding)
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")
+    if "\0" in text:
+        raise BadTable(path.name, "is no text", "export the table as CSV")
+    if not text.strip():
+        raise BadTable(path.name, "is empty", "export nodes and pressures into it")
+    return text
+
+
+def _is_number(field: str, comma: bool) -> bool:
+    return _NUMBER.fullmatch(field.replace(",", ".") if comma else field) is not None
+
+
+def _split(text: str, shown: str) -> _Lines:
+    """Lines in fields, by the separator under which most lines hold numbers alone.
+
+    Raises BadTable.
+    """
+    lines = [
+        (number, line.strip())
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and not _COMMENT.match(line.strip())
+    ]
+    best: tuple[tuple[int, int], _Lines] = ((0, 0), _Lines((), False))
+    for separator, comma in ((";", False), (";", True), ("\t", False), ("\t", True), (",", False)):
+        best = _better(best, lines, separator, comma)
+    for comma in (False, True):
+        best = _better(best, lines, "", comma)
+    if not best[0][1]:
+        numbers = sum(_is_number(line, True) for _, line in lines)
+        if numbers:
+            raise BadTable(
+                shown, "has one column of numbers", "give the nodes' places and the pressure there"
+            )
+        raise BadTable(shown, "holds no rows of numbers", "export nodes and pressures into it")
+    return best[1]
+
+
+def _better(
+    best: tuple[tuple[int, int], _Lines],
+    lines: Sequence[tuple[int, str]],
+    separator: str,
+    comma: bool,
+) -> tuple[tuple[int, int], _Lines]:
+    """The better of two ways to split lines: more rows of numbers alone, of two numbers or more."""
+    rows = tuple((number, _fields(line, separator)) for number, line in lines)
+    counts = [(sum(_is_number(f, comma) for f in of), len(of)) for _, of in rows]
+    score = sum(n == size > 1 for n, size in counts), sum(n > 1 for n, _ in counts)
+    return (score, _Lines(rows, comma)) if score > best[0] else best
+
+
+def _fields(line: str, separator: str) -> tuple[str, ...]:
+    if not separator:
+        return tuple(line.split())
+    (row,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+    fields = [field.strip() for field in row]
+    while len(fields) > 1 and not fields[-1]:  # programs close lines with a separator
+        fields.pop()
+    return tuple(fields)
+
+
+def _parted(
+    lines: _Lines, shown: str
+) -> tuple[list[tuple[str, ...]], list[tuple[int, tuple[str, ...]]]]:
+    """The lines above the numbers, and the rows of numbers.
+
+    Raises BadTable.
+    """
+    first = next(
+        i
+        for i, (_, fields) in enumerate(lines.rows)
+        if sum(_is_number(field, lines.comma) for field in fields) > 1
+    )
+    head = [fields for _, fields in lines.rows[:first]]
+    data = [row for row in lines.rows[first:] if row[1] not in head]  # a header that is repeated
+    width = len(data[0][1])
+    for number, fields in data:
+        if len(fields) != width:
+            raise BadTable(
+                shown,
+                f"line {number} has {len(fields)} fields where the lines before have {width}",
+                "give each line the same columns",
+            )
+    return head, data
+
+
+def _header(
+    head: Sequence[tuple[str, ...]], width: int, shown: str
+) -> tuple[list[str], dict[int, str]]:
+    """Names of the columns, and units by column.
+
+    Raises BadTable.
+    """
+    units: dict[int, str] = {}
+    rest = list(head)
+    if rest and len(rest[-1]) == width and all(map(_is_unit, rest[-1])):
+        units = {i: _UNIT.sub(r"\1", field) for i, field in enumerate(rest.pop())}
+    if not rest:
+        raise BadTable(
+            shown,
+            "has no line that names its columns",
+            "write one above the numbers, such as x [mm], p [MPa]",
+        )
+    names = _joined(rest[-1], width)
+    if len(names) != width:
+        commas = ": decimal commas cannot be told from those between columns"
+        raise BadTable(
+            shown,
+            f"has {len(names)} names over {width} columns"
+            + (commas if width == 2 * len(names) else ""),
+            "give each column a name; separate by ; where numbers have decimal commas",
+        )
+    for i, name in enumerate(names):
+        if found := _UNIT.search(name):
+            units.setdefault(i, found.group(1))
+    return [_UNIT.sub("", name).strip(' "') for name in names], units
+
+
+def _joined(fields: tuple[str, ...], width: int) -> list[str]:
+    """Names between spaces; a unit in brackets belongs to the name before it."""
+    names: list[str] = []
+    for field in fields:
+        if len(fields) > width and names and _UNIT.fullmatch(field):
+            names[-1] += f" {field}"
+        else:
+            names.append(field)
+    return names
+
+
+def _is_unit(field: str) -> bool:
+    unit = _key(_UNIT.sub(r"\1", field))
+    return unit in ("", "-", "s", "1") or unit in LENGTHS or unit in STRESSES
+
+
+def _key(unit: str) -> str:
+    unit = unit.strip().replace("^", "").replace("²", "2").replace(" ", "")
+    return unit if unit in LENGTHS else unit.lower()
+
+
+def _columns(names: Sequence[str], shown: str) -> dict[str, list[int]]:
+    """Which columns hold what.
+
+    Raises BadTable.
+    """
+    found: dict[str, list[int]] = {}
+    for i, name in enumerate(names):
+        plain = re.sub(r"[^a-z0-9]+", " ", name.lower()).strip()
+        without = re.sub(r" (?:step )?\d+$", "", plain)
+        for what, known in NAMES.items():
+            if plain in known or (what in "pq" and without in known):
+                found.setdefault(what, []).append(i)
+    for what in ("x", "p"):
+        if what not in found:
+            raise BadTable(
+                shown,
+                f"no column is {MEANT[what]}: its names are {', '.join(names)}",
+                f"name one {what!r}, or as programs do: {', '.join(NAMES[what][1:6])}",
+            )
+    for what in ("x", "step"):
+        if len(found.get(what, [])) > 1:
+            several = ", ".join(names[i] for i in found[what])
+            raise BadTable(
+                shown, f"{several} may each be {what!r}", f"leave the name {what!r} to one of them"
+            )
+    doubled = {name for name in names if names.count(name) > 1}
+    if doubled & {names[i] for i in found["p"] + found.get("q", [])}:
+        raise BadTable(
+            shown, f"two columns are called {doubled.pop()!r}", "give each column a name of its own"
+        )
+    return found
+
+
+def _unit(
+    what: str,
+    names: Sequence[str],
+    columns: Mapping[str, Sequence[int]],
+    found: Mapping[int, str],
+    given: Mapping[str, str],
+    shown: str,
+) -> float:
+    """What a unit is in SI.
+
+    Raises BadTable.
+    """
+    known, such = (LENGTHS, "mm") if what == "x" else (STRESSES, "MPa")
+    of = [*columns[what], *(columns.get("q", []) if what == "p" else [])]
+    own = {_key(found[i]): found[i] for i in of if found.get(i)}
+    if what in given:
+        own = {_key(given[what]): given[what]}
+    if not own:
+        raise BadTable(
+            shown,
+            f"the unit of {names[of[0]]!r} is missing",
+            f"write {names[of[0]]} [{such}] in the line of names, or say --unit {what}={such}",
+        )
+    if len(own) > 1:
+        raise BadTable(
+            shown, f"tractions are given in {' and '.join(own.values())}", "use one unit for all"
+        )
+    ((key, text),) = own.items()
+    if key not in known:
+        common = ("m", "mm", "um", "in", "Pa", "MPa", "GPa", "N/mm2", "psi", "ksi")
+        allowed = ", ".join(unit for unit in common if _key(unit) in known)
+        raise BadTable(shown, f"{text!r} is no unit of {MEANT[what]}", f"write one of {allowed}")
+    return known[key]
+
+
+def _numbers(
+    data: Sequence[tuple[int, tuple[str, ...]]],
+    column: int,
+    names: Sequence[str],
+    comma: bool,
+    shown: str,
+) -> np.ndarray:
+    """One column.
+
+    Raises BadTable.
+    """
+    values = []
+    for number, fields in data:
+        field = fields[column].replace(",", ".") if comma else fields[column]
+        known = _NUMBER.fullmatch(field)
+        value = float(re.sub("[dD]", "e", field)) if known and known.group(1) else np.nan
+        if not np.isfinite(value):
+            what = f"{fields[column]!r}" if fields[column] else "nothing"
+            raise BadTable(
+                shown,
+                f"line {number} has {what} where {names[column]!r} is a number",
+                "give numbers alone, or leave the line out",
+            )
+        values.append(value)
+    return np.array(values)
+
+
+def _labels(
+    data: Sequence[tuple[int, tuple[str, ...]]], columns: Mapping[str, Sequence[int]]
+) -> list[str]:
+    """The load step of each row; none where there is no such column."""
+    if "step" not in columns:
+        return []
+    (column,) = columns["step"]
+    return [fields[column] for _, fields in data]

@@ -1,0 +1,35 @@
+"""The edge of a contact without its geometry: what generated/edge.py publishes.
+
+zone     slip zone from coefficients: an edge alone, with the width, with the other edge
+near     tractions, slip and friction's work next to an edge
+fit      coefficients from nodal pressures, from full-stick shear, from reaction forces
+elastic  the composite modulus
+both     both edges by the conditions of ../slip/series.py, compiled
+"""
+
+from .elastic import E_star, EdgeWarning, dundurs
+from .fit import K_N_from_loads, PressureFit, ShearFit, fit_pressure, fit_stuck_shear
+from .near import Peak, Tractions, peak, reach, slip_range, tractions, work
+from .zone import OtherEdge, Pressure, SlipZone, slip_zone
+
+__all__ = [
+    "E_star",
+    "EdgeWarning",
+    "K_N_from_loads",
+    "OtherEdge",
+    "Peak",
+    "Pressure",
+    "PressureFit",
+    "ShearFit",
+    "SlipZone",
+    "Tractions",
+    "dundurs",
+    "fit_pressure",
+    "fit_stuck_shear",
+    "peak",
+    "reach",
+    "slip_range",
+    "slip_zone",
+    "tractions",
+    "work",
+]

@@ -1,0 +1,85 @@
+"""The composite modulus of two bodies in plane strain, and whether shear and pressure separate."""
+
+import warnings
+from typing import Any
+
+import numpy as np
+
+from ..arrays import evaluated, real
+from ..types import Array
+
+SEPARATE = 1e-9
+"""Dundurs' beta up to which bodies count as similar."""
+
+
+class EdgeWarning(UserWarning):
+    """A number that may be used, and what is to be known of it."""
+
+
+def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
+    """Composite modulus of two bodies in plane strain.
+
+        1/E* = (1 - nu**2)/E + (1 - nu_2**2)/E_2
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        E, nu      Young's modulus [Pa] and Poisson's ratio [-] of one body
+        E_2, nu_2  of the other one; the same if not given, either both or none
+
+    Returns E* [Pa].
+    NaN unless E > 0 and -1 < nu <= 1/2.  Warns (EdgeWarning) where Dundurs' beta is not zero: what
+    is derived here holds for similar bodies, in which shear does not change the pressure.
+
+    >>> f"{E_star(210e9, 0.3):.4g}"
+    '1.154e+11'
+    """
+    if (E_2 is None) != (nu_2 is None):
+        raise ValueError("E_2 and nu_2 go together: give both, or none for similar bodies")
+    given = {"E": real(E, "E"), "nu": real(nu, "nu")}
+    if E_2 is None:
+        return evaluated(lambda E, nu: 1 / (2 * _compliance(E, nu)), given, None, 65_536)
+    given |= {"E_2": real(E_2, "E_2"), "nu_2": real(nu_2, "nu_2")}
+    beta = np.abs(dundurs(E, nu, E_2, nu_2))
+    if np.any(beta > SEPARATE):
+        warnings.warn(
+            f"Dundurs' beta is {np.nanmax(beta):.3g}, not 0: pressure and shear act on each other, "
+            "which the formulas of similar bodies leave out; beta/f tells how much",
+            EdgeWarning,
+            stacklevel=2,
+        )
+    return evaluated(
+        lambda E, nu, E_2, nu_2: 1 / (_compliance(E, nu) + _compliance(E_2, nu_2)),
+        given,
+        None,
+        65_536,
+    )
+
+
+def dundurs(E: Array, nu: Array, E_2: Array, nu_2: Array) -> Array:
+    """Dundurs' second parameter beta, in plane strain; 0 where pressure and shear separate.
+
+        beta = (E* /2) ((1 - 2 nu)(1 + nu)/E - (1 - 2 nu_2)(1 + nu_2)/E_2)
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        E, nu, E_2, nu_2  Young's modulus [Pa] and Poisson's ratio [-] of each body
+
+    Returns beta [-], between -1/2 and 1/2; its sign changes with the bodies.
+    NaN where E_star is.
+
+    >>> f"{dundurs(70e9, 0.33, 210e9, 0.3):.3f}"  # aluminium on steel
+    '0.117'
+    """
+    given = {"E": real(E, "E"), "nu": real(nu, "nu")}
+    given |= {"E_2": real(E_2, "E_2"), "nu_2": real(nu_2, "nu_2")}
+
+    def beta(E: Any, nu: Any, E_2: Any, nu_2: Any) -> Any:
+        one, two = _compliance(E, nu), _compliance(E_2, nu_2)
+        difference = (1 - 2 * nu) * (1 + nu) / E - (1 - 2 * nu_2) * (1 + nu_2) / E_2
+        return difference / (2 * (one + two))
+
+    return evaluated(beta, given, None, 65_536)
+
+
+def _compliance(E: Any, nu: Any) -> Any:
+    """(1 - nu**2)/E; NaN for what is no elastic body."""
+    exists = (E > 0) & np.isfinite(E) & (nu > -1) & (nu <= 0.5)
+    return np.where(exists, (1 - nu**2) / E, np.nan)

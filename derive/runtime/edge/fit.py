@@ -1,0 +1,478 @@
+r"""Coefficients of an edge from numbers: nodal pressures, and the shear of a run without slip.
+
+Next to an edge p**2 = K_N**2 s + 2 K_N L_N s**2 + ... is a polynomial: its root is the edge.  With
+the edge known, full-stick dq sqrt(s) = K_T + L_T s + ... is one.
+
+The first node under pressure belongs to the element in which contact ends, and is left out; that
+the edge lies between it and the node before is one more datum.  Polynomials of degree 1 to 3 are
+fitted to all stretches that begin behind it.  The scatter of the nodes is known from short cubics
+all over the contact, two thirds of which may meet kinks; what the mesh is off by next to the edge
+comes to it.  The stretch and degree are those of the
+least
+
+    misfit**2 + 2 (coefficients + nodes left out)
+
+(Akaike's criterion, a node left out being one more parameter).  The result is that of one degree
+more on the same stretch.  Its error adds to the scatter what this degree has changed, in place of
+the term that is still missing.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.polynomial import polynomial
+
+from ..arrays import real
+from ..types import Array, Edges
+
+DEGREES = (1, 2, 3)
+"""Of p**2."""
+
+STUCK = (0, 1, 2)
+"""Of dq sqrt(s)."""
+
+SPAN, LOCAL = 6, 3
+"""Nodes in a short stretch that shows the scatter, and the degree that fits it."""
+
+SHARE, EXPECTED = 1 / 3, 0.4055
+"""Of such stretches at least these meet no kink; that quantile of a mean of two squares."""
+
+BRACKET = 0.35
+"""Standard deviation of the edge, over the element it lies in, with its middle."""
+
+MESH, DECAY = 0.05, 2.5
+"""What a mesh is off by next to an edge, in parts: MESH (element/s)**DECAY.  Measured on the equal
+elements of tests/reference, which are off by 6 % at s = 1, 0.6 % at 2 and 0.1 % at 5 elements."""
+
+AWAY = 1.5
+"""Elements by which an edge may miss that middle."""
+
+LEAST = 8
+"""Nodes between an edge and half the contact, or the largest pressure, that leave a choice."""
+
+POOR = 0.25
+"""An error of K, in parts of it, that deserves a warning."""
+
+WORST = 3.0
+"""Misfit over scatter, both squared, above which no stretch shows the square root."""
+
+
+class PressureFit(NamedTuple):
+    """An edge from nodal pressures.  Errors are one standard deviation.
+
+    edge, K_N, L_N  where it lies [m], coefficients [Pa/sqrt(m), Pa/m**(3/2)], s inward
+    edge_error, K_N_error, L_N_error  of these
+    nodes, stretch  how many nodes were used, and how far from the edge they reach [m]
+    degree          of p**2
+    misfit          of what was used, over the scatter; about 1 if all is well
+    why             why this stretch, in words
+    warning         what speaks against the result, in words; "" if nothing does
+    """
+
+    edge: float
+    K_N: float
+    L_N: float
+    edge_error: float
+    K_N_error: float
+    L_N_error: float
+    nodes: int
+    stretch: float
+    degree: int
+    misfit: float
+    why: str
+    warning: str
+
+
+class ShearFit(NamedTuple):
+    """Full stick next to an edge.  Errors are one standard deviation; the rest as in PressureFit.
+
+    K_T, L_T  coefficients of 1/sqrt(s) and sqrt(s) [Pa sqrt(m), Pa/sqrt(m)], signed as dq
+    """
+
+    K_T: float
+    L_T: float
+    K_T_error: float
+    L_T_error: float
+    nodes: int
+    stretch: float
+    degree: int
+    misfit: float
+    why: str
+    warning: str
+
+
+class _Fit(NamedTuple):
+    """A polynomial over a stretch: what it says, its covariance, misfit squared."""
+
+    degree: int
+    used: int
+    values: Any
+    covariance: Any
+    misfit: float
+
+
+class _Chosen(NamedTuple):
+    values: Any
+    errors: Any
+    degree: int
+    used: int
+    misfit: float
+
+
+def fit_pressure(x: Array, p: Array) -> PressureFit:
+    """The edge nearer to the first point, K_N and L_N, from nodal pressures.
+
+    x  nodes along the interface, all in one direction [m]
+    p  contact pressure there, zero outside the contact [Pa]
+
+    Nodes outside the contact may be left out; then the next one is taken to lie as far off as the
+    nodes of the contact do.
+
+    Returns PressureFit; NaN, and a warning that says why, where no stretch shows the square root.
+    Raises ValueError for what is no table of one contact.
+
+    >>> x = np.linspace(-1.03, 1.07, 64)
+    >>> found = fit_pressure(x, np.sqrt(np.maximum(1 - x**2, 0.0)))
+    >>> f"{found.edge:.6f}, K_N = {found.K_N:.6f}"  # -1 and sqrt(2)
+    '-1.000000, K_N = 1.414214'
+    """
+    x, p = _table(x, p, "p")
+    if np.any(p < 0):
+        raise ValueError(
+            f"pressure must not be negative; it is at {np.sum(p < 0)} of {len(p)} nodes: give "
+            "compression as positive, and 0 outside the contact"
+        )
+    inside = np.flatnonzero(p > 0)
+    if len(inside) == 0:
+        raise ValueError("pressure is zero at all nodes: there is no contact")
+    first, last = inside[0], inside[-1]
+    if len(inside) < last - first + 1:
+        gap = x[first : last + 1][p[first : last + 1] == 0][0]
+        raise ValueError(
+            f"pressure is zero at x = {gap:.6g} between nodes in contact: give the nodes of one "
+            "contact at a time"
+        )
+    sense = 1.0 if x[-1] > x[0] else -1.0
+    z = sense * (x - x[first])
+    z, y = z[first : last + 1], p[first : last + 1]
+    if len(z) < SPAN + 2:
+        return _no_pressure(f"{len(z)} nodes in contact are too few: use a finer mesh", len(z))
+    element = sense * float(x[first] - x[first - 1]) if first else float(z[1] - z[0])
+    z, y = z[1:-1], y[1:-1]
+    scatter = _scatter(z, y**2, 2 * y)
+    half = max(int(np.argmax(y)) + 1, len(y) // 2)
+    z, y = z[:half], y[:half]
+    middle = -element / 2
+    slope = y[0] ** 2 / (z[0] - middle)
+    places = np.concatenate([[middle], z])
+    squares = np.concatenate([[0.0], y**2])
+    coarse = MESH * y * (element / (z - middle)) ** DECAY
+    sd = np.concatenate([[slope * BRACKET * element], 2 * y * np.hypot(scatter, coarse)])
+
+    def edge_of(b: Any, covariance: Any, length: float) -> Any:
+        return _root(b, covariance, length, middle, AWAY * element)
+
+    found = _chosen(places, squares, sd, DEGREES, 1, edge_of)
+    if found is None:
+        return _no_pressure(
+            "no stretch shows the square root: too coarse a mesh, a kink next to the edge, or a "
+            "complete contact",
+            half,
+        )
+    (edge, K_N, L_N), errors = found.values, found.errors
+    warning = _warning(half, found.misfit, errors[1] / K_N, "K_N")
+    stretch = float(z[found.used - 1] - edge)
+    return PressureFit(
+        float(x[first] + sense * edge),
+        float(K_N),
+        float(L_N),
+        float(errors[0]),
+        float(errors[1]),
+        float(errors[2]),
+        found.used,
+        stretch,
+        found.degree,
+        found.misfit,
+        _why(found, "p**2", half),
+        warning,
+    )
+
+
+def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -> ShearFit:
+    """K_T and L_T of an edge, from the change of shear of a run in which nothing slips.
+
+    x           nodes along the interface, all in one direction [m]
+    dq          change of shear there, of a bonded contact or of one that sticks [Pa]
+    edge        where the edge nearer to the first node lies, as fit_pressure finds it [m]
+    edge_error  how well that is known [m]
+
+    Nodes beyond the edge, and that of the element in which contact ends, are left out.
+
+    Returns ShearFit; NaN, and a warning that says why, where no stretch shows the root.
+    Raises ValueError for what is no table, and for an edge that does not lie next to it.
+
+    >>> x = np.linspace(-1, 1, 64)[1:-1]
+    >>> found = fit_stuck_shear(x, 1 / np.sqrt(1 - x**2), -1.0)
+    >>> f"K_T = {found.K_T:.4f}"  # 1/sqrt(2)
+    'K_T = 0.7071'
+    """
+    x, dq = _table(x, dq, "dq")
+    edge, edge_error = float(edge), float(edge_error)
+    if not (math.isfinite(edge) and edge_error >= 0 and math.isfinite(edge_error)):
+        raise ValueError(f"edge and edge_error must be numbers of metres; got {edge}, {edge_error}")
+    sense = 1.0 if x[-1] > x[0] else -1.0
+    s = sense * (x - edge)
+    spacing = float(np.median(np.diff(s)))
+    within = s >= spacing / 2
+    if s[0] > 3 * spacing or not np.any(s > 0):
+        raise ValueError(
+            f"the edge at {edge:.6g} does not lie next to the first of the nodes, {x[0]:.6g} to "
+            f"{x[-1]:.6g}"
+        )
+    s, dq = s[within][1:], dq[within][1:]
+    if len(s) < SPAN + 2:
+        return _no_shear(
+            f"{len(s) + 1} nodes inside the edge are too few: use a finer mesh", len(s)
+        )
+
+    y = dq * np.sqrt(s)
+    level = np.full(len(y), float(np.median(np.abs(y))))
+    half = max(len(y) // 2, SPAN)
+    coarse = MESH * (spacing / s[:half]) ** DECAY
+    sd = np.hypot(_scatter(s, y, level), coarse) * level[:half]
+    found = _chosen(s[:half], y[:half], sd, STUCK, 0, _ends)
+    if found is None:
+        return _no_shear("no stretch shows the root: too coarse a mesh, or no full stick", half)
+    values, errors = np.array(found.values), np.array(found.errors)
+    if edge_error > 0:
+        by = min(edge_error, 0.9 * float(s[0]))
+        at = [_fit_ends(s, dq, sign * by, found) for sign in (-1, 1)]
+        errors = np.hypot(errors, np.abs(at[1] - at[0]) / 2 * (edge_error / by))
+    warning = _warning(half, found.misfit, abs(errors[0] / values[0]), "K_T")
+    return ShearFit(
+        float(values[0]),
+        float(values[1]),
+        float(errors[0]),
+        float(errors[1]),
+        found.used,
+        float(s[found.used - 1]),
+        found.degree,
+        found.misfit,
+        _why(found, "dq sqrt(s)", half),
+        warning,
+    )
+
+
+def K_N_from_loads(P: Array, M: Array, a: Array, c: Array) -> Edges:
+    """K_N at both edges from reaction forces at two neighbouring loads; a contact of any body.
+
+        K_N dedge = 2 (dP +/- 4 (dM + mid dP)/h)/(pi sqrt(h)), the upper sign at the left edge
+
+    Each argument holds the two loads along its last axis; the others broadcast.
+        P  normal load per unit depth [N/m]
+        M  moment per unit depth, M = -int p x dx [N]
+        a, c  the contact [-a, c] [m]
+
+    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]), of the contact between both.
+    NaN at an edge that does not move.  Raises ValueError unless there are two loads.
+
+    >>> R, h = 2.0, np.array([1.99, 2.01])  # a cylinder, E* = 1: P = pi h**2/(16 R)
+    >>> found = K_N_from_loads(np.pi * h**2 / (16 * R), 0.0 * h, h / 2, h / 2)
+    >>> f"{found.left:.4f}"  # sqrt(h)/(2 R)
+    '0.3536'
+    """
+    given = [np.asarray(real(v, name)) for v, name in ((P, "P"), (M, "M"), (a, "a"), (c, "c"))]
+    if any(v.ndim == 0 or v.shape[-1] != 2 for v in given):
+        shapes = ", ".join(str(v.shape) for v in given)
+        raise ValueError(f"P, M, a and c hold two loads along their last axis; got {shapes}")
+    (dP, dM, da, dc) = (v[..., 1] - v[..., 0] for v in given)
+    at_a, at_c = (v.mean(-1) for v in given[2:])
+    with np.errstate(all="ignore"):
+        h, mid = at_a + at_c, (at_c - at_a) / 2
+        scale, turn = 2 / (np.pi * np.sqrt(h)), 4 * (dM + mid * dP) / h
+        left, right = scale * (dP + turn) / da, scale * (dP - turn) / dc
+        left, right = (np.where((K > 0) & (np.inf > K), K, np.nan)[()] for K in (left, right))
+    return Edges(left, right)
+
+
+# ---------------------------------------------------------------- the choice
+
+
+def _chosen(
+    places: Any, y: Any, sd: Any, degrees: tuple[int, ...], known: int, says: Any
+) -> _Chosen | None:
+    """What the best stretch and degree say, with one degree more.
+
+    known: data at the beginning that are no nodes.
+    says: (coefficients, covariance, length) -> values and covariance, None where there is nothing.
+    """
+    origin, length = places[known], float(places[-1] - places[known])
+    u = (places - origin) / length
+
+    def fit(degree: int, count: int) -> _Fit | None:
+        rows = slice(0, count + known)
+        weighted = np.vander(u[rows], degree + 1, increasing=True) / sd[rows, None]
+        q, r = np.linalg.qr(weighted)
+        diagonal = np.abs(np.diag(r))
+        if not diagonal.min() > 1e-11 * diagonal.max():
+            return None
+        target = y[rows] / sd[rows]
+        inverse = np.linalg.inv(r)
+        b = inverse @ (q.T @ target)
+        off = target - weighted @ b
+        said = says(b, inverse @ inverse.T, (origin, length))
+        return said and _Fit(degree, count, said[0], said[1], float(off @ off))
+
+    shortest = 2 if known else 3
+    nodes = len(places) - known
+    found = [fit(k, n) for k in degrees for n in range(k + shortest, nodes + 1)]
+    ranked = sorted(
+        (one for one in found if one),
+        key=lambda one: one.misfit + 2 * (one.degree + nodes - one.used),
+    )
+    for one in ranked:
+        more = fit(one.degree + 1, one.used)
+        if more is None:
+            continue
+        freedom = one.used + known - one.degree - 1
+        excess = one.misfit / freedom
+        changed = more.values - one.values
+        variance = np.diag(more.covariance) * max(excess, 1.0) + changed**2
+        return _Chosen(
+            more.values, _t(nodes) * np.sqrt(variance), more.degree, one.used, math.sqrt(excess)
+        )
+    return None
+
+
+def _t(nodes: int) -> float:
+    """Half of what covers 95 %, in standard deviations, where the scatter is known from nodes."""
+    freedom = max(nodes - 2, 3)
+    return (1.960 + 2.372 / freedom + 2.823 / freedom**2 + 2.556 / freedom**3) / 2
+
+
+def _scatter(places: Any, y: Any, level: Any) -> float:
+    """Standard deviation of y over `level`, from short stretches that cubics fit."""
+    found = []
+    for i in range(len(places) - SPAN + 1):
+        part = slice(i, i + SPAN)
+        u = (places[part] - places[i]) / (places[i + SPAN - 1] - places[i])
+        q, _ = np.linalg.qr(np.vander(u, LOCAL + 1) / level[part, None])
+        off = y[part] / level[part]
+        off = off - q @ (q.T @ off)
+        found.append(off @ off / (SPAN - LOCAL - 1))
+    squared = float(np.quantile(found, SHARE)) / EXPECTED
+    # rounding of the table, at least
+    return math.sqrt(squared) + 1e-13 * float(np.max(np.abs(y) / level))
+
+
+def _root(b: Any, covariance: Any, frame: Any, middle: float, away: float) -> Any:
+    """Edge, K_N and L_N of p**2 = sum b u**j, and their covariance; None where it has no edge."""
+    origin, length = frame
+    first, second, third = (polynomial.polyder(b, k) for k in (1, 2, 3))
+    u = (middle - origin) / length
+    for _ in range(40):
+        slope = polynomial.polyval(u, first)
+        if not slope > 0:
+            return None
+        step = polynomial.polyval(u, b) / slope
+        u -= step
+        if abs(step) < 1e-13:
+            break
+    edge = origin + u * length
+    slope, bend, twist = (polynomial.polyval(u, of) for of in (first, second, third))
+    if not (slope > 0 and abs(edge - middle) <= away):
+        return None
+    K = math.sqrt(slope / length)
+    L = bend / length**2 / (4 * K)
+    j = np.arange(len(b))
+    powers = u ** np.arange(len(b), dtype=float)
+    by_root = -powers / slope
+    by_slope = j * np.concatenate([[0.0], powers[:-1]]) + bend * by_root
+    by_bend = j * (j - 1) * np.concatenate([[0.0, 0.0], powers])[: len(b)] + twist * by_root
+    by_K = by_slope / (2 * K * length)
+    by_L = by_bend / (4 * K * length**2) - L / K * by_K
+    rates = np.array([by_root * length, by_K, by_L])
+    return np.array([edge, K, L]), rates @ covariance @ rates.T
+
+
+def _ends(b: Any, covariance: Any, frame: Any) -> Any:
+    """Value and slope at the edge, s = 0, of sum b u**j."""
+    origin, length = frame
+    u = -origin / length
+    powers = u ** np.arange(len(b), dtype=float)
+    rises = np.arange(len(b)) * np.concatenate([[0.0], powers[:-1]]) / length
+    rates = np.array([powers, rises])
+    return rates @ b, rates @ covariance @ rates.T
+
+
+def _fit_ends(s: Any, dq: Any, at: float, like: _Chosen) -> Any:
+    """K_T and L_T with the edge elsewhere, over the same stretch."""
+    places = s[: like.used] - at
+    b = polynomial.polyfit(places, dq[: like.used] * np.sqrt(places), like.degree)
+    return np.array([b[0], b[1]])
+
+
+# ---------------------------------------------------------------- words
+
+
+def _table(x: Any, values: Any, name: str) -> tuple[Any, Any]:
+    """Both columns as numbers, in one direction.
+
+    Raises ValueError for what is no table.
+    """
+    x, values = np.asarray(real(x, "x")), np.asarray(real(values, name))
+    if x.ndim != 1 or values.shape != x.shape:
+        raise ValueError(
+            f"x and {name} must be rows of equal length; their shapes are {x.shape} and "
+            f"{values.shape}"
+        )
+    if len(x) < 2:
+        raise ValueError(f"x and {name} must hold several nodes; got {len(x)}")
+    for column, label in ((x, "x"), (values, name)):
+        if not np.all(np.isfinite(column)):
+            at = np.flatnonzero(~np.isfinite(column))[0]
+            raise ValueError(f"{label} is {column[at]} at node {at + 1}: give numbers alone")
+    steps = np.diff(x)
+    if np.any(steps == 0):
+        at = np.flatnonzero(steps == 0)[0]
+        raise ValueError(f"two nodes lie at x = {x[at]:.6g}: give each node once")
+    if not (np.all(steps > 0) or np.all(steps < 0)):
+        at = np.flatnonzero(np.sign(steps) != np.sign(steps[0]))[0]
+        raise ValueError(f"x turns round behind node {at + 1}: sort the nodes along x")
+    return x, values
+
+
+def _why(found: _Chosen, what: str, nodes: int) -> str:
+    return (
+        f"{what} follows a polynomial of degree {found.degree - 1} over {found.used} of {nodes} "
+        f"nodes to {found.misfit:.2g} of its scatter; degree {found.degree} is used"
+    )
+
+
+def _warning(nodes: int, misfit: float, part: float, name: str) -> str:
+    """What speaks against a result."""
+    said = []
+    if nodes < LEAST:
+        said.append(
+            f"{nodes} nodes between the edge and the middle leave no choice of a stretch: use a "
+            "finer mesh"
+        )
+    if misfit**2 > WORST:
+        said.append(
+            f"no stretch shows the square root (misfit {misfit:.1f} times the scatter): too coarse "
+            "a mesh, or a kink next to the edge"
+        )
+    if not part < POOR:
+        said.append(f"{name} is known to {100 * part:.0f} % alone")
+    return "; ".join(said)
+
+
+def _no_pressure(why: str, nodes: int) -> PressureFit:
+    none = math.nan
+    return PressureFit(none, none, none, none, none, none, nodes, none, 0, none, "", why)
+
+
+def _no_shear(why: str, nodes: int) -> ShearFit:
+    none = math.nan
+    return ShearFit(none, none, none, none, nodes, none, 0, none, "", why)

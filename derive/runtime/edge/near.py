@@ -1,0 +1,355 @@
+r"""Tractions, slip and friction's work next to an edge, by the series of zone.py, of an edge alone.
+
+With t = s - d the distance from the slip zone (derive/theory/edge.py)
+
+    dq = f (p_1 + p_2) - sqrt(t) R(t)   where it sticks,   dq = f (p_1 + p_2)   where it slips,
+    slip range = (2/E*) int_0^(d - s) sqrt(u) R(-u) du,
+
+times the sense of slip, R the polynomial that makes dq full stick's far from the edge.  A partial
+half-cycle obeys the same with what it has changed by so far.
+
+Shear itself follows where the normal loads stay.  What Q and sigma leave when they first rise is
+half the change under twice of both, as slip then holds f p and not 2 f p.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import evaluated
+from ..types import Array
+from .zone import CASES, Coefficients, _demand_order, _numbers, length, shifted
+
+BEYOND = ((1.0, 3 / 2, 15 / 8), (1.0, 5 / 2), (1.0,))
+"""binomial(k + 1/2, k - m), of C_k d**(k - m) in the coefficient of t**m in R, k = m, m + 1, ..."""
+
+STUCK = ((1.0, 3 / 2), (1.0,), ())
+"""binomial(k - 1/2, k - 1 - m), of the full-stick coefficients, k = m + 1, ..."""
+
+WORK = tuple(
+    tuple(math.gamma(k + 1.5) * math.gamma(m + 2.5) / math.gamma(k + m + 4) for m in range(3))
+    for k in range(3)
+)
+"""B(k + 3/2, m + 5/2) = int_0^1 s**(k + 1/2) (1 - s)**(m + 3/2) ds."""
+
+
+class Tractions(NamedTuple):
+    """At a place next to an edge, at one instant [Pa].
+
+    p   pressure
+    q   shear; NaN where it depends on how the loads came there
+    dq  change of shear since the loads last turned
+    """
+
+    p: Array
+    q: Array
+    dq: Array
+
+
+class Peak(NamedTuple):
+    """Where shear is largest over a cycle, its distance from the edge [m], and the shear [Pa]."""
+
+    s: Array
+    q: Array
+
+
+class _Edge(NamedTuple):
+    """Coefficients of one edge, those beyond the order zero."""
+
+    now: Coefficients
+    shear: Coefficients
+    f: Any
+    da: Any
+    order: int
+
+
+def _read(n: dict[str, Any], order: int) -> _Edge:
+    L_N, L_T = (n.get(name, 0.0) if order > 1 else 0.0 for name in ("L_N", "L_T"))
+    N_N, N_T = (n.get(name, 0.0) if order > 2 else 0.0 for name in ("N_N", "N_T"))
+    now, shear = (n["K_N"], L_N, N_N), (n["K_T"], L_T, N_T)
+    return _Edge(now, shear, n["f"], n.get("da", 0.0), order)
+
+
+def _most(L_N: Any, L_T: Any, N_N: Any, N_T: Any) -> int:
+    return 1 if L_N is None or L_T is None else 2 if N_N is None or N_T is None else 3
+
+
+def _pressure(coefficients: Coefficients, s: Any) -> Any:
+    """The series of the pressure; zero outside the contact."""
+    inside = np.maximum(s, 0.0)
+    powers = sum(C * inside**k for k, C in enumerate(coefficients))
+    return np.sqrt(inside) * powers
+
+
+class _Half(NamedTuple):
+    """A half-cycle so far: slip zones and pressures in both its contacts, and R of what sticks."""
+
+    d: Any
+    d_before: Any
+    now: Coefficients
+    before: Coefficients
+    stuck: list[Any]
+
+
+def _half(edge: _Edge, share: Any = 1.0) -> _Half:
+    """The half-cycle, or a share of it from its start; lengths are seen from the contact then."""
+    now = shifted(edge.now, (1 - share) * edge.da)
+    before = shifted(edge.now, edge.da)
+    moved, lag = share * edge.da, (1 - share) * edge.da
+    # the same full-stick change, told by the distance from the edge of that instant
+    V = edge.shear
+    V = (V[0] + (V[1] / 2) * lag + (3 / 8) * V[2] * lag**2, V[1] + (3 / 2) * V[2] * lag, V[2])
+    V = (share * V[0], share * V[1], share * V[2])
+    d = length(now, before, V, edge.f, moved, edge.order)
+    sense = np.where(V[0] < 0, -1.0, 1.0)
+    stuck = []
+    for m in range(3):
+        R = 0.0
+        for k in range(m, 3):
+            factor = BEYOND[m][k - m]
+            R = R + edge.f * factor * (now[k] * d ** (k - m) + before[k] * (d - moved) ** (k - m))
+        for k in range(m + 1, 3):
+            R = R - sense * V[k] * STUCK[m][k - 1 - m] * d ** (k - 1 - m)
+        stuck.append(R)
+    return _Half(d, d - moved, now, before, stuck)
+
+
+def _change(edge: _Edge, half: _Half, s: Any) -> Any:
+    """How much shear has changed, s the distance from the edge of the contact then."""
+    t = np.maximum(s - half.d, 0.0)
+    stuck = np.sqrt(t) * sum(R * t**m for m, R in enumerate(half.stuck))
+    slides = _pressure(half.now, s) + _pressure(half.before, s - half.d + half.d_before)
+    return np.where(edge.shear[0] < 0, -1.0, 1.0) * (edge.f * slides - stuck)
+
+
+def _scaled(edge: _Edge, factor: Any) -> _Edge:
+    """The same under so many times the change of shear."""
+    return edge._replace(shear=tuple(factor * V for V in edge.shear))
+
+
+def _reversed(edge: _Edge) -> _Edge:
+    """The half-cycle that leads back, as seen from the contact where it ends."""
+    V, lag = edge.shear, edge.da
+    V = (V[0] + V[1] / 2 * lag + 3 / 8 * V[2] * lag**2, V[1] + 3 / 2 * V[2] * lag, V[2])
+    back: Any = tuple(-one for one in V)
+    return edge._replace(now=shifted(edge.now, lag), shear=back, da=-lag)
+
+
+def tractions(
+    s: Array,
+    K_N: Array,
+    K_T: Array,
+    *,
+    f: Array,
+    L_N: Array = None,
+    L_T: Array = None,
+    N_N: Array = None,
+    N_T: Array = None,
+    da: Array = 0.0,
+    order: int | None = None,
+    share: Array = 1.0,
+    back: bool = False,
+    mean: Array = 0.0,
+) -> Tractions:
+    """Pressure and shear next to an edge alone, at any instant of the steady cycle.
+
+        where it slips   dq = f (p_1 + p_2), over the sense of slip
+        where it sticks  dq = f (p_1 + p_2) - sqrt(s - d) R(s - d), full stick's far from the edge
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        s      distance inward from the edge as it lies where the shear is highest [m]
+        K_N, K_T, f, L_N, L_T, N_N, N_T, da, order  as in slip_zone
+        share  of the half-cycle, 0 at its start to 1 at its end; all loads go straight
+        back   the half-cycle that lowers the shear instead of that which raises it
+        mean   mean of K_T over the cycle; Q and sigma came to it from nothing [Pa sqrt(m)]
+
+    Returns Tractions(p [Pa], q [Pa], dq [Pa]).
+    NaN where slip_zone is; q too where the edge moves and does not slip at s.  Good where s is
+    small against `reach`.
+
+    >>> p, q, dq = tractions(1e-4, 1e10, 1e6, f=0.5)
+    >>> f"{q / p:.3g} and {dq / p:.3g}"  # slips: f and 2 f
+    '0.5 and 1'
+    """
+    order = _demand_order(order, _most(L_N, L_T, N_N, N_T))
+    coefficients = dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T)
+    given = _numbers(dict(s=s, **coefficients, da=da, share=share, mean=mean), dict(f=f))
+
+    def found(**n: Any) -> Any:
+        s, share, mean = n["s"], n["share"], n["mean"]
+        share = np.where((share >= 0) & (share <= 1), share, np.nan)
+        rising = _read(n, order)
+        edge = _reversed(rising) if back else rising
+        lies = (share if back else 1 - share) * rising.da  # the edge at this instant
+        half = _half(edge, share)
+        p, dq = _pressure(half.now, s - lies), _change(edge, half, s - lies)
+        stays = rising.da == 0
+        still = _scaled(rising, np.where(stays, 1.0, np.nan))
+        whole = _change(still, _half(still), s)
+        first = _scaled(still, 2 * np.abs(mean / rising.shear[0]) + 1)
+        first_change = _change(first, _half(first), s) / 2
+        leads = mean / rising.shear[0] >= 0
+        lowest = np.where(leads, first_change - whole, -first_change)
+        q = np.where(back, lowest + whole, lowest) + dq
+        slides = np.where(edge.shear[0] < 0, -1.0, 1.0) * edge.f * p
+        q = np.where(s - lies <= half.d, slides, q)
+        shown = p + 0 * half.d  # nothing where there is no slip zone
+        return shown, q, dq
+
+    result: Tractions = evaluated(found, given, Tractions, CASES)
+    return result
+
+
+def slip_range(
+    s: Array,
+    K_N: Array,
+    K_T: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    L_N: Array = None,
+    L_T: Array = None,
+    N_N: Array = None,
+    N_T: Array = None,
+    da: Array = 0.0,
+    order: int | None = None,
+) -> Array:
+    """How far the surfaces slip to and fro in a cycle, next to an edge alone.
+
+        (2/E*) int_0^(d - s) sqrt(u) R(-u) du; order 1: (8 f K_N/(3 E*)) (d - s)**(3/2)
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        s       distance inward from the edge as it lies where the shear is highest [m]
+        E_star  composite modulus, see E_star() [Pa]
+        K_N, K_T, f, L_N, L_T, N_N, N_T, da, order  as in slip_zone
+
+    Returns the slip range [m]; 0 where it sticks.
+    NaN where slip_zone is, and for places that leave contact.
+
+    >>> f"{slip_range(0.0, 1e10, 1e6, f=0.5, E_star=1e11):.3g}"
+    '3.77e-07'
+    """
+    order = _demand_order(order, _most(L_N, L_T, N_N, N_T))
+    coefficients = dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T)
+    given = _numbers(dict(s=s, **coefficients, da=da), dict(f=f, E_star=E_star))
+
+    def found(**n: Any) -> Any:
+        edge = _read(n, order)
+        half = _half(edge)
+        u = np.maximum(half.d - n["s"], 0.0)
+        slip = sum(R * (-1) ** m * u ** (m + 1.5) / (m + 1.5) for m, R in enumerate(half.stuck))
+        return np.where(n["s"] >= np.maximum(edge.da, 0.0), 2 / n["E_star"] * slip, np.nan)
+
+    return evaluated(found, given, None, CASES)
+
+
+def work(
+    K_N: Array,
+    K_T: Array,
+    *,
+    f: Array,
+    E_star: Array,
+    L_N: Array = None,
+    L_T: Array = None,
+    N_N: Array = None,
+    N_T: Array = None,
+    order: int | None = None,
+) -> Array:
+    """Friction's work next to an edge alone, a cycle and unit depth; constant normal loads.
+
+        2 int_0^d f p times the slip range ds; order 1: pi f**2 K_N**2 d**3/(3 E*)
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        E_star  composite modulus, see E_star() [Pa]
+        K_N, K_T, f, L_N, L_T, N_N, N_T, order  as in slip_zone
+
+    Returns the work [J/m].
+    NaN where slip_zone is.
+
+    >>> f"{work(1e10, 1e6, f=0.5, E_star=1e11):.3g}"
+    '0.00209'
+    """
+    order = _demand_order(order, _most(L_N, L_T, N_N, N_T))
+    coefficients = dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T)
+    given = _numbers(coefficients, dict(f=f, E_star=E_star))
+
+    def found(**n: Any) -> Any:
+        edge = _read(n, order)
+        half = _half(edge)
+        total = sum(
+            C * R * (-1) ** m / (m + 1.5) * WORK[k][m] * half.d ** (k + m + 3)
+            for k, C in enumerate(edge.now)
+            for m, R in enumerate(half.stuck)
+        )
+        return 4 * edge.f / n["E_star"] * total
+
+    return evaluated(found, given, None, CASES)
+
+
+def peak(
+    K_N: Array,
+    K_T: Array,
+    *,
+    f: Array,
+    L_N: Array = None,
+    L_T: Array = None,
+    N_N: Array = None,
+    N_T: Array = None,
+    order: int | None = None,
+    mean: Array = 0.0,
+) -> Peak:
+    """The largest shear of the cycle next to an edge alone; constant normal loads.
+
+        f p(s) where the slip of the highest load ends, s = d if mean = 0; nearer to the edge q = f
+        p, the largest q/p there is
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        K_N, K_T, f, L_N, L_T, N_N, N_T, order  as in slip_zone
+        mean  mean of K_T over the cycle; Q and sigma came to it from nothing [Pa sqrt(m)]
+
+    Returns Peak(s [m], q [Pa]), q over the sense of slip there.
+    NaN where slip_zone is.
+
+    >>> s, q = peak(1e10, 1e6, f=0.5)
+    >>> f"{s:.3g} m, {q:.3g} Pa"
+    '0.0002 m, 7.07e+07 Pa'
+    """
+    order = _demand_order(order, _most(L_N, L_T, N_N, N_T))
+    coefficients = dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T)
+    given = _numbers(dict(**coefficients, mean=mean), dict(f=f))
+
+    def found(**n: Any) -> Any:
+        edge = _read(n, order)
+        half = _half(_scaled(edge, 2 * np.abs(n["mean"] / edge.shear[0]) + 1))
+        return half.d, edge.f * _pressure(half.now, half.d)
+
+    result: Peak = evaluated(found, given, Peak, CASES)
+    return result
+
+
+def reach(
+    K_N: Array, K_T: Array, *, L_N: Array = None, L_T: Array = None, h: Array = None
+) -> Array:
+    """The distance from the edge over which the next term matters as much as the first.
+
+        the least of |K_N/L_N|, |K_T/L_T| and h, of those given
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        K_N, K_T, L_N, L_T, h  as in slip_zone
+
+    Returns the distance [m]: the first order's error is about d over it, in parts of d.
+    NaN if neither L_N, L_T nor h is given.
+
+    >>> f"{reach(1e10, 1e6, L_N=-5e12, L_T=2e8):.3g} m"
+    '0.002 m'
+    """
+    given = _numbers(dict(K_N=K_N, K_T=K_T, L_N=L_N, L_T=L_T), dict(h=h))
+
+    def found(**n: Any) -> Any:
+        pairs = (("K_N", "L_N"), ("K_T", "L_T"))
+        known = [np.abs(n[one] / n[two]) for one, two in pairs if two in n]
+        known += [n["h"]] if "h" in n else []
+        return np.minimum.reduce(np.broadcast_arrays(*known)) if known else np.nan
+
+    return evaluated(found, given, None, CASES)

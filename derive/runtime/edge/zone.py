@@ -1,0 +1,325 @@
+r"""How far slip reaches in at an edge, from the series of pressure and full stick next to it.
+
+At a distance s from the edge
+
+    p = K_N s**(1/2) + L_N s**(3/2) + N_N s**(5/2),
+    full-stick dq = K_T s**(-1/2) + L_T s**(1/2) + N_T s**(3/2).
+
+An edge alone: with f (p_1 + p_2) of the contacts at both ends of the half-cycle, slip zones d_1 and
+d_2, the bounded change of shear passes into that of full stick where (derive/theory/edge.py)
+
+    sum f (K_N d/2 + 3 L_N d**2/8 + 5 N_N d**3/16) = |K_T| + L_T d/2 + 3 N_T d**2/8,
+
+L_T and N_T over the sense of slip.  A contact of width h adds sum f K_N d**2/(16 h) to the right of
+it.  With the other edge known both obey the conditions of ../slip/series.py.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import evaluated, positive_or_nan, real
+from ..body import kernel_of
+from ..types import Array
+
+PRESSURE = (1 / 2, 3 / 8, 5 / 16)
+"""binomial(k + 1/2, k + 1), of C_k d**(k + 1)."""
+
+SHEAR = (1.0, 1 / 2, 3 / 8)
+"""binomial(k - 1/2, k), of the full-stick coefficients times d**k."""
+
+GROWN = (1.0, 2 / 3, 8 / 15)
+"""B(k + 1, 1/2)/2, of b**k in K_N(b) that becomes s**(k + 1/2) in the pressure."""
+
+STEPS = 60
+"""Newton's steps at most."""
+
+CASES = 65_536
+"""Cases solved in one piece."""
+
+Coefficients = tuple[Any, Any, Any]
+
+
+class SlipZone(NamedTuple):
+    """Length of a slip zone, and by how much the next term would change it [m]."""
+
+    d: Array
+    error: Array
+
+
+class Pressure(NamedTuple):
+    """p = K_N s**(1/2) + L_N s**(3/2) + N_N s**(5/2) next to an edge; None is not known."""
+
+    K_N: Array
+    L_N: Array = None
+    N_N: Array = None
+
+
+class OtherEdge(NamedTuple):
+    """What slip_zone may know of the other edge; signs as at its own.
+
+    K_N, L_N, N_N  of the pressure
+    K_T   of the full-stick change
+    da    how much further it reaches than at the other end of the half-cycle
+    then  Pressure next to it at the other end of the half-cycle
+    """
+
+    K_N: Array
+    K_T: Array
+    L_N: Array = None
+    N_N: Array = None
+    da: Array = 0.0
+    then: Any = None
+
+
+def slip_zone(
+    K_N: Array,
+    K_T: Array,
+    *,
+    f: Array,
+    L_N: Array = None,
+    L_T: Array = None,
+    da: Array = 0.0,
+    h: Array = None,
+    order: int | None = None,
+    N_N: Array = None,
+    N_T: Array = None,
+    then: Pressure | None = None,
+    other: OtherEdge | None = None,
+) -> SlipZone:
+    """Slip zone at an edge from its coefficients, whatever the body.
+
+        order 1: d = |K_T|/(f K_N) + da/2
+        order 2, with L_N and L_T: f K_N d + (3/4) f L_N d**2 = |K_T| + (L_T/2) d, more where da is
+            not zero; h adds f K_N d**2/(8 h) on the right
+        order 3, with N_N and N_T too, without h
+        with h and the other edge: both conditions of a body's slip_zones; L_T is theirs
+
+    Arguments broadcast; results are float64 of the broadcast shape.
+        K_N    coefficient of sqrt(s) in the pressure, s the distance inward [Pa/sqrt(m)]
+        K_T    coefficient of 1/sqrt(s) in the full-stick change of shear, signed [Pa sqrt(m)]
+        f      coefficient of friction [-]
+        L_N, N_N  coefficients of s**(3/2) and s**(5/2) in the pressure [Pa/m**(3/2), Pa/m**(5/2)]
+        L_T, N_T  coefficients of s**(1/2) and s**(3/2) in the change [Pa/sqrt(m), Pa/m**(3/2)]
+        da     how much further the edge reaches than at the other end of the half-cycle [m]
+        h      width of the contact, where it is known [m]
+        order  1, 2 or 3; the highest that the coefficients allow if not given
+        then   Pressure next to the edge at the other end of the half-cycle; what follows from K_N,
+               L_N, N_N and da if not given
+        other  OtherEdge; needs h
+
+    Returns SlipZone(d [m], error [m]).  error: what one more term changes; where no more is known,
+    what the last one changed; NaN at order 1 where nothing else is known.
+    NaN unless K_N, f and h are positive and slip reaches in at both contacts of the half-cycle.
+    Raises ValueError for an order that the coefficients do not allow, and for coefficients that say
+    a thing twice.
+
+    >>> d, error = slip_zone(1e10, 1e6, f=0.5)
+    >>> f"{d:.3g} m"  # K_T/(f K_N)
+    '0.0002 m'
+    >>> d, error = slip_zone(1e10, 1e6, f=0.5, L_N=-5e12, L_T=5e8)
+    >>> f"{d:.4g} m, to {error:.1g}"
+    '0.0002317 m, to 3e-05'
+    """
+    if other is not None:
+        return _with_other(K_N, K_T, f, L_N, L_T, da, h, order, N_N, N_T, then, other)
+    most = 1 if L_N is None or L_T is None else 2 if N_N is None or N_T is None else 3
+    if h is not None:
+        most = min(most, 2)
+    if then is not None:
+        most = min(most, _terms(then))
+    order = _demand_order(order, most)
+    given = _numbers(
+        dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T, da=da), dict(f=f, h=h), then
+    )
+
+    def zones(**n: Any) -> Any:
+        now = (n["K_N"], n.get("L_N", 0.0), n.get("N_N", 0.0))
+        before = _before(now, n, n["da"])
+        shear = (n["K_T"], n.get("L_T", 0.0), n.get("N_T", 0.0))
+        found = [
+            length(now, before, shear, n["f"], n["da"], k, n.get("h", np.inf))
+            for k in range(1, most + 1)
+        ]
+        return found[order - 1], _error(found, order)
+
+    found: SlipZone = evaluated(zones, given, SlipZone, CASES)
+    return found
+
+
+def _error(found: list[Any], order: int) -> Any:
+    """What the next term changes, or what the last one did."""
+    if order < len(found):
+        return np.abs(found[order] - found[order - 1])
+    if order > 1:
+        return np.abs(found[order - 1] - found[order - 2])
+    return np.full(np.shape(found[0]), np.nan)
+
+
+def _demand_order(order: Any, most: int) -> int:
+    """Raises TypeError for what is no whole number, ValueError for an order that is not allowed."""
+    if order is None:
+        return most
+    if isinstance(order, bool) or not isinstance(order, int | np.integer):
+        raise TypeError(f"order must be a whole number; got {order!r:.60}")
+    if not 1 <= order <= most:
+        raise ValueError(
+            f"order must be 1 to {most} with the coefficients given; got {order}: order 2 needs "
+            "L_N and L_T, order 3 N_N and N_T, too; with the other edge each coefficient of both "
+            "pressures, and of `then` where the edges move"
+        )
+    return int(order)
+
+
+def _terms(pressure: Pressure | OtherEdge) -> int:
+    """How many coefficients of a pressure are known."""
+    return 1 if pressure.L_N is None else 2 if pressure.N_N is None else 3
+
+
+def _numbers(given: dict[str, Any], positive: dict[str, Any], then: Any = None) -> dict[str, Any]:
+    """All that is given as float64, what must be positive NaN where it is not."""
+    if then is not None:
+        given = given | {f"then.{name}": value for name, value in then._asdict().items()}
+    numbers = {name: real(v, name) for name, v in given.items() if v is not None}
+    constants = {name: real(v, name) for name, v in positive.items() if v is not None}
+    return numbers | {name: positive_or_nan(v) for name, v in constants.items()}
+
+
+def _before(now: Coefficients, n: dict[str, Any], move: Any) -> Coefficients:
+    """The pressure at the other end of the half-cycle: as given, or as it follows."""
+    if "then.K_N" in n:
+        return n["then.K_N"], n.get("then.L_N", 0.0), n.get("then.N_N", 0.0)
+    return shifted(now, move)
+
+
+def shifted(pressure: Coefficients, move: Any) -> Coefficients:
+    """The coefficients of the contact whose edge reaches less far by `move`, alone.
+
+    K_N(b) = K_N + (3/2) L_N b + (15/8) N_N b**2 of the edge that reaches less far by b.
+    """
+    k_0, k_1, k_2 = (C / share for C, share in zip(pressure, GROWN, strict=True))
+    moved = (k_0 + k_1 * move + k_2 * move**2, k_1 + 2 * k_2 * move, k_2)
+    return tuple(k * share for k, share in zip(moved, GROWN, strict=True))
+
+
+def length(
+    now: Coefficients,
+    before: Coefficients,
+    shear: Coefficients,
+    f: Any,
+    da: Any,
+    order: int,
+    h: Any = np.inf,
+) -> Any:
+    """The slip zone of an edge alone to an order, as seen from the contact now.
+
+    Newton's method from the shortest slip zone there can be, at which friction holds too little.
+    """
+    K_T = np.abs(shear[0])
+    if order == 1:
+        d = K_T / (f * now[0]) + da / 2
+        return np.where((now[0] > 0) & (d >= np.maximum(da, 0.0)), d, np.nan)
+    sense = np.where(shear[0] < 0, -1.0, 1.0)
+    drives = [K_T, *(sense * V for V in shear[1:])][:order]
+    holds = [
+        [f * (C - (one[0] / (6 * h) if k == 1 else 0.0)) for k, C in enumerate(one[:order])]
+        for one in (now, before)
+    ]
+    least = np.maximum(da, 0.0)
+    d = np.array(np.broadcast_arrays(least, K_T, f, *now, *before)[0], float)
+    start, _ = _off(d, da, holds, drives)
+    for _ in range(STEPS):
+        value, rate = _off(d, da, holds, drives)
+        step = np.where(value == 0, 0.0, value / rate)
+        d = d - step
+        if not np.any(np.abs(step) > 4e-16 * np.abs(d)):
+            break
+    off, rate = _off(d, da, holds, drives)
+    done = np.abs(step) <= 1e-12 * np.abs(d)
+    exists = (now[0] > 0) & (before[0] > 0) & (d >= least) & (start <= 0) & done
+    exists &= (rate > 0) & np.isfinite(off)
+    return np.where(exists, d, np.nan)
+
+
+def _off(d: Any, da: Any, holds: Any, drives: Any) -> Any:
+    """By how much friction holds more than drives, and its rate with d."""
+    value, rate = -drives[0], 0.0
+    for one, reach in zip(holds, (d, d - da), strict=True):
+        for k, C in enumerate(one):
+            value = value + C * PRESSURE[k] * reach ** (k + 1)
+            rate = rate + C * PRESSURE[k] * (k + 1) * reach**k
+    for k, V in enumerate(drives[1:], 1):
+        value = value - V * SHEAR[k] * d**k
+        rate = rate - V * SHEAR[k] * k * d ** (k - 1)
+    return value, rate
+
+
+# ---------------------------------------------------------------- both edges
+
+
+def _with_other(
+    K_N: Any,
+    K_T: Any,
+    f: Any,
+    L_N: Any,
+    L_T: Any,
+    da: Any,
+    h: Any,
+    asked: int | None,
+    N_N: Any,
+    N_T: Any,
+    then: Any,
+    other: OtherEdge,
+) -> SlipZone:
+    """The conditions of both edges, as a body's slip_zones solves them."""
+    if h is None:
+        raise ValueError("the other edge is of use with the width alone: give h, too")
+    if L_T is not None or N_T is not None:
+        raise ValueError(
+            "L_T and N_T follow from h and K_T of both edges: leave them out, or leave `other` out"
+        )
+    own = Pressure(K_N, L_N, N_N)
+    moves = bool(np.any(np.asarray(da) != 0) or np.any(np.asarray(other.da) != 0))
+    most = min(_terms(own), _terms(other))
+    befores = [side for side in (then, other.then) if side is not None]
+    most = min([most, *map(_terms, befores)])
+    if moves and len(befores) < 2:
+        most = min(most, 2)  # beyond that the pressure before does not follow from that now
+    order = _demand_order(asked, most)
+    given = _numbers(dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, da=da), dict(f=f, h=h), then)
+    alias = _numbers(other._replace(then=None)._asdict(), {}, other.then)
+    given |= {f"other.{name}": value for name, value in alias.items()}
+    loop = kernel_of("edge.both.each_pair")
+
+    def zones(**n: Any) -> Any:
+        pairs = np.broadcast_arrays(*_rows(n))
+        cases = np.stack(pairs, -1)
+        found = []
+        for k in range(1, most + 1):
+            out = np.empty((cases[..., 0].size, 1))
+            flat = np.ascontiguousarray(cases.reshape(-1, cases.shape[-1]))
+            loop(flat, float(k), out)
+            found.append(out[:, 0].reshape(cases.shape[:-1]))
+        return found[order - 1], _error(found, order)
+
+    found: SlipZone = evaluated(zones, given, SlipZone, CASES)
+    return found
+
+
+def _rows(n: dict[str, Any]) -> list[Any]:
+    """h, f, K_T and the moves of both edges; pressures of both now, and of both before."""
+    theirs = {name.removeprefix("other."): v for name, v in n.items() if name.startswith("other.")}
+    h, sides = n["h"], (n, theirs)
+    now = [(s["K_N"], s.get("L_N", 0.0), s.get("N_N", 0.0)) for s in sides]
+    before = []
+    for side, (K, L, N), opposite in zip(sides, now, reversed(sides), strict=True):
+        if "then.K_N" in side:
+            before.append(_before((K, L, N), side, 0.0))
+            continue
+        # an edge grows by flat punches, its own and the other's: dp/da = K_N sqrt(h - s)/(2
+        # sqrt(h s)), at the other edge K_N sqrt(s)/(2 h)
+        K_before = K + (1.5 * L + K / (4 * h)) * side["da"]
+        K_before = K_before - opposite["K_N"] / (2 * h) * opposite["da"]
+        before.append((K_before, L, N))
+    loads = [h, n["f"], n["K_T"], theirs["K_T"], n["da"], theirs["da"]]
+    return [*loads, *now[0], *now[1], *before[0], *before[1]]

@@ -1,0 +1,240 @@
+"""Tables as programs export them, and forty that are wrong: one message each."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+from numpy.testing import assert_allclose
+
+from derive.cli import main
+from derive.edge.find import find
+from derive.edge.table import BadTable, read
+from generated import flat_rounded
+from generated.runtime.types import Contact
+from tests.edge import example
+
+X = np.linspace(-1.13, 1.11, 50)
+P = 200 * np.sqrt(np.maximum(1 - X**2, 0))
+Q = np.where(P > 0, 30 / np.sqrt(np.maximum(1 - X**2, 1e-9)), 0)
+HEAD = "x [mm],p [MPa]\n"
+
+
+def rows(*columns: np.ndarray, by: str = ",", comma: bool = False) -> str:
+    lines = [by.join(f"{v:.6f}" for v in row) for row in zip(*columns, strict=True)]
+    text = "\n".join(lines) + "\n"
+    return text.replace(".", ",") if comma else text
+
+
+def with_line(line: str) -> str:
+    """A good table with one more line at its middle."""
+    lines = (HEAD + rows(X, P)).splitlines()
+    return "\n".join([*lines[:26], line, *lines[26:]]) + "\n"
+
+
+GOOD = {
+    "commas": HEAD + rows(X, P),
+    "semicolons, decimal commas": "x [mm];p [MPa]\n" + rows(X, P, by=";", comma=True),
+    "tabs": "X Location (mm)\tPressure (MPa)\n" + rows(X, P, by="\t"),
+    "tabs, decimal commas": "x (mm)\tp (MPa)\n" + rows(X, P, by="\t", comma=True),
+    "spaces": "  X [mm]     CPRESS [MPa]\n" + rows(X, P, by="   "),
+    "spaces, decimal commas": "x [mm] p [MPa]\n" + rows(X, P, by="  ", comma=True),
+    "units in a line": "x,p\nmm,MPa\n" + rows(X, P),
+    "units in SI": "x [m],p [Pa]\n" + rows(X * 1, P).replace("0.", "0."),
+    "comments and blank lines": "# made by hand\n\n! more\n" + HEAD + "\n" + rows(X, P),
+    "title above": "Contact report\nODB: job.odb\n" + HEAD + rows(X, P),
+    "node numbers": "Node,x [mm],p [MPa]\n" + rows(np.arange(50.0), X, P),
+    "labels": "Label;x [mm];p [MPa]\n"
+    + "".join(f"PART-1.{i};{x:.6f};{p:.6f}\n" for i, (x, p) in enumerate(zip(X, P, strict=True))),
+    "quotes": '"x [mm]","p [MPa]"\n' + rows(X, P),
+    "closing separators": "x [mm];p [MPa];\n" + rows(X, P, by=";").replace("\n", ";\n"),
+    "from right to left": HEAD + rows(X[::-1], P[::-1]),
+    "Fortran": HEAD
+    + "".join(f"{x:.8e},{p:.8e}\n" for x, p in zip(X, P, strict=True)).replace("e", "D"),
+    "byte order mark": "\ufeff" + HEAD + rows(X, P),
+    "N/mm2": "x [mm],p [N/mm^2]\n" + rows(X, P),
+    "header repeated": HEAD + rows(X[:25], P[:25]) + HEAD + rows(X[25:], P[25:]),
+}
+
+
+@pytest.mark.parametrize("name", GOOD)
+def test_a_table_is_read(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text(GOOD[name], encoding="utf-8")
+    (step,) = read(path)
+    scale = (1.0, 1.0) if name == "units in SI" else (1e-3, 1e6)
+    assert_allclose(step.x, scale[0] * X, atol=1e-6 * scale[0])
+    assert_allclose(step.p, scale[1] * P, atol=1e-6 * scale[1])
+
+
+def test_load_steps(tmp_path: Path) -> None:
+    """By a column, and by several columns of pressure."""
+    path = tmp_path / "t.csv"
+    long = "".join(
+        f"{n},{x:.6f},{k * p:.6f}\n"
+        for n, k in ((1, 1), (2, 0.5))
+        for x, p in zip(X, P, strict=True)
+    )
+    path.write_text("Step,x [mm],p [MPa]\n" + long)
+    wide = tmp_path / "w.csv"
+    wide.write_text("x [mm],p 1 [MPa],p 2 [MPa]\n" + rows(X, P, 0.5 * P))
+    for of in (read(path), read(wide)):
+        assert len(of) == 2
+        assert_allclose(of[1].p, 0.5e6 * P, atol=1.0)
+    assert [step.name for step in read(path)] == ["1", "2"]
+
+
+def test_units_may_be_said(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text("x,p\n" + rows(X, P))
+    (step,) = read(path, {"x": "mm", "p": "MPa"})
+    assert_allclose(step.x, 1e-3 * X, atol=1e-9)
+
+
+BAD = [
+    ("", "is empty"),
+    ("   \n\n", "is empty"),
+    ("hello\n", "holds no rows of numbers"),
+    ("x [mm],p [MPa]\n", "holds no rows of numbers"),
+    ("# only\n# comments\n", "holds no rows of numbers"),
+    ("x [mm]\n" + "\n".join(f"{x:.4f}" for x in X), "one column of numbers"),
+    (rows(X, P), "has no line that names its columns"),
+    ("x,p\n" + rows(X, P), "the unit of 'x' is missing"),
+    ("x [mm],p\n" + rows(X, P), "the unit of 'p' is missing"),
+    ("x,p [MPa]\n" + rows(X, P), "the unit of 'x' is missing"),
+    ("x [furlong],p [MPa]\n" + rows(X, P), "'furlong' is no unit"),
+    ("x [mm],p [bar]\n" + rows(X, P), "'bar' is no unit"),
+    ("x [MPa],p [MPa]\n" + rows(X, P), "'MPa' is no unit of the place"),
+    ("u [mm],p [MPa]\n" + rows(X, P), "no column is the place along the interface"),
+    ("x [mm],temperature [K]\n" + rows(X, P), "no column is the contact pressure"),
+    ("x [mm],Distance [mm],p [MPa]\n" + rows(X, X, P), "may each be 'x'"),
+    ("x [mm],p [MPa],p [MPa]\n" + rows(X, P, P), "two columns are called 'p'"),
+    ("x [mm],p [MPa],q [Pa]\n" + rows(X, P, Q), "tractions are given in"),
+    ("x [mm],p [MPa],y\n" + rows(X, P), "has 3 names over 2 columns"),
+    ("x [mm],p [MPa]\n" + rows(X, P, P), "has 2 names over 3 columns"),
+    ("x [mm],p [MPa]\n" + rows(X, P, comma=True), "decimal commas cannot be told"),
+    (with_line("0.5"), "has 1 fields where"),
+    (with_line("0.5,1.0,2.0"), "has 3 fields where"),
+    (with_line("0.05,nan"), "has 'nan' where 'p' is a number"),
+    (with_line("inf,3.0"), "has 'inf' where 'x' is a number"),
+    (with_line("0.05,"), "fields where"),
+    (with_line("0.05,----"), "has '----' where 'p' is a number"),
+    (with_line("0.05,1_0"), "has '1_0' where 'p' is a number"),
+    (with_line("0.05,0x1F"), "has '0x1F' where 'p' is a number"),
+    (with_line("-0.9,3.0"), "x turns round"),
+    (with_line(f"{X[24]:.6f},3.0"), "two nodes lie at x"),
+    (HEAD + rows(X[::2].tolist() + X[1::2].tolist(), P), "x turns round"),
+    (HEAD + rows(X, np.where(np.abs(X) < 0.1, 0, P)), "one contact at a time"),
+    (HEAD + rows(X, -P), "pressure must not be negative"),
+    (HEAD + rows(X, P - 20), "pressure must not be negative"),
+    (HEAD + rows(X, 0 * P), "pressure is zero at all nodes"),
+    (HEAD + rows(X[20:30], P[20:30]), "ends inside the contact on both sides"),
+    (HEAD + rows(X[:1], P[:1]), "must hold several nodes"),
+    ("Step,x [mm],p 1 [MPa],p 2 [MPa]\n" + rows(0 * X, X, P, P), "and a column of load steps"),
+    (
+        "x [mm],p 1 [MPa],p 2 [MPa],p 3 [MPa],q 1 [MPa],q 2 [MPa]\n" + rows(X, P, P, P, Q, Q),
+        "of shear",
+    ),
+    ("x [mm]\0,p [MPa]\n" + rows(X, P), "is no text"),
+    ("x [mm],p [MPa]\n1.0,2.0 3.0\n2.0,abc\n", "of numbers"),
+]
+
+
+def test_there_are_forty() -> None:
+    assert len(BAD) >= 40
+
+
+@pytest.mark.parametrize("number", range(len(BAD)))
+def test_a_bad_table_gets_one_message(tmp_path: Path, number: int) -> None:
+    text, words = BAD[number]
+    path = tmp_path / "t.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(BadTable) as raised:
+        find(read(path), path.name, 0.5)
+    message = raised.value.message
+    assert words in message, message
+    assert message.startswith("t.csv: ") and ";" in message and "\n" not in message
+
+
+def run(*args: object) -> Result:
+    return CliRunner().invoke(main, ["edge", *map(str, args)])
+
+
+def test_a_bad_table_leaves_with_two_and_no_traceback(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text("x,p\n" + rows(X, P))
+    result = run(path, "--f", 0.5)
+    assert result.exit_code == 2
+    assert result.output.startswith("Error: t.csv: the unit of 'x' is missing")
+    assert run(tmp_path / "none.csv", "--f", 0.5).exit_code == 2
+    assert run(tmp_path, "--f", 0.5).exit_code == 2
+    assert run(path, "--f", -1).exit_code == 2
+    assert run(path, "--f", 0.5, "--unit", "z=mm").exit_code == 2
+
+
+def test_the_command_by_hand(tmp_path: Path) -> None:
+    """A cylinder, a = 1 mm, p = 200 sqrt(1 - x**2) MPa: K_N = 200 sqrt(2) MPa/sqrt(mm); dQ = 94.25
+    N/mm, that is dq = 30/sqrt(1 - x**2): K_T = 30/sqrt(2), d_1 = K_T/(f K_N) = 0.15 mm.  Exactly
+    1 - sqrt(1 - 2*0.15): f (p_1 + p_2) has 0.3 of its square to give."""
+    path, page, table = (tmp_path / name for name in ("t.csv", "t.html", "out.csv"))
+    path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X, P, Q))
+    result = run(path, "--f", 0.5, "--html", page, "--csv", table)
+    assert result.exit_code == 0, result.output
+    found = find(read(path), "t.csv", 0.5)
+    for edge in found.edges:
+        assert_allclose(edge.pressure.K_N, 200e6 * np.sqrt(2) * np.sqrt(1000), rtol=0.01)
+    for zone in found.zones:
+        assert_allclose(zone.d, 1e-3 * (1 - np.sqrt(0.7)), rtol=0.01)
+    assert "<svg" in page.read_text() and table.read_text().startswith("load_step,side,edge")
+
+
+def test_loads_in_place_of_shear(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text(HEAD + rows(X, P))
+    without = run(path, "--f", 0.5)
+    assert without.exit_code == 0 and "no slip zone" in without.output
+    found = find(read(path), "t.csv", 0.5, dQ=30e6 * np.pi * 1e-3)
+    for zone in found.zones:
+        assert_allclose(zone.d, 1e-3 * (1 - np.sqrt(0.7)), rtol=0.01)
+
+
+def test_both_ends_of_a_half_cycle(tmp_path: Path) -> None:
+    """The edges of two cylinders' contacts, 1 and 1.05 mm: they move by 0.05 mm."""
+    wide = 210 * np.sqrt(np.maximum(1 - (X / 1.05) ** 2, 0))
+    path = tmp_path / "t.csv"
+    path.write_text("x [mm],p 1 [MPa],p 2 [MPa]\n" + rows(X, P, wide))
+    found = find(read(path), "t.csv", 0.5, dQ=30e6 * np.pi * 1e-3)
+    for zone in found.zones:
+        assert_allclose(zone.da, 0.05e-3, atol=1e-6)
+        assert zone.d > 0.05e-3
+
+
+def test_one_edge_alone(tmp_path: Path) -> None:
+    part = X < -0.1
+    path = tmp_path / "t.csv"
+    path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X[part], P[part], Q[part]))
+    found = find(read(path), "t.csv", 0.5)
+    assert [zone.side for zone in found.zones] == ["left"]
+    assert any("ends inside the contact" in note for note in found.notes)
+
+
+def test_the_example_is_what_the_solver_gives() -> None:
+    assert example.PATH.read_text() == example.table()
+
+
+def test_the_chain_on_the_example() -> None:
+    """Coarse table -> coefficients -> slip zones, within two standard deviations of the exact."""
+    found = find(read(example.PATH), "t.csv", example.F)
+    law, a, c = example.LAW, example.A, example.C
+    K = flat_rounded.K_N(a, c, **law)
+    here = Contact(a, c, 0.0)
+    zone = flat_rounded.stick_zone(here, here, example.DQ, 0.0, f=example.F, **law)
+    exact = {"left": a - zone.m, "right": c - zone.n}
+    for edge, place, true in zip(found.edges, (-a, c), K, strict=True):
+        fit = edge.pressure
+        assert abs(1e3 * fit.edge - place) < 2e3 * fit.edge_error
+        assert abs(fit.K_N - true * 1e6 * 1000**0.5) < 2 * fit.K_N_error
+    for one in found.zones:
+        off = abs(1e3 * one.d - exact[one.side])
+        assert off < 2e3 * np.hypot(one.error, one.series)
+        assert off < 0.1 * exact[one.side]

@@ -1,0 +1,42 @@
+"""The matching at an edge, against the two conditions of a contact, and the runtime's tables."""
+
+from sympy import Rational, S, binomial, expand, symbols
+
+from derive.runtime.edge import near, zone
+from derive.symbols import f
+from derive.theory import edge, slip
+
+K, L, N, K_T, L_T, N_T, D, move = symbols("K L N K_T L_T N_T D move")
+
+
+def test_the_slip_zone_is_that_of_a_contact_without_end() -> None:
+    """theory.slip's near over pi sqrt(h), h -> oo: the terms without a power of 1/h."""
+    condition, _ = edge.matched([((f * K, f * L, f * N), D)] * 2, (K_T, L_T, N_T))
+    width = symbols("width", positive=True)
+    whole = expand(slip.near((K, L, N), D, width, 3) / (slip.pi * width ** Rational(1, 2)))
+    limit = sum(term for term in whole.as_ordered_terms() if not term.has(width))
+    held = expand(condition + K_T + L_T * D / 2 + Rational(3, 8) * N_T * D**2)
+    assert expand(held - 2 * f * limit) == 0
+
+
+def test_the_width_adds_an_eighth() -> None:
+    assert edge.width_term() * 8 * slip.h == 1
+
+
+def test_tables_of_the_runtime() -> None:
+    half = Rational(1, 2)
+    for k in range(3):
+        assert zone.PRESSURE[k] == float(binomial(k + half, k + 1))
+        assert zone.SHEAR[k] == float(binomial(k - half, k))
+        assert near.BEYOND[k] == tuple(float(binomial(j + half, j - k)) for j in range(k, 3))
+        stuck = (float(binomial(j - half, j - 1 - k)) for j in range(k + 1, 3))
+        assert near.STUCK[k] == tuple(stuck)
+
+
+def test_what_has_grown_grows_again() -> None:
+    """Twice by a half is once by the whole; no move is none."""
+    once = edge.grown((K, L, N), 2 * move)
+    twice = edge.grown(edge.grown((K, L, N), move), move)
+    assert [expand(a - b) for a, b in zip(once, twice, strict=True)] == [0, 0, 0]
+    assert edge.grown((K, L, N), S.Zero) == [K, L, N]
+    assert list(zone.shifted((K, L, N), move)) != [K, L, N]
