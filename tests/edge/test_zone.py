@@ -22,9 +22,8 @@ F = 0.5
 def law_of(body: Any) -> tuple[dict[str, float], float, float, float]:
     """The constants, the contact and the shear of a body's own examples."""
     example = body._BODY.example
-    law = {k.strip(): float(v) for k, v in (t.split("=") for t in example["law"].split(","))}
-    a, c = map(float, example["edges"].split(","))
-    return law, a, c, float(example["dQ"])
+    law = {k.strip(): float(v) for k, v in (t.split("=") for t in example.law.split(","))}
+    return law, *example.edges, example.carried[0] / 8
 
 
 def pressures(body: Any, law: dict[str, float], a: float, c: float) -> tuple[Pressure, Pressure]:

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from derive.runtime.body import Asked, Body, Parameter
+from derive.runtime.body import Asked, Body, Example, Parameter
 from derive.runtime.history import batch, public
 from derive.runtime.kernels import COMPILED
 from derive.runtime.types import Regime, StickZone
@@ -32,12 +32,12 @@ LOAD = math.pi / 4
 """P at which Hertz's half-width is 1, with R = E* = 1."""
 COMPUTED, NO_STICK = 9, 10
 T = np.linspace(0, 2 * np.pi, 33)
+EXAMPLE = Example("", (1.0, 1.0), (LOAD, 0.0, 0.0), (1.0, 1.0))
 
 
 def call(function, case, *loads, f=F, E_star=1.0, **given):
     names = ["R", "b"][: case.own.size]
-    parameters = tuple(Parameter(name, "", "m") for name in names)
-    body = Body(case.functions._asdict(), parameters, "", {})
+    body = Body(case.functions._asdict(), "", EXAMPLE, *(Parameter(n, "", "m") for n in names))
     own = given.pop("own", dict(zip(names, case.own, strict=True)))
     asked = Asked(body, function, own)
     return function(asked, *loads, f=f, E_star=E_star, **given)

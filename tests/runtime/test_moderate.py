@@ -5,12 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from derive.runtime.slip.zone import (
-    MODERATE,
-    each_closing_tension,
-    each_stick_zone,
-    each_tension_threshold,
-)
+from derive.runtime.slip.threshold import each_closing_tension, each_tension_threshold
+from derive.runtime.slip.zone import MODERATE, each_stick_zone
 
 from .laws import Case, flat_rounded, hertz, wedge
 
@@ -25,7 +21,7 @@ def solved(loop, case: Case, rows, count=2):
 
 
 def zone(case, *rows):
-    return solved(each_stick_zone, case, [(*row, 0.0) for row in rows], 3)
+    return solved(each_stick_zone, case, rows, 3)
 
 
 def state(case, a, c):

