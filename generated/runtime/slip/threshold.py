@@ -12,7 +12,7 @@ import numpy as np
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector
 from .growth import PARTS, followed, grows, leads
 from .moderate import A, C, closing
-from .zone import ends_of, exists, slides
+from .zone import ends_of, exists, resolved, slides
 
 HALVINGS = 52
 """Halvings of an interval: to the last bit of float64."""
@@ -104,6 +104,6 @@ def each_closing_tension(law: Any, given: Any, own: Any, out: Any) -> None:
         cycle = _without_tension(given[i])
         ends = ends_of(law, own[i], cycle)
         out[i, 0] = out[i, 1] = math.nan
-        if exists(ends, cycle):
+        if exists(ends, cycle) and resolved(ends):
             out[i, 0] = closing(law, own[i], ends, cycle, -1.0)
             out[i, 1] = closing(law, own[i], ends, cycle, 1.0)

@@ -27,6 +27,10 @@ from .growth import (
 )
 from .large import EXACT, large_slip
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
+from .newton import EPS
+
+LEAST_RESOLVED = 1e-6
+"""How far, in parts of the width, rounding of the tilt may move an edge."""
 
 NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = (float(code) for code in range(7))
 """Codes of Regime."""
@@ -57,6 +61,19 @@ def exists(ends: Any, cycle: Any) -> Any:
 def slides(ends: Any, cycle: Any) -> Any:
     """Whether nothing sticks."""
     return not cycle[4] < cycle[6] * (ends[0, LOAD] + ends[1, LOAD])
+
+
+@kernel(truth(matrix))
+def resolved(ends: Any) -> Any:
+    """Whether the tilts tell the edges: not where a flank bears nearly all, and a corner the load.
+
+    At a given load the last digit of the tilt moves an edge by some EPS tilt h**2/(2 P).
+    """
+    for i in range(2):
+        width, load = ends[i, A] + ends[i, C], ends[i, LOAD]
+        if EPS * abs(ends[i, TILT]) * width > LEAST_RESOLVED * load:
+            return False
+    return True
 
 
 @kernel(results(3)(LAW, vector, matrix, vector))
@@ -102,6 +119,8 @@ def stick_zone(law: Any, own: Any, cycle: Any) -> Any:
         return math.nan, math.nan, NONE
     if slides(ends, cycle):
         return math.nan, math.nan, SLIDING
+    if not resolved(ends):
+        return math.nan, math.nan, UNSOLVED
     way = followed(law, own, ends)
     last = way.shape[0] - 1
     steady = last == 1
