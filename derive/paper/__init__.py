@@ -11,6 +11,9 @@
     numbers      two sides, a point          both to 30 digits that are known to be right
     zero         an expression               whether it vanishes identically, by exact steps alone
     repair       a printed equation          others that a slip of the pen could have made of it
+    quick        an expression               a few digits of it at once, to tell candidates apart
+    bodies       a proven sheet              its formulas, in variables that leave no root
+    anybody      an equation                 whether it holds for every convex body
     exact        a contact and its loads     the permanent stick zone, from its two conditions
     tending      a claim about a limit       whether both sides come near each other, by what power
     diagnosis    a false equation            by which constant and powers its sides differ
@@ -26,6 +29,8 @@
     latex        a user's LaTeX              an equation as text, if it can be read in one way only
     dimensions   an equation, known units    the term that does not fit
     context      a body, symbols, an equation  the equation with its calls put in
+    lines        a claims file               where its claims stand, and the file with one changed
+    mistakes     a claims file               all that is wrong with it
     userfile     a claims file in TOML       the claims in it
     andresen2020                             the paper that the method of this project is from
 

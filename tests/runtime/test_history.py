@@ -497,3 +497,9 @@ def test_plain_python_gives_the_same():
         told.append(json.loads(run.stdout))
     for here, there in zip(*told, strict=True):
         assert np.array(here) == pytest.approx(np.array(there), rel=1e-9)
+
+
+@pytest.mark.parametrize("function", [history, steady_cycle])
+def test_time_without_an_instant_is_refused(function):
+    with pytest.raises(ValueError, match="one instant at least"):
+        call(function, hertz, LOAD, 0.0, [], 0.0)

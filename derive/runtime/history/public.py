@@ -183,7 +183,7 @@ def _numbers(
     """What broadcasts, by name.
 
     Raises TypeError for what is no real number, and for places that are a Dask array; ValueError
-    for a tolerance that is not positive.
+    for a tolerance that is not positive, and where there is no instant.
     """
     if not tol > 0:
         raise ValueError(f"tol must be positive; got {tol!r:.60}")
@@ -191,7 +191,8 @@ def _numbers(
         raise TypeError("x must be there, a number or a NumPy array; got a Dask array")
     named = dict(zip(_LOADS, loads, strict=True))
     numbers = numbers_of(named, {"f": f, "E_star": E_star, **asked.own})
-    shape_of(numbers)
+    if 0 in shape_of(numbers)[-1:]:
+        raise ValueError("the last axis is time and must hold one instant at least; it is empty")
     return numbers
 
 
