@@ -101,11 +101,6 @@ def width_term() -> Expr:
     return found.simplify()
 
 
-def slip_rate(stuck: Sequence[Expr], depth: Expr) -> Expr:
-    """E*/2 times the rate of slip along x, at `depth` outside the stick zone."""
-    return sqrt(depth) * sum((R * (-depth) ** k for k, R in enumerate(stuck)), S.Zero)
-
-
 def work(K_N: Expr, D: Expr, E_star: Expr) -> Expr:
     """Friction's work a cycle, per unit depth, to the first order; constant loads.
 

@@ -88,9 +88,3 @@ def edge_ratio(frame: Frame, tilt: Expr) -> Expr:
 def load_rate(frame: Frame, load: Expr, ratio: Expr) -> Expr:
     """P'(c) along fixed tilt."""
     return tidy(frame.diff(load, c) + frame.diff(load, a) * ratio, frame)
-
-
-def K_N_from_contact_law(frame: Frame, rate: Expr, ratio: Expr) -> tuple[Expr, Expr]:
-    """K_N at the left and the right edge by the Mossakovskii route."""
-    right = 2 / pi * rate / sqrt(h)
-    return tidy(right / ratio, frame), tidy(right, frame)
