@@ -128,7 +128,7 @@ def _step(of: Any, left: Array, right: Array, order: Array) -> Any:
 
 
 @kernel(results(2)(SERIES, real, real, whole))
-def solved(of: Any, left: Array, right: Array, order: Array) -> Any:
+def _solved(of: Any, left: Array, right: Array, order: Array) -> Any:
     """Both conditions cut behind an order, by Newton's method from slip zones of the first order.
 
     The unknowns are log(d/h_s): slip zones stay positive and leave some stick.  Slip zones are
@@ -158,6 +158,27 @@ def solved(of: Any, left: Array, right: Array, order: Array) -> Any:
     return math.nan, math.nan
 
 
+@kernel(results(2)(SERIES, real, real, real, real, whole))
+def beside_edges(
+    of: Any, f: Array, h: Array, pull_left: Array, pull_right: Array, order: Array
+) -> Any:
+    """Slip zones to an order, of a contact h wide; pulls are pi sqrt(h) K_T.
+
+    NaN unless slip reaches in at both edges of both contacts and leaves some stick.
+    """
+    gain_left, gain_right = max(of.da, 0.0), max(of.dc, 0.0)
+    # |K_T|/(f K_N) and half of what the contact has gained, less all of that
+    scale = math.pi * math.sqrt(h) * f
+    left = abs(pull_left) / (scale * of.left[0]) - abs(of.da) / 2
+    right = abs(pull_right) / (scale * of.right[0]) - abs(of.dc) / 2
+    if order > 1:
+        left, right = _solved(of, left, right, order)
+    left, right = left + gain_left, right + gain_right
+    if left >= gain_left and right >= gain_right and left + right < h:
+        return left, right
+    return math.nan, math.nan
+
+
 @kernel(results(2)(LAW, vector, real, real, real, real, real, real, real, whole))
 def slip_zones(
     law: Law,
@@ -184,30 +205,20 @@ def slip_zones(
     L_left_2, L_right_2, N_left_2, N_right_2 = law.series(a - da, c - dc, own)
     h = a + c
     pull_left, pull_right = dQ + math.pi * h * dsigma / 8, dQ - math.pi * h * dsigma / 8
-    gain_left, gain_right = max(da, 0.0), max(dc, 0.0)
-    # |K_T|/(f K_N) and half of what the contact has gained, less all of that
-    scale = math.pi * math.sqrt(h) * f
-    left = abs(pull_left) / (scale * K_left) - abs(da) / 2
-    right = abs(pull_right) / (scale * K_right) - abs(dc) / 2
-    if order > 1:
-        of = Series(
-            h - gain_left - gain_right,
-            dQ,
-            dsigma,
-            -f if pull_left < 0 else f,
-            -f if pull_right < 0 else f,
-            da,
-            dc,
-            (K_left, L_left, N_left),
-            (K_right, L_right, N_right),
-            (K_left_2, L_left_2, N_left_2),
-            (K_right_2, L_right_2, N_right_2),
-        )
-        left, right = solved(of, left, right, order)
-    left, right = left + gain_left, right + gain_right
-    if left >= gain_left and right >= gain_right and left + right < h:
-        return left, right
-    return math.nan, math.nan
+    of = Series(
+        h - max(da, 0.0) - max(dc, 0.0),
+        dQ,
+        dsigma,
+        -f if pull_left < 0 else f,
+        -f if pull_right < 0 else f,
+        da,
+        dc,
+        (K_left, L_left, N_left),
+        (K_right, L_right, N_right),
+        (K_left_2, L_left_2, N_left_2),
+        (K_right_2, L_right_2, N_right_2),
+    )
+    return beside_edges(of, f, h, pull_left, pull_right, order)
 
 
 @kernel(LOOP)
