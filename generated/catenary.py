@@ -35,7 +35,9 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = -Integral(b*sinh(xi/b)/(R*sqrt((a + xi)*(c - xi))), (xi, -a, c))/pi
+        alpha = -Integral(g'(xi)/root(xi), (xi, -a, c))/pi
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g'(xi) = b*sinh(xi/b)/R
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c  edges of the contact at x = -a and x = c [m]
@@ -44,7 +46,7 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived
-    from derive/geometries/catenary.py.
+    from derive/geometries/catenary.py; evaluated by quadrature.
 
     >>> f"{tilt(1.5, 1.0, R=1.0, b=1.0):.6g}"
     '0.361354'
@@ -56,7 +58,9 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
 def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*Integral(sqrt((a + xi)*(c - xi))*cosh(xi/b)/R, (xi, -a, c))/2
+        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g''(xi) = cosh(xi/b)/R
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -66,7 +70,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
-    derive/geometries/catenary.py.
+    derive/geometries/catenary.py; evaluated by quadrature.
 
     >>> f"{load(1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '1.52958'
@@ -78,8 +82,10 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = -E_star*Integral(sqrt((a + xi)*(c - xi))*(-a/2 + c/2 + xi)*cosh(xi/b)/R, (xi, -a,
-            c))/4
+        M = -E_star*Integral((a - c + 2*xi)*g''(xi)*root(xi), (xi, -a, c))/8 + P*(a - c)/2
+        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g''(xi) = cosh(xi/b)/R
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -89,7 +95,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
-    from derive/geometries/catenary.py.
+    from derive/geometries/catenary.py; evaluated by quadrature.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.45122'
@@ -101,10 +107,10 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*(Integral(log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a
-            + x)*(c - xi)) - sqrt((a + xi)*(c - x)))))*cosh(xi/b)/(2*R), (xi, -a, x)) +
-            Integral(log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c
-            - xi)) - sqrt((a + xi)*(c - x)))))*cosh(xi/b)/(2*R), (xi, x, c)))/pi
+        p = E_star*Integral(g''(xi)*kernel(x, xi), (xi, -a, c))/pi
+        kernel(x, xi) = asinh(sqrt(Min((a + x)*(c - xi), (a + xi)*(c - x))/((a + c)*Abs(x -
+            xi))))
+        g''(xi) = cosh(xi/b)/R
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
@@ -115,7 +121,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     p numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived from
-    derive/geometries/catenary.py.
+    derive/geometries/catenary.py; evaluated by quadrature.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.585715'
@@ -127,10 +133,11 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*Integral(sqrt((a + xi)*(c - xi))*cosh(xi/b)/(R*(a + xi)), (xi, -a,
-            c))/(pi*sqrt(a + c))
-        K_N_right = E_star*Integral(sqrt((a + xi)*(c - xi))*cosh(xi/b)/(R*(c - xi)), (xi, -a,
-            c))/(pi*sqrt(a + c))
+        K_N_left = E_star*Integral(g''(xi)*r_left(xi), (xi, -a, c))/(pi*sqrt(a + c))
+        K_N_right = E_star*Integral(g''(xi)*r_right(xi), (xi, -a, c))/(pi*sqrt(a + c))
+        r_left(xi) = sqrt((c - xi)/(a + xi))
+        r_right(xi) = sqrt((a + xi)/(c - xi))
+        g''(xi) = cosh(xi/b)/R
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -142,7 +149,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 40
     digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
-    the right edge; 40 digits at 24 points.  Derived from derive/geometries/catenary.py.
+    the right edge; 40 digits at 24 points.  Derived from derive/geometries/catenary.py; evaluated
+    by quadrature.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0, b=1.0)]
     ['1.31724', '1.01557']
@@ -154,12 +162,15 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = E_star*(Integral(sqrt((a + xi)*(c - xi))*(-cosh(a/b)/R + cosh(xi/b)/R)*(3*a +
-            2*c + xi)/(a + xi)**2, (xi, -a, c))/(6*pi*(a + c)**(3/2)) - cosh(a/b)/(4*R*sqrt(a +
-            c)))
-        L_N_right = E_star*(Integral(sqrt((a + xi)*(c - xi))*(-cosh(c/b)/R + cosh(xi/b)/R)*(2*a
-            + 3*c - xi)/(c - xi)**2, (xi, -a, c))/(6*pi*(a + c)**(3/2)) - cosh(c/b)/(4*R*sqrt(a
-            + c)))
+        L_N_left = E_star*FinitePart(Integral((2*r_left(xi)**2 + 3)*g''(xi)*r_left(xi), (xi, -a,
+            c)))/(6*pi*(a + c)**(3/2))
+        L_N_right = E_star*FinitePart(Integral((2*r_right(xi)**2 + 3)*g''(xi)*r_right(xi), (xi,
+            -a, c)))/(6*pi*(a + c)**(3/2))
+        r_left(xi) = sqrt((c - xi)/(a + xi))
+        r_right(xi) = sqrt((a + xi)/(c - xi))
+        g''(xi) = cosh(xi/b)/R
+        FinitePart: of the integral that ends at a distance d from the edge, without its term in
+            1/sqrt(d), as d goes to 0; by parts next to the edge
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -171,7 +182,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 37
     digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
-    the right edge; 37 digits at 24 points.  Derived from derive/geometries/catenary.py.
+    the right edge; 37 digits at 24 points.  Derived from derive/geometries/catenary.py; evaluated
+    by quadrature.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0, b=1.0)]
     ['-0.824249', '-0.46346']

@@ -35,7 +35,9 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 def tilt(a: Array, c: Array, *, R: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = -Integral(xi*sqrt(1/((R**2 - xi**2)*(a + xi)*(c - xi))), (xi, -a, c))/pi
+        alpha = -Integral(g'(xi)/root(xi), (xi, -a, c))/pi
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g'(xi) = xi/sqrt(R**2 - xi**2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c  edges of the contact at x = -a and x = c [m]
@@ -43,7 +45,7 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     Returns alpha [rad].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
 
     alpha numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived
-    from derive/geometries/circular_arc.py.
+    from derive/geometries/circular_arc.py; evaluated by quadrature.
 
     >>> f"{tilt(0.75, 0.5, R=1.0):.6g}"
     '0.18925'
@@ -55,8 +57,9 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
 def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*Integral(sqrt((a + xi)*(c - xi)/(R**2 - xi**2))*(xi**2/(R**2 - xi**2) + 1),
-            (xi, -a, c))/2
+        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -65,7 +68,7 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     Returns P [N/m].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
 
     P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
-    derive/geometries/circular_arc.py.
+    derive/geometries/circular_arc.py; evaluated by quadrature.
 
     >>> f"{load(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.386889'
@@ -77,8 +80,10 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = -E_star*Integral(sqrt((a + xi)*(c - xi)/(R**2 - xi**2))*(xi**2/(R**2 - xi**2) +
-            1)*(-a/2 + c/2 + xi), (xi, -a, c))/4
+        M = -E_star*Integral((a - c + 2*xi)*g''(xi)*root(xi), (xi, -a, c))/8 + P*(a - c)/2
+        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -87,7 +92,7 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     Returns M [N].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
 
     M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
-    from derive/geometries/circular_arc.py.
+    from derive/geometries/circular_arc.py; evaluated by quadrature.
 
     >>> f"{moment(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.0597185'
@@ -99,11 +104,10 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*(Integral((xi**2/(R**2 - xi**2) + 1)*log(Abs((sqrt((a + x)*(c - xi)) +
-            sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c - xi)) - sqrt((a + xi)*(c -
-            x)))))/(2*sqrt(R**2 - xi**2)), (xi, -a, x)) + Integral((xi**2/(R**2 - xi**2) +
-            1)*log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c - xi))
-            - sqrt((a + xi)*(c - x)))))/(2*sqrt(R**2 - xi**2)), (xi, x, c)))/pi
+        p = E_star*Integral(g''(xi)*kernel(x, xi), (xi, -a, c))/pi
+        kernel(x, xi) = asinh(sqrt(Min((a + x)*(c - xi), (a + xi)*(c - x))/((a + c)*Abs(x -
+            xi))))
+        g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
@@ -113,7 +117,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     Returns p [Pa].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
 
     p numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived from
-    derive/geometries/circular_arc.py.
+    derive/geometries/circular_arc.py; evaluated by quadrature.
 
     >>> f"{pressure(0.5, 0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0'
@@ -125,10 +129,11 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*Integral(sqrt((a + xi)*(c - xi)/(R**2 - xi**2))*(xi**2/(R**2 - xi**2)
-            + 1)/(a + xi), (xi, -a, c))/(pi*sqrt(a + c))
-        K_N_right = E_star*Integral(sqrt((a + xi)*(c - xi)/(R**2 - xi**2))*(xi**2/(R**2 - xi**2)
-            + 1)/(c - xi), (xi, -a, c))/(pi*sqrt(a + c))
+        K_N_left = E_star*Integral(g''(xi)*r_left(xi), (xi, -a, c))/(pi*sqrt(a + c))
+        K_N_right = E_star*Integral(g''(xi)*r_right(xi), (xi, -a, c))/(pi*sqrt(a + c))
+        r_left(xi) = sqrt((c - xi)/(a + xi))
+        r_right(xi) = sqrt((a + xi)/(c - xi))
+        g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -139,7 +144,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 40
     digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
-    the right edge; 40 digits at 24 points.  Derived from derive/geometries/circular_arc.py.
+    the right edge; 40 digits at 24 points.  Derived from derive/geometries/circular_arc.py;
+    evaluated by quadrature.
 
     >>> [f"{v:.6g}" for v in K_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['1.09433', '0.711794']
@@ -151,14 +157,15 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = E_star*(-sqrt(1/((R**2 - a**2)*(a + c)))*(a**2/(R**2 - a**2) + 1)/4 +
-            Integral(sqrt((a + xi)*(c - xi))*((xi**2/(R**2 - xi**2) + 1)/sqrt(R**2 - xi**2) -
-            (a**2/(R**2 - a**2) + 1)/sqrt(R**2 - a**2))*(3*a + 2*c + xi)/(a + xi)**2, (xi, -a,
-            c))/(6*pi*(a + c)**(3/2)))
-        L_N_right = E_star*(-sqrt(1/((R**2 - c**2)*(a + c)))*(c**2/(R**2 - c**2) + 1)/4 +
-            Integral(sqrt((a + xi)*(c - xi))*((xi**2/(R**2 - xi**2) + 1)/sqrt(R**2 - xi**2) -
-            (c**2/(R**2 - c**2) + 1)/sqrt(R**2 - c**2))*(2*a + 3*c - xi)/(c - xi)**2, (xi, -a,
-            c))/(6*pi*(a + c)**(3/2)))
+        L_N_left = E_star*FinitePart(Integral((2*r_left(xi)**2 + 3)*g''(xi)*r_left(xi), (xi, -a,
+            c)))/(6*pi*(a + c)**(3/2))
+        L_N_right = E_star*FinitePart(Integral((2*r_right(xi)**2 + 3)*g''(xi)*r_right(xi), (xi,
+            -a, c)))/(6*pi*(a + c)**(3/2))
+        r_left(xi) = sqrt((c - xi)/(a + xi))
+        r_right(xi) = sqrt((a + xi)/(c - xi))
+        g''(xi) = R**2/(R**2 - xi**2)**(3/2)
+        FinitePart: of the integral that ends at a distance d from the edge, without its term in
+            1/sqrt(d), as d goes to 0; by parts next to the edge
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -169,7 +176,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 35
     digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
-    the right edge; 34 digits at 24 points.  Derived from derive/geometries/circular_arc.py.
+    the right edge; 34 digits at 24 points.  Derived from derive/geometries/circular_arc.py;
+    evaluated by quadrature.
 
     >>> [f"{v:.6g}" for v in L_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['-2.63694', '-0.70202']

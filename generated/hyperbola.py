@@ -35,7 +35,9 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = -Integral(phi*xi*sqrt(1/((a + xi)*(b**2 + xi**2)*(c - xi))), (xi, -a, c))/pi
+        alpha = -Integral(g'(xi)/root(xi), (xi, -a, c))/pi
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g'(xi) = phi*xi/sqrt(b**2 + xi**2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c  edges of the contact at x = -a and x = c [m]
@@ -44,7 +46,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     alpha numerical: quadrature of the defining integral of g(x); 38 digits at 24 points.  Derived
-    from derive/geometries/hyperbola.py.
+    from derive/geometries/hyperbola.py; evaluated by quadrature.
 
     >>> f"{tilt(1.5, 1.0, b=1.0, phi=0.125):.6g}"
     '0.0160854'
@@ -56,8 +58,9 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*Integral(-phi*sqrt((a + xi)*(c - xi)/(b**2 + xi**2))*(xi**2/(b**2 + xi**2) -
-            1), (xi, -a, c))/2
+        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -67,7 +70,7 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     P numerical: (E*/2) I_1 of g(x) by quadrature; 36 digits at 24 points.  Derived from
-    derive/geometries/hyperbola.py.
+    derive/geometries/hyperbola.py; evaluated by quadrature.
 
     >>> f"{load(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.10313'
@@ -79,8 +82,10 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = -E_star*Integral(-phi*sqrt((a + xi)*(c - xi)/(b**2 + xi**2))*(xi**2/(b**2 + xi**2) -
-            1)*(-a/2 + c/2 + xi), (xi, -a, c))/4
+        M = -E_star*Integral((a - c + 2*xi)*g''(xi)*root(xi), (xi, -a, c))/8 + P*(a - c)/2
+        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -90,7 +95,7 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 36 digits at 24 points.  Derived
-    from derive/geometries/hyperbola.py.
+    from derive/geometries/hyperbola.py; evaluated by quadrature.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0193152'
@@ -102,11 +107,10 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*(Integral(-phi*(xi**2/(b**2 + xi**2) - 1)*log(Abs((sqrt((a + x)*(c - xi)) +
-            sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c - xi)) - sqrt((a + xi)*(c -
-            x)))))/(2*sqrt(b**2 + xi**2)), (xi, -a, x)) + Integral(-phi*(xi**2/(b**2 + xi**2) -
-            1)*log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c - xi))
-            - sqrt((a + xi)*(c - x)))))/(2*sqrt(b**2 + xi**2)), (xi, x, c)))/pi
+        p = E_star*Integral(g''(xi)*kernel(x, xi), (xi, -a, c))/pi
+        kernel(x, xi) = asinh(sqrt(Min((a + x)*(c - xi), (a + xi)*(c - x))/((a + c)*Abs(x -
+            xi))))
+        g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
@@ -117,7 +121,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
 
     p numerical: quadrature of the defining integral of g(x); 38 digits at 24 points.  Derived from
-    derive/geometries/hyperbola.py.
+    derive/geometries/hyperbola.py; evaluated by quadrature.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0451244'
@@ -129,10 +133,11 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
 def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*Integral(-phi*sqrt((a + xi)*(c - xi)/(b**2 + xi**2))*(xi**2/(b**2 +
-            xi**2) - 1)/(a + xi), (xi, -a, c))/(pi*sqrt(a + c))
-        K_N_right = E_star*Integral(-phi*sqrt((a + xi)*(c - xi)/(b**2 + xi**2))*(xi**2/(b**2 +
-            xi**2) - 1)/(c - xi), (xi, -a, c))/(pi*sqrt(a + c))
+        K_N_left = E_star*Integral(g''(xi)*r_left(xi), (xi, -a, c))/(pi*sqrt(a + c))
+        K_N_right = E_star*Integral(g''(xi)*r_right(xi), (xi, -a, c))/(pi*sqrt(a + c))
+        r_left(xi) = sqrt((c - xi)/(a + xi))
+        r_right(xi) = sqrt((a + xi)/(c - xi))
+        g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -144,7 +149,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
     digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
-    the right edge; 36 digits at 24 points.  Derived from derive/geometries/hyperbola.py.
+    the right edge; 36 digits at 24 points.  Derived from derive/geometries/hyperbola.py; evaluated
+    by quadrature.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0427744', '0.0591275']
@@ -156,14 +162,15 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = E_star*(phi*sqrt(1/((a + c)*(a**2 + b**2)))*(a**2/(a**2 + b**2) - 1)/4 +
-            Integral(sqrt((a + xi)*(c - xi))*(-phi*(xi**2/(b**2 + xi**2) - 1)/sqrt(b**2 + xi**2)
-            + phi*(a**2/(a**2 + b**2) - 1)/sqrt(a**2 + b**2))*(3*a + 2*c + xi)/(a + xi)**2, (xi,
-            -a, c))/(6*pi*(a + c)**(3/2)))
-        L_N_right = E_star*(phi*sqrt(1/((a + c)*(b**2 + c**2)))*(c**2/(b**2 + c**2) - 1)/4 +
-            Integral(sqrt((a + xi)*(c - xi))*(-phi*(xi**2/(b**2 + xi**2) - 1)/sqrt(b**2 + xi**2)
-            + phi*(c**2/(b**2 + c**2) - 1)/sqrt(b**2 + c**2))*(2*a + 3*c - xi)/(c - xi)**2, (xi,
-            -a, c))/(6*pi*(a + c)**(3/2)))
+        L_N_left = E_star*FinitePart(Integral((2*r_left(xi)**2 + 3)*g''(xi)*r_left(xi), (xi, -a,
+            c)))/(6*pi*(a + c)**(3/2))
+        L_N_right = E_star*FinitePart(Integral((2*r_right(xi)**2 + 3)*g''(xi)*r_right(xi), (xi,
+            -a, c)))/(6*pi*(a + c)**(3/2))
+        r_left(xi) = sqrt((c - xi)/(a + xi))
+        r_right(xi) = sqrt((a + xi)/(c - xi))
+        g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
+        FinitePart: of the integral that ends at a distance d from the edge, without its term in
+            1/sqrt(d), as d goes to 0; by parts next to the edge
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -175,7 +182,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
     digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
-    the right edge; 36 digits at 24 points.  Derived from derive/geometries/hyperbola.py.
+    the right edge; 36 digits at 24 points.  Derived from derive/geometries/hyperbola.py; evaluated
+    by quadrature.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0101019', '0.0123675']

@@ -35,9 +35,9 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = (-Integral(L*xi**k/(L**k*xi*sqrt((a + xi)*(c - xi))), (xi, Max(-a, Min(0, c)),
-            c)) - Integral(L*(-xi)**k/(L**k*xi*sqrt((a + xi)*(c - xi))), (xi, -a, Max(-a, Min(0,
-            c)))))/pi
+        alpha = -Integral(g'(xi)/root(xi), (xi, -a, c))/pi
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g'(xi) = Piecewise((-L**(1 - k)*(-xi)**(k - 1), xi < 0), (L**(1 - k)*xi**(k - 1), True))
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c  edges of the contact at x = -a and x = c [m]
@@ -46,7 +46,7 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     Returns alpha [rad].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
 
     alpha numerical: quadrature of the defining integral of g(x); 39 digits at 24 points.  Derived
-    from derive/geometries/power.py.
+    from derive/geometries/power.py; evaluated by quadrature.
 
     >>> f"{tilt(1.5, 1.0, L=1.0, k=2.0):.6g}"
     '0.25'
@@ -58,9 +58,10 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
 def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*(Integral(L*xi**k*sqrt((a + xi)*(c - xi))*(k - 1)/(L**k*xi**2), (xi, Max(-a,
-            Min(0, c)), c)) + Integral(L*(-xi)**k*sqrt((a + xi)*(c - xi))*(k - 1)/(L**k*xi**2),
-            (xi, -a, Max(-a, Min(0, c)))))/2
+        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
+            2)*(k - 1), True))
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -70,7 +71,7 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     Returns P [N/m].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
 
     P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
-    derive/geometries/power.py.
+    derive/geometries/power.py; evaluated by quadrature.
 
     >>> f"{load(1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '1.22718'
@@ -82,10 +83,11 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
 def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = -E_star*(Integral(L*xi**k*sqrt((a + xi)*(c - xi))*(k - 1)*(-a/2 + c/2 +
-            xi)/(L**k*xi**2), (xi, Max(-a, Min(0, c)), c)) + Integral(L*(-xi)**k*sqrt((a +
-            xi)*(c - xi))*(k - 1)*(-a/2 + c/2 + xi)/(L**k*xi**2), (xi, -a, Max(-a, Min(0,
-            c)))))/4
+        M = -E_star*Integral((a - c + 2*xi)*g''(xi)*root(xi), (xi, -a, c))/8 + P*(a - c)/2
+        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
+        root(xi) = sqrt((a + xi)*(c - xi))
+        g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
+            2)*(k - 1), True))
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -95,7 +97,7 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     Returns M [N].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
 
     M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
-    from derive/geometries/power.py.
+    from derive/geometries/power.py; evaluated by quadrature.
 
     >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '0.306796'
@@ -107,16 +109,11 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
 def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     """Contact pressure at x; zero outside [-a, c].
 
-        p = E_star*(Integral(L*xi**k*(k - 1)*log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c
-            - x)))/(sqrt((a + x)*(c - xi)) - sqrt((a + xi)*(c - x)))))/(2*L**k*xi**2), (xi,
-            Max(-a, Min(0, x)), x)) + Integral(L*xi**k*(k - 1)*log(Abs((sqrt((a + x)*(c - xi)) +
-            sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c - xi)) - sqrt((a + xi)*(c -
-            x)))))/(2*L**k*xi**2), (xi, Max(x, Min(0, c)), c)) + Integral(L*(-xi)**k*(k -
-            1)*log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c - x)))/(sqrt((a + x)*(c - xi))
-            - sqrt((a + xi)*(c - x)))))/(2*L**k*xi**2), (xi, -a, Max(-a, Min(0, x)))) +
-            Integral(L*(-xi)**k*(k - 1)*log(Abs((sqrt((a + x)*(c - xi)) + sqrt((a + xi)*(c -
-            x)))/(sqrt((a + x)*(c - xi)) - sqrt((a + xi)*(c - x)))))/(2*L**k*xi**2), (xi, x,
-            Max(x, Min(0, c)))))/pi
+        p = E_star*Integral(g''(xi)*kernel(x, xi), (xi, -a, c))/pi
+        kernel(x, xi) = asinh(sqrt(Min((a + x)*(c - xi), (a + xi)*(c - x))/((a + c)*Abs(x -
+            xi))))
+        g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
+            2)*(k - 1), True))
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         x       position along the interface, right positive [m]
@@ -127,7 +124,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
     Returns p [Pa].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
 
     p numerical: quadrature of the defining integral of g(x); 39 digits at 24 points.  Derived from
-    derive/geometries/power.py.
+    derive/geometries/power.py; evaluated by quadrature.
 
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '0.5'
@@ -139,12 +136,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
 def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of sqrt(s) in the pressure at a distance s from the edges.
 
-        K_N_left = E_star*(Integral(L*xi**k*sqrt((a + xi)*(c - xi))*(k - 1)/(L**k*xi**2*(a +
-            xi)), (xi, Max(-a, Min(0, c)), c)) + Integral(L*(-xi)**k*sqrt((a + xi)*(c - xi))*(k
-            - 1)/(L**k*xi**2*(a + xi)), (xi, -a, Max(-a, Min(0, c)))))/(pi*sqrt(a + c))
-        K_N_right = E_star*(Integral(L*xi**k*sqrt((a + xi)*(c - xi))*(k - 1)/(L**k*xi**2*(c -
-            xi)), (xi, Max(-a, Min(0, c)), c)) + Integral(L*(-xi)**k*sqrt((a + xi)*(c - xi))*(k
-            - 1)/(L**k*xi**2*(c - xi)), (xi, -a, Max(-a, Min(0, c)))))/(pi*sqrt(a + c))
+        K_N_left = E_star*Integral(g''(xi)*r_left(xi), (xi, -a, c))/(pi*sqrt(a + c))
+        K_N_right = E_star*Integral(g''(xi)*r_right(xi), (xi, -a, c))/(pi*sqrt(a + c))
+        r_left(xi) = sqrt((c - xi)/(a + xi))
+        r_right(xi) = sqrt((a + xi)/(c - xi))
+        g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
+            2)*(k - 1), True))
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -156,7 +153,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
 
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 39
     digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
-    the right edge; 39 digits at 24 points.  Derived from derive/geometries/power.py.
+    the right edge; 39 digits at 24 points.  Derived from derive/geometries/power.py; evaluated by
+    quadrature.
 
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0, k=2.0)]
     ['0.790569', '0.790569']
@@ -168,22 +166,16 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     """Coefficients of s**(3/2) in the pressure next to the edges.
 
-        L_N_left = E_star*(-Piecewise((L*a**k*(k - 1)/(L**k*a**2), a > 0), (L*(-a)**k*(k -
-            1)/(L**k*a**2), True))/(4*sqrt(a + c)) + (Integral(sqrt((a + xi)*(c -
-            xi))*(L*xi**k*(k - 1)/(L**k*xi**2) - Piecewise((L*a**k*(k - 1)/(L**k*a**2), a > 0),
-            (L*(-a)**k*(k - 1)/(L**k*a**2), True)))*(3*a + 2*c + xi)/(a + xi)**2, (xi, Max(-a,
-            Min(0, c)), c)) + Integral(sqrt((a + xi)*(c - xi))*(L*(-xi)**k*(k - 1)/(L**k*xi**2)
-            - Piecewise((L*a**k*(k - 1)/(L**k*a**2), a > 0), (L*(-a)**k*(k - 1)/(L**k*a**2),
-            True)))*(3*a + 2*c + xi)/(a + xi)**2, (xi, -a, Max(-a, Min(0, c)))))/(6*pi*(a +
-            c)**(3/2)))
-        L_N_right = E_star*(-Piecewise((L*(-c)**k*(k - 1)/(L**k*c**2), c < 0), (L*c**k*(k -
-            1)/(L**k*c**2), True))/(4*sqrt(a + c)) + (Integral(sqrt((a + xi)*(c -
-            xi))*(L*xi**k*(k - 1)/(L**k*xi**2) - Piecewise((L*(-c)**k*(k - 1)/(L**k*c**2), c <
-            0), (L*c**k*(k - 1)/(L**k*c**2), True)))*(2*a + 3*c - xi)/(c - xi)**2, (xi, Max(-a,
-            Min(0, c)), c)) + Integral(sqrt((a + xi)*(c - xi))*(L*(-xi)**k*(k - 1)/(L**k*xi**2)
-            - Piecewise((L*(-c)**k*(k - 1)/(L**k*c**2), c < 0), (L*c**k*(k - 1)/(L**k*c**2),
-            True)))*(2*a + 3*c - xi)/(c - xi)**2, (xi, -a, Max(-a, Min(0, c)))))/(6*pi*(a +
-            c)**(3/2)))
+        L_N_left = E_star*FinitePart(Integral((2*r_left(xi)**2 + 3)*g''(xi)*r_left(xi), (xi, -a,
+            c)))/(6*pi*(a + c)**(3/2))
+        L_N_right = E_star*FinitePart(Integral((2*r_right(xi)**2 + 3)*g''(xi)*r_right(xi), (xi,
+            -a, c)))/(6*pi*(a + c)**(3/2))
+        r_left(xi) = sqrt((c - xi)/(a + xi))
+        r_right(xi) = sqrt((a + xi)/(c - xi))
+        g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
+            2)*(k - 1), True))
+        FinitePart: of the integral that ends at a distance d from the edge, without its term in
+            1/sqrt(d), as d goes to 0; by parts next to the edge
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
         a, c    edges of the contact at x = -a and x = c [m]
@@ -195,7 +187,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
 
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
     digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
-    the right edge; 35 digits at 24 points.  Derived from derive/geometries/power.py.
+    the right edge; 35 digits at 24 points.  Derived from derive/geometries/power.py; evaluated by
+    quadrature.
 
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, L=1.0, k=2.0)]
     ['-0.158114', '-0.158114']

@@ -11,6 +11,7 @@ summed    the same for a sum over parts, and of what all such functions hold
 third     the third coefficient of the pressure next to the edges
 law       the text of what the solvers need of a body
 cuts      where a body without closed formulas is cut for quadrature
+integrals what such a body evaluates, as its docstrings print it
 curve     the text of such a body: its curve, and the functions that are integrated over it
 module    the one template of a generated module
 mark      what every generated file begins with

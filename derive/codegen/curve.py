@@ -29,6 +29,7 @@ from sympy import (
 
 from derive.codegen.cuts import cuts_of
 from derive.codegen.function import FunctionText
+from derive.codegen.integrals import Integrals
 from derive.codegen.law import LawText, as_float, function_head
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
@@ -49,6 +50,15 @@ class IntegratedText(FunctionText):
 
     def _demand_equal(self) -> None:
         """Nothing is rewritten; the module is tried as a whole."""
+
+    @property
+    def _equations(self) -> Iterator[str]:
+        """What is evaluated; the closed formula that some bodies have stands on the sheet."""
+        yield from Integrals(self.sheet).lines(self.function.formulas)
+
+    @property
+    def _origin(self) -> str:
+        return f"Derived from {self.source}; evaluated by quadrature."
 
     @property
     def _decorators(self) -> Iterator[str]:

@@ -1,0 +1,131 @@
+"""What a body that is integrated evaluates, as its docstrings print it.
+
+In:  a FormulaSheet, and the name of one of its formulas.
+Out: the integral over g'' that derive/runtime/pieces.py evaluates for it, and what the functions
+     in that integral stand for.
+
+Where g'' jumps as a corner does, the integral has a term of its own: the jump of g' in place of
+g'' dxi.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from sympy import (
+    Abs,
+    Expr,
+    Function,
+    Integral,
+    Max,
+    Min,
+    Piecewise,
+    Rational,
+    S,
+    asinh,
+    factor,
+    pi,
+    simplify,
+    sqrt,
+)
+
+from derive.notation import text_of
+from derive.piece import Piece
+from derive.profile import Kink
+from derive.sheet import FormulaSheet
+from derive.symbols import E_star, P, a, c, h, x
+from derive.theory.segments import root_ratio
+from derive.theory.superposition import xi
+
+slope, curvature, root, kernel = map(Function, ("g'", "g''", "root", "kernel"))
+to_left, to_right = Function("r_left"), Function("r_right")
+
+FinitePart = Function("FinitePart")
+
+_IN_WORDS = (
+    "FinitePart: of the integral that ends at a distance d from the edge, without its term in "
+    "1/sqrt(d), as d goes to 0; by parts next to the edge"
+)
+
+
+@dataclass(frozen=True)
+class Integrals:
+    """The integrals of one body."""
+
+    sheet: FormulaSheet
+
+    def formula(self, name: str) -> Expr:
+        """What is evaluated for a formula of the sheet.
+
+        >>> from derive.derivation import derive_sheet
+        >>> from derive.library import load_geometry
+        >>> Integrals(derive_sheet(load_geometry("catenary"))).formula("load")
+        E_star*Integral(root(xi)*g''(xi), (xi, -a, c))/2
+        """
+        if name == "tilt":
+            return -Integral(slope(xi) / root(xi), (xi, -a, c)) / pi
+        if name == "load":
+            return E_star / 2 * self._pressed(root)
+        if name == "moment":
+            turned = self._pressed(lambda s: root(s) * (a - c + 2 * s))
+            return (a - c) * P / 2 - E_star / 8 * turned
+        if name == "pressure":
+            return E_star / pi * self._pressed(lambda s: kernel(x, s))
+        ratio = to_left if name.endswith("left") else to_right
+        if name.startswith("K_N"):
+            return E_star / (pi * sqrt(h)) * self._pressed(ratio)
+        finite = self._pressed(lambda s: ratio(s) * (3 + 2 * ratio(s) ** 2), FinitePart)
+        return E_star / (6 * pi * h ** Rational(3, 2)) * finite
+
+    def _pressed(self, weight: Callable[[Expr], Expr], of: Callable[[Expr], Expr] = S) -> Expr:
+        """int g'' weight dxi, and what the corners add."""
+        curved = of(Integral(curvature(xi) * weight(xi), (xi, -a, c)))
+        return curved + sum((k.step * weight(k.position) for k in self._corners), S.Zero)
+
+    @cached_property
+    def _corners(self) -> tuple[Kink, ...]:
+        return tuple(k for k in self.sheet.geometry.slope.kinks if k.is_corner)
+
+    @cached_property
+    def definitions(self) -> dict[Expr, Expr]:
+        """What the functions stand for; zero at a corner outside the contact."""
+        left, right = a + xi, c - xi
+        ratios = (right / left, left / right)
+        least = Min((a + x) * right, left * (c - x))
+        to_edges = [sqrt(ratio) for ratio in ratios]
+        if self._corners:
+            to_edges = [root_ratio.definition(*ends) for ends in ((right, left), (left, right))]
+            left, right, least = Max(0, left), Max(0, right), Max(0, least)
+        return {
+            root(xi): sqrt(left * right),
+            to_left(xi): to_edges[0],
+            to_right(xi): to_edges[1],
+            kernel(x, xi): asinh(sqrt(least / (h * Abs(x - xi)))),
+            slope(xi): self._by_piece(lambda piece: piece.slope),
+            curvature(xi): self._by_piece(lambda piece: piece.curvature),
+        }
+
+    def _by_piece(self, of: Callable[[Piece], Expr]) -> Expr:
+        *others, last = self.sheet.geometry.slope.pieces
+        branches = [(_short(of(piece)), xi < piece.upper) for piece in others]
+        return Piecewise(*branches, (_short(of(last)), True))
+
+    def lines(self, names: tuple[str, ...]) -> Iterator[str]:
+        """Formulas as they are printed, and what they hold."""
+        found = {self.sheet[name].symbol: self.formula(name) for name in names}
+        if "moment" in names:
+            found[P] = self.formula("load")
+        for symbol, expr in found.items():
+            yield f"{symbol} = {text_of(expr)}"
+        held = {node.func for expr in found.values() for node in expr.atoms(Function)}
+        for called, definition in self.definitions.items():
+            if called.func in held:
+                yield f"{called} = {text_of(definition)}"
+        if FinitePart in held:
+            yield _IN_WORDS
+
+
+def _short(expr: Expr) -> Expr:
+    """At xi, factored where that is not longer."""
+    simple = simplify(expr)
+    return min(factor(simple), simple, key=lambda form: form.count_ops()).subs(x, xi)
