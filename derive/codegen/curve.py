@@ -31,6 +31,7 @@ from derive.codegen.cuts import cuts_of
 from derive.codegen.function import FunctionText
 from derive.codegen.integrals import Integrals
 from derive.codegen.law import LawText, as_float, function_head
+from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.program import Program
 from derive.piece import Piece
@@ -74,10 +75,13 @@ class IntegratedText(FunctionText):
 
 
 class CurveText(LawText):
-    """The text of the law of a body that is integrated."""
+    """The text of the law of a body that is integrated, be it for L_N alone."""
 
     def _formulas(self, own: str) -> Iterator[str]:
-        """The curve, and what is integrated over it."""
+        """The curve, and what is integrated over it; the rest by the formulas above."""
+        summed = carried_by(self.sheet) is Route.PARTS
+        if summed:
+            yield from self._carried(own)
         slope = self.sheet.geometry.slope
         places, pieces = cuts_of(slope)
         printer = NumPyPrinter()
@@ -101,6 +105,8 @@ class CurveText(LawText):
             ("slope", "x", "g'(x) and g''(x); infinite beyond the body's ends."),
             ("series", "a, c", "L_N for E* = 1."),
         ):
+            if summed and name in ("pressure", "state"):
+                continue
             yield f"@kernel({name.upper()})"
             yield from function_head(f"_{name}", arguments, words)
             if name == "slope":

@@ -40,15 +40,20 @@ class LawText:
 
     def _formulas(self, own: str) -> Iterator[str]:
         """Pressure, state and series by the formulas above, compiled for numbers."""
+        yield from self._carried(own)
+        yield "_L_N = by_position(L_N)"
+        yield from self._series()
+
+    def _carried(self, own: str) -> Iterator[str]:
+        """Pressure and state."""
         yield "_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)"
-        yield "_p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)"
+        yield "_p, _K_N = by_position(pressure), by_position(K_N)"
         yield from function_head("_pressure", "x, a, c", "The pressure at x for E* = 1.")
         yield f"    return _p(x, a, c, 1.0, {own})"
         yield from function_head("_state", "a, c", "Load, moment, tilt and K_N for E* = 1.")
         yield f"    left, right = _K_N(a, c, 1.0, {own})"
         yield f"    load, moment = _load(a, c, 1.0, {own}), _moment(a, c, 1.0, {own})"
         yield f"    return load, moment, _tilt(a, c, {own}), left, right"
-        yield from self._series()
 
     def _series(self) -> Iterator[str]:
         program = third_program(self.sheet)

@@ -17,6 +17,7 @@ from derive.codegen.contract import Function
 from derive.codegen.cuts import cancels
 from derive.sheet import FormulaSheet
 from derive.symbols import P
+from derive.theory.segments import Parts, has_parts
 
 
 class Route(Enum):
@@ -34,12 +35,15 @@ def route_of(sheet: FormulaSheet, function: Function) -> Route:
         return Route.FORMULA if function.available(sheet) else Route.SOLVED
     if not function.geometric:
         return Route.FORMULA
-    return carried_by(sheet)
+    carried = carried_by(sheet)
+    if carried is Route.PARTS and function.name == "L_N" and not Parts(sheet.frame).has_series:
+        return Route.QUADRATURE
+    return carried
 
 
 def carried_by(sheet: FormulaSheet) -> Route:
     """The way to what a contact carries: load, moment, tilt, pressure and edge coefficients."""
+    if has_parts(sheet.frame):
+        return Route.PARTS
     slope = sheet.geometry.slope
-    if not slope.is_polynomial or cancels(slope):
-        return Route.QUADRATURE
-    return Route.PARTS if any(k.clipped for k in sheet.frame.kinks) else Route.FORMULA
+    return Route.FORMULA if slope.is_polynomial and not cancels(slope) else Route.QUADRATURE

@@ -1,4 +1,4 @@
-r"""The formulas of a body of straight lines and parabolas, part by part, in terms of one sign.
+r"""The formulas of a body that is a polynomial on each piece, part by part, in terms of one sign.
 
 By parts over g'' a corner adds J w_j to twice the load over E*, a curved part k int w ds, with J
 the jump of g' and k = g'' there: nothing is subtracted on a convex body.  A part opens an angle t
@@ -11,6 +11,14 @@ one between the kinks 1 and 2, with sin_j and cos_j of half the angles of its en
 
     int w ds = (h**2/4) (segment(t/2) + sin(t) (sin_1 cos_2 + cos_1 sin_2)**2).
 
+Where g'' is not constant it must grow from one end of its piece on, in powers of the distance u
+from there that none is subtracted of.  Each power adds a moment of its part, with A and B the
+distances from the edges,
+
+    int u**k w ds = h**(k + 2) part_moment(k, 1, 1, ...),
+
+    part_moment(k, i, j, ...) = int u**k A**i B**j dtheta, with lengths over h.
+
 The functions are computed by derive/runtime/segments.py.
 """
 
@@ -22,17 +30,22 @@ from itertools import pairwise
 from sympy import (
     Abs,
     Add,
+    Dummy,
     Expr,
     Function,
     Gt,
+    Integral,
     Max,
     Min,
     Piecewise,
+    Poly,
     Rational,
     S,
     Symbol,
     UnevaluatedExpr,
+    asin,
     atan2,
+    binomial,
     cos,
     factor_terms,
     log,
@@ -242,8 +255,7 @@ class end_pressure(Named):
     def definition(t: Expr, sine: Expr, cosine: Expr) -> Expr:
         """In elementary functions."""
         p, q = sin(t / 2) * cosine, cos(t / 2) * sine
-        level = log(Abs((p + q) / (p - q))) / 2
-        return t / 2 * sine * cosine + (p**2 - q**2) * level
+        return t / 2 * sine * cosine + (p**2 - q**2) * _level(p, q)
 
 
 class part_pressure(Named):
@@ -256,16 +268,84 @@ class part_pressure(Named):
     def definition(t: Expr, start: Expr, end: Expr, *halves: Expr) -> Expr:
         """In elementary functions; zero where the part is empty."""
         sine_1, cosine_1, sine_2, cosine_2, sine, cosine = halves
-
-        def level(p: Expr, q: Expr) -> Expr:
-            return log(Abs((p + q) / (p - q))) / 2
-
-        first = level(sine_1 * cosine, cosine_1 * sine)
-        second = level(sine_2 * cosine, cosine_2 * sine)
+        first = _level(sine_1 * cosine, cosine_1 * sine)
+        second = _level(sine_2 * cosine, cosine_2 * sine)
         return t / 2 * sine * cosine + end * second - start * first
 
 
+_k, _i, _j = symbols("k i j", integer=True, nonnegative=True)
+_f = Symbol("f", real=True)
+_past, _ahead = symbols("past ahead", real=True)
+
+
+def _over_part(integrand: Expr) -> Expr:
+    """2 int u**k integrand df over the half angles f of a part, u the distance from its start."""
+    start = asin(_ends[0])
+    u = sin(_f) ** 2 - _ends[0] ** 2
+    return 2 * Integral(u**_k * integrand, (_f, start, start + _t / 2))
+
+
+class part_moment(Named):
+    """int u**k A**i B**j dtheta over a part, in parts of the width; k, i and j are numbers."""
+
+    nargs = 8
+    letters = (_k, _i, _j, _t, *_ends)
+
+    @staticmethod
+    def definition(*_: Expr) -> Expr:
+        """As an integral, for it is printed once for all powers."""
+        return _over_part(sin(_f) ** (2 * _i) * cos(_f) ** (2 * _j))
+
+    @property
+    def written_out(self) -> Expr:
+        """By parts, power by power of the sine: in elementary functions."""
+        k, i, j, t, sine_1, cosine_1, sine_2, cosine_2 = self.args
+        square, powers, total = Dummy(), t / 2, S.Zero
+        whole = Poly((square - sine_1**2) ** k * square**i * (1 - square) ** j, square)
+        for m in range(whole.degree() + 1):
+            if m:
+                ends = sine_2 ** (2 * m - 1) * cosine_2 - sine_1 ** (2 * m - 1) * cosine_1
+                powers = (powers * (2 * m - 1) - ends) / (2 * m)
+            total += 2 * whole.coeff_monomial(square**m) * powers
+        return total
+
+
+class rising_pressure(Named):
+    """int u**k L ds over a part, in parts of the width; u and v: sine and cosine of x.
+
+    past, ahead: how far x lies behind the part's start, and before its end.
+    """
+
+    nargs = 10
+    letters = (_k, _t, *_ends, _sine, _cosine, _past, _ahead)
+
+    @staticmethod
+    def definition(*_: Expr) -> Expr:
+        """As an integral, for it is printed once for all powers."""
+        place = asin(_sine)
+        level = log(Abs(sin(_f + place) / sin(_f - place))) / 2
+        return _over_part(level * sin(_f) * cos(_f))
+
+    @property
+    def written_out(self) -> Expr:
+        """By parts: dL/ds = w(x)/(2 (x - s) w(s)) leaves moments of the part."""
+        k, t, *ends, sine, cosine, past, ahead = self.args
+        first = _level(ends[0] * cosine, ends[1] * sine)
+        second = _level(ends[2] * cosine, ends[3] * sine)
+        moments = (
+            past ** (k - i) * part_moment(i, 0, 0, t, *ends).written_out for i in range(k + 1)
+        )
+        at_ends = past ** (k + 1) * (first - second) + (past + ahead) ** (k + 1) * second
+        return (at_ends + sine * cosine / 2 * Add(*moments)) / (k + 1)
+
+
+def _level(p: Expr, q: Expr) -> Expr:
+    """L between two places, from sines times cosines."""
+    return log(Abs((p + q) / (p - q))) / 2
+
+
 FUNCTIONS = (
+    *(part_moment, rising_pressure),
     *(edge_angle, segment, involute, part_area, part_arm, part_weight, root_ratio),
     *(kink_logarithm, second_term, third_term, end_pressure, part_pressure),
 )
@@ -289,10 +369,10 @@ def definitions_of(exprs: Iterable[Expr]) -> dict[Expr, Expr]:
 
 
 def has_parts(frame: Frame) -> bool:
-    """Whether a contact can leave a kink of straight lines and parabolas."""
-    slope = frame.slope
-    constant = slope.is_polynomial and not any(simplify(p.curvature).has(x) for p in slope.pieces)
-    return constant and any(k.clipped for k in frame.kinks)
+    """Whether a contact can leave a kink, and its parts have formulas in terms of one sign."""
+    if not frame.slope.is_polynomial or not any(k.clipped for k in frame.kinks):
+        return False
+    return all(part.is_even or part.rise for part in Parts(frame).parts)
 
 
 @dataclass(frozen=True)
@@ -325,6 +405,26 @@ class Part:
     def bend(self) -> Expr:
         """g'' on it."""
         return simplify(self.piece.curvature)
+
+    @property
+    def is_even(self) -> bool:
+        """Whether g'' is the same all over it."""
+        return not self.bend.has(x)
+
+    @cached_property
+    def rise(self) -> "Rise | None":
+        """g' and g'' from one end of the piece on, where they grow from there; None if even."""
+        if self.is_even:
+            return None
+        for kink, sense in ((self.before, 1), (self.behind, -1)):
+            if kink is None:
+                continue
+            place, u = kink.kink.position, Dummy("u")
+            outwards = sense * self.piece.slope.subs(x, place + sense * u)
+            slopes = [simplify(term) for term in reversed(Poly(outwards, u).all_coeffs())]
+            if all(term.is_nonnegative for term in slopes):
+                return Rise(self, sense, tuple(slopes))
+        return None
 
     @property
     def is_inner(self) -> bool:
@@ -374,7 +474,9 @@ class Part:
 
     @property
     def area(self) -> Expr:
-        """int w ds over h**2/8."""
+        """int w ds over h**2/8; here and below int g'' w ds of a part that is not even."""
+        if self.rise:
+            return 8 * self.rise.moment(1, 1)
         if not self.is_inner:
             return segment(self.t)
         return part_area(self.t, self.across)
@@ -382,6 +484,8 @@ class Part:
     @property
     def arm(self) -> Expr:
         """int w (s - mid) ds over h**3/24."""
+        if self.rise:
+            return 12 * (self.rise.moment(2, 1) - self.rise.moment(1, 2))
         if not self.is_inner:
             return (-1 if self.before is None else 1) * sin(self.t) ** 3
         return part_arm(self.t, *self.begins, *self.ends)
@@ -389,6 +493,8 @@ class Part:
     @property
     def lean(self) -> Expr:
         """int g'/w ds."""
+        if self.rise:
+            return self.rise.lean
         if self.bend == 0:
             return simplify(self.piece.slope) * self.t
         if self.before is None:
@@ -402,6 +508,8 @@ class Part:
     def weight(self, edge: Edge) -> Expr:
         """int w/A ds over h for the left edge, int w/B ds over h for the right one."""
         touched = self.before if edge is Edge.LEFT else self.behind
+        if self.rise:
+            return self.rise.moment(*((0, 1) if edge is Edge.LEFT else (1, 0)))
         if self.is_inner:
             return part_weight(self.t, self.far if edge is Edge.LEFT else self.near)
         return (self.t + sin(self.t)) / 2 if touched is None else segment(self.t / 2)
@@ -414,6 +522,8 @@ class Part:
     @property
     def seen(self) -> Expr:
         """int L ds over h, seen from x."""
+        if self.rise:
+            return self.rise.seen
         if self.before is None:
             return end_pressure(self.t, sin_x, cos_x)
         if self.behind is None:
@@ -445,6 +555,65 @@ class Part:
                 return there + self.bend * _distance(place, end)
         root = simplify(-slope.subs(x, 0) / self.bend)
         return self.bend * _distance(place, root)
+
+
+@dataclass(frozen=True)
+class Rise:
+    """A part whose g' grows from one end of its piece on, in terms of one sign.
+
+    sense: 1 where it grows from the left end, -1 from the right one.
+    slopes: sense times g' there, and the coefficients of the powers of the distance.
+    """
+
+    part: Part
+    sense: int
+    slopes: tuple[Expr, ...]
+
+    @cached_property
+    def _from_start(self) -> list[Expr]:
+        """The same from where the part starts, which may be an edge of the contact."""
+        kink = self.part.before if self.sense > 0 else self.part.behind
+        assert kink is not None
+        inside = Max(0, -kink.left if self.sense > 0 else -kink.right)
+        count = len(self.slopes)
+        return [
+            Add(*(binomial(n, k) * self.slopes[n] * inside ** (n - k) for n in range(k, count)))
+            for k in range(count)
+        ]
+
+    @property
+    def _powers(self) -> Iterator[tuple[int, Expr]]:
+        """Powers of u/h in g'', and their coefficients."""
+        for k, slope in enumerate(self._from_start[1:]):
+            if slope != 0:
+                yield k, (k + 1) * slope * h**k
+
+    def _halves(self) -> tuple[Expr, ...]:
+        """Sines and cosines of half the angles of start and end; seen from behind where it is."""
+        halves = (*self.part.begins, *self.part.ends)
+        return halves[:: self.sense]
+
+    def _moment_of(self, k: int, i: int, j: int) -> Expr:
+        return part_moment(k, *(i, j)[:: self.sense], self.part.t, *self._halves())
+
+    def moment(self, i: int, j: int) -> Expr:
+        """int g'' A**i B**j dtheta, with A and B over h."""
+        return Add(*(bend * self._moment_of(k, i, j) for k, bend in self._powers))
+
+    @property
+    def lean(self) -> Expr:
+        """int g'/w ds."""
+        first, *others = self._from_start
+        grown = (s * h**k * self._moment_of(k, 0, 0) for k, s in enumerate(others, start=1))
+        return self.sense * (first * self.part.t + Add(*grown))
+
+    @property
+    def seen(self) -> Expr:
+        """int g'' L ds over h, seen from x."""
+        place = (sin_x, cos_x)[:: self.sense]
+        offsets = ((x - self.part.beginning) / h, (self.part.ending - x) / h)[:: self.sense]
+        given = (self.part.t, *self._halves(), *place, *offsets)
+        return Add(*(bend * rising_pressure(k, *given) for k, bend in self._powers))
 
 
 def _distance(place: Expr, other: Expr) -> Expr:
@@ -492,6 +661,11 @@ class Parts:
         return tuple(part for part in self.parts if part.bend != 0)
 
     @property
+    def has_series(self) -> bool:
+        """Whether L_N and the next coefficient are sums over parts, too."""
+        return all(part.is_even for part in self.parts)
+
+    @property
     def corners(self) -> Iterator[tuple[Expr, KinkFrame]]:
         """Jumps of g', and their kinks."""
         return ((k.kink.step, k) for k in self.frame.kinks if k.kink.is_corner)
@@ -508,6 +682,8 @@ class Parts:
         for edge in Edge:
             side = edge.name.lower()
             found[f"K_N_{side}"] = self.edge_coefficient(edge)
+            if not self.has_series:
+                continue
             found[f"L_N_{side}"] = self.second_coefficient(edge)
             found[f"third_{side}"] = self.third_coefficient(edge)
         return found
@@ -589,7 +765,7 @@ class Parts:
         ]
         for edge in Edge:
             symbol, at = self.bend_at(edge), f"g'' at the {edge.name.lower()} edge"
-            if isinstance(symbol, Symbol):
+            if isinstance(symbol, Symbol) and self.has_series:
                 found.append(Definition(symbol, self._bends(edge), at))
         return tuple(found)
 
@@ -636,8 +812,9 @@ class Parts:
         )
 
     def _sum(self, share: Callable[[Part], Expr]) -> Expr:
-        """The sum over g'' times a share, each g'' once."""
+        """The sum over g'' times a share, each g'' once; a part that is not even has it inside."""
         groups: dict[Expr, Expr] = {}
         for part in self.curved:
-            groups[part.bend] = groups.get(part.bend, S.Zero) + share(part)
+            bend = part.bend if part.is_even else S.One
+            groups[bend] = groups.get(bend, S.Zero) + share(part)
         return factor_terms(Add(*(bend * total for bend, total in groups.items())))

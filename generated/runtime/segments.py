@@ -20,6 +20,15 @@ from .elementary import where
 from .shared import shared
 from .types import Array
 
+_RULE = tuple(
+    (0.5 + q / 2, 0.5 - q / 2, weight / 2)
+    for q, weight in zip(*np.polynomial.legendre.leggauss(32), strict=True)
+)
+"""Gauss's rule on (0, 1): q, 1 - q and weights.  It serves polynomials of a sine over an angle."""
+
+_AFAR = 0.15
+"""Seen from farther than this, in lengths of the part, a logarithm is no worse than they are."""
+
 NOTHING = 1e-300
 """What stands for zero under a line."""
 
@@ -289,3 +298,100 @@ def _level(p: Array, q: Array, offset: Array) -> Array:
     """L = artanh(min(p, q)/max(p, q)), the difference of whose squares is the offset."""
     least = np.minimum(p, q)
     return np.log1p(2 * (p * q + least * least) / np.maximum(np.abs(offset), NOTHING)) / 2
+
+
+@shared
+def _node(q: Array, rest: Array, t: Array, *halves: Array) -> tuple[Array, ...]:
+    """Sine and cosine of half the angle at a fraction of a part, and the distance from its start.
+
+    Sums of positive terms: from the sine at the start, from the cosine at the end.
+    """
+    sine_1, cosine_1, sine_2, cosine_2 = halves
+    before, behind = q * t / 2, rest * t / 2
+    sine = sine_1 * np.cos(before) + cosine_1 * np.sin(before)
+    cosine = cosine_2 * np.cos(behind) + sine_2 * np.sin(behind)
+    return sine, cosine, np.sin(before) * (sine * cosine_1 + cosine * sine_1)
+
+
+@shared
+def part_moment(
+    k: int,
+    i: int,
+    j: int,
+    t: Array,
+    sine_1: Array,
+    cosine_1: Array,
+    sine_2: Array,
+    cosine_2: Array,
+) -> Array:
+    """int u**k A**i B**j dtheta over a part, u the distance from its start, A and B from the edges.
+
+    k, i, j: whole numbers; lengths are parts of the contact's width.
+    t: the angle that the part opens, 0 <= t <= pi.
+    sine_1, ..., cosine_2: of the half angles of its ends.
+
+    A polynomial of a sine over an angle, by Gauss's rule: every term is positive.
+
+    >>> part_moment(0, 1, 1, np.pi, 0.0, 1.0, 1.0, 0.0) / (np.pi / 8)
+    1.0
+    """
+    total = 0.0 * t
+    for q, rest, weight in _RULE:
+        sine, cosine, u = _node(q, rest, t, sine_1, cosine_1, sine_2, cosine_2)
+        total = total + weight * u**k * sine ** (2 * i) * cosine ** (2 * j)
+    return t * total
+
+
+@shared
+def rising_pressure(
+    k: int,
+    t: Array,
+    sine_1: Array,
+    cosine_1: Array,
+    sine_2: Array,
+    cosine_2: Array,
+    sine: Array,
+    cosine: Array,
+    past: Array,
+    ahead: Array,
+) -> Array:
+    """int u**k L ds over a part, seen from x, u the distance from its start.
+
+    Arguments as those of part_moment; sine and cosine of half the angle of x.
+    past, ahead: how far x lies behind the part's start and before its end; all over h.
+
+    With L_1 and L_2 at the ends and w = sine cosine it is, a sum of positive terms where x lies on
+    the part, 1/(k + 1) times
+
+        past**(k + 1) L_1 + ahead S(length) L_2 + (w/2) int S(u) dtheta,
+        S(u) = past**k + past**(k - 1) u + ... + u**k.
+
+    From afar it is integrated as it stands: the logarithm is smooth there.
+
+    >>> whole = (np.pi, 0.0, 1.0, 1.0, 0.0)
+    >>> rising_pressure(0, *whole, 0.6, 0.8, 0.36, 0.64) / (0.24 * np.pi)
+    1.0
+    """
+    length = np.sin(t / 2) * (sine_2 * cosine_1 + cosine_2 * sine_1)
+    smooth, direct = 0.0 * t, 0.0 * t
+    for q, rest, weight in _RULE:
+        sine_s, cosine_s, u = _node(q, rest, t, sine_1, cosine_1, sine_2, cosine_2)
+        smooth = smooth + weight * _mixed(k, past, u)
+        level = _level(sine_s * cosine, cosine_s * sine, u - past)
+        direct = direct + weight * u**k * sine_s * cosine_s * level
+    first = _level(sine_1 * cosine, cosine_1 * sine, past)
+    second = _level(sine_2 * cosine, cosine_2 * sine, ahead)
+    by_parts = past ** (k + 1) * first + ahead * _mixed(k, past, length) * second
+    by_parts = (by_parts + sine * cosine / 2 * t * smooth) / (k + 1)
+    return where(np.maximum(-past, -ahead) > _AFAR * length, t * direct, by_parts)
+
+
+@shared
+def _mixed(k: int, v: Array, u: Array) -> Array:
+    """(u**(k + 1) - v**(k + 1))/(u - v), term by term."""
+    total = 1.0 + 0.0 * (u + v)
+    power = total
+    for _ in range(k):
+        power = power * u
+        total = total * v + power
+    return total
