@@ -3,7 +3,7 @@
 plan      which way each function takes: formula, sum over parts, quadrature, solved
 program   named steps, then outputs: what a function computes, before it is text
 rewrite   rules that keep digits in floating point; the result is compared with its source
-parts     formulas of bodies of lines and parabolas as sums over the parts of a contact
+parts     formulas of kinked polynomial bodies as sums over the parts of a contact
 printer   SymPy -> NumPy source
 contract  which functions a module has
 function  the text of one function that has a formula

@@ -40,14 +40,15 @@ class LawText:
 
     def _formulas(self, own: str) -> Iterator[str]:
         """Pressure, state and series by the formulas above, compiled for numbers."""
-        yield from self._carried(own)
-        yield "_L_N = by_position(L_N)"
+        yield from self._carried(own, "L_N")
         yield from self._series()
 
-    def _carried(self, own: str) -> Iterator[str]:
-        """Pressure and state."""
+    def _carried(self, own: str, *more: str) -> Iterator[str]:
+        """Pressure and state, and what else takes its arguments by position."""
         yield "_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)"
-        yield "_p, _K_N = by_position(pressure), by_position(K_N)"
+        edges = ("K_N", *more)
+        names = ", ".join(["_p", *(f"_{name}" for name in edges)])
+        yield f"{names} = {', '.join(f'by_position({name})' for name in ('pressure', *edges))}"
         yield from function_head("_pressure", "x, a, c", "The pressure at x for E* = 1.")
         yield f"    return _p(x, a, c, 1.0, {own})"
         yield from function_head("_state", "a, c", "Load, moment, tilt and K_N for E* = 1.")

@@ -1,4 +1,4 @@
-"""Functions of a body of straight lines and parabolas, as sums over the parts of a contact.
+"""Functions of a body that is a polynomial on each piece, as sums over the parts of a contact.
 
 In:  a FormulaSheet, and which of its formulas a function returns.
 Out: the Program of that function, compared with the sheet's formulas before it is used; the steps

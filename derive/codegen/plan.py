@@ -7,7 +7,7 @@ Out: a Route for each function of the contract.
     PARTS       the closed formula as a sum over the parts of the curve, in terms of one sign: where
                 a contact can leave a kink, its plain form would lose digits
     QUADRATURE  one quadrature of g'', in integrands of one sign: no closed formula, or one whose
-                powers cancel
+                powers cancel; and L_N where g'' is no constant on some part
     SOLVED      Newton's method on load and moment, or on load and tilt
 """
 

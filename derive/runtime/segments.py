@@ -1,4 +1,4 @@
-"""Functions of the parts of a contact that a body's straight lines and parabolas cover.
+"""Functions of the parts of a contact, each of which one piece of a polynomial body covers.
 
 A place s of the contact [-a, c], h wide, has its angle on the half circle over the contact,
 2 atan2(sqrt(a + s), sqrt(c - s)), from 0 at the left edge to pi at the right one.  A part opens an
@@ -21,9 +21,10 @@ from .types import Array
 
 _RULE = tuple(
     (0.5 + q / 2, 0.5 - q / 2, weight / 2)
-    for q, weight in zip(*np.polynomial.legendre.leggauss(32), strict=True)
+    for q, weight in zip(*np.polynomial.legendre.leggauss(24), strict=True)
 )
-"""Gauss's rule on (0, 1): q, 1 - q and weights.  It serves polynomials of a sine over an angle."""
+"""Gauss's rule on (0, 1): q, 1 - q and weights.  Powers of a distance up to the ninth are exact
+to rounding over any part."""
 
 _AFAR = 0.15
 """Seen from farther than this, in lengths of the part, a logarithm is no worse than they are."""

@@ -8,7 +8,7 @@ equilibrium  tilt from I_0 = 0, load and moment from I_1 and I_2
 pressure     p(x) inside the contact
 contact_law  P'(c) along fixed tilt, F(c), and the inverses (P, M), (P, alpha) -> (a, c)
 edges        K_N by two routes, the series of p at an edge
-segments     the same of straight lines and parabolas, as sums over the parts of a contact
+segments     the same of polynomials between kinks, as sums over the parts of a contact
 superposition  P, M, p, K_N and L_N as integrals of g'', of a body of any shape
 special      terms of g' whose integrals are special functions: one rule a kind of term
 closed_forms  what those rules and the polynomials of g' make together

@@ -24,7 +24,7 @@ The functions are computed by derive/runtime/segments.py.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 
 from sympy import (
@@ -47,6 +47,7 @@ from sympy import (
     atan2,
     binomial,
     cos,
+    degree,
     factor_terms,
     log,
     pi,
@@ -67,6 +68,10 @@ h = Symbol("h", positive=True)
 
 sin_x, cos_x = symbols("sin_x cos_x", nonnegative=True)
 """Of half the angle of x."""
+
+
+HIGHEST = 8
+"""Of the powers in g'' whose moments runtime/segments.py computes to rounding."""
 
 
 class Named(Function):
@@ -368,11 +373,12 @@ def definitions_of(exprs: Iterable[Expr]) -> dict[Expr, Expr]:
     return {f(*f.letters): f.definition(*f.letters) for f in FUNCTIONS if f in held}
 
 
+@lru_cache(maxsize=16)
 def has_parts(frame: Frame) -> bool:
     """Whether a contact can leave a kink, and its parts have formulas in terms of one sign."""
     if not frame.slope.is_polynomial or not any(k.clipped for k in frame.kinks):
         return False
-    return all(part.is_even or part.rise for part in Parts(frame).parts)
+    return all(part.is_uniform or part.rise for part in Parts(frame).parts)
 
 
 @dataclass(frozen=True)
@@ -407,14 +413,14 @@ class Part:
         return simplify(self.piece.curvature)
 
     @property
-    def is_even(self) -> bool:
+    def is_uniform(self) -> bool:
         """Whether g'' is the same all over it."""
         return not self.bend.has(x)
 
     @cached_property
     def rise(self) -> "Rise | None":
-        """g' and g'' from one end of the piece on, where they grow from there; None if even."""
-        if self.is_even:
+        """g' and g'' from one end of the piece on, where they grow from there; None if uniform."""
+        if self.is_uniform or degree(self.bend, x) > HIGHEST:
             return None
         for kink, sense in ((self.before, 1), (self.behind, -1)):
             if kink is None:
@@ -474,7 +480,7 @@ class Part:
 
     @property
     def area(self) -> Expr:
-        """int w ds over h**2/8; here and below int g'' w ds of a part that is not even."""
+        """int w ds over h**2/8; here and below int g'' w ds of a part that is not uniform."""
         if self.rise:
             return 8 * self.rise.moment(1, 1)
         if not self.is_inner:
@@ -663,7 +669,7 @@ class Parts:
     @property
     def has_series(self) -> bool:
         """Whether L_N and the next coefficient are sums over parts, too."""
-        return all(part.is_even for part in self.parts)
+        return all(part.is_uniform for part in self.parts)
 
     @property
     def corners(self) -> Iterator[tuple[Expr, KinkFrame]]:
@@ -812,9 +818,9 @@ class Parts:
         )
 
     def _sum(self, share: Callable[[Part], Expr]) -> Expr:
-        """The sum over g'' times a share, each g'' once; a part that is not even has it inside."""
+        """The sum over g'' times a share, each g'' once; a share that is not uniform holds it."""
         groups: dict[Expr, Expr] = {}
         for part in self.curved:
-            bend = part.bend if part.is_even else S.One
+            bend = part.bend if part.is_uniform else S.One
             groups[bend] = groups.get(bend, S.Zero) + share(part)
         return factor_terms(Add(*(bend * total for bend, total in groups.items())))

@@ -6,7 +6,7 @@ arrays      how a formula serves everything that broadcasts
 chunks      the same for Dask arrays
 edge/       an edge without its geometry
 elementary  small functions that formulas call
-segments    functions of the parts of a contact that lines and parabolas cover
+segments    functions of the parts of a contact that pieces of a polynomial body cover
 shared      functions that serve arrays, and kernels once numba compiles them
 body        one body: its law, its parameters, its functions of a cycle
 cycle       what these functions take and return; they load the kernels when they are needed

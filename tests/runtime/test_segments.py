@@ -118,6 +118,53 @@ def test_the_pressure_of_a_part_between_kinks() -> None:
         assert worst(cases()) < 3e-15
 
 
+def moments(low: mpf, high: mpf, f: mpf, k: int) -> tuple[mpf, mpf, mpf]:
+    """Of u**k A B dtheta and u**k L ds over a part by quadrature, and its length; all over h."""
+    length = mpmath.sin(high - low) * mpmath.sin(high + low)
+
+    def u(v: mpf) -> mpf:
+        return mpmath.sin(v - low) * mpmath.sin(v + low) / length
+
+    def pressed(v: mpf) -> mpf:
+        near = abs(mpmath.sin(v - f)) or mpf(10) ** -DIGITS
+        return u(v) ** k * mpmath.log(mpmath.sin(v + f) / near) / 2 * mpmath.sin(2 * v)
+
+    ends = [low, *([f] if low < f < high else []), high]
+    area = mpmath.quad(lambda v: u(v) ** k * mpmath.sin(2 * v) ** 2 / 2, [low, high])
+    return length**k * area, length**k * mpmath.quad(pressed, ends), length
+
+
+@pytest.mark.parametrize("k", [0, 1, 2, 5])
+def test_the_moments_of_a_part(k: int) -> None:
+    rng = Random(k)
+    with mpmath.workdps(40):
+        for number in range(40):
+            low, high, f = halves(rng)
+            low *= number % 3 > 0  # some begin at an edge, some end at one
+            high = high if number % 4 else mpmath.pi / 2
+            sines = [g(v) for v in (low, high, f) for g in (mpmath.sin, mpmath.cos)]
+            area, pressed, length = moments(low, high, f, k)
+            past = mpmath.sin(f - low) * mpmath.sin(f + low)
+            part = map(float, (2 * (high - low), *sines[:4]))
+            given = (*part, *map(float, (*sines[4:], past, length - past)))
+            assert abs(segments.part_moment(k, 1, 1, *given[:5]) / area - 1) < 1e-14
+            assert abs(segments.rising_pressure(k, *given) / pressed - 1) < 1e-13
+
+
+def test_moments_of_arrays_and_compiled_ones_have_the_values_of_numbers() -> None:
+    lows, highs, places = np.array([[0.1, 0.2, 0.0], [0.5, 1.0, 1.5], [0.3, 1.4, 0.7]])
+    ends = [g(v) for v in (lows, highs, places) for g in (np.sin, np.cos)]
+    past = np.sin(places - lows) * np.sin(places + lows)
+    ahead = np.sin(highs - places) * np.sin(highs + places)
+    given = (2 * (highs - lows), *ends, past, ahead)
+    for function, count in (
+        (lambda *each: segments.part_moment(2, 1, 0, *each), 5),
+        (lambda *each: segments.rising_pressure(3, *each), 9),
+    ):
+        alone = [function(*map(float, row)) for row in zip(*given[:count], strict=True)]
+        np.testing.assert_allclose(function(*given[:count]), alone, rtol=1e-14)
+
+
 @pytest.mark.parametrize("name", ["second_term", "third_term"])
 def test_the_next_terms_of_the_pressure(name: str) -> None:
     rng, function = Random(4), getattr(segments, name)
