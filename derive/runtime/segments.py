@@ -22,9 +22,10 @@ from .types import Array
 _RULE = tuple(
     (0.5 + q / 2, 0.5 - q / 2, weight / 2)
     for q, weight in zip(*np.polynomial.legendre.leggauss(24), strict=True)
+    if q < 0
 )
-"""Gauss's rule on (0, 1): q, 1 - q and weights.  Powers of a distance up to the ninth are exact
-to rounding over any part."""
+"""Gauss's rule on (0, 1): q, 1 - q and the weight of both.  Powers of a distance up to the ninth
+are exact to rounding over any part."""
 
 _AFAR = 0.15
 """Seen from farther than this, in lengths of the part, a logarithm is no worse than they are."""
@@ -301,16 +302,34 @@ def _level(p: Array, q: Array, offset: Array) -> Array:
 
 
 @shared
-def _node(q: Array, rest: Array, t: Array, *halves: Array) -> tuple[Array, ...]:
-    """Sine and cosine of half the angle at a fraction of a part, and the distance from its start.
+def _nodes(
+    q: float,
+    rest: float,
+    t: Array,
+    sine_1: Array,
+    cosine_1: Array,
+    sine_2: Array,
+    cosine_2: Array,
+) -> tuple[tuple[Array, Array, Array], ...]:
+    """Sine, cosine of half the angle at two fractions of a part, and the distance from its start.
 
     Sums of positive terms: from the sine at the start, from the cosine at the end.
     """
-    sine_1, cosine_1, sine_2, cosine_2 = halves
-    before, behind = q * t / 2, rest * t / 2
-    sine = sine_1 * np.cos(before) + cosine_1 * np.sin(before)
-    cosine = cosine_2 * np.cos(behind) + sine_2 * np.sin(behind)
-    return sine, cosine, np.sin(before) * (sine * cosine_1 + cosine * sine_1)
+    ends = (sine_1, cosine_1, sine_2, cosine_2)
+    first = np.sin(q * t / 2), np.cos(q * t / 2)
+    second = np.sin(rest * t / 2), np.cos(rest * t / 2)
+    return _node(first, second, ends), _node(second, first, ends)
+
+
+@shared
+def _node(
+    before: tuple[Array, Array], behind: tuple[Array, Array], ends: tuple[Array, ...]
+) -> tuple[Array, Array, Array]:
+    """The one of them that lies so far from start and end, by sine and cosine."""
+    sine_1, cosine_1, sine_2, cosine_2 = ends
+    sine = sine_1 * before[1] + cosine_1 * before[0]
+    cosine = cosine_2 * behind[1] + sine_2 * behind[0]
+    return sine, cosine, before[0] * (sine * cosine_1 + cosine * sine_1)
 
 
 @shared
@@ -337,8 +356,8 @@ def part_moment(
     """
     total = 0.0 * t
     for q, rest, weight in _RULE:
-        sine, cosine, u = _node(q, rest, t, sine_1, cosine_1, sine_2, cosine_2)
-        total = total + weight * u**k * sine ** (2 * i) * cosine ** (2 * j)
+        for sine, cosine, u in _nodes(q, rest, t, sine_1, cosine_1, sine_2, cosine_2):
+            total = total + weight * u**k * sine ** (2 * i) * cosine ** (2 * j)
     return t * total
 
 
@@ -375,10 +394,10 @@ def rising_pressure(
     length = np.sin(t / 2) * (sine_2 * cosine_1 + cosine_2 * sine_1)
     smooth, direct = 0.0 * t, 0.0 * t
     for q, rest, weight in _RULE:
-        sine_s, cosine_s, u = _node(q, rest, t, sine_1, cosine_1, sine_2, cosine_2)
-        smooth = smooth + weight * _mixed(k, past, u)
-        level = _level(sine_s * cosine, cosine_s * sine, u - past)
-        direct = direct + weight * u**k * sine_s * cosine_s * level
+        for sine_s, cosine_s, u in _nodes(q, rest, t, sine_1, cosine_1, sine_2, cosine_2):
+            smooth = smooth + weight * _mixed(k, past, u)
+            level = _level(sine_s * cosine, cosine_s * sine, u - past)
+            direct = direct + weight * u**k * sine_s * cosine_s * level
     first = _level(sine_1 * cosine, cosine_1 * sine, past)
     second = _level(sine_2 * cosine, cosine_2 * sine, ahead)
     by_parts = past ** (k + 1) * first + ahead * _mixed(k, past, length) * second
