@@ -35,8 +35,8 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
 def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     """Tilt at which the contact is [-a, c].
 
-        alpha = -Integral(g'(xi)/root(xi), (xi, -a, c))/pi
-        root(xi) = sqrt((a + xi)*(c - xi))
+        alpha = -Integral(g'(xi)/w(xi), (xi, -a, c))/pi
+        w(xi) = sqrt((a + xi)*(c - xi))
         g'(xi) = phi*xi/sqrt(b**2 + xi**2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
@@ -58,8 +58,8 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Normal load that makes the contact [-a, c].
 
-        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
-        root(xi) = sqrt((a + xi)*(c - xi))
+        P = E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
+        w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
@@ -82,9 +82,9 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     """Moment that makes the contact [-a, c].
 
-        M = -E_star*Integral((a - c + 2*xi)*g''(xi)*root(xi), (xi, -a, c))/8 + P*(a - c)/2
-        P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2
-        root(xi) = sqrt((a + xi)*(c - xi))
+        M = -E_star*Integral((a - c + 2*xi)*g''(xi)*w(xi), (xi, -a, c))/8 + P*(a - c)/2
+        P = E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
+        w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
     Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.

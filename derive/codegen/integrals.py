@@ -37,7 +37,7 @@ from derive.symbols import E_star, P, a, c, h, x
 from derive.theory.segments import root_ratio
 from derive.theory.superposition import xi
 
-slope, curvature, root, kernel = map(Function, ("g'", "g''", "root", "kernel"))
+slope, curvature, w, kernel = map(Function, ("g'", "g''", "w", "kernel"))
 to_left, to_right = Function("r_left"), Function("r_right")
 
 FinitePart = Function("FinitePart")
@@ -60,14 +60,14 @@ class Integrals:
         >>> from derive.derivation import derive_sheet
         >>> from derive.library import load_geometry
         >>> Integrals(derive_sheet(load_geometry("catenary"))).formula("load")
-        E_star*Integral(root(xi)*g''(xi), (xi, -a, c))/2
+        E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2
         """
         if name == "tilt":
-            return -Integral(slope(xi) / root(xi), (xi, -a, c)) / pi
+            return -Integral(slope(xi) / w(xi), (xi, -a, c)) / pi
         if name == "load":
-            return E_star / 2 * self._pressed(root)
+            return E_star / 2 * self._pressed(w)
         if name == "moment":
-            turned = self._pressed(lambda s: root(s) * (a - c + 2 * s))
+            turned = self._pressed(lambda s: w(s) * (a - c + 2 * s))
             return (a - c) * P / 2 - E_star / 8 * turned
         if name == "pressure":
             return E_star / pi * self._pressed(lambda s: kernel(x, s))
@@ -97,7 +97,7 @@ class Integrals:
             to_edges = [root_ratio.definition(*ends) for ends in ((right, left), (left, right))]
             left, right, least = Max(0, left), Max(0, right), Max(0, least)
         return {
-            root(xi): sqrt(left * right),
+            w(xi): sqrt(left * right),
             to_left(xi): to_edges[0],
             to_right(xi): to_edges[1],
             kernel(x, xi): asinh(sqrt(least / (h * Abs(x - xi)))),

@@ -125,7 +125,7 @@ def test_the_printed_integrals_are_the_formulas_of_the_sheet(
 def test_the_lines_define_all_that_they_hold() -> None:
     sheet = derive_sheet(Geometry("body", g=BODIES["cubic edges"]))
     assert [*Integrals(sheet).lines(("load",))] == [
-        "P = E_star*Integral(g''(xi)*root(xi), (xi, -a, c))/2",
-        "root(xi) = sqrt((a + xi)*(c - xi))",
+        "P = E_star*Integral(g''(xi)*w(xi), (xi, -a, c))/2",
+        "w(xi) = sqrt((a + xi)*(c - xi))",
         "g''(xi) = Piecewise((-6*(b + xi)/R**2, b < -xi), (0, b > xi), (6*(-b + xi)/R**2, True))",
     ]
