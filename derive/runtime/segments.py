@@ -351,8 +351,8 @@ def part_moment(
 
     A polynomial of a sine over an angle, by Gauss's rule: every term is positive.
 
-    >>> part_moment(0, 1, 1, np.pi, 0.0, 1.0, 1.0, 0.0) / (np.pi / 8)
-    1.0
+    >>> f"{part_moment(0, 1, 1, np.pi, 0.0, 1.0, 1.0, 0.0) / (np.pi / 8):.12g}"
+    '1'
     """
     total = 0.0 * t
     for q, rest, weight in _RULE:
@@ -388,8 +388,8 @@ def rising_pressure(
     From afar it is integrated as it stands: the logarithm is smooth there.
 
     >>> whole = (np.pi, 0.0, 1.0, 1.0, 0.0)
-    >>> rising_pressure(0, *whole, 0.6, 0.8, 0.36, 0.64) / (0.24 * np.pi)
-    1.0
+    >>> f"{rising_pressure(0, *whole, 0.6, 0.8, 0.36, 0.64) / (0.24 * np.pi):.12g}"
+    '1'
     """
     length = np.sin(t / 2) * (sine_2 * cosine_1 + cosine_2 * sine_1)
     smooth, direct = 0.0 * t, 0.0 * t

@@ -13,6 +13,7 @@ from sympy import Abs, Expr, Max, Piecewise
 
 from derive import Geometry, parameter
 from derive.codegen.parts import common_steps, parts_program
+from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
 from derive.codegen.summed import definitions_text
 from derive.derivation import derive_sheet
@@ -241,6 +242,24 @@ def test_a_sum_that_is_not_the_sheet_s_formula_is_refused(monkeypatch: pytest.Mo
     monkeypatch.setattr(Parts, "load", property(lambda parts: 2 * E_star * (a + c)))
     with pytest.raises(NotProven, match="part by part"):
         parts_program(sheet_of("two_radii"), {"": "load"})
+
+
+@pytest.mark.parametrize(
+    "g",
+    [
+        Piecewise(
+            (phi * (3 * x**2 / (4 * b) - x**4 / (8 * b**3)), Abs(x) < b),
+            (phi * (Abs(x) - 3 * b / 8), True),
+        ),
+        x**2 / (2 * R) + Max(0, x - b) ** 11 / L**10,
+        (x - b) ** 4 / L**3,
+    ],
+    ids=["falls from its middle on", "too steep", "no kink"],
+)
+def test_what_does_not_grow_from_a_kink_on_is_integrated(g: Expr) -> None:
+    sheet = derive_sheet(Geometry("body", g=g).described("A body."))
+    assert carried_by(sheet) is Route.QUADRATURE
+    assert carried_by(sheet_of("cubic_edges")) is Route.PARTS
 
 
 def test_nothing_presses_beyond_the_edges() -> None:
