@@ -4,28 +4,36 @@ zone     slip zone from coefficients: an edge alone, with the width, with the ot
 near     tractions, slip and friction's work next to an edge
 fit      coefficients from nodal pressures, from full-stick shear, from reaction forces
 elastic  the composite modulus
+rig      loads of a body that give its edge what another contact's has
 both     both edges by the conditions of ../slip/series.py, compiled
 """
 
+from ..types import Edges
 from .elastic import E_star, EdgeWarning, dundurs
 from .fit import K_N_from_loads, PressureFit, ShearFit, fit_pressure, fit_stuck_shear
 from .near import Peak, Tractions, peak, reach, slip_range, tractions, work
+from .rig import Edge, Rig, describe, match
 from .zone import OtherEdge, Pressure, SlipZone, slip_zone
 
 __all__ = [
     "E_star",
+    "Edge",
     "EdgeWarning",
+    "Edges",
     "K_N_from_loads",
     "OtherEdge",
     "Peak",
     "Pressure",
     "PressureFit",
+    "Rig",
     "ShearFit",
     "SlipZone",
     "Tractions",
+    "describe",
     "dundurs",
     "fit_pressure",
     "fit_stuck_shear",
+    "match",
     "peak",
     "reach",
     "slip_range",

@@ -1,0 +1,213 @@
+"""Loads of a rig: by hand, against the exact slip zones of the prototype, and what is refused."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from generated import flat_rounded, hertz, wedge, wedge_parabola
+from generated.edge import Edge, Edges, describe, match
+from generated.hertz import Regime
+
+F = 0.5
+STEEL = {"E_star": 115e9}
+PADS = {"R": 0.15, "b": 1e-3}
+"""Of the prototype, a flat with rounded edges."""
+
+END = flat_rounded.contact(2.6e6, 700.0, **STEEL, **PADS)
+
+
+def prototype(part: float, moving: bool = False, dsigma: float = 5e7) -> tuple[Any, Any, Any]:
+    """Contacts, both edges and exact slip zones of a prototype under a part of its changes."""
+    first = END
+    if moving:
+        first = flat_rounded.contact(2.6e6 * (1 - 0.05 * part), 700.0, **STEEL, **PADS)
+    shear = 6e5 * part, dsigma * part
+    at = END.a, END.c
+    K_N, L_N = (of(*at, **STEEL, **PADS) for of in (flat_rounded.K_N, flat_rounded.L_N))
+    K_T, L_T = flat_rounded.K_T(*at, *shear), flat_rounded.L_T(*at, *shear)
+    moves = END.a - first.a, END.c - first.c
+    edges = Edges(
+        *(
+            Edge(*(float(v) for v in row), side=side)
+            for *row, side in zip(K_N, K_T, moves, L_N, L_T, ("left", "right"), strict=True)
+        )
+    )
+    zone = flat_rounded.stick_zone(first, END, *shear, f=F, **STEEL, **PADS)
+    d = Edges(float(END.a - zone.m), float(END.c - zone.n))
+    return (first, END), edges, d
+
+
+# ---------------------------------------------------------------- by hand
+
+
+def test_a_cylinder_by_hand() -> None:
+    """K_N = E* sqrt(h)/(2 R), P = pi E* h**2/(16 R), K_T = dQ/(pi sqrt(h)), E* = R = 1.
+
+    K_N = 1 asks h = 4, P = pi; K_T = 0.1 asks dQ = 0.2 pi; the edge moves by 0.1: h was 3.8.
+    """
+    rig = match(Edge(1.0, 0.1, da=0.1), hertz, f=F, E_star=1.0, R=1.0)
+    assert_allclose((rig.P, rig.M, rig.dQ, rig.dsigma), (np.pi, 0, 0.2 * np.pi, 0), rtol=1e-9)
+    assert_allclose((rig.second.a, rig.second.c), (2, 2), rtol=1e-9)
+    assert_allclose((rig.dP, rig.dM), (np.pi * (1 - 0.95**2), 0), rtol=1e-9)
+    assert rig.met == ("K_N (left)", "K_T (left)", "da (left)") and rig.missed == ()
+    assert rig.warning == "" and rig.parameters == {"R": 1.0}
+
+
+def test_a_free_radius_by_hand() -> None:
+    """L_N = -K_N/(2 h): K_N = 1 and L_N = -1/2 ask h = 1, and R = E* sqrt(h)/(2 K_N) = 1/2.
+
+    K_T = 0.1, L_T = 0.1: force 0.1, pull (0.1 - 0.2)/4; dQ = pi 0.125, dsigma = -0.2.
+    """
+    wished = Edge(1.0, 0.1, L_N=-0.5, L_T=0.1)
+    rig = match(wished, hertz, f=F, E_star=1.0, free="R")
+    assert_allclose(rig.parameters["R"], 0.5, rtol=1e-9)
+    assert_allclose((rig.dQ, rig.dsigma), (0.125 * np.pi, -0.2), rtol=1e-9)
+    assert_allclose(rig.next_order.left, 0, atol=1e-9)
+    right = match(wished._replace(side="right"), hertz, f=F, E_star=1.0, free="R")
+    assert_allclose((right.dQ, right.dsigma), (0.125 * np.pi, 0.2), rtol=1e-9)
+    assert_allclose(right.d.right, rig.d.left, rtol=1e-9)
+
+
+def test_both_edges_of_the_same_body_give_its_own_loads() -> None:
+    (_, end), edges, d = prototype(0.5, moving=True)
+    rig = match(edges, flat_rounded, f=F, **STEEL, **PADS)
+    assert_allclose((rig.P, rig.M), (2.6e6, 700.0), rtol=1e-6)
+    assert_allclose((rig.dQ, rig.dsigma, rig.dP), (3e5, 2.5e7, 0.025 * 2.6e6), rtol=1e-6)
+    assert_allclose(rig.dM, 0, atol=1e-3)
+    assert_allclose(rig.d, d, rtol=1e-6)
+    assert_allclose(rig.second, end, rtol=1e-6)
+    assert rig.missed == () and len(rig.met) == 10
+
+
+def test_both_edges_on_another_body() -> None:
+    """A wedge has two numbers free: both K_N, both moves and both K_T are met."""
+    _, edges, _ = prototype(0.2, moving=True)
+    rig = match(edges, wedge, f=F, **STEEL, phi=0.02)
+    had = wedge.K_N(rig.second.a, rig.second.c, **STEEL, phi=0.02)
+    assert_allclose(had, (edges.left.K_N, edges.right.K_N), rtol=1e-8)
+    moved = rig.second.a - rig.first.a, rig.second.c - rig.first.c
+    assert_allclose(moved, (edges.left.da, edges.right.da), rtol=1e-8)
+    K_T = wedge.K_T(rig.second.a, rig.second.c, rig.dQ, rig.dsigma)
+    assert_allclose(K_T, (edges.left.K_T, edges.right.K_T), rtol=1e-9)
+    at = wedge.contact(rig.P - rig.dP, rig.M - rig.dM, **STEEL, phi=0.02)
+    assert_allclose(at, rig.first, rtol=1e-7)
+    assert len(rig.missed) == 4 and all("L_" in words for words in rig.missed)
+
+
+def test_a_body_without_symmetry_keeps_its_moment_at_zero() -> None:
+    law = dict(**STEEL, phi=0.05, R=0.1)
+    rig = match(Edge(2.4e10, 2e6, da=2e-5), wedge_parabola, f=F, **law)
+    for P, at in ((rig.P, rig.second), (rig.P - rig.dP, rig.first)):
+        assert_allclose(wedge_parabola.contact(P, 0.0, **law), at, rtol=1e-6)
+    assert_allclose(rig.second.a - rig.first.a, 2e-5, rtol=1e-9)
+
+
+def test_shear_the_other_way_is_turned() -> None:
+    one, other = (match(Edge(1.0, K_T), hertz, f=F, E_star=1.0, R=1.0) for K_T in (0.1, -0.1))
+    assert one.dQ == other.dQ > 0 and one.d == other.d
+    assert_allclose(other.edges.left.K_T, -0.1, rtol=1e-9)
+
+
+# ---------------------------------------------------------------- the promise
+
+
+@pytest.mark.parametrize("moving", [False, True])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_slip_zones_agree_to_the_second_order(side: str, moving: bool) -> None:
+    """They differ by d**2: a quarter of it for half of d.  Exact ones on both sides."""
+    for free, wishes in (({"R": 0.1}, {"L_N": None, "L_T": None}), ({"free": "R"}, {})):
+        lengths, off = [], []
+        for part in (0.4, 0.2, 0.1, 0.05):
+            _, edges, d = prototype(part, moving)
+            wished = getattr(edges, side)._replace(**wishes)
+            rig = match(wished, hertz, f=F, **STEEL, **free)
+            assert not any("K_" in words or "da" in words for words in rig.missed)
+            lengths.append(getattr(d, side))
+            off.append(abs(getattr(rig.d, side) - getattr(d, side)))
+        slopes = np.diff(np.log(off)) / np.diff(np.log(lengths))
+        assert np.all(np.abs(slopes - 2) < 0.25), slopes
+        assert abs(slopes[-1] - 2) < 0.1
+
+
+def test_the_work_of_friction_agrees_to_the_first_order() -> None:
+    """By quadrature of f p times the exact slip range in the left slip zone; d**3 of it."""
+    u, weights = np.polynomial.legendre.leggauss(40)
+    s, weights = ((u + 1) / 2) ** 2, weights * (u + 1) / 2  # the root of p becomes smooth
+
+    def work(body: Any, at: Any, d: float, shear: Any, law: Any) -> float:
+        x = s * d - at.a
+        slip = body.slip_range(x, at, at, *shear, f=F, **STEEL, **law)
+        return float(
+            2 * F * d * np.sum(weights * body.pressure(x, at.a, at.c, **STEEL, **law) * slip)
+        )
+
+    lengths, off = [], []
+    for part in (0.2, 0.1, 0.05):
+        _, edges, d = prototype(part)
+        rig = match(edges.left._replace(L_N=None, L_T=None), hertz, f=F, **STEEL, R=0.1)
+        true = work(flat_rounded, END, d.left, (6e5 * part, 5e7 * part), PADS)
+        mine = work(hertz, rig.second, rig.d.left, (rig.dQ, rig.dsigma), rig.parameters)
+        lengths.append(d.left)
+        off.append(abs(mine / true - 1))
+    assert np.all(np.abs(np.diff(np.log(off)) / np.diff(np.log(lengths)) - 1) < 0.2), off
+
+
+# ---------------------------------------------------------------- what is told
+
+
+def test_a_rig_that_slides_says_so() -> None:
+    rig = match(Edge(1.0, 3.0), hertz, f=F, E_star=1.0, R=1.0)
+    assert rig.regime == Regime.SLIDING and "slides" in rig.warning and np.isnan(rig.d.left)
+
+
+def test_a_long_slip_zone_and_full_stick_are_warned_of() -> None:
+    assert "large part" in match(Edge(1.0, 0.5), hertz, f=F, E_star=1.0, R=1.0).warning
+    assert "nothing slips" in match(Edge(1.0, 0.01, da=0.1), hertz, f=F, E_star=1.0, R=1.0).warning
+
+
+def test_a_rig_in_words() -> None:
+    wished = Edge(1.0, 0.1, L_N=-0.2, L_T=0.01)
+    words = describe(match(wished, hertz, f=F, E_star=1.0, R=1.0))
+    assert "not met: L_N (left) is -0.125 where -0.2 is wished" in words
+    assert "met: K_N (left), K_T (left), da (left), L_T (left)" in words
+    assert "slip zone" in words and "R = 1" in words and " %" in words
+
+
+@pytest.mark.parametrize(
+    ("edge", "given", "words"),
+    [
+        (Edge(-1.0, 0.1), {}, "K_N must be positive"),
+        (Edge(1.0, np.nan), {}, "K_T must be one number"),
+        (Edge(1.0, np.ones(2)), {}, "K_T must be one number"),  # type: ignore[arg-type]
+        (Edge(1.0, 0.1, side="top"), {}, "side must be 'left' or 'right'"),
+        (Edge(1.0, 0.1), {"f": 0.0}, "f must be positive"),
+        (Edge(1.0, 0.1), {"R": None}, "R must be one number"),
+        (Edge(1.0, 0.1), {"S": 2.0}, "parameters are R; got R, S"),
+        (Edge(1.0, 0.1), {"free": "R"}, "parameters are none; got R"),
+        (Edge(1.0, 0.1), {"free": "b"}, "free must be one of R; got 'b'"),
+        (Edge(1.0, 0.1, da=3.0), {}, "no load of this body does"),
+        (Edges(Edge(1.0, 0.1), Edge(2.0, 0.1)), {}, "match one edge alone"),
+    ],
+)
+def test_what_is_refused(edge: Any, given: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        match(edge, hertz, **({"f": F, "E_star": 1.0, "R": 1.0} | given))
+
+
+def test_a_free_radius_needs_a_wish_that_can_be() -> None:
+    with pytest.raises(ValueError, match="give L_N of an edge, or R itself"):
+        match(Edge(1.0, 0.1), hertz, f=F, E_star=1.0, free="R")
+    with pytest.raises(ValueError, match="give R in place of L_N"):  # a cylinder's is negative
+        match(Edge(1.0, 0.1, L_N=0.5), hertz, f=F, E_star=1.0, free="R")
+    with pytest.raises(ValueError, match="the nearest has K_N"):
+        match(Edge(2.1e10, 2e6, side="right"), wedge_parabola, f=F, **STEEL, phi=0.05, R=0.1)
+
+
+def test_what_is_no_edge_and_no_body() -> None:
+    with pytest.raises(TypeError, match="generated body"):
+        match(Edge(1.0, 0.1), np, f=F, E_star=1.0)
+    for given in (1.0, (1.0, 0.1), Edges(1.0, 0.1)):
+        with pytest.raises(TypeError, match="edge must be an Edge"):
+            match(given, hertz, f=F, E_star=1.0, R=1.0)  # type: ignore[arg-type]
