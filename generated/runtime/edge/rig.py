@@ -245,7 +245,7 @@ def _positive(value: Any, name: str) -> float:
 
 def _wishes(edge: Any) -> dict[str, Edge]:
     """What each edge is to have, as numbers."""
-    pair = isinstance(edge, Edges)
+    pair = hasattr(edge, "left") and hasattr(edge, "right")  # Edges of any package
     given = dict(zip(SIDES, edge, strict=True)) if pair else {getattr(edge, "side", None): edge}
     for side, one in given.items():
         if not isinstance(one, Edge):
