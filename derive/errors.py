@@ -382,8 +382,8 @@ class UnknownClaim(UserError):
 
 
 @dataclass
-class BadClaimsFile(UserError):
-    """A claims file that cannot be read, or says something of a claim that it cannot."""
+class _BadFile(UserError):
+    """A file that is not what a command reads."""
 
     given: str
     why: str
@@ -393,6 +393,14 @@ class BadClaimsFile(UserError):
     def message(self) -> str:
         """What is wrong with the file, and where."""
         return f"{self.given}: {self.why}; {self.remedy}"
+
+
+class BadClaimsFile(_BadFile):
+    """A claims file that cannot be read, or says something of a claim that it cannot."""
+
+
+class BadTable(_BadFile):
+    """A table that cannot be read, or is none of a contact."""
 
 
 @dataclass

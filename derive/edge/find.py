@@ -9,7 +9,8 @@ from math import hypot, nan
 
 import numpy as np
 
-from derive.edge.table import BadTable, Step
+from derive.edge.table import Step
+from derive.errors import BadTable
 from derive.runtime.edge import (
     OtherEdge,
     Pressure,

@@ -4,7 +4,7 @@ import csv
 import io
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
-from math import floor, log10
+from math import floor, isfinite, log10
 
 import numpy as np
 
@@ -27,13 +27,15 @@ PAGE = """<!doctype html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="generator" content="derive show --html">
+<meta name="generator" content="derive edge --html">
 <title>{title}</title>
 <style>
 body {{ font: 16px/1.5 sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }}
-table {{ border-collapse: collapse; }}
+.wide {{ overflow-x: auto; }}
+table {{ border-collapse: collapse; white-space: nowrap; }}
 th, td {{ text-align: right; padding: 0.2rem 0.6rem; border-bottom: 1px solid #ccc; }}
-svg {{ max-width: 100%; height: auto; font: 12px sans-serif; }}
+h1 {{ overflow-wrap: anywhere; }}
+svg {{ width: 100%; min-width: 30rem; max-width: 50rem; font: 12px sans-serif; }}
 </style>
 </head>
 <body>
@@ -45,8 +47,12 @@ svg {{ max-width: 100%; height: auto; font: 12px sans-serif; }}
 
 
 def _pm(value: float, error: float, scale: float) -> str:
-    """A number with one standard deviation."""
-    return f"{scale * value:.5g} +- {scale * error:.1g}"
+    """A number with one standard deviation, to two digits of that."""
+    value, error = scale * value, scale * error
+    if not (error > 0 and isfinite(value)):
+        return f"{value:.5g} +- {error:.1g}"
+    digits = 1 - floor(log10(error))
+    return f"{round(value, digits):.{max(digits, 0)}f} +- {round(error, digits):.{max(digits, 0)}f}"
 
 
 def edge_rows(found: Findings) -> list[tuple[str, ...]]:
@@ -71,7 +77,7 @@ def zone_rows(found: Findings) -> list[tuple[str, ...]]:
         (
             zone.side,
             _pm(zone.K_T, zone.K_T_error, 1e-6 * 1000**0.5),
-            f"{1e6 * zone.da:.4g}",
+            f"{1e6 * zone.da + 0.0:.4g}",
             _pm(zone.d, zone.error, 1e6),
             f"{1e6 * zone.series:.1g}",
             str(zone.order),
@@ -152,7 +158,8 @@ def _table(head: Iterable[str], rows: Iterable[Sequence[str]]) -> str:
         shown = (escape(cell).replace("+-", "±") for cell in cells)
         return "<tr>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in shown) + "</tr>"
 
-    return f"<table>{line(head, 'th')}{''.join(line(row, 'td') for row in rows)}</table>"
+    lines = f"{line(head, 'th')}{''.join(line(row, 'td') for row in rows)}"
+    return f'<div class="wide"><table>{lines}</table></div>'
 
 
 WIDTH, HEIGHT, LEFT, BOTTOM, MARGIN = 640, 360, 70, 45, 15
@@ -185,7 +192,10 @@ def _picture(e: Found, step: Step, d: float) -> str:
         )
         return f'<polyline points="{points}" fill="none" {style}/>'
 
-    parts = [f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="pressure at an edge">']
+    parts = ['<div class="wide">']
+    parts.append(
+        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="pressure at an edge">'
+    )
     base = HEIGHT - BOTTOM
     for x in _ticks(near, far):
         at = f"{across(x):.1f}"
@@ -208,7 +218,7 @@ def _picture(e: Found, step: Step, d: float) -> str:
     parts.append(f"<text {below}>distance from the edge [mm]</text>")
     beside = f'transform="translate(16 {HEIGHT / 2}) rotate(-90)" text-anchor="middle"'
     parts.append(f"<text {beside}>pressure [MPa]</text>")
-    parts.append("</svg>")
+    parts.append("</svg></div>")
     legend = "dots: nodes; dashed: K_N sqrt(s); blue: with L_N s^1.5"
     return "\n".join(parts) + f"\n<p>{legend}</p>"
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from derive.errors import UserError
+from derive.errors import BadTable
 
 LARGEST = 20_000_000
 """Bytes of a file."""
@@ -44,20 +44,6 @@ MEANT = {"x": "the place along the interface", "p": "the contact pressure"}
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?nan|[+-]?inf(inity)?", re.I)
 _COMMENT = re.compile(r"(#|!|%|//|\*\*)")
 _UNIT = re.compile(r"[\[(]\s*([^\])]*?)\s*[\])]")
-
-
-@dataclass
-class BadTable(UserError):
-    """A table that cannot be read, or is none of a contact."""
-
-    given: str
-    why: str
-    remedy: str
-
-    @property
-    def message(self) -> str:
-        """What is wrong with the table, and where."""
-        return f"{self.given}: {self.why}; {self.remedy}"
 
 
 @dataclass(frozen=True)

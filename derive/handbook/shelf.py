@@ -8,8 +8,8 @@ from pathlib import Path
 
 from derive.errors import BadPage
 
-MARK = '<meta name="generator" content="derive show --html">'
-"""What a page made here holds, so that it may be replaced."""
+MARK = '<meta name="generator" content="derive '
+"""What a page made by a command of this package holds, so that it may be replaced."""
 
 
 def put_page(text: str, path: Path) -> None:

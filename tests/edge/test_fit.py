@@ -15,10 +15,19 @@ BODIES = {
     "hertz": ({"E_star": 1.0, "R": 1.0}, 1.3, 0.7),
     "wedge": ({"E_star": 1.0, "phi": 1.0}, 0.75, 1.25),
     "flat_rounded": ({"E_star": 1.0, "R": 1.0, "b": 0.6}, 1.0, 0.9),
-    "two_radii": ({"E_star": 1.0, "R_1": 1.0, "R_2": 1.0, "b": 0.5}, 1.0, 1.0),
+    "two_radii": ({"E_star": 1.0, "R_1": 1.0, "R_2": 2.0}, 1.0, 1.0),
     "quartic": ({"E_star": 1.0, "D": 1.0}, 1.0, 1.0),
 }
 """Kinks far and near, tilted ones; the constants that a body does not have are left out."""
+
+
+JUDGES = {
+    "hyperbola": ({"E_star": 1.0, "R": 1.0, "phi": 0.5}, 1.3, 0.8),
+    "parabola_quartic": ({"E_star": 1.0}, 0.9, 1.2),
+    "wedge_parabola": ({"E_star": 1.0, "phi": 0.5, "R": 1.0}, 0.8, 1.1),
+    "circular_arc": ({"E_star": 1.0, "R": 3.0}, 1.2, 0.9),
+}
+"""Bodies on which nothing of the fit was chosen."""
 
 
 class Draws(NamedTuple):
@@ -34,7 +43,7 @@ class Draws(NamedTuple):
 def draws(name: str, elements: int, count: int, seed: int = 0) -> Draws:
     """Tables of one body with 1 % noise, the mesh anywhere."""
     body = importlib.import_module(f"generated.{name}")
-    law, a, c = BODIES[name]
+    law, a, c = (BODIES | JUDGES)[name]
     law = {k: v for k, v in law.items() if k == "E_star" or k in body._BODY.names}
     if missing := set(body._BODY.names) - law.keys():
         law |= dict.fromkeys(missing, 1.0)
@@ -56,8 +65,16 @@ def draws(name: str, elements: int, count: int, seed: int = 0) -> Draws:
 @pytest.mark.parametrize("elements", [20, 40])
 @pytest.mark.parametrize("name", BODIES)
 def test_the_error_stated_covers_the_truth(name: str, elements: int) -> None:
-    """In 95 of 100 draws where nothing is warned of; 60 draws: two of them more may miss."""
+    """In 95 of 100 draws; 60 draws: two of them more may miss."""
     of = draws(name, elements, 60)
+    assert np.all(of.found)
+    for covered in of.covered:
+        assert np.sum(covered) >= 55
+
+
+@pytest.mark.parametrize("name", JUDGES)
+def test_it_covers_the_truth_of_bodies_that_had_no_part_in_it(name: str) -> None:
+    of = draws(name, 40, 60, seed=4242)
     assert np.all(of.found)
     for covered in of.covered:
         assert np.sum(covered) >= 55
@@ -69,15 +86,16 @@ def test_the_error_stated_covers_the_truth(name: str, elements: int) -> None:
 def test_the_median_comes_close(elements: int, limit: float, wedge: float) -> None:
     """Of each body; a wedge, infinite at its kink, is the hardest, and warned of at 20 elements."""
     for name in BODIES:
-        of = draws(name, elements, 30, seed=1)
+        of = draws(name, elements, 1200 // elements, seed=1)
         assert np.median(of.edge) < 0.3
         assert np.median(of.K_N) < (wedge if name == "wedge" else limit)
 
 
 @pytest.mark.parametrize("name", BODIES)
 def test_a_coarse_mesh_is_warned_of(name: str) -> None:
-    of = draws(name, 10, 20)
-    assert np.mean(of.warned) > 0.7
+    """Where K_N is not known to 5 %, as with 20 elements."""
+    for elements in (10, 20):
+        assert np.all(draws(name, elements, 12).warned)
 
 
 def test_a_kink_next_to_the_edge_is_warned_of() -> None:

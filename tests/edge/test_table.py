@@ -9,7 +9,8 @@ from numpy.testing import assert_allclose
 
 from derive.cli import main
 from derive.edge.find import find
-from derive.edge.table import BadTable, read
+from derive.edge.table import read
+from derive.errors import BadTable
 from generated import flat_rounded
 from generated.runtime.types import Contact
 from tests.edge import example

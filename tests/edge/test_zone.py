@@ -190,7 +190,7 @@ def test_it_broadcasts() -> None:
     ("given", "words"),
     [
         ({"order": 2}, "order 2 needs L_N and L_T"),
-        ({"order": 4}, "order must be 1 to"),
+        ({"order": 9}, "order must be 1 with the coefficients given; got 9"),
         ({"L_N": 1.0, "L_T": 1.0, "N_N": 1.0, "N_T": 1.0, "h": 1.0, "order": 3}, "1 to 2"),
         ({"other": OtherEdge(1.0, 1.0)}, "give h, too"),
         ({"other": OtherEdge(1.0, 1.0), "h": 1.0, "L_T": 1.0}, "follow from h and K_T"),

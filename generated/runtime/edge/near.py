@@ -72,8 +72,11 @@ def _read(n: dict[str, Any], order: int) -> _Edge:
     return _Edge(now, shear, n["f"], n.get("da", 0.0), order)
 
 
-def _most(L_N: Any, L_T: Any, N_N: Any, N_T: Any) -> int:
-    return 1 if L_N is None or L_T is None else 2 if N_N is None or N_T is None else 3
+def _order(asked: Any, given: dict[str, Any]) -> int:
+    """The order asked for, or the highest that the coefficients allow."""
+    pairs = (("L_N", "L_T"), ("N_N", "N_T"))
+    known = [all(given[name] is not None for name in pair) for pair in pairs]
+    return _demand_order(asked, 1 + known[0] + all(known))
 
 
 def _pressure(coefficients: Coefficients, s: Any) -> Any:
@@ -173,8 +176,8 @@ def tractions(
     >>> f"{q / p:.3g} and {dq / p:.3g}"  # slips: f and 2 f
     '0.5 and 1'
     """
-    order = _demand_order(order, _most(L_N, L_T, N_N, N_T))
     coefficients = dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T)
+    order = _order(order, coefficients)
     given = _numbers(dict(s=s, **coefficients, da=da, share=share, mean=mean), dict(f=f))
 
     def found(**n: Any) -> Any:
@@ -231,8 +234,8 @@ def slip_range(
     >>> f"{slip_range(0.0, 1e10, 1e6, f=0.5, E_star=1e11):.3g}"
     '3.77e-07'
     """
-    order = _demand_order(order, _most(L_N, L_T, N_N, N_T))
     coefficients = dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T)
+    order = _order(order, coefficients)
     given = _numbers(dict(s=s, **coefficients, da=da), dict(f=f, E_star=E_star))
 
     def found(**n: Any) -> Any:
@@ -271,8 +274,8 @@ def work(
     >>> f"{work(1e10, 1e6, f=0.5, E_star=1e11):.3g}"
     '0.00209'
     """
-    order = _demand_order(order, _most(L_N, L_T, N_N, N_T))
     coefficients = dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T)
+    order = _order(order, coefficients)
     given = _numbers(coefficients, dict(f=f, E_star=E_star))
 
     def found(**n: Any) -> Any:
@@ -316,8 +319,8 @@ def peak(
     >>> f"{s:.3g} m, {q:.3g} Pa"
     '0.0002 m, 7.07e+07 Pa'
     """
-    order = _demand_order(order, _most(L_N, L_T, N_N, N_T))
     coefficients = dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, L_T=L_T, N_T=N_T)
+    order = _order(order, coefficients)
     given = _numbers(dict(**coefficients, mean=mean), dict(f=f))
 
     def found(**n: Any) -> Any:

@@ -164,9 +164,10 @@ def _demand_order(order: Any, most: int) -> int:
     if isinstance(order, bool) or not isinstance(order, int | np.integer):
         raise TypeError(f"order must be a whole number; got {order!r:.60}")
     if not 1 <= order <= most:
+        allowed = "1" if most == 1 else f"1 to {most}"
         raise ValueError(
-            f"order must be 1 to {most} with the coefficients given; got {order}: order 2 needs "
-            "L_N and L_T, order 3 N_N and N_T, too; with the other edge each coefficient of both "
+            f"order must be {allowed} with the coefficients given; got {order}: order 2 needs L_N "
+            "and L_T, order 3 N_N and N_T, too; with the other edge each coefficient of both "
             "pressures, and of `then` where the edges move"
         )
     return int(order)
