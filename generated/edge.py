@@ -4,8 +4,8 @@
 from .runtime.edge import (
     E_star,
     Edge,
-    EdgeWarning,
     Edges,
+    EdgeWarning,
     K_N_from_loads,
     OtherEdge,
     Peak,
@@ -31,8 +31,8 @@ from .runtime.edge import (
 __all__ = [
     "E_star",
     "Edge",
-    "EdgeWarning",
     "Edges",
+    "EdgeWarning",
     "K_N_from_loads",
     "OtherEdge",
     "Peak",

@@ -19,8 +19,8 @@ from .zone import OtherEdge, Pressure, SlipZone, slip_zone
 __all__ = [
     "E_star",
     "Edge",
-    "EdgeWarning",
     "Edges",
+    "EdgeWarning",
     "K_N_from_loads",
     "OtherEdge",
     "Peak",

@@ -477,13 +477,8 @@ def _edges(
     K_N, L_N = (body.of(name, *at, own) for name in ("K_N", "L_N"))
     K_T, L_T = (of(*at, sense * dQ, sense * dsigma) for of in (body.module.K_T, body.module.L_T))
     moves = Edges(second.a - first.a, second.c - first.c)
-    had = [
-        Edge(
-            *(float(getattr(of, side)) for of in (K_N, K_T, moves, L_N, L_T)),
-            side=side,
-        )
-        for side in SIDES
-    ]
+    rows = zip(K_N, K_T, moves, L_N, L_T, SIDES, strict=True)
+    had = [Edge(*map(float, row[:-1]), side=row[-1]) for row in rows]  # type: ignore[misc, arg-type]
     return Edges(*had)
 
 
