@@ -4,7 +4,6 @@
 from .runtime.edge import (
     E_star,
     Edge,
-    Edges,
     EdgeWarning,
     K_N_from_loads,
     OtherEdge,
@@ -31,7 +30,6 @@ from .runtime.edge import (
 __all__ = [
     "E_star",
     "Edge",
-    "Edges",
     "EdgeWarning",
     "K_N_from_loads",
     "OtherEdge",

@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from generated import flat_rounded, hertz, wedge, wedge_parabola
-from generated.edge import Edge, Edges, describe, match
-from generated.hertz import Regime
+from generated.edge import Edge, describe, match
+from generated.hertz import Edges, Regime
 
 F = 0.5
 STEEL = {"E_star": 115e9}

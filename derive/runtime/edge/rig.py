@@ -111,7 +111,7 @@ def match(
         K_N(a, c) = K_N;  a - a_1 = da;  K_T(a, c, dQ, dsigma) = K_T
 
     All are numbers.
-        edge    an Edge, and M = dM = 0; or Edges(left, right) of two, for both edges of the rig
+        edge    an Edge, and M = dM = 0; or a body's Edges(left, right) of two, for both edges
         module  the body: a generated module, such as generated.hertz
         f       coefficient of friction, of both contacts [-]
         E_star  composite modulus of the rig [Pa]
@@ -128,7 +128,7 @@ def match(
     >>> from generated import hertz
     >>> rig = match(Edge(2.5e10, 2e6), hertz, f=0.5, E_star=115e9, R=0.1)
     >>> f"P = {rig.P:.4g} N/m, dQ = {rig.dQ:.4g} N/m, slip zone {1e6 * rig.d.left:.0f} um"
-    'P = 4.267e+05 N/m, dQ = 2.732e+05 N/m, slip zone 190 um'
+    'P = 8.069e+05 N/m, dQ = 2.732e+05 N/m, slip zone 176 um'
     """
     law = _law(module, free, parameters)
     f, E_star = _positive(f, "f"), _positive(E_star, "E_star")
@@ -180,7 +180,7 @@ def describe(rig: Rig) -> str:
     >>> from generated import hertz
     >>> rig = match(Edge(2.5e10, 2e6), hertz, f=0.5, E_star=115e9, R=0.1)
     >>> print(describe(rig).splitlines()[0])
-    P = 426748 N/m, M = 0 N at the end of the half-cycle
+    P = 806894 N/m, M = 0 N at the end of the half-cycle
     """
     own = ", ".join(f"{name} = {value:.6g}" for name, value in rig.parameters.items())
     lines = [

@@ -9,7 +9,6 @@ rig      loads of a body that give its edge what another contact's has
 both     both edges by the conditions of ../slip/series.py, compiled
 """
 
-from ..types import Edges
 from .elastic import E_star, EdgeWarning, dundurs
 from .fit import K_N_from_loads, PressureFit, ShearFit, fit_pressure, fit_stuck_shear
 from .near import Peak, Tractions, peak, reach, slip_range, tractions, work
@@ -19,7 +18,6 @@ from .zone import OtherEdge, Pressure, SlipZone, slip_zone
 __all__ = [
     "E_star",
     "Edge",
-    "Edges",
     "EdgeWarning",
     "K_N_from_loads",
     "OtherEdge",
