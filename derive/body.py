@@ -1,6 +1,6 @@
 """One body at the end of the pipeline, as plain data.
 
-It crosses from process to process and is kept in files, so it holds no expressions.
+It is passed between processes and stored in files, so it holds no expressions.
 """
 
 from collections.abc import Callable
@@ -13,23 +13,23 @@ _PARTS = {
     "from (P, M)": "contact_a",
     "from (P, alpha)": "contact_at_tilt_a",
 }
-"""Parts of a contact law, and the formula that is there if the part is a closed form."""
+"""Parts of a contact law, and the formula whose presence means that the part is closed form."""
 
 
 @dataclass(frozen=True)
 class Body:
-    """What was built of one body.
+    """The result of building one body.
 
     name       the body's name, and its module's
     text       the module
-    stuck      the module that belongs to no body, the same of all
+    stuck      the module of full stick, which is the same for all bodies
     seconds    from reading g(x) to the text
     closed     parts of its contact law that are closed formulas
-    numerical  parts that are not
-    verdicts   every formula with what is known of it
-    proofs     every formula with how that was shown, in words; no default, as pages are made of it
-    struck     what to tell if the search for closed forms was ended by its limit
-    kept       whether an earlier run built it
+    numerical  parts that are computed numerically
+    verdicts   the verdict on every formula
+    proofs     how every formula was proved, in words
+    struck     the message if the search for closed forms reached its time limit
+    kept       whether it comes from an earlier run
     """
 
     name: str
@@ -51,9 +51,9 @@ class Body:
 def by_form(is_closed: Callable[[str], bool]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Which parts of a contact law are closed formulas, and which are not.
 
-    is_closed: whether the formula of this name is one.
+    is_closed: whether the formula of this name is closed.
 
-    What has a closed form by special functions, beside an integral that code evaluates, is both.
+    A part with a closed form in special functions whose integral is evaluated in code is both.
 
     >>> by_form({"load", "contact_a"}.__contains__)
     (('forward', 'from (P, M)'), ('from (P, alpha)',))

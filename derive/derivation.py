@@ -55,10 +55,10 @@ def derive_law(geometry: Geometry) -> FormulaSheet:
 
 
 def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaSheet:
-    """The sheet with the closed forms of its integrals, if rules give them within the time.
+    """The sheet with the closed forms of its integrals, if the rules give them in time.
 
-    They stand on the sheet under names such as load_closed, behind all others; its remark says
-    what was found.  A body whose formulas are closed already is returned as it is.
+    They stand at the end of the sheet under names such as load_closed; its remark says what was
+    found.  A body whose formulas are already closed is returned unchanged.
 
     >>> from derive.library import load_geometry
     >>> sheet = with_closed_forms(derive_sheet(load_geometry("catenary")))
@@ -99,11 +99,11 @@ _SYMPY_GAVE_UP = (
 """What SymPy raises on expressions that it cannot handle."""
 
 NONE_IN_TIME = "No closed form found within"
-"""How the remark begins if the search for closed forms was ended by its limit."""
+"""Start of the remark if the search for closed forms reached its time limit."""
 
 _FOUND = (
-    "Closed forms stand behind the integrals, as load_closed behind load.  Generated code "
-    "evaluates the integrals: they keep digits that closed forms in float64 lose."
+    "Closed forms follow the integrals, as load_closed follows load.  Generated code "
+    "evaluates the integrals, which keep digits that the closed forms lose in float64."
 )
 
 _RULES = "int g' cos(n theta) dtheta, x = mid + (h/2) cos(theta), term by term"
@@ -112,11 +112,12 @@ _RULES = "int g' cos(n theta) dtheta, x = mid + (h/2) cos(theta), term by term"
 def slip_terms(
     sheet: FormulaSheet, edge: Edge, order: int, kappa: tuple[Expr, Expr] = (S.One, S.One)
 ) -> tuple[Expr, ...]:
-    """Terms of order 1, 2, ... of one body's slip zone under constant loads; it is their sum.
+    """Terms of order 1, 2, ... of one body's slip zone under constant loads; the zone is their sum.
 
     kappa: senses of slip at the left and the right edge; 1 and -1 under large, rising tension.
 
-    Raises ValueError for an order below 1, or beyond what is known of a body that is integrated.
+    Raises ValueError for an order below 1, or above that known of a body
+    whose formulas are integrals.
 
     >>> from derive.library import load_geometry
     >>> sheet = derive_sheet(load_geometry("wedge"))
@@ -138,12 +139,12 @@ def slip_terms(
 
 
 def _pressure_terms(sheet: FormulaSheet, edge: Edge, order: int) -> list[Expr]:
-    """K_N, L_N, ... of a body; integrals that are left to quadrature end with L_N."""
+    """K_N, L_N, ... of a body; L_N is the last one where they are integrals."""
     if sheet.geometry.slope.is_polynomial:
         return pressure_series(sheet.frame, edge, order)
     names = [f"{name}_{edge.name.lower()}" for name, *_ in _EDGE_COEFFICIENTS]
     if order > len(names):
-        raise ValueError(f"{sheet.geometry.name!r} has a series to order {len(names)}, not {order}")
+        raise ValueError(f"{sheet.geometry.name!r} has a series to order {len(names)}; got {order}")
     return [sheet[name].expr for name in names[:order]]
 
 
@@ -156,7 +157,7 @@ def _derived(geometry: Geometry, stages: Iterable[Stage]) -> FormulaSheet:
 
 
 def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
-    """The sheet with sums over the parts of a contact beside formulas that lose digits at kinks."""
+    """The sheet with sums over the parts of a contact beside what loses digits at kinks."""
     if not has_parts(sheet.frame):
         return sheet
     parts, known = Parts(sheet.frame), dict(sheet.dimensions)
@@ -171,7 +172,7 @@ def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
 
 
 def _superposed(sheet: FormulaSheet) -> Iterator[Formula]:
-    """What a body of any shape carries, as integrals of its curvature."""
+    """Loads, tilt, pressure and edge coefficients of any shape, as integrals of its curvature."""
     frame, conditions = sheet.frame, contact_conditions(sheet.frame)
     source = f"superposition of wedges; {_CLASSIC}"
     for name, symbol, derive, meaning, unit in (
@@ -215,7 +216,7 @@ def _pressure(sheet: FormulaSheet) -> Iterator[Formula]:
 
 def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
     frame, conditions = sheet.frame, contact_conditions(sheet.frame)
-    if frame.is_long:  # from the edges' side: quotients of long sums would be longer still
+    if frame.is_long:  # from K_N: quotients of long sums would be longer still
         right = sheet["K_N_right"].expr
         ratio, rate = right / sheet["K_N_left"].expr, pi / 2 * sqrt(h) * right
     else:
@@ -261,7 +262,7 @@ def _edge_formula(
 
 
 def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
-    """How loads and tilt change with the edges: by flat punches, for every body alike."""
+    """How loads and tilt change as an edge moves: by a flat punch, for every body alike."""
     conditions = contact_conditions(sheet.frame)
     source = "an edge that moves adds sqrt((a + x)/(c - x)), or its mirror image, to the pressure"
     for edge, symbol, sense in ((Edge.LEFT, a, -1), (Edge.RIGHT, c, 1)):
@@ -405,7 +406,7 @@ _CLOSED = (
 """Stages for a body whose integrals are elementary."""
 
 _LAW = (_equilibrium, _inverses)
-"""Of these, the stages of the contact law alone."""
+"""The stages of the contact law alone."""
 
 _SUPERPOSED = (_superposed, _stick, _slip)
 """Stages for any other body."""

@@ -68,7 +68,7 @@ def _execute(path: Path) -> "Geometry":
     module = importlib.util.module_from_spec(spec)
     keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
-        with _interrupts_told() as interrupted:
+        with _interrupts_noticed() as interrupted:
             spec.loader.exec_module(module)
     except UserError:
         raise
@@ -86,7 +86,7 @@ def _execute(path: Path) -> "Geometry":
 
 
 @contextmanager
-def _interrupts_told() -> Iterator[Callable[[], bool]]:
+def _interrupts_noticed() -> Iterator[Callable[[], bool]]:
     """Whether Ctrl-C was pressed in the block: a KeyboardInterrupt may be the file's own."""
     pressed: list[int] = []
     before = signal.getsignal(signal.SIGINT)

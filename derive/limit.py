@@ -1,10 +1,10 @@
-"""A limit on the time that a search may take.
+"""A time limit for a search.
 
 In:  seconds.
-Out: a block that is left by LimitReached when they are over.
+Out: a block that raises LimitReached when they have passed.
 
-Where the system has alarms, whatever is at work in the main thread is broken off; elsewhere the
-search ends at the next place where it looks at the clock.
+Where the system has alarms, work in the main thread is interrupted; elsewhere the search ends the
+next time it looks at the clock.
 """
 
 import signal
@@ -19,25 +19,25 @@ DEFAULT = 20.0
 """Seconds that the search for the closed forms of one body may take."""
 
 _NO_LIMIT = 1e6
-"""Seconds that no search takes; some systems have no alarm that late."""
+"""Seconds above which no alarm is set; some systems have no alarm that late."""
 
 _AGAIN = 1.0
-"""Seconds until it rings once more, if what was at work has swallowed it."""
+"""Seconds until the alarm rings again, in case the interrupted code has caught the exception."""
 
 _SOON = 0.01
-"""The same where Python itself has: in a finaliser or in what the garbage collector calls."""
+"""The same after a finaliser or the garbage collector, which cannot raise."""
 
 LookAtClock = Callable[[], None]
-"""Raises LimitReached when the time is over."""
+"""Raises LimitReached when the time is up."""
 
 
 class LimitReached(Exception):
-    """The time that a search was given is over."""
+    """The time given to a search is up."""
 
 
 @contextmanager
 def within(seconds: float) -> Iterator[LookAtClock]:
-    """Run a block for so many seconds at most, and no longer than a block around it may run.
+    """Run a block for at most so many seconds, and no longer than an enclosing block may run.
 
     Raises LimitReached.
     """
@@ -73,7 +73,7 @@ def _ring(number: int, frame: FrameType | None) -> None:
 
 @contextmanager
 def _unraisable_again() -> Iterator[None]:
-    """Where nothing can be raised, in finalisers and callbacks, the alarm rings soon once more."""
+    """Where nothing can be raised, in finalisers and callbacks, the alarm rings again soon."""
     before = sys.unraisablehook
 
     def hook(what: "sys.UnraisableHookArgs") -> None:

@@ -1,11 +1,12 @@
-"""Where a function of x may be negative: searched in double precision at thousands of places.
+"""Search, in double precision at thousands of points, for places where a function may be negative.
 
 In:  an expression of x; numbers for its parameters, and the ends of an interval.
-Out: places where it seems to be negative or has no value, few enough to compute each to many
-     digits: double precision alone decides nothing.
+Out: places where it seems to be negative or undefined, few enough to be computed to many digits:
+     double precision alone decides nothing.
 
-Places lie densely at all distances from the origin, from the ends and from where arguments of
-functions vanish or are one, for there narrow features stand.  Between them the search goes down.
+The points lie densely at all distances from the origin, from the ends and from places where the
+arguments of functions are zero or one, since narrow features are found there.  Between the points
+the search descends.
 """
 
 from collections.abc import Iterator, Sequence
@@ -34,21 +35,21 @@ Array = NDArray[np.float64]
 _PER_DECADE = 200
 """Distances from the origin and from the ends; a quarter as many from other marks."""
 _BEYOND = 1000
-"""How far beyond the largest length that is held, and below the least, places are sought."""
+"""Factor by which the search extends beyond the largest length and below the smallest."""
 _DECADES = 16
-"""Spanned by all distances at most."""
+"""Decades that the distances span at most."""
 _EVENLY = 4000
-"""Places at equal distances over the marks."""
+"""Evenly spaced points over the marks."""
 _MARKS = 40
 """Marks at most."""
 _VALLEYS, _STEPS, _ROUNDS = 64, 17, 4
-"""Valleys searched further, places in each, and how often these are drawn together."""
+"""Valleys searched further, points in each, and the number of refinements."""
 _NEGATIVE, _WITHOUT = 24, 4
-"""Runs of places that are told, of negative values and of none."""
+"""Runs of points that are returned: of negative values, and of undefined ones."""
 
 
 class Lows:
-    """The search in one expression, compiled once for all parameters."""
+    """The search for one expression, compiled once for all parameters."""
 
     def __init__(self, expr: Expr, symbols: Sequence[Symbol]) -> None:
         expr = powsimp(expr, combine="exp") if expr.has(exp) else expr  # or exp(1e5) * exp(-1e5)
@@ -56,7 +57,7 @@ class Lows:
         self._polynomials = compiled(symbols, list(_marking(expr)), modules="numpy")
 
     def places(self, given: Sequence[float], lower: float, upper: float) -> list[float]:
-        """Places between two ends where the expression may be negative, the surest first."""
+        """Places between two ends where the expression may be negative, the most certain first."""
         numbers = [np.float64(value) for value in given]
         with np.errstate(all="ignore"):
             places = self._grid(numbers, lower, upper)
@@ -93,13 +94,13 @@ class Lows:
         return places[(places > lower) & (places < upper)]
 
     def _roots(self, numbers: list[np.float64]) -> NDArray[np.complex128]:
-        """Where arguments vanish or are one, beside the axis, too."""
+        """Where arguments are zero or one, complex places included."""
         polynomials = [np.array(each, dtype=float) for each in self._polynomials(*numbers)]
         found = [np.roots(each) for each in polynomials if np.all(np.isfinite(each))]
         return np.concatenate([np.zeros(0, dtype=complex), *found])
 
     def _further(self, places: Array, values: Array, numbers: list[np.float64]) -> Array:
-        """Places within the deepest valleys between the grid's, drawn together around the least."""
+        """Points within the deepest valleys of the grid, refined around the lowest."""
         inner = values[1:-1]
         beside = np.fmax(values[:-2], values[2:])
         valleys = np.flatnonzero((inner <= values[:-2]) & (inner <= values[2:]) & (inner < beside))
@@ -118,7 +119,7 @@ class Lows:
 
 
 def _marking(expr: Expr) -> Iterator[Tuple]:
-    """Polynomials, by their coefficients, whose roots say where a function or a power changes."""
+    """Polynomials, by their coefficients, at whose roots functions or powers change."""
     arguments = {arg for f in expr.atoms(Function) for arg in f.args}
     arguments |= {p.exp for p in expr.atoms(Pow)}
     bases = {p.base for p in expr.atoms(Pow)}
@@ -130,7 +131,7 @@ def _marking(expr: Expr) -> Iterator[Tuple]:
 
 
 def _runs(flags: NDArray[np.bool_]) -> NDArray[np.int_]:
-    """First and last place, the latter left out, of each run of neighbours; the longest first."""
+    """Start and (exclusive) end of each run of neighbours, the longest first."""
     ends = np.flatnonzero(np.diff(np.concatenate(([0], flags.astype(int), [0])))).reshape(-1, 2)
     return ends[np.argsort(ends[:, 0] - ends[:, 1], kind="stable")]
 
@@ -142,6 +143,6 @@ def _lowest(places: Array, values: Array) -> Iterator[float]:
 
 
 def _without_value(places: Array, values: Array) -> Iterator[float]:
-    """The middle of each long run without a value."""
+    """The middle of each long run of undefined values."""
     for first, last in islice(_runs(np.isnan(values)), _WITHOUT):
         yield float(places[(first + last) // 2])

@@ -47,22 +47,22 @@ class Piece:
 
     @cached_property
     def straight(self) -> bool:
-        """Whether the piece is a straight line, on which nothing presses by itself."""
+        """Whether the piece is a straight line, which alone carries no load."""
         return vanishes(self.curvature)
 
 
 def surpluses(demands: tuple[Boolean, ...]) -> dict[Symbol, tuple[Expr, Symbol]]:
-    """Parameters that must lie above a number: that number, and a positive symbol for the rest."""
+    """Parameters with a lower bound: the bound, and a positive symbol for the excess."""
     return {d.gts: (d.lts, Dummy("above", positive=True)) for d in demands if d.gts.is_Symbol}
 
 
 def with_surpluses(expr: Expr, found: dict[Symbol, tuple[Expr, Symbol]]) -> Expr:
-    """`expr` with each of those parameters as what it must exceed, and the rest."""
+    """`expr` with each of those parameters written as its bound plus the excess."""
     return expr.subs({p: least + above for p, (least, above) in found.items()})
 
 
 def step(left: Piece, right: Piece, demands: tuple[Boolean, ...] = ()) -> Expr:
-    """By how much g' rises where two pieces meet."""
+    """The jump of g' where two pieces meet."""
     found = surpluses(demands)
     before, beyond = (
         beside(with_surpluses(piece.slope, found), with_surpluses(right.lower, found), sense)
@@ -75,7 +75,8 @@ def step(left: Piece, right: Piece, demands: tuple[Boolean, ...] = ()) -> Expr:
 def beside(expr: Expr, place: Expr, sense: int) -> Expr:
     """The value of `expr` next to a place, on its right (+1) or left (-1).
 
-    That at the place itself where it has one; else of a simpler form, or its limit.
+    The value at the place itself where there is one; otherwise that of a simpler
+    form, or the limit.
     """
     at_once = expr.subs(x, place)
     if not (at_once.has(nan, zoo, oo, AccumBounds) or any(p.base == 0 for p in at_once.atoms(Pow))):
@@ -87,7 +88,7 @@ def beside(expr: Expr, place: Expr, sense: int) -> Expr:
 
 
 def vanishes(expr: Expr) -> bool:
-    """Whether an expression is zero everywhere; most are not, and one number tells."""
+    """Whether an expression is zero everywhere; for most, one number shows that it is not."""
     symbols = sorted(expr.free_symbols, key=str)
     value = expr.xreplace({symbol: Rational(3 * i + 5, 7) for i, symbol in enumerate(symbols)})
     return bool(abs(value.evalf(30, maxn=100)) < 1e-15 and gently(simplify, expr) == 0)

@@ -1,9 +1,9 @@
-"""Reads g(x): which pieces it has, where they meet, and what is switched on there.
+"""Reads g(x): its pieces, where they meet, and what each kink adds.
 
 In:  a SymPy expression of x and positive parameters, with Abs, sign, Max, Min, Heaviside and
      Piecewise in any nesting.
-Out: a `Slope`, g'(x) as that of one reference piece plus a jump at each kink; where it is real, and
-     which parameters make it convex.
+Out: a `Slope`: g'(x) as that of one reference piece plus a jump at each kink, its domain, and the
+     conditions on parameters that make it convex.
 """
 
 from dataclasses import dataclass
@@ -74,10 +74,10 @@ from derive.symbols import a, c, x
 
 _BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
 _JUMPING = (sign, Heaviside, Piecewise)
-"""Branches whose value where they branch may be that of neither side."""
+"""Functions whose value at a branch point may differ from both sides."""
 _SMOOTH = (exp, log, sinh, cosh, tanh, asinh, atan)
 _FIXED = (*_BRANCHING, *_SMOOTH, sin, cos, tan, asin, acos, acosh, atanh, atan2)
-"""Functions of parameters, and of numbers, that proofs can compute to any number of digits."""
+"""Functions of parameters and numbers that proofs can compute to any number of digits."""
 
 
 @dataclass(frozen=True)
@@ -128,12 +128,12 @@ class Slope:
 
     @property
     def least(self) -> dict[Symbol, Expr]:
-        """Numbers above which parameters must lie."""
+        """Lower bounds of parameters."""
         return {d.gts: d.lts for d in self.demands if d.lts.is_number}
 
     @cached_property
     def typical(self) -> dict[Symbol, Rational]:
-        """Values of parameters that meet the demands, where ones would not; above the least."""
+        """Values of parameters that meet the conditions where 1 would not; above the bounds."""
         return typical(self.demands)
 
     @property
@@ -143,16 +143,16 @@ class Slope:
 
     @cached_property
     def limits(self) -> tuple[Expr, Expr]:
-        """g' at both ends of the domain: the tilts -g' there bound what the body can take."""
+        """g' at both ends of the domain: the tilts -g' there bound those that the body can take."""
         if self.is_polynomial:
             return limit(self.pieces[0].slope, x, -oo), limit(self.pieces[-1].slope, x, oo)
         (low, high), (first, last) = self.domain, (self.pieces[0], self.pieces[-1])
         bounds = self._limit(first, low, "+", -oo), self._limit(last, high, "-", oo)
         rises = gently(simplify, bounds[1] - bounds[0]).is_extended_positive
-        return bounds if rises else (-oo, oo)  # what SymPy finds of powers is not always right
+        return bounds if rises else (-oo, oo)  # SymPy's limits of powers are not always right
 
     def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
-        """Limit of g' at an end; `otherwise`, which bounds nothing, where SymPy finds none."""
+        """Limit of g' at an end; `otherwise`, which bounds nothing, if SymPy finds no limit."""
         try:
             slope = gently(simplify, with_surpluses(piece.slope, surpluses(self.demands)))
             found = limit(slope, x, end, side)
@@ -209,7 +209,7 @@ def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
 
 
 def _ends_beyond_origin(piece: Piece) -> bool:
-    """Whether a piece is known to hold the origin or to end right of it, as the last one does.
+    """Whether a piece is known to contain the origin or to end right of it, as the last one does.
 
     The first such piece holds the origin where the kinks' places tell; any other would serve.
     """
@@ -217,7 +217,7 @@ def _ends_beyond_origin(piece: Piece) -> bool:
 
 
 def _with_moduli(g: Expr) -> Expr:
-    """g with roots of squares as moduli, for they hide kinks: sqrt(x**2 - 2 b x + b**2)."""
+    """g with roots of squares as moduli, since they hide kinks: sqrt(x**2 - 2 b x + b**2)."""
     powers = [p for p in g.atoms(Pow) if not p.exp.is_Integer and p.base.is_rational_function(x)]
     found = {p: _without_squares(p) for p in powers if p.base.has(x) and not p.exp.has(x)}
     return g.xreplace({power: value for power, value in found.items() if value != power})
@@ -249,7 +249,7 @@ def _innermost(g: Expr) -> Expr | None:
 
 
 def _arguments(node: Expr) -> list[Expr]:
-    """Expressions whose change of sign changes the branch of `node`."""
+    """Expressions at whose change of sign the branch of `node` changes."""
     if isinstance(node, Max | Min):
         first, *rest = node.args
         return [first - second for second in rest] + [
@@ -277,7 +277,7 @@ def _switching_points(name: str, node: Expr) -> list[Expr]:
 
 
 def _roots(name: str, poly: Poly) -> list[Expr]:
-    """All real roots, every one of them known."""
+    """All real roots; an error if any of them is unknown."""
     found = roots(poly)
     remedy = "write each branch by Abs(x - b), Max(0, x - b) or conditions such as x < b"
     at_origin = sum(times for root, times in found.items() if root == 0)
@@ -338,7 +338,7 @@ def _is_known_positive(difference: Expr) -> bool | None:
 def _squares(difference: Expr) -> Expr | None:
     """p^2 - q^2 r with the sign of p + q sqrt(r), where one of both terms is known to be negative.
 
-    None where there are more roots of sums, or signs that are open.
+    None where there are more roots of sums, or unknown signs.
     """
     roots = [p for p in difference.atoms(Pow) if p.exp == S.Half and p.base.is_Add]
     if len(roots) != 1:
@@ -357,7 +357,7 @@ def _squares(difference: Expr) -> Expr | None:
 
 
 def _order(difference: Expr) -> str:
-    """How a user can say which of two things is larger."""
+    """How a user can say which of two places lies further right."""
     held = {symbol.name for symbol in difference.free_symbols}
     gap = next(word for word in ("gap", "excess", "further") if word not in held)
     for symbol in sorted(difference.free_symbols, key=str, reverse=True):
@@ -380,7 +380,7 @@ def _inside(lower: Expr, upper: Expr) -> Expr:
 def _in_between(expr: Expr, lower: Expr, upper: Expr) -> Expr:
     """What has the sign of a polynomial between two places, where it has no root.
 
-    Its first coefficient far out, its value in the middle: no length is compared with one metre.
+    Its leading coefficient far out, else its value in the middle: no length is compared with 1 m.
     """
     if not expr.has(x) or (lower == -oo and upper == oo):
         return simplify(expr.subs(x, 0))
@@ -458,7 +458,7 @@ def _demand_known_functions(name: str, pieces: list[Piece]) -> None:
 
 
 def _demand_known_numbers(name: str, pieces: list[Piece]) -> None:
-    """Refuse numbers such as EulerGamma where the proofs integrate what holds them."""
+    """Refuse numbers such as EulerGamma in a profile that the proofs integrate."""
     if all(piece.profile.is_polynomial(x) for piece in pieces):
         return
     held = set().union(*(piece.profile.atoms(NumberSymbol) for piece in pieces)) - {pi, E}
@@ -467,7 +467,7 @@ def _demand_known_numbers(name: str, pieces: list[Piece]) -> None:
 
 
 def _not_computed(name: str, held: Expr) -> BadProfile:
-    """What is to be said of what proofs cannot compute to any number of digits."""
+    """The error for what proofs cannot compute to any number of digits."""
     remedy = (
         "write a parameter in its place and give its value in the call, or the number itself, such "
         "as Rational('0.577')"
@@ -476,7 +476,7 @@ def _not_computed(name: str, held: Expr) -> BadProfile:
 
 
 def _demand_finite(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> None:
-    """Refuse a pole, or the place of a logarithm, anywhere but at the ends of the domain."""
+    """Refuse a pole or a logarithmic singularity anywhere but at the ends of the domain."""
     for piece in pieces:
         for place in _branch_points(piece.profile):
             for sense, end in ((1, piece.upper), (-1, piece.lower)):
@@ -516,7 +516,7 @@ def _demand_continuous(name: str, pieces: list[Piece]) -> None:
 
 
 def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
-    """Refuse a value at one place alone, such as Piecewise((-b, Eq(x, 0)), (x**2/R, True))."""
+    """Refuse a value at a single place, such as Piecewise((-b, Eq(x, 0)), (x**2/R, True))."""
     if not any(node.has(x) for node in g.atoms(*_JUMPING)):
         return
     for left, right in pairwise(pieces):
@@ -527,7 +527,7 @@ def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
             raise BadProfile(
                 name,
                 f"has the value {here} at x = {right.lower} alone, {near[0]} beside it",
-                "a profile is continuous: leave out the condition that holds there only",
+                "a profile is continuous: leave out the condition that holds at this place only",
             )
 
 
@@ -550,7 +550,7 @@ def _reach(piece: Piece, upper: bool) -> Expr:
 
 
 def _branch_points(profile: Expr) -> list[Expr]:
-    """Where a power that is no natural number, or a logarithm, has base zero; complex ones, too."""
+    """Zeros, complex ones too, of what log takes and of bases whose power is no natural number."""
     bases = {p.base for p in profile.atoms(Pow) if p.base.has(x) and not _is_natural(p.exp)}
     bases |= {p.args[0] for p in profile.atoms(log) if p.args[0].has(x)}
     bases |= {1 + p.args[0] ** 2 for p in profile.atoms(atan) if p.args[0].has(x)}
@@ -563,16 +563,16 @@ def _branch_points(profile: Expr) -> list[Expr]:
 
 
 def has_sharp_power(expr: Expr, place: Symbol) -> bool:
-    """Whether a power in it is infinite, or not smooth, at a place that parameters alone fix.
+    """Whether a power in it is infinite or not smooth at a place fixed by parameters alone.
 
-    Roots that vanish at the edges of a contact hold a and c; they are no feature of the body.
+    Roots that vanish at the edges of a contact contain a and c; they are no feature of the body.
     """
     powers = (p for p in expr.atoms(Pow) if p.base.has(place) and not p.base.has(a, c))
     return any(not p.exp.is_Integer and diff(p.base, place, 2) == 0 for p in powers)
 
 
 def exact(expr: Expr) -> Expr:
-    """`expr` with every decimal number as the fraction that it is in binary."""
+    """`expr` with every float as its exact binary fraction."""
     return expr.xreplace({number: Rational(number) for number in expr.atoms(Float)})
 
 
@@ -581,10 +581,9 @@ def _is_natural(exponent: Expr) -> bool:
 
 
 def breaks_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
-    """Where quadrature must cut the body, and the pieces between.
+    """Where quadrature must split the body, and the pieces between.
 
-    Kinks, and the real parts of singularities that lie beside the axis; a smooth body is cut at the
-    origin.
+    Kinks, and the real parts of complex singularities; a smooth body is split at the origin.
     """
     pieces: list[Piece] = []
     for piece in slope.pieces:

@@ -24,17 +24,17 @@ from derive.units import NUMBER, Dimension, check, dimension_of, parse_unit
 
 @dataclass(frozen=True)
 class Formula:
-    """One derived formula: left = right, with all that a reader needs to trust and use it.
+    """One derived formula: left = right, with all that a reader needs to use and trust it.
 
-    name        by which the sheet is asked for it, e.g. "load"
+    name        its key on the sheet, e.g. "load"
     symbol      left-hand side, e.g. P
     arguments   what it is a function of, e.g. (a, c)
-    expr        right-hand side; may hold the frame's symbols theta_j, w_j, L_j
+    expr        right-hand side; may contain the frame's symbols theta_j, w_j, L_j
     meaning, unit, source
     conditions  assumptions under which it holds
     proof       None until proven
     closes      the formula, an integral, that it is the closed form of; "" for all others
-    computed    the form that is computed, if it is another one: a sum over the parts of a contact
+    computed    the form that is evaluated, if it differs: a sum over the parts of a contact
     """
 
     name: str
@@ -73,7 +73,7 @@ class Formula:
 class FormulaSheet(Mapping[str, Formula]):
     """All formulas of one body, by name and in the order of their derivation.
 
-    remark: what became of the search for closed forms, where integrals are left.
+    remark: the outcome of the search for closed forms, where formulas are integrals.
     """
 
     geometry: Geometry
@@ -92,7 +92,7 @@ class FormulaSheet(Mapping[str, Formula]):
 
     @cached_property
     def dimensions(self) -> dict[Symbol, Dimension]:
-        """Dimension of every symbol that a formula may hold."""
+        """Dimension of every symbol that a formula may contain."""
         known = self.geometry.dimensions | {
             symbol: parse_unit(unit)
             for k in self.frame.kinks
@@ -128,17 +128,17 @@ class FormulaSheet(Mapping[str, Formula]):
         return self.frame.flat(self[name].expr)
 
     def shown(self, name: str) -> Expr:
-        """A formula's right-hand side as printed: roots that are never clipped written out."""
+        """A formula's right-hand side as printed: roots that are never clipped are written out."""
         roots = {k.w: k.root for k in self.frame.kinks if not k.clipped}
         return self[name].expr.xreplace(roots)
 
     @cached_property
     def definitions(self) -> dict[Symbol, Expr]:
-        """The frame's symbols that some formula holds."""
+        """The frame's symbols that any formula contains."""
         return self.defined_in(*self)
 
     def defined_in(self, *names: str) -> dict[Symbol, Expr]:
-        """The frame's symbols that the formulas of these names hold, as they are printed."""
+        """The frame's symbols that the formulas of these names contain, as printed."""
         held = set().union(*(self.shown(name).free_symbols for name in names))
         definitions: dict[Symbol, Expr] = {}
         for k in self.frame.kinks:
@@ -150,7 +150,7 @@ class FormulaSheet(Mapping[str, Formula]):
         return definitions
 
     def is_closed(self, name: str) -> bool:
-        """Whether a formula is here, and is no integral that is left to quadrature."""
+        """Whether a formula is on the sheet and is not an integral for quadrature."""
         return name in self and not self[name].expr.has(Integral)
 
     @cached_property
@@ -183,13 +183,13 @@ class FormulaSheet(Mapping[str, Formula]):
         return f"{self[name].head} = {text_of(self.shown(name))}"
 
     def computed_as(self, name: str) -> str:
-        """The form that is computed as a line of text; "" where it is the formula itself."""
+        """The form that is evaluated, as a line of text; "" where it is the formula itself."""
         formula = self[name]
         return "" if formula.computed is None else f"{formula.head} = {text_of(formula.computed)}"
 
     @cached_property
     def computed_definitions(self) -> dict[Expr, Expr]:
-        """The symbols that the computed forms hold, and the functions that they call."""
+        """The symbols that the evaluated forms contain, and the functions that they call."""
         forms = [f.computed for f in self.values() if f.computed is not None]
         return Parts(self.frame).defined_in(forms) if forms else {}
 
@@ -218,13 +218,13 @@ class FormulaSheet(Mapping[str, Formula]):
 
 
 POSITIVE_LOAD = Gt(P, 0, evaluate=False)
-"""Bodies in contact are pressed together."""
+"""The bodies are pressed together."""
 
 
 def contact_conditions(frame: Frame) -> tuple[Boolean, ...]:
-    """When [-a, c] is a contact: it has a width, and is not inside one straight piece of g.
+    """When [-a, c] is a contact: it has a width and does not lie within one straight piece of g.
 
-    A body that is straight all over the contact carries no load there.
+    A body that is straight over the whole contact carries no load there.
     """
     conditions = []
     for piece in frame.slope.straight_pieces:
@@ -243,12 +243,12 @@ def contact_conditions(frame: Frame) -> tuple[Boolean, ...]:
 
 
 def load_conditions(frame: Frame) -> tuple[Boolean, ...]:
-    """A contact carries a positive load, and any moment that its flanks can take."""
+    """A contact carries a positive load and any moment that its flanks can take."""
     return (POSITIVE_LOAD, *frame.slope.demands)
 
 
 def tilt_conditions(frame: Frame) -> tuple[Boolean, ...]:
-    """The tilt leaves slopes of both signs at the ends of the body, or contact cannot close."""
+    """The tilt leaves slopes of both signs at the body's ends; else the contact cannot close."""
     low, high = frame.slope.limits
     bounds = []
     if high != oo:

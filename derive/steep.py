@@ -1,7 +1,7 @@
-"""Simplifying what holds functions of very different steepness.
+"""Simplifying expressions of functions of very different steepness.
 
-In:  an expression, and what is to be done with it, such as `factor` or `simplify`.
-Out: the same form, found without taking exp(99999 x/b) for a polynomial of that degree in exp(x/b).
+In:  an expression, and an operation such as `factor` or `simplify`.
+Out: its result, without treating exp(99999 x/b) as a polynomial of that degree in exp(x/b).
 """
 
 from collections.abc import Callable
@@ -10,11 +10,11 @@ from math import lcm
 from sympy import Dummy, Expr, Function, Pow, Rational, powsimp
 
 _MOST = 50
-"""Degree up to which functions and powers may be taken for polynomials in the least of them."""
+"""Degree up to which functions and powers may be treated as polynomials in the smallest of them."""
 
 
 def gently(compute: Callable[[Expr], Expr], expr: Expr) -> Expr:
-    """compute(expr); where functions or powers in it are steep, with a symbol for each of them."""
+    """compute(expr); steep functions and powers are replaced by symbols meanwhile."""
     nodes = [node for node in expr.atoms(Function, Pow) if _is_transcendental(node)]
     if _degree(nodes) <= _MOST:
         return compute(expr)
@@ -29,7 +29,7 @@ def _is_transcendental(node: Expr) -> bool:
 
 
 def _degree(nodes: list[Expr]) -> int:
-    """Degree of a polynomial that they could be taken for, from the numbers in their arguments."""
+    """Degree of the polynomial that they would form, from the numbers in their arguments."""
     held = [node.exp if node.is_Pow else node for node in nodes]
     numbers = set().union(*(expr.atoms(Rational) for expr in held))
     common = lcm(*(int(number.q) for number in numbers))

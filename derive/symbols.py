@@ -12,7 +12,7 @@ from sympy import Symbol, sqrt
 
 @dataclass(frozen=True)
 class Quantity:
-    """A symbol with what a reader must know of it."""
+    """A symbol with its meaning and unit."""
 
     symbol: Symbol
     meaning: str
@@ -21,7 +21,7 @@ class Quantity:
 
     @property
     def name(self) -> str:
-        """The name in code and in commands."""
+        """Its name in code and in commands."""
         return str(self.symbol.name)
 
 

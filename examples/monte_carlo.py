@@ -45,7 +45,7 @@ SCATTER: Mapping[str, Callable[[np.random.Generator, int], Any]] = {
     "M": lambda rng, n: rng.normal(100.0, 30.0, n),  # N
     "f": lambda rng, n: rng.lognormal(np.log(0.5), 0.15, n),
 }
-"""What is not known exactly: change this to your own."""
+"""The uncertain inputs: replace them with your own."""
 
 STREAM = 50_000
 """Samples that share a seed."""
@@ -58,7 +58,7 @@ SHORT = {
     "distributed.admin.low-level-log-length": 100,
     "distributed.admin.log-length": 100,
 }
-"""How much of what is done a local cluster remembers: else its memory grows a little all along."""
+"""How much of its past work a local cluster remembers: otherwise its memory grows slowly."""
 
 BINS, LONGEST = 2_000, 500.0
 """Bins of the histogram, from zero to the longest slip zone [um]."""
@@ -160,7 +160,7 @@ def connected(scheduler: str | None, workers: int | None, wait: int) -> Iterator
     """A cluster that is running and answers in so many seconds, or processes of this machine."""
     if scheduler is None:
         local: dict[str, Any] = {"n_workers": workers, "threads_per_worker": 1}
-        local["dashboard_address"] = "127.0.0.1:0"  # any free port: runs do not meet
+        local["dashboard_address"] = "127.0.0.1:0"  # any free port, so that runs do not collide
         local["silence_logs"] = logging.CRITICAL  # what fails is raised here
         with dask.config.set(SHORT), LocalCluster(**local) as cluster, Client(cluster) as client:
             yield client

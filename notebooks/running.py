@@ -1,4 +1,4 @@
-"""Runs the notebooks, and keeps of their outputs what is the same on every machine."""
+"""Runs the notebooks, and keeps those outputs that are the same on every machine."""
 
 import os
 import re
@@ -57,7 +57,7 @@ def run(path: Path) -> NotebookNode:
 
 
 def _environment(folder: str) -> dict[str, str]:
-    """Nothing of the user's own settings; this checkout's packages before those installed."""
+    """None of the user's own settings; this checkout's packages come before those installed."""
     own = {"IPYTHONDIR": folder, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
     threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     dropped = ("MPLBACKEND", "MATPLOTLIBRC", "PYTHONWARNINGS")
@@ -66,7 +66,7 @@ def _environment(folder: str) -> dict[str, str]:
 
 
 def clean(notebook: NotebookNode) -> NotebookNode:
-    """Without what differs from run to run: times, numbers of widgets, the kernel's version."""
+    """Without what differs between runs: times, widget numbers, the kernel's version."""
     notebook.metadata = nbformat.from_dict(_METADATA)
     notebook.nbformat, notebook.nbformat_minor = 4, 5
     for number, cell in enumerate(notebook.cells, start=1):
@@ -98,7 +98,7 @@ def _merged(outputs: list[NotebookNode]) -> Iterator[NotebookNode]:
 
 
 def _steady(output: NotebookNode) -> NotebookNode:
-    """An output without the number of a widget, which is another one each time."""
+    """An output without its widget's number, which differs each time."""
     if "data" in output and _WIDGET in output.data:
         del output.data[_WIDGET]
         output.data["text/plain"] = "(sliders: run this notebook in Jupyter)"
@@ -147,7 +147,7 @@ MACHINE = re.compile(r"(?<![\w.~*/-])/(home|work|tmp|root|Users|opt|mnt|private|
 
 
 def faults(notebook: NotebookNode) -> list[str]:
-    """What no output may hold: errors, warnings, paths of a machine."""
+    """What no output may contain: errors, warnings, paths of a machine."""
     found = [f"a path: {text}" for text in texts(notebook) if MACHINE.search(text)]
     for cell in _code(notebook):
         for output in cell.outputs:
@@ -159,7 +159,7 @@ def faults(notebook: NotebookNode) -> list[str]:
 
 
 def differences(path: Path) -> list[str]:
-    """What a fresh run puts out that is not what is on disk, as lines of a diff; its faults."""
+    """Lines of a diff between the output on disk and that of a fresh run; and its faults."""
     fresh, kept = run(path), read(path)
     before, after = ("\n".join(texts(of)).splitlines() for of in (kept, fresh))
     lines = list(unified_diff(before, after, "as committed", "fresh", lineterm=""))

@@ -1,4 +1,4 @@
-"""What is given to a picture, and cannot be drawn: one clear error each."""
+"""Checks of what is given to a picture: one clear error for each thing that cannot be drawn."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -32,11 +32,11 @@ def demand_contact_of(name: str, body: Any, state: Any, constants: dict[str, flo
     """A Contact of this body and these constants, as far as its pressure and its tilt tell."""
     demand_contact(name, state)
     own = {key: value for key, value in constants.items() if key != "E_star"}
-    tilt, told = float(body.tilt(state.a, state.c, **own)), float(state.alpha)
+    tilt, stated = float(body.tilt(state.a, state.c, **own)), float(state.alpha)
     if np.isnan(tilt):
         found = f"it cannot touch from {-state.a:g} to {state.c:g} m"
-    elif np.isfinite(told) and told and abs(tilt - told) > 1e-6 * max(abs(tilt), abs(told)):
-        found = f"over these edges it is tilted by {tilt:g}, and {name} by {told:g}"
+    elif np.isfinite(stated) and stated and abs(tilt - stated) > 1e-6 * max(abs(tilt), abs(stated)):
+        found = f"over these edges it is tilted by {tilt:g}, and {name} by {stated:g}"
     else:
         return
     raise ValueError(
@@ -63,7 +63,7 @@ def demand_contacts(states: Sequence[Any], labels: Sequence[str]) -> None:
 
 
 def demand_numbers(**given: Array) -> None:
-    """Numbers that are drawn one at a time, by the names that the caller gives them."""
+    """Numbers drawn one at a time, by the caller's names for them."""
     for name, value in given.items():
         if np.ndim(value) or not np.isfinite(value):
             what = f"values in the shape {np.shape(value)}" if np.ndim(value) else f"{value}"
@@ -85,7 +85,7 @@ def demand_signs(dQ: float, f: float) -> None:
 
 
 def demand_row(name: str, values: Array) -> None:
-    """What stands along an axis: two places or more, in one row."""
+    """The values along an axis: two or more, in one row."""
     shape = np.shape(values)
     if len(shape) != 1 or shape[0] < 2:
         raise ValueError(

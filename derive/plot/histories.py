@@ -1,4 +1,4 @@
-"""Any load history: where it slips over time, shear and slip at some instants, work, and a film.
+"""Any load history: its stick-slip map, shear and slip at chosen instants, work, and a film.
 
 What is drawn is what `history` of a generated module returns, for one history and a row of places.
 """
@@ -19,44 +19,48 @@ from derive.plot.tractions import band, key_above, typical
 from derive.plot.zones import AREAS, key, widened
 
 STILL = 1e-9
-"""Slip of an interval that is none, over the most."""
+"""Slip below this fraction of the largest counts as none."""
 
 KINDS = {"stick": STICK, "forward slip": FORWARD, "reverse slip": REVERSE}
 
 
-def _demand_history(told: Any, x: Array) -> None:
+def _demand_history(history: Any, x: Array) -> None:
     """One history, with shear and slip at the places of a row."""
-    if not (hasattr(told, "slip") and hasattr(told, "intervals")):
-        raise ValueError(f"told is {told!r:.60}, which is no History; give what `history` returns")
-    if np.ndim(told.a) != 1:
+    if not (hasattr(history, "slip") and hasattr(history, "intervals")):
+        raise ValueError(f"history is {history!r:.60}, no History; give what `history` returns")
+    if np.ndim(history.a) != 1:
         raise ValueError(
             f"one history is drawn at a time, its instants in one row; got the shape "
-            f"{np.shape(told.a)}: choose one of them, as in History(*(v[0] for v in told))"
+            f"{np.shape(history.a)}: choose one of them, as in History(*(v[0] for v in history))"
         )
     demand_row("x", x)
-    if np.shape(told.slip) != (np.size(told.a), np.size(x)):
-        given = "none" if told.slip is None else f"those of the shape {np.shape(told.slip)}"
+    if np.shape(history.slip) != (np.size(history.a), np.size(x)):
+        given = "none" if history.slip is None else f"those of the shape {np.shape(history.slip)}"
         raise ValueError(
-            f"shear and slip at the {np.size(x)} places of x are drawn, and told holds {given}: "
+            f"shear and slip at the {np.size(x)} places of x are drawn, and history holds {given}: "
             "give the same x to `history`"
         )
 
 
-def _times(told: Any, time: Array | None) -> Array:
-    """Of every instant; numbers from 0 unless they are given."""
-    at = np.arange(np.size(told.a), dtype=float) if time is None else np.asarray(time, dtype=float)
-    if at.shape != np.shape(told.a):
-        raise ValueError(f"{np.size(told.a)} instants need as many times; got {at.shape}")
+def _times(history: Any, time: Array | None) -> Array:
+    """Time of every instant; 0, 1, 2, ... unless it is given."""
+    at = (
+        np.arange(np.size(history.a), dtype=float)
+        if time is None
+        else np.asarray(time, dtype=float)
+    )
+    if at.shape != np.shape(history.a):
+        raise ValueError(f"{np.size(history.a)} instants need as many times; got {at.shape}")
     return at
 
 
-def _steps(told: Any) -> Array:
-    """How far each place slips on the way to every instant but the first."""
-    return np.diff(told.slip, axis=0)
+def _steps(history: Any) -> Array:
+    """How far each place slips in each interval between instants."""
+    return np.diff(history.slip, axis=0)
 
 
 def slip_map(
-    told: Any,
+    history: Any,
     x: Array,
     time: Array | None = None,
     *,
@@ -64,28 +68,28 @@ def slip_map(
     length: Measure | None = None,
     legend: bool = True,
 ) -> Axes:
-    """Where it sticks and which way it slips, position upward, time to the right.
+    """Where the contact sticks and in which direction it slips; position upward, time to the right.
 
-    Each interval between two instants has the colour of what it has slipped, so that any number of
+    Each interval between two instants is coloured by its slip, so that any number of
     stick intervals is seen.
 
-    told    what `history` of a generated module returns, for one history
-    x       the places that it was given, in one row; some two hundred make a smooth map
-    time    of each instant; their numbers, unless it is given
-    length  what x is divided by; the unit that suits, unless it is given
+    history  what `history` of a generated module returns, for one history
+    x        the places that it was given, in one row; some two hundred make a smooth map
+    time     of each instant; 0, 1, 2, ... unless it is given
+    length   what x is divided by; the unit that suits, unless it is given
     """
-    _demand_history(told, x)
-    at, x = _times(told, time), np.asarray(x, dtype=float)
-    length = length or unit(np.append(told.a, told.c), "m")
-    step = _steps(told)
+    _demand_history(history, x)
+    at, x = _times(history, time), np.asarray(x, dtype=float)
+    length = length or unit(np.append(history.a, history.c), "m")
+    step = _steps(history)
     most = np.max(np.abs(step), initial=0.0, where=np.isfinite(step))
     kind = np.where(step > STILL * most, 1, np.where(step < -STILL * most, 2, 0))
-    touching = np.isfinite(told.a)
-    known = np.any(np.isfinite(told.slip), axis=1) & touching
+    touching = np.isfinite(history.a)
+    known = np.any(np.isfinite(history.slip), axis=1) & touching
     shown = (np.isfinite(step) & touching[1:, None]).T
     middle = (x[1:] + x[:-1]) / 2
     edges = np.concatenate([[x[0]], middle, [x[-1]]])
-    low, high = -length(told.a), length(told.c)
+    low, high = -length(history.a), length(history.c)
     least, greatest = float(np.nanmin(low)), float(np.nanmax(high))
     margin = 0.03 * (greatest - least)
     with style():
@@ -124,17 +128,17 @@ def slip_map(
     return axes
 
 
-def _bounds(body: ModuleType, told: Any, x: Array, f: float, constants: Any) -> Array:
-    """f p at the places at every instant; at a corner, where it is infinite, NaN."""
+def _bounds(body: ModuleType, history: Any, x: Array, f: float, constants: Any) -> Array:
+    """f p at all places and instants; NaN at a corner, where it is infinite."""
     if not f > 0:
         raise ValueError(f"f is {f}; give the coefficient of friction that `history` was given")
-    p = body.pressure(np.asarray(x), told.a[:, None], told.c[:, None], **constants)
+    p = body.pressure(np.asarray(x), history.a[:, None], history.c[:, None], **constants)
     return np.where(np.isfinite(p), f * p, np.nan)
 
 
 def instants(
     body: ModuleType,
-    told: Any,
+    history: Any,
     x: Array,
     at: Sequence[int],
     labels: Sequence[str] = (),
@@ -145,12 +149,12 @@ def instants(
     stress: Measure | None = None,
     **constants: float,
 ) -> Sequence[Axes]:
-    """Shear at chosen instants above, within what friction holds; slip so far below.
+    """Shear at chosen instants above, within the friction bounds; slip so far below.
 
     Slip is drawn where the bodies touch at all instants: elsewhere they move freely in between.
 
     body       a generated module
-    told, x    as for `slip_map`
+    history, x as for `slip_map`
     at         numbers of the instants, from 0; -1 is the last one
     labels     what the legend says of each; their numbers, unless they are given
     axes       two Axes, or None for new ones
@@ -158,16 +162,16 @@ def instants(
     stress     what shear is divided by
     constants  E_star and the body's own parameters
     """
-    _demand_history(told, x)
-    x, count = np.asarray(x, dtype=float), np.size(told.a)
+    _demand_history(history, x)
+    x, count = np.asarray(x, dtype=float), np.size(history.a)
     if not len(at) or not all(-count <= i < count for i in at):
         raise ValueError(f"at is {list(at)}; give numbers of instants, of which there are {count}")
     if labels and len(labels) != len(at):
         raise ValueError(f"{len(labels)} labels are given for {len(at)} instants")
-    bound = _bounds(body, told, x, f, constants)
+    bound = _bounds(body, history, x, f, constants)
     chosen = [bound[i] for i in at]
-    touching = (x >= -np.min(told.a)) & (x <= np.min(told.c))
-    slip = np.where(touching, told.slip, np.nan)
+    touching = (x >= -np.min(history.a)) & (x <= np.min(history.c))
+    slip = np.where(touching, history.slip, np.nan)
     length = length or unit(x, "m")
     stress, depth = stress or unit(typical(np.ravel(chosen)), "Pa"), unit(slip, "m")
     with style():
@@ -177,7 +181,7 @@ def instants(
             name = labels[number] if labels else f"instant {range(count)[i]}"
             if number == 0 or not np.allclose(limit, chosen[0], equal_nan=True):
                 band(axes[0], length(x), stress(limit), "" if number else r"$\pm f\,p$")
-            axes[0].plot(length(x), stress(told.q[i]), label=name)
+            axes[0].plot(length(x), stress(history.q[i]), label=name)
             axes[1].plot(length(x), depth(slip[i]))
         highest = 1.15 * float(np.nanmax(typical(stress(np.ravel(chosen)))))
         axes[0].set(ylabel=stress.label("q"), ylim=(-highest, highest))
@@ -186,7 +190,9 @@ def instants(
     return axes
 
 
-def friction_work(body: ModuleType, told: Any, x: Array, *, f: float, **constants: float) -> Array:
+def friction_work(
+    body: ModuleType, history: Any, x: Array, *, f: float, **constants: float
+) -> Array:
     """Friction's work at every place, per area [J/m²].
 
         sum of f (p_1 + p_2)/2 |slip_2 - slip_1| over all intervals between two instants
@@ -194,16 +200,16 @@ def friction_work(body: ModuleType, told: Any, x: Array, *, f: float, **constant
     That is exact while slip goes one way between two instants and the pressure is constant.
     Arguments are those of `instants`.
     """
-    _demand_history(told, x)
-    bound = _bounds(body, told, x, f, constants)
-    step = np.abs(_steps(told))
+    _demand_history(history, x)
+    bound = _bounds(body, history, x, f, constants)
+    step = np.abs(_steps(history))
     still = step == 0
     return np.sum(np.where(still, 0.0, (bound[1:] + bound[:-1]) / 2 * step), axis=0)
 
 
 def work(
     body: ModuleType,
-    told: Any,
+    history: Any,
     x: Array,
     *,
     f: float,
@@ -216,7 +222,7 @@ def work(
 
     Arguments are those of `instants`.
     """
-    done = friction_work(body, told, x, f=f, **constants)
+    done = friction_work(body, history, x, f=f, **constants)
     length, joule = length or unit(x, "m"), unit(done, "J/m²")
     with style():
         if axes is None:
@@ -228,7 +234,7 @@ def work(
 
 def film(
     body: ModuleType,
-    told: Any,
+    history: Any,
     x: Array,
     time: Array | None = None,
     *,
@@ -239,7 +245,7 @@ def film(
     stress: Measure | None = None,
     **constants: float,
 ) -> FuncAnimation:
-    """A film of the shear within friction's bounds, a frame an instant.
+    """A film of the shear within the friction bounds, one frame for each instant.
 
     Its `save` writes a GIF, `to_jshtml` makes a player for a notebook.
 
@@ -247,11 +253,11 @@ def film(
 
     Arguments are those of `instants`, and `time` that of `slip_map`.
     """
-    _demand_history(told, x)
-    at, bound = _times(told, time), _bounds(body, told, x, f, constants)
+    _demand_history(history, x)
+    at, bound = _times(history, time), _bounds(body, history, x, f, constants)
     length, stress = length or unit(x, "m"), stress or unit(typical(np.ravel(bound)), "Pa")
     place, highest = length(x), 1.15 * float(np.nanmax(typical(stress(np.ravel(bound)))))
-    step = np.vstack([np.zeros(np.size(x)), _steps(told)])
+    step = np.vstack([np.zeros(np.size(x)), _steps(history)])
     most = np.max(np.abs(step), initial=0.0, where=np.isfinite(step))
     with style():
         if axes is None:
@@ -273,7 +279,7 @@ def film(
         with style():
             upper.set_data(place, stress(bound[i]))
             lower.set_data(place, -stress(bound[i]))
-            shear.set_data(place, stress(told.q[i]))
+            shear.set_data(place, stress(history.q[i]))
             for way, sign in zip(ways, (1, -1), strict=True):
                 slips = (sign * step[i] > STILL * most) & (bound[i] > 0)
                 way.set_data(place, -stress(bound[i]), stress(bound[i]), where=slips)
@@ -281,4 +287,4 @@ def film(
         return [upper, lower, shear, *ways, word]
 
     figure: Any = axes.figure
-    return FuncAnimation(figure, draw, frames=np.size(told.a), interval=interval, blit=False)
+    return FuncAnimation(figure, draw, frames=np.size(history.a), interval=interval, blit=False)

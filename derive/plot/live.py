@@ -19,7 +19,7 @@ from derive.plot.tractions import peak
 from derive.plot.zones import regime_in_words, senses
 
 PLACES = 241
-"""Places along the contact; few enough for a picture in a moment."""
+"""Points along the contact; few enough to draw without delay."""
 
 STEPS = 200
 """Steps of a slider from nothing to the largest load."""
@@ -60,7 +60,7 @@ class Live:
         self.length, self.stress = unit(self.reach, "m"), unit(self.top, "Pa")
         with style():
             self.figure = Figure(figsize=(8.4, 4.6), dpi=90)
-            # Axes that stay where they are: laying them out anew takes longer than drawing them.
+            # The axes stay in place: a new layout takes longer than drawing them.
             self.figure.set_layout_engine("none")
             self.canvas = FigureCanvasAgg(self.figure)
             self.below = self.figure.add_axes((0.09, 0.11, 0.89, 0.42))
@@ -84,7 +84,7 @@ class Live:
         ]
 
     def show(self, loads: Loads) -> str:
-        """Draw the cycle under these loads; what is to be said of it, in one line."""
+        """Draw the cycle under these loads; returns one line that describes it."""
         state = self.body.contact(loads.P, loads.M, **self.constants)
         law = {"f": loads.f, **self.constants}
         zone = self.body.stick_zone(state, state, loads.dQ, loads.dsigma, **law)
@@ -101,12 +101,12 @@ class Live:
             line.set_data(self.length(x), self.stress(values))
         self._hold(state, p, loads.f)
         self._shade(state, zone, loads.dsigma)
-        return self._told(state, zone, loads)
+        return self._described(state, zone, loads)
 
     def _hold(self, state: Any, p: Array, f: float) -> None:
         """Limits of the axes: those of the largest loads, moved or widened to hold what is drawn.
 
-        The peak of a corner is cut off.
+        The peak at a corner is cut off.
         """
         low, high = -self.reach, self.reach
         if np.isfinite(state.a):
@@ -133,7 +133,7 @@ class Live:
                 span.set_width(float(self.length(end - start)))
                 span.set_color(FORWARD if way > 0 else REVERSE)
 
-    def _told(self, state: Any, zone: Any, loads: Loads) -> str:
+    def _described(self, state: Any, zone: Any, loads: Loads) -> str:
         def lengths(*values: Array) -> str:
             return ", ".join(f"{float(self.length(value)):.4f}" for value in values)
 
@@ -162,7 +162,7 @@ class Live:
 
 
 def _demand_largest(largest: Loads) -> None:
-    """The ends of the sliders: finite, and none below zero."""
+    """The ends of the sliders: finite and not negative."""
     for name, value in largest._asdict().items():
         positive = name in ("P", "dQ", "f")
         allowed = "a positive number" if positive else "a number that is not negative"
@@ -174,7 +174,7 @@ def _demand_largest(largest: Loads) -> None:
 
 
 def _demand_start(start: Loads, largest: Loads) -> None:
-    """Where the sliders begin is between their ends."""
+    """The sliders start between their ends."""
     for name, value in start._asdict().items():
         most = getattr(largest, name)
         least = -most if name in ("M", "dsigma") else 0
@@ -196,7 +196,7 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
 
     live = Live(body, largest, **constants)
     _demand_start(start, largest)
-    picture, told = ipywidgets.Image(format="png"), ipywidgets.HTML()
+    picture, line = ipywidgets.Image(format="png"), ipywidgets.HTML()
     scales = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": ""}
     controls = {}
     for name, of in scales.items():
@@ -220,7 +220,7 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
         )
 
     def follow(_: Any = None) -> None:
-        told.value = live.show(
+        line.value = live.show(
             Loads(**{name: slider.value * size for name, (slider, size) in controls.items()})
         )
         picture.value = live.png()
@@ -231,4 +231,4 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
     rows = ipywidgets.HBox(
         [slider for slider, _ in controls.values()], layout={"flex_flow": "row wrap"}
     )
-    return ipywidgets.VBox([rows, picture, told])
+    return ipywidgets.VBox([rows, picture, line])

@@ -10,10 +10,10 @@ Array = Any
 
 @dataclass(frozen=True)
 class Measure:
-    """By what values are divided before they are drawn.
+    """The unit or quantity by which values are divided before they are drawn.
 
     size   in SI units, e.g. 1e-3, or the half-width of a contact
-    name   how the axis calls it: a unit, or a symbol in LaTeX
+    name   its name on the axis: a unit, or a symbol in LaTeX
     ratio  whether it is a quantity of the problem, and what is drawn a ratio
     """
 
@@ -29,12 +29,12 @@ class Measure:
             )
 
     def __call__(self, values: Array) -> Array:
-        """Values as they are drawn; what is infinite is left out."""
+        """Values as drawn; infinite ones are left out."""
         drawn = np.asarray(values, dtype=float) / self.size
         return np.where(np.isfinite(drawn), drawn, np.nan)
 
     def label(self, symbol: str) -> str:
-        """What stands along the axis.
+        """The axis label.
 
         >>> Measure(1e-3, "mm").label("x"), over(0.5, "a").label("x")
         ('$x$  [mm]', '$x/a$')
@@ -56,7 +56,7 @@ _PREFIXES = {
     "J/m²": ((1e3, "kJ/m²"), (1.0, "J/m²")),
 }
 _LEAST = 0.1
-"""The greatest value drawn is at least that many units."""
+"""The largest value drawn is at least this many units."""
 
 
 def unit(values: Array, of: str) -> Measure:

@@ -1,4 +1,4 @@
-"""How far the series of the slip zones are off from the exact conditions, against their size."""
+"""Errors of the series of the slip zones against the exact conditions."""
 
 from collections.abc import Sequence
 from types import ModuleType
@@ -63,7 +63,7 @@ def errors(
 ) -> Axes:
     """Relative errors of the series against the size of the slip zone, both logarithmic.
 
-    Filled marks are of the left edge, open ones of the right.  Arguments are those of
+    Filled marks are for the left edge, open ones for the right.  Arguments are those of
     `relative_errors`.
     """
     found = relative_errors(body, state, dQ, dsigma, f=f, orders=orders, **constants)

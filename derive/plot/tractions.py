@@ -254,7 +254,7 @@ def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Meas
     if not np.isfinite(zone.m):
         return
     turns = "slip turns round" if int(zone.regime) == MIXED else ""
-    told = set()
+    named = set()
     for (start, end), sense in zip(
         ((-at.a, -zone.m), (zone.n, at.c)), senses(zone, dsigma), strict=True
     ):
@@ -262,16 +262,16 @@ def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Meas
         if not name:
             continue
         for place in axes:
-            label = name if place is axes[-1] and name not in told else None
+            label = name if place is axes[-1] and name not in named else None
             here = float(length(start)), float(length(end))
             place.axvspan(*here, label=label, zorder=0.5, **AREAS[name])
-        told.add(name)
+        named.add(name)
 
 
 def band(axes: Axes, x: Array, limit: Array, label: str) -> None:
     """What friction holds, both ways."""
-    for side, told in ((1, label), (-1, None)):
-        axes.plot(x, side * limit, color="#888888", linewidth=1, label=told)
+    for side, text in ((1, label), (-1, None)):
+        axes.plot(x, side * limit, color="#888888", linewidth=1, label=text)
 
 
 def key_above(axes: Axes) -> None:

@@ -162,7 +162,7 @@ def _map(at: Array, zones: _Zones, axes: Axes | None, length: Measure | None, le
 def _areas(
     zones: _Zones, low: Array, high: Array, start: Array, end: Array
 ) -> Iterator[tuple[str, tuple[Array, Array], Array]]:
-    """What is to be filled: its name, between which lines, and where along the axis."""
+    """An area to fill: its name, the lines between which it lies, and where along the axis."""
     there = np.isfinite(low) & np.isfinite(high)
     known = np.isfinite(start) & np.isfinite(end)
     yield "stick", (low, high), there
@@ -180,7 +180,7 @@ def _areas(
 
 
 def widened(unknown: Array) -> Array:
-    """With a neighbour on either side, so that no gap is left beside what is known."""
+    """Extended by one neighbour on either side, so that no gap is left next to known values."""
     wide = unknown.copy()
     wide[1:] |= unknown[:-1]
     wide[:-1] |= unknown[1:]
@@ -209,7 +209,7 @@ def key(axes: Axes) -> None:
 
 
 def _broken(at: Array, values: Array, sense: tuple[Array, Array]) -> tuple[Array, Array]:
-    """A line with a gap wherever slip begins anew in the other sense."""
+    """A line with a gap wherever slip restarts in the other sense."""
     turns = [np.flatnonzero(np.diff(np.atleast_1d(way)) != 0) + 1 for way in sense]
     gaps = np.unique(np.concatenate(turns))
     return np.insert(at, gaps, np.nan), np.insert(values, gaps, np.nan)
@@ -224,7 +224,7 @@ def boundaries(
     length: Measure,
     label: str | None = None,
 ) -> None:
-    """Both ends of a stick zone by other means, as lines over a map.
+    """Both ends of a stick zone from another source, as lines over a map.
 
     at      what stands along the map: times, or values of the parameter
     zones   what has m and n: of `march`, of `stick_zone`, or a StickZone of one's own
@@ -236,7 +236,7 @@ def boundaries(
         raise ValueError(f"no look is known for {kind!r}: give one of {', '.join(LINES)}")
     sense = getattr(zones, "left", 0), getattr(zones, "right", 0)
     with style():
-        for end, told in ((-length(zones.m), label or kind), (length(zones.n), None)):
-            axes.plot(*_broken(np.asarray(at), end, sense), label=told, **LINES[kind])
+        for end, text in ((-length(zones.m), label or kind), (length(zones.n), None)):
+            axes.plot(*_broken(np.asarray(at), end, sense), label=text, **LINES[kind])
     if axes.get_legend():
         key(axes)

@@ -1,4 +1,4 @@
-"""Bringing formulas into one form, and deciding whether one is zero.
+"""Bringing formulas into a common form, and deciding whether one is zero.
 
 All closed forms are rational functions of a, c, x, the parameters and the symbols of the kinks.  A
 kink that every contact spans has w_j**2 = (a + x_j)(c - x_j).  One that a contact can leave has
@@ -22,13 +22,13 @@ from derive.theory.ring import Ring, factored, linear_parts, stand_ins_for_roots
 
 
 def reduced(expr: Expr, frame: Frame) -> Expr:
-    """`expr` as one quotient of polynomials of lowest degree in every w_j."""
+    """`expr` as one quotient of polynomials of the lowest degree in every w_j."""
     numerator, denominator = fraction(together(expr))
     return cancel(_low_power(numerator, frame) / _low_power(denominator, frame))
 
 
 def tidy(expr: Expr, frame: Frame) -> Expr:
-    """`expr` in the form that is shown: factored, or collected by the kinks' symbols if shorter."""
+    """`expr` as it is printed: factored, or collected by the kinks' symbols if that is shorter."""
     if frame.is_long:
         linear = _collected_linear(expr, frame)
         if linear is not None:
@@ -79,7 +79,7 @@ def _collected(quotient: Expr, frame: Frame) -> Expr:
 def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
     """Each coefficient of theta_j and w_j factored by itself; None where they are not linear.
 
-    Without a common denominator of all: of a long body that would be by far the longest way.
+    Without a common denominator, which would take far longer for a long body.
     """
     symbols = _symbols(frame)
     stand_ins = stand_ins_for_roots(expr)

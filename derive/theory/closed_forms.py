@@ -39,7 +39,7 @@ from derive.theory.special import WEIGHTS, Exponential, Power, Root, Special
 
 
 class NoRule(Exception):
-    """What no rule integrates: a term of g' in words."""
+    """A term of g', in words, that no rule integrates."""
 
 
 @dataclass
@@ -59,7 +59,7 @@ class Parts:
 
 
 def closed_forms(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
-    """Every formula that `special` has weights for; `look` is called between the steps.
+    """Every formula for which `special` has weights; `look` is called between the steps.
 
     Raises NoRule for a term that has none.
     """
@@ -149,7 +149,7 @@ def _power(frame: Frame, base: Expr, exponent: Expr) -> Found:
         return None
     side, place = (1 if beta.is_positive else -1), simplify(-delta / beta)
     at_ends = [s for s, end in zip((1, -1), frame.slope.domain, strict=True) if _same(end, place)]
-    if exponent.is_integer:  # a pole: it has no real side of its own
+    if exponent.is_integer:  # a pole: it has no real side
         if not at_ends:
             return None
         side = at_ends[0]
@@ -213,7 +213,7 @@ def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
 
 
 def _of_polynomials(frame: Frame, pieces: list[Expr], look: LookAtClock) -> dict[str, Expr]:
-    """The part of every formula that the polynomials make, by the angles and roots of the kinks."""
+    """The polynomials' part of every formula, in the angles and roots of the kinks."""
     base = pieces[sum(k.kink.side < 0 for k in frame.kinks)]
     steps = zip(frame.kinks, pairwise(pieces), strict=True)
     jumps = [expand((right - left) * k.kink.side) for k, (left, right) in steps]

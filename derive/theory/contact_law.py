@@ -78,7 +78,7 @@ def _smooth_at_tilt(frame: Frame, tilt: Expr, load: Expr, arm: Expr) -> Inverse 
 
 
 def _where(of_edges: Expr, value: Expr, load: Expr, frame: Frame) -> tuple[Expr, Expr] | None:
-    """Middle and half width of the contact under P in which `of_edges`, too, has its value."""
+    """Middle and half-width of the contact under P in which `of_edges` also has its value."""
     to_middle = _in_middle_and_width(frame)
     middle = _root_of_first_degree(of_edges.subs(to_middle) - value, _mid)
     if middle is None:
@@ -156,5 +156,5 @@ def _half_width(load: Expr) -> Expr | None:
 
 
 def _opened_roots(expr: Expr) -> Expr:
-    """`expr` with every root that opens without one opened."""
+    """`expr` with every root that can be written without one written so."""
     return expr.replace(lambda n: n.is_Pow and n.exp == S.Half, lambda n: sqrt(simplify(n.base)))

@@ -6,7 +6,7 @@ Route 2: expand p itself.  With s the distance inward, w = sqrt(s) sqrt(h - s), 
 
     dL_j/dx = -w_j / (2 (x - x_j) w(x))
 
-each logarithm is an integral of a binomial series; no limit is taken of anything.
+each logarithm is an integral of a binomial series; no limit is needed.
 """
 
 from enum import Enum
@@ -21,7 +21,7 @@ from derive.theory.ring import powers_of
 
 
 class Edge(Enum):
-    """An edge of the contact: where it lies, and which way is inward."""
+    """An edge of the contact: where it is, and which direction is inward."""
 
     LEFT = (-a, 1)
     RIGHT = (c, -1)

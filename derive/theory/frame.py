@@ -1,4 +1,4 @@
-r"""What a kink brings into the formulas: its angle, its root, its logarithm.
+r"""What a kink adds to the formulas: its angle, its root, its logarithm.
 
 With x = mid + (h/2) cos(theta) the contact is the half circle 0 < theta < pi, and a kink at x_j
 cuts it.  All formulas are rational in three symbols per kink:
@@ -13,7 +13,7 @@ A square root of a quadratic q(x) in g' brings four: its values at both edges, a
 the characteristic of its elliptic integrals.
 
 A kink outside the contact has theta_j = 0 or pi and w_j = L_j = 0: its roots are clipped at zero,
-so that one formula serves the contact that has left the kink.
+so that one formula also serves a contact that has left the kink.
 """
 
 from dataclasses import dataclass
@@ -26,12 +26,12 @@ from derive.symbols import a, c, h, w, x
 
 _FEW_TERMS = 5
 """Terms of g' up to which a body of one kink is written over one denominator, the shorter form.
-With more of them, each with a length of its own, the contact law takes half a minute to reduce."""
+With more terms, each with its own length, the contact law takes half a minute to reduce."""
 
 
 @dataclass(frozen=True)
 class KinkFrame:
-    """A kink with the three symbols that stand for it."""
+    """A kink with its three symbols."""
 
     kink: Kink
     clipped: bool
@@ -48,7 +48,7 @@ class KinkFrame:
 
     @cached_property
     def L(self) -> Symbol:
-        """Logarithm by which the kink shows in the pressure."""
+        """The kink's logarithm in the pressure."""
         return Symbol(f"L_{self.kink.number}", nonnegative=True)
 
     @property
@@ -62,7 +62,7 @@ class KinkFrame:
         return c - self.kink.position
 
     def clip(self, distance: Expr) -> Expr:
-        """A distance to the kink, zero once the contact has left it."""
+        """A distance to the kink; zero once the contact has left it."""
         return Max(0, distance) if self.clipped else distance
 
     @property
@@ -104,7 +104,7 @@ def _logarithm(u: Expr, v: Expr) -> Expr:
 
 @dataclass(frozen=True)
 class RootFrame:
-    """The square root of a quadratic in g', with the symbols that its elliptic integrals hold."""
+    """The square root of a quadratic in g', with the symbols of its elliptic integrals."""
 
     quadratic: Expr
     number: int
@@ -131,7 +131,7 @@ class RootFrame:
 
     @property
     def definitions(self) -> dict[Symbol, Expr]:
-        """All four; m and n by the values at the edges."""
+        """All four; m and n in terms of the values at the edges."""
         square = diff(self.quadratic, x, 2) / 2 * h**2
         return {
             self.left: sqrt(self.quadratic.subs(x, -a)),
@@ -149,12 +149,12 @@ class Frame:
 
     @cached_property
     def roots(self) -> tuple[RootFrame, ...]:
-        """One frame a quadratic whose square root g' holds."""
+        """One frame for each quadratic whose square root g' contains."""
         return tuple(RootFrame(q, i) for i, q in enumerate(self.slope.quadratics, start=1))
 
     @cached_property
     def kinks(self) -> tuple[KinkFrame, ...]:
-        """One frame a kink; clipped unless every contact must span the kink.
+        """One frame for each kink; clipped unless every contact must span the kink.
 
         A single kink between two straight flanks is always spanned: without it nothing presses.
         """
@@ -163,7 +163,7 @@ class Frame:
 
     @cached_property
     def is_long(self) -> bool:
-        """Whether sums over one denominator are longer by far than each term by itself."""
+        """Whether sums over one denominator are far longer than the separate terms."""
         slope = self.slope
         if len(slope.kinks) != 1 or not slope.is_polynomial:
             return len(slope.kinks) > 1
@@ -172,7 +172,7 @@ class Frame:
 
     @cached_property
     def definitions(self) -> dict[Symbol, Expr]:
-        """What each symbol of the frame stands for."""
+        """The definition of each symbol of the frame."""
         pairs = [
             pair
             for k in self.kinks
@@ -208,7 +208,7 @@ class Frame:
 
 
 def _rate(expr: Expr, symbol: Symbol) -> Expr:
-    """The derivative of a sum of products; SymPy's own looks at every factor of every term.
+    """The derivative of a sum of products; SymPy's own visits every factor of every term.
 
     >>> from sympy.abc import s, t
     >>> _rate(s**2 * t + s, t)

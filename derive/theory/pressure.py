@@ -22,7 +22,7 @@ _at = Symbol("x_at", real=True)
 
 @lru_cache(maxsize=16)
 def smooth_part(frame: Frame) -> Expr:
-    """R(x), a polynomial in x whose coefficients hold the kinks' angles and roots."""
+    """R(x), a polynomial in x whose coefficients contain the kinks' angles and roots."""
     total = _divided(frame.slope.base, None)
     for kink in frame.kinks:
         total += _divided(kink.kink.jump, kink)

@@ -1,7 +1,7 @@
 r"""Expressions as polynomials over the rationals, in FLINT: exact, and far faster than by SymPy.
 
-What is no sum, product or power is a generator: a symbol, pi, a function.  Two more kinds of them
-come with one relation each,
+Anything but a sum, product or power is a generator: a symbol, pi, a function.  Two more kinds come
+with one relation each,
 
     root      r = base**(1/q),  r**q = base
     inverse   v = 1/base,       v base = 1
@@ -35,7 +35,7 @@ Polynomial = fmpq_mpoly
 
 
 class Ring:
-    """All polynomials in what some expressions hold.
+    """The polynomials in the generators of some expressions.
 
     first     generators by which monomials are ordered before all others
     roots     of each root the exponent and the base
@@ -57,7 +57,7 @@ class Ring:
 
     @property
     def atoms(self) -> tuple[Expr, ...]:
-        """Every generator that is no inverse."""
+        """Every generator that is not an inverse."""
         return tuple(self._atoms)
 
     def _gather(self, expr: Expr, seen: set[Expr]) -> None:
@@ -110,7 +110,7 @@ class Ring:
     def apart(
         self, polynomial: Polynomial, generators: Sequence[object]
     ) -> dict[tuple[int, ...], Polynomial]:
-        """What the powers of some generators are multiplied by; none of them is held by it."""
+        """The coefficients of the powers of some generators; they contain none of these."""
         places = [self._places[g] for g in generators if g in self._places]
         parts: dict[tuple[int, ...], dict[tuple[int, ...], fmpq]] = {}
         for monomial, coefficient in polynomial.to_dict().items():
@@ -124,7 +124,7 @@ class Ring:
     def lowered(
         self, polynomial: Polynomial, generator: Expr, exponent: int, value: Expr, least: int = 0
     ) -> Polynomial:
-        """With generator**exponent = value wherever the power `least` is left of the generator."""
+        """With generator**exponent = value, while at least the power `least` is left."""
         if generator not in self._places:
             return polynomial
         symbol, total = self.polynomial(generator), self._ring.constant(0)
@@ -198,7 +198,7 @@ def _factors(expr: Expr) -> Iterator[tuple[Expr, int]]:
 
 
 def factored(expr: Expr) -> Expr:
-    """The same as SymPy's factor(expr), sooner where it is a quotient of polynomials and roots."""
+    """The same as SymPy's factor(expr), but faster for quotients of polynomials and roots."""
     stand_ins = stand_ins_for_roots(expr)
     ring = _of_quotient(expr.xreplace(stand_ins))
     if ring is None:
@@ -210,13 +210,13 @@ def factored(expr: Expr) -> Expr:
 
 
 def stand_ins_for_roots(expr: Expr) -> dict[Expr, Symbol]:
-    """A symbol for each root, and each odd power of a root, that an expression holds."""
+    """A symbol for each root, and each odd power of a root, in an expression."""
     roots = (p for p in expr.atoms(Pow) if p.exp.is_Rational and p.exp.q == 2)
     return {root: Dummy("r", positive=True) for root in sorted(roots, key=str)}
 
 
 def linear_parts(expr: Expr, symbols: Sequence[Symbol]) -> dict[Expr, Expr] | None:
-    """What one and each symbol are multiplied by, factored; None where `expr` is not linear."""
+    """Constant term and coefficient of each symbol, factored; None where `expr` is not linear."""
     ring = _of_quotient(expr)
     if ring is None or any(base.has(*symbols) for base in ring.inverses if symbols):
         return None
@@ -229,7 +229,7 @@ def linear_parts(expr: Expr, symbols: Sequence[Symbol]) -> dict[Expr, Expr] | No
 
 
 def powers_of(symbol: Symbol, polynomial: Expr) -> dict[int, Expr]:
-    """What each power of a symbol is multiplied by, expanded."""
+    """The coefficient of each power of a symbol, expanded."""
     ring = Ring([polynomial], [symbol])
     parts = ring.apart(ring.polynomial(polynomial), [symbol])
     return {power: ring.written(part) for (power,), part in parts.items()}

@@ -51,22 +51,22 @@ def coefficients(side: str, order: int) -> tuple[Symbol, ...]:
 
 
 def stuck_edge(edge: Edge) -> Symbol:
-    """K_T of full stick at an edge, as the series hold it."""
+    """K_T of full stick at an edge, as it stands in the series."""
     return K_T_left if edge is Edge.LEFT else K_T_right
 
 
 def near(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
-    """int_0^d p sqrt((stuck + d - s)/(d - s)) ds without powers of d beyond `order`."""
+    """int_0^d p sqrt((stuck + d - s)/(d - s)) ds without powers of d above `order`."""
     return _series(pressure, d, stuck, order, 0)
 
 
 def far(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
-    """int_0^d p sqrt((d - s)/(stuck + d - s)) ds without powers of d beyond `order`."""
+    """int_0^d p sqrt((d - s)/(stuck + d - s)) ds without powers of d above `order`."""
     return _series(pressure, d, stuck, order, 1)
 
 
 def _series(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int, shift: int) -> Expr:
-    """int_0^d p (stuck + d - s)**(1/2 - shift) (d - s)**(shift - 1/2) ds, cut behind `order`.
+    """int_0^d p (stuck + d - s)**(1/2 - shift) (d - s)**(shift - 1/2) ds, truncated after `order`.
 
     The first power by the binomial series in (d - s)/stuck.
     """
@@ -91,9 +91,9 @@ def _beta(i: int, j: int) -> Expr:
 
 
 def conditions(order: int) -> tuple[Expr, Expr]:
-    """What vanishes at the left and the right end of the stick zone, for constant loads.
+    """What vanishes at the left and right end of the stick zone, for constant loads.
 
-    Both over pi sqrt(h), so that the loads enter by K_T alone and by dsigma.
+    Both are divided by pi sqrt(h), so that the loads enter only through K_T and dsigma.
     """
     left, right = coefficients("left", order), coefficients("right", order)
     stuck = h - d_left - d_right

@@ -1,4 +1,4 @@
-r"""Terms of g' whose integrals over the contact are special functions: one rule a kind of term.
+r"""Terms of g' whose integrals over the contact are special functions: one rule for each kind.
 
 With s = mid + (h/2) X, X = cos(theta), everything that a contact carries is an integral of g' and
 its derivatives over 0 < theta < pi, weighted by polynomials W(X):
@@ -80,7 +80,7 @@ Integrals = dict[Expr, Expr]
 
 
 class Special(Protocol):
-    """A kind of term, without what it is multiplied by."""
+    """A kind of term, without its polynomial factor."""
 
     @property
     def term(self) -> Expr:
@@ -138,7 +138,7 @@ class Power:
         return (self.side * (x - self.place)) ** self.exponent
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
-        """A polynomial factor is one in t, and raises the exponent."""
+        """A polynomial factor becomes one in t, and raises the exponent."""
         t = Symbol("t")
         inner = Poly(polynomial.subs(x, self.place + self.side * t), t)
         found: Integrals = {}
@@ -266,7 +266,7 @@ class Exponential:
     other: ClassVar[Mapping[type[Function], type[Function]]] = {exp: exp, sinh: cosh, cosh: sinh}
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
-        """A polynomial factor is one more weight."""
+        """A polynomial factor is another weight."""
         found: Integrals = {}
         for order, weight in weights.items():
             for kind, times in self._derivative(polynomial, order).items():
@@ -315,7 +315,7 @@ class Root:
         U_1 = int X/sqrt(q)   = -(A**2 - B**2)/(q_2 h**2) 2/sqrt(A B) (K(m) - (1 - n) Pi(n|m)),
         q_2 h**2/4 U_2        = 2 sqrt(A B) (E(m) - (1 - m) K(m)) - (A**2 - B**2)/4 U_1.
 
-    In X, q = q0 + q1 X + q2 X**2.  All else follows from integrals of derivatives of sin(theta)
+    In X, q = q0 + q1 X + q2 X**2.  The rest follows from integrals of derivatives of sin(theta)
     X**k sqrt(q), or of sin(theta) (1, X) q**(1/2 - level), which vanish.
     """
 
@@ -328,7 +328,7 @@ class Root:
         return self.frame.quadratic ** (-_HALF - self.level)
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
-        """A polynomial factor is one more weight."""
+        """A polynomial factor is another weight."""
         numerators = [
             (self.level + order, weight * _along(self._derivative(polynomial, order)))
             for order, weight in weights.items()
@@ -352,7 +352,7 @@ class Root:
         return polynomial
 
     def _written(self, coefficients: list[Expr]) -> Integrals:
-        """By K, E - (1 - m) K and (1 - n) Pi, or by K - (1 - n) Pi if that is all."""
+        """In terms of K, E - (1 - m) K and (1 - n) Pi, or of K - (1 - n) Pi alone."""
         f = self.frame
         mean, K = sqrt(f.left * f.right), elliptic_k(f.m)
         third_kind = (1 - f.n) * elliptic_pi(f.n, f.m)
@@ -430,7 +430,7 @@ class _Table:
         return _added(first, [k * (2 * level - 1) / 2 for k in second])
 
     def _divided(self, numerator: list[Any]) -> tuple[list[Any], list[Any]]:
-        """Quotient and rest by q."""
+        """Quotient and remainder of division by q."""
         rest = [*numerator, *[self.field.zero] * (2 - len(numerator))]
         quotient: list[Any] = []
         while len(rest) > 2:

@@ -1,4 +1,4 @@
-r"""Stick: how the shear of a contact changes where it cannot slip, and what sticks all the time.
+r"""Stick: how the shear traction changes where nothing slips, and the permanent stick zone.
 
 Similar bodies: where nothing slips, (1/pi) PV int dq(xi)/(x - xi) dxi = dsigma/4; and int dq = dQ.
 
@@ -58,7 +58,7 @@ def lead(edge: Edge) -> Expr:
 
 
 def stick_margin(edge: Edge) -> Expr:
-    """What is left of friction at `edge` as all loads begin to change."""
+    """The friction left at `edge` as all loads begin to change."""
     return f * Abs(lead(edge)) - Abs(pull(edge))
 
 

@@ -1,4 +1,4 @@
-r"""Every convex body as a superposition of wedges: the integrals that a body of any shape has.
+r"""Every convex body as a superposition of wedges: integrals for a body of any shape.
 
 A corner at s where g' rises by J presses with (E*/pi) J L(x, s); a curved piece is a row of
 corners, J = g''(s) ds.  So with w = sqrt((a + xi)(c - xi)),
@@ -24,7 +24,7 @@ from derive.theory.edges import Edge
 from derive.theory.frame import Frame, KinkFrame
 
 xi = Symbol("xi", real=True)
-"""Where the body presses, as x is where the pressure is asked for."""
+"""The variable of integration; x is where the pressure is wanted."""
 
 root = sqrt((a + xi) * (c - xi))
 """w at xi."""
@@ -46,7 +46,7 @@ def moment(frame: Frame) -> Expr:
 
 
 def pressure(frame: Frame) -> Expr:
-    """(E*/pi) int g'' L dxi, cut at x, where L is infinite as a logarithm."""
+    """(E*/pi) int g'' L dxi, split at x, where L has a logarithmic singularity."""
     u, v = sqrt((c - xi) * (a + x)), sqrt((a + xi) * (c - x))
     kernel = log(Abs((u + v) / (u - v))) / 2
     left = _pressed(frame, kernel, lambda k: k.L, high=x)
@@ -91,7 +91,7 @@ def _pressed(
     low: Expr = -a,
     high: Expr = c,
 ) -> Expr:
-    """int g'' weight dxi from low to high, and what the corners add."""
+    """int g'' weight dxi from low to high, plus the corners' contributions."""
     curved = _over(frame, lambda p: p.curvature.subs(x, xi) * weight, low, high)
     return curved + _steps(frame, at)
 

@@ -22,7 +22,7 @@ P, F = 1e6, 0.5
 EDGE = float(hertz.contact(P, 0.0, **STEEL).a)
 X = np.linspace(-1.2, 1.2, 201) * EDGE  # 100 is the middle
 WAY = np.array([0.0, 0.3, 0.6, 0.3, 0.0, -0.3]) * F * P
-TOLD = hertz.history(P, 0.0, WAY, 0.0, x=X, **FRICTION)
+WHOLE = hertz.history(P, 0.0, WAY, 0.0, x=X, **FRICTION)
 """Exact: rises to 0.6 f P, then falls; n = a sqrt(1 - Q/(f P)), then a sqrt(1 - dQ/(2 f P))."""
 
 ENDS = np.sqrt([0.7, 0.4, 0.85, 0.7, 0.55])
@@ -43,7 +43,7 @@ def colours(axes: Any) -> np.ndarray:
 
 
 def test_a_map_shows_what_slips_on_the_way_to_each_instant() -> None:
-    axes = plot.slip_map(TOLD, X, np.linspace(0, 1, 6), length=plot.over(EDGE, "a"))
+    axes = plot.slip_map(WHOLE, X, np.linspace(0, 1, 6), length=plot.over(EDGE, "a"))
     cells, away = colours(axes), np.abs(X) / EDGE
     for k, end in enumerate(ENDS):
         sense = FORWARD if k < 2 else REVERSE
@@ -51,15 +51,15 @@ def test_a_map_shows_what_slips_on_the_way_to_each_instant() -> None:
         assert set(cells[slips, k]) == {sense + "ff"}
         assert set(cells[away < end - 0.015, k]) == {STICK + "ff"}
     assert set(cells[away > 1.02].ravel()) == {"#00000000"}
-    told = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert told == ["stick", "forward slip", "reverse slip"]
+    legend = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert legend == ["stick", "forward slip", "reverse slip"]
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("$t$", "$x/a$")
 
 
 def test_what_is_not_known_is_told() -> None:
     """From sliding on slip is not known."""
-    told = hertz.history(P, 0.0, [0.0, 0.2 * P, 0.6 * P, 0.2 * P], 0.0, x=X, **FRICTION)
-    axes = plot.slip_map(told, X)
+    history = hertz.history(P, 0.0, [0.0, 0.2 * P, 0.6 * P, 0.2 * P], 0.0, x=X, **FRICTION)
+    axes = plot.slip_map(history, X)
     assert axes.get_xlabel() == "instant"
     texts = [text.get_text() for text in axes.get_legend().get_texts()]
     assert texts == ["stick", "forward slip", "not known"]
@@ -67,32 +67,32 @@ def test_what_is_not_known_is_told() -> None:
 
 
 def test_shear_and_slip_at_instants_are_those_of_the_history() -> None:
-    above, below = plot.instants(hertz, TOLD, X, [2, -1], ["top", "end"], **FRICTION)
+    above, below = plot.instants(hertz, WHOLE, X, [2, -1], ["top", "end"], **FRICTION)
     shown = {of.get_label(): of.get_ydata() for of in above.get_lines()}
-    assert_allclose(shown["top"], TOLD.q[2] / 1e6)
-    assert_allclose(shown["end"], TOLD.q[5] / 1e6)
+    assert_allclose(shown["top"], WHOLE.q[2] / 1e6)
+    assert_allclose(shown["end"], WHOLE.q[5] / 1e6)
     p = hertz.pressure(X, EDGE, EDGE, **STEEL)
     assert_allclose(shown[r"$\pm f\,p$"], F * p / 1e6)
     inside = np.abs(X) <= EDGE
     for of, at in zip(below.get_lines(), (2, 5), strict=True):
-        assert_allclose(of.get_ydata()[inside], TOLD.slip[at][inside] * 1e6)
+        assert_allclose(of.get_ydata()[inside], WHOLE.slip[at][inside] * 1e6)
         assert np.all(np.isnan(of.get_ydata()[~inside]))
 
 
 def test_friction_s_work_along_x_adds_up_to_that_of_the_history() -> None:
-    along = plot.friction_work(hertz, TOLD, X, **FRICTION)
-    assert np.trapezoid(np.nan_to_num(along), X) == pytest.approx(TOLD.work[-1], rel=0.01)
-    axes = plot.work(hertz, TOLD, X, label="all", **FRICTION)
+    along = plot.friction_work(hertz, WHOLE, X, **FRICTION)
+    assert np.trapezoid(np.nan_to_num(along), X) == pytest.approx(WHOLE.work[-1], rel=0.01)
+    axes = plot.work(hertz, WHOLE, X, label="all", **FRICTION)
     (drawn,) = axes.get_lines()
     assert_allclose(drawn.get_ydata() * plot.unit(along, "J/m²").size, along)
 
 
 def test_a_film_has_a_frame_an_instant(tmp_path: Any) -> None:
-    film = plot.film(hertz, TOLD, X, **FRICTION)
+    film = plot.film(hertz, WHOLE, X, **FRICTION)
     film.save(tmp_path / "film.gif", writer="pillow", dpi=30)
     axes = matplotlib.pyplot.gcf().axes[0]
     (shear,) = (of for of in axes.get_lines() if of.get_label() == "$q$")
-    assert_allclose(shear.get_ydata(), TOLD.q[5] / 1e6)
+    assert_allclose(shear.get_ydata(), WHOLE.q[5] / 1e6)
     forward, reverse = axes.collections
     assert not forward.get_paths() or forward.get_paths()[0].vertices.size == 0
     reach = np.concatenate([path.vertices[:, 0] for path in reverse.get_paths()])
@@ -104,32 +104,32 @@ def test_a_film_has_a_frame_an_instant(tmp_path: Any) -> None:
 
 
 NO_PLACES = hertz.history(P, 0.0, WAY, 0.0, **FRICTION)
-TWO = History(*(np.stack([v, v]) for v in TOLD))
+TWO = History(*(np.stack([v, v]) for v in WHOLE))
 
 
 @pytest.mark.parametrize(
-    ("told", "x", "words"),
+    ("history", "x", "words"),
     [
-        (TOLD, X[:9], "give the same x"),
-        (NO_PLACES, X, "told holds none"),
+        (WHOLE, X[:9], "give the same x"),
+        (NO_PLACES, X, "history holds none"),
         (TWO, X, "one history is drawn at a time"),
         (hertz.contact(P, 0.0, **STEEL), X, "no History"),
-        (TOLD, X[:, None], "in one row"),
+        (WHOLE, X[:, None], "in one row"),
     ],
 )
-def test_what_cannot_be_drawn_is_refused(told: Any, x: Any, words: str) -> None:
+def test_what_cannot_be_drawn_is_refused(history: Any, x: Any, words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        plot.slip_map(told, x)
+        plot.slip_map(history, x)
     with pytest.raises(ValueError, match=words):
-        plot.work(hertz, told, x, **FRICTION)
+        plot.work(hertz, history, x, **FRICTION)
 
 
 def test_instants_times_and_friction_are_checked() -> None:
     with pytest.raises(ValueError, match="as many times"):
-        plot.slip_map(TOLD, X, [0.0, 1.0])
+        plot.slip_map(WHOLE, X, [0.0, 1.0])
     with pytest.raises(ValueError, match="there are 6"):
-        plot.instants(hertz, TOLD, X, [6], **FRICTION)
+        plot.instants(hertz, WHOLE, X, [6], **FRICTION)
     with pytest.raises(ValueError, match="1 labels are given for 2"):
-        plot.instants(hertz, TOLD, X, [1, 2], ["one"], **FRICTION)
+        plot.instants(hertz, WHOLE, X, [1, 2], ["one"], **FRICTION)
     with pytest.raises(ValueError, match="f is 0"):
-        plot.film(hertz, TOLD, X, f=0, **STEEL)
+        plot.film(hertz, WHOLE, X, f=0, **STEEL)
