@@ -108,6 +108,8 @@ def key_of(geometry: Path, origin: str, program: str) -> str | None:
     origin: what the module says its g(x) came from.
     """
     try:
+        if not geometry.is_file():  # a device may have no end
+            return None
         source = geometry.read_bytes()
     except (OSError, ValueError):
         return None

@@ -237,20 +237,19 @@ def new(
     Every name in G but x becomes a parameter; units that are not given follow from g(x) being a
     length.  A file that is there is never changed.
     """
-    from derive.writing.draft import Wanted, draft, said
+    from derive.writing.apart import Asked, drafted
+    from derive.writing.options import said
     from derive.writing.target import place, write_new
 
-    wanted = Wanted(
-        name, profile.strip(), title, said("--unit", units), said("--meaning", meanings)
-    )
+    asked = Asked(name, profile.strip(), title, said("--unit", units), said("--meaning", meanings))
     path = place(name, out)
     with _console(stderr=True).status("reading g(x)"):
-        made = draft(wanted)
+        made = drafted(asked)
     write_new(path, made.text)
     shown = click.format_filename(_shown(path))
-    click.echo(f"Wrote {shown}: g(x) = {made.geometry.g}")
-    for parameter in made.geometry.parameters:
-        click.echo(f"  {parameter.name} [{parameter.unit}]  {parameter.meaning}")
+    click.echo(f"Wrote {shown}: g(x) = {made.g}")
+    for parameter, unit, meaning in made.parameters:
+        click.echo(f"  {parameter} [{unit}]  {meaning}")
     derive, file = _command(), shlex.quote(shown)
     click.echo(f"See its formulas:    {derive} show {file}")
     click.echo(f"Make a module of it: {derive} generate {file} --out DIRECTORY")
@@ -399,7 +398,7 @@ def edge(
     from derive.edge import report
     from derive.edge.find import find
     from derive.edge.table import read
-    from derive.writing.draft import said
+    from derive.writing.options import said
 
     if not 0 < friction < inf:
         raise click.BadParameter("must be above zero", param_hint="--f")

@@ -242,6 +242,25 @@ class LostProcess(UserError):
 
 
 @dataclass
+class RanAway(UserError):
+    """Work on a body that went beyond its time or its memory, or brought its process down."""
+
+    what: str
+    stage: str
+    seconds: float
+    gigabytes: float
+
+    @property
+    def message(self) -> str:
+        """Where it was, what it had, and what to try."""
+        return (
+            f"{self.what or 'this body'}: {self.stage or 'starting'} went beyond its limits of "
+            f"{self.seconds:g} s and {self.gigabytes:g} GB of memory: write g(x) with fewer kinks, "
+            "parameters or functions of functions"
+        )
+
+
+@dataclass
 class BadText(UserError):
     """A text of g(x) that cannot be read; the message shows where."""
 

@@ -61,7 +61,8 @@ def _execute(path: Path) -> "Geometry":
     if not _exists(path):
         raise BadGeometryFile(str(path), "there is no such file")
     if not path.is_file():
-        raise BadGeometryFile(str(path), "it is a directory")
+        what = "a directory" if path.is_dir() else "no file but a device or a pipe"
+        raise BadGeometryFile(str(path), f"it is {what}")
     spec = importlib.util.spec_from_file_location(f"_geometry_{path.stem}", path)
     if spec is None or spec.loader is None:
         raise BadGeometryFile(str(path), "it is no Python file")

@@ -20,7 +20,9 @@ What is not proven stops the build at module_text or demand_right: nothing is wr
 imports its stages when it is called: what is kept does without them.
 """
 
+import ast
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -39,7 +41,7 @@ from derive.codegen.publish import (
 from derive.errors import BadProfile, NeedsOutput, TwoOfOneName
 from derive.library import FOLDER, is_in_library, library, load_geometry
 from derive.limit import DEFAULT
-from derive.parallel import Report, in_processes
+from derive.parallel import Bounds, Report, in_processes
 
 GENERATED = Path(__file__).parent.parent / "generated"
 """The package that is committed."""
@@ -48,6 +50,9 @@ STAGES = (
     *("reading g(x)", "deriving", "looking for closed forms"),
     *("proving", "generating", "trying"),
 )
+STRANGERS = Bounds(seconds=600, gigabytes=4, stages={STAGES[0]: 60})
+"""What a body that is not of the library may take; none of twenty tried took a tenth of it."""
+
 DONE, KEPT = "done", "kept"
 """What a report is told of a body behind its last stage, or of one that enters none."""
 
@@ -107,16 +112,42 @@ def build_all(
     fresh: build all, and read nothing of what is kept.
     limit: seconds that the search for the closed forms of one body may take.
 
-    Raises what `build` raises for the first source that fails, and ends the others; LostProcess.
+    Raises what `build` raises for the first source that fails, and ends the others; LostProcess;
+    TwoOfOneName before anything is built, where the files say so; RanAway for a file whose body goes
+    beyond STRANGERS.
     """
+    _demand_names_of_their_own(sources)
     keys = _keys(sources, limit)
     bodies = {} if fresh else _kept(keys)
     for source in bodies:
         report(source, KEPT)
     missing = [(source, key, limit) for source, key in keys.items() if source not in bodies]
-    made = in_processes(_build_and_keep, missing, report, jobs)
+    bounds = None if all(is_in_library(source) for source, *_ in missing) else STRANGERS
+    made = in_processes(_build_and_keep, missing, report, jobs, bounds)
     bodies |= {source: body for (source, *_), body in zip(missing, made, strict=True)}
     return [bodies[source] for source in sources]
+
+
+def _demand_names_of_their_own(sources: Iterable[str]) -> None:
+    """Raise TwoOfOneName where names that are written out in the files are the same."""
+    known: set[str] = set()
+    for source in dict.fromkeys(sources):
+        name = source if is_in_library(source) else _name_in(source)
+        if name in known:
+            raise TwoOfOneName(name)
+        known |= {name} - {""}
+
+
+def _name_in(file: str) -> str:
+    """What a file names its one Geometry, without running it; empty where that cannot be seen."""
+    with suppress(OSError, ValueError, SyntaxError, RecursionError, MemoryError):
+        path = Path(file)
+        tree = ast.parse(path.read_bytes() if path.is_file() else b"")
+        calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+        named = [c.args[0] for c in calls if ast.unparse(c.func) == "Geometry" and c.args]
+        if len(named) == 1 and isinstance(named[0], ast.Constant):
+            return str(named[0].value)
+    return ""
 
 
 def _keys(sources: Iterable[str], limit: float) -> dict[str, str | None]:

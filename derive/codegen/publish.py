@@ -4,6 +4,7 @@ In:  texts of modules.
 Out: a list of differences, or the directory replaced whole or not at all.
 """
 
+import ast
 import shutil
 import tempfile
 from collections.abc import Mapping
@@ -13,10 +14,14 @@ from pathlib import Path
 
 from derive.codegen.mark import MARK
 from derive.errors import BadOutput
+from derive.exchange import put_in_place
 from derive.runtime import edge
 
 _RUNTIME = Path(__file__).parent.parent / "runtime"
 _TITLE = '"""Contact laws as NumPy functions, one module a body; every formula is proven."""\n'
+
+_LISTED = "__all__"
+"""Names the modules of a package; another that lies beside them is its user's own."""
 
 _COMPILED = "__pycache__"
 """Where Python, and numba, keep what they compiled; they make it again if it is gone."""
@@ -65,7 +70,9 @@ class Difference:
 
 def package_files(modules: Files) -> dict[str, str]:
     """All files of a package that holds `modules`, texts by module name, and the runtime."""
-    files = {"__init__.py": f"{MARK}\n{_TITLE}", "py.typed": ""}
+    names = sorted({*modules, "edge"})
+    listed = "\n".join([f"{_LISTED} = [", *(f'    "{name}",' for name in names), "]"])
+    files = {"__init__.py": f"{MARK}\n{_TITLE}\n{listed}\n", "py.typed": ""}
     files |= {f"{name}.py": text for name, text in sorted(modules.items())}
     files["edge.py"] = f"{MARK}\n{_EDGE}"
     for path in sorted(_RUNTIME.rglob("*.py")):
@@ -121,9 +128,7 @@ def publish(files: Files, folder: Path) -> None:
         for name, text in files.items():
             (fresh / name).parent.mkdir(parents=True, exist_ok=True)
             (fresh / name).write_bytes(text.encode())
-        if folder.exists():
-            folder.replace(old)
-        fresh.replace(folder)
+        put_in_place(fresh, folder, old)
     except OSError as error:
         why = f"can't be replaced ({error.strerror}){_put_back(old, folder)}"
         raise BadOutput(str(folder), why) from error
@@ -166,12 +171,24 @@ def demand_replaceable(folder: Path) -> None:
         return
     if folder.is_symlink() or not folder.is_dir():
         raise BadOutput(str(folder), "is no directory")
+    listed = _modules_listed(folder / "__init__.py")
     for path in _entries(folder):
-        if not _is_ours(path):
+        if not _is_ours(path) or (path.parent == folder and listed and path.stem not in listed):
             name = path.relative_to(folder).as_posix()
             raise BadOutput(str(folder), f"holds {name!r}, which was not generated")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
         raise BadOutput(str(folder), "is where this command runs")
+
+
+def _modules_listed(init: Path) -> set[str]:
+    """Names of what was generated into a folder; none where it is not told, as long ago."""
+    try:
+        tree = ast.parse(init.read_bytes())
+        lists = [n.value for n in tree.body if isinstance(n, ast.Assign)]
+        names = [name for each in lists for name in ast.literal_eval(each)]
+    except (OSError, ValueError, TypeError, SyntaxError, RecursionError, MemoryError):
+        return set()
+    return {*names, "__init__", "py"} if names else set()
 
 
 def _entries(folder: Path) -> list[Path]:

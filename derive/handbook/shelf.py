@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from derive.errors import BadPage
+from derive.exchange import put_in_place
 
 MARK = '<meta name="generator" content="derive '
 """What a page made by a command of this package holds, so that it may be replaced."""
@@ -54,9 +55,7 @@ def put_pages(pages: Mapping[str, str], folder: Path) -> None:
         fresh.mkdir()
         for name, text in pages.items():
             (fresh / name).write_bytes(text.encode())
-        if folder.exists():
-            folder.replace(old)
-        fresh.replace(folder)
+        put_in_place(fresh, folder, old)
     except OSError as error:
         if old.exists() and not folder.exists():
             old.replace(folder)

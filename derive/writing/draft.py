@@ -6,7 +6,7 @@ Out: the Geometry and the text of the file that defines it.
 
 import re
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from sympy import Abs
@@ -32,25 +32,6 @@ _MODULES = sys.stdlib_module_names | {
     *("derive", "generated", "numpy", "numba", "sympy", "mpmath", "click", "rich", "ruff"),
 }
 """Modules that a file of the same name would hide."""
-
-
-def said(option: str, given: Iterable[str]) -> dict[str, str]:
-    """What an option NAME=TEXT says of each parameter.
-
-    Raises BadOption.
-
-    >>> said("--unit", ["R=m", "phi = rad"])
-    {'R': 'm', 'phi': 'rad'}
-    """
-    found: dict[str, str] = {}
-    for each in given:
-        name, equals, text = (part.strip() for part in each.partition("="))
-        if not (name and equals and text):
-            raise BadOption(option, each, "is not of the form NAME=TEXT")
-        if name in found:
-            raise BadOption(option, each, f"says something of {name} a second time")
-        found[name] = text
-    return found
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,9 @@
 """A package is replaced whole or not at all, and nothing but a package of ours is replaced."""
 
 import errno
+import signal
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -53,6 +56,13 @@ def test_modules_of_a_package_are_read_back(package: Path) -> None:
         "wedge": OLD["wedge.py"],
     }
     assert modules_in(package / "nowhere") == {}
+
+
+def test_a_package_of_an_earlier_version_may_be_replaced(package: Path) -> None:
+    """It does not list its modules."""
+    (package / "__init__.py").write_text(f'{MARK}\n"""Contact laws."""\n')
+    publish(NEW, package)
+    assert contents(package) == as_bytes(NEW)
 
 
 def test_the_committed_package_may_be_replaced() -> None:
@@ -131,7 +141,13 @@ def take_the_mark_off(folder: Path) -> None:
     (folder / "cylinder.py").write_text("mine = 1\n")
 
 
+def copy_a_module(folder: Path) -> None:
+    (folder / "my_wedge.py").write_text(f"{MARK}\nmine = 1\n")
+    (folder / "__init__.py").write_text(NEW["__init__.py"])
+
+
 FOREIGN = (
+    copy_a_module,
     *(add_notes, add_module, add_folder, add_hidden, add_package_inside, take_the_mark_off),
     *(add_to_what_is_compiled, add_a_folder_to_what_is_compiled),
     *(add_a_file_in_its_place, add_a_link_in_its_place),
@@ -211,6 +227,13 @@ def failing(
     monkeypatch.setattr(Path, method, Failure(method, error, after, times))
 
 
+@pytest.fixture
+def in_two_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A system that cannot exchange two directories in one step."""
+    monkeypatch.setattr("derive.exchange._exchanged", lambda *_: False)
+
+
+@pytest.mark.usefixtures("in_two_steps")
 @pytest.mark.parametrize(
     ("method", "after"),
     [("write_bytes", 1), ("write_bytes", 3), ("replace", 1), ("replace", 2), ("mkdir", 2)],
@@ -226,6 +249,7 @@ def test_a_failure_in_the_middle_leaves_the_old_package(
     assert [p.name for p in package.parent.iterdir()] == ["package"]
 
 
+@pytest.mark.usefixtures("in_two_steps")
 @pytest.mark.parametrize(("method", "after"), [("write_bytes", 2), ("replace", 1), ("replace", 2)])
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), MemoryError()], ids=["ctrl-c", "memory"])
 def test_an_interruption_leaves_the_old_package(
@@ -242,6 +266,38 @@ def test_an_interruption_leaves_the_old_package(
     assert contents(package.parent) == {f"package/{n}": b for n, b in as_bytes(OLD).items()}
 
 
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from derive.codegen import publish
+from tests.codegen.test_publish import NEW
+real = publish.put_in_place
+def killed(fresh, folder, old):
+    Path.replace = lambda *_: os.kill(os.getpid(), signal.SIGKILL)  # the first step of two
+    if sys.argv[2] == "after":
+        real(fresh, folder, old)
+    os.kill(os.getpid(), signal.SIGKILL)
+publish.put_in_place = killed
+publish.publish(NEW, Path(sys.argv[1]))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere it takes two steps")
+@pytest.mark.parametrize(("moment", "left"), [("before", OLD), ("after", NEW)])
+def test_a_package_is_in_place_at_every_moment(
+    package: Path, moment: str, left: dict[str, str]
+) -> None:
+    """A kill leaves the old one or the new one, and a next run goes on from there."""
+    ended = subprocess.run(
+        [sys.executable, "-c", KILLED, str(package), moment], cwd=Path(__file__).parents[2]
+    )
+    assert ended.returncode == -signal.SIGKILL
+    assert contents(package) == as_bytes(left)
+    publish(OLD, package)
+    assert contents(package) == as_bytes(OLD)
+
+
+@pytest.mark.usefixtures("in_two_steps")
 def test_an_old_package_that_cannot_be_put_back_is_not_deleted(
     package: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -264,6 +320,7 @@ def test_every_file_that_differs_is_named(package: Path) -> None:
     (package / "py.typed").unlink()
     found = {d.name: d.what for d in differences(NEW, package)}
     assert found == {
+        "__init__.py": "changed",
         "cylinder.py": "changed",
         "notes.txt": "not generated",
         "punch.py": "missing",

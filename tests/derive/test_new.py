@@ -18,9 +18,10 @@ from derive.errors import (
     OpenUnits,
 )
 from derive.library import load_geometry
-from derive.writing.draft import NEUTRAL, Wanted, draft, said
+from derive.writing.draft import NEUTRAL, Wanted, draft
 from derive.writing.lengths import units
 from derive.writing.meaning import read
+from derive.writing.options import said
 from derive.writing.target import place, write_new
 from tests.derive.bodies import BODIES, geometry
 

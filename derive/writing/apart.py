@@ -1,0 +1,48 @@
+"""Drafts a geometry file in a process of its own: SymPy may run away with a short text.
+
+Nothing here imports SymPy; the other process does.
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from derive.parallel import Bounds, Report, in_processes
+
+BOUNDS = Bounds(seconds=60, gigabytes=2)
+"""What a text may take; those of the library take a second."""
+
+
+class Asked(NamedTuple):
+    """What a user says of a new geometry, as `derive.writing.draft.Wanted`."""
+
+    name: str
+    profile: str
+    title: str
+    units: Mapping[str, str]
+    meanings: Mapping[str, str]
+
+
+class Made(NamedTuple):
+    """The text of the file, g(x), and name, unit and meaning of each parameter."""
+
+    text: str
+    g: str
+    parameters: tuple[tuple[str, str, str], ...]
+
+
+def drafted(asked: Asked, bounds: Bounds = BOUNDS) -> Made:
+    """The file that is wanted.
+
+    Raises what `draft` raises; RanAway.
+    """
+    (made,) = in_processes(_drafted, [asked], lambda *_: None, 1, bounds)
+    return made
+
+
+def _drafted(asked: Asked, report: Report) -> Made:
+    from derive.writing.draft import Wanted, draft
+
+    report(f"g of {asked.name!r}", "reading g(x)")
+    made = draft(Wanted(*asked))
+    parameters = tuple((p.name, p.unit, p.meaning) for p in made.geometry.parameters)
+    return Made(made.text, str(made.geometry.g), parameters)
