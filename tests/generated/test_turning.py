@@ -25,6 +25,7 @@ OWN: dict[str, dict[str, float]] = {
     "unequal_wedge": {"phi_1": 0.25, "phi_2": 0.375},
     "two_radii": {"R_1": 0.75, "R_2": 1.5},
     "flat_rounded": {"R": 1.5, "b": 0.5},
+    "rounded_wedge": {"phi": 0.25, "b": 1.0},
     "quartic": {"L": 1.25},
     "parabola_quartic": {"R": 1.5, "L": 1.25},
 }
@@ -44,6 +45,15 @@ def zone_of(name: str, a: Any, c: Any, dQ: Any, tension: Any, mixed: bool = True
     here, shear, change = cycle(name, a, c, dQ, tension)
     given = {"f": F, "E_star": E_STAR, **OWN[name]}
     return module(name).stick_zone(here, here, shear, change, **given, mixed=mixed)
+
+
+def half_cycle(name: str, a: float, c: float, dQ: float, tension: float) -> HalfCycle:
+    _, shear, change = cycle(name, a, c, dQ, tension)
+    body, law = module(name), {"E_star": E_STAR, **OWN[name]}
+    patch = Patch(a, c, partial(body.pressure, a=a, c=c, **law))
+    P, M = (float(of(a, c, **law)) for of in (body.load, body.moment))
+    ends = (State(P, M, s * float(shear) / 2, s * float(change) / 2) for s in (-1, 1))
+    return HalfCycle(lambda P, M: patch, F, *ends)
 
 
 @pytest.mark.enough("wedge-1.5-1.25-*", "quartic-*", "hertz-1.5-*")
@@ -67,13 +77,22 @@ def test_another_solution_finds_the_same(
     shares no line with the package, and agrees with the boundary-element solver."""
     zone = zone_of(name, a, c, dQ, tension)
     assert zone.regime == Regime.MIXED
-    _, shear, change = cycle(name, a, c, dQ, tension)
-    body, law = module(name), {"E_star": E_STAR, **OWN[name]}
-    patch = Patch(a, c, partial(body.pressure, a=a, c=c, **law))
-    P, M = (float(of(a, c, **law)) for of in (body.load, body.moment))
-    ends = (State(P, M, s * float(shear) / 2, s * float(change) / 2) for s in (-1, 1))
-    other = turning(HalfCycle(lambda P, M: patch, F, *ends)).zone
+    other = turning(half_cycle(name, a, c, dQ, tension)).zone
     assert_allclose((zone.m, zone.n), other, atol=2e-6 * (a + c))
+
+
+@pytest.mark.parametrize(
+    ("a", "c", "dQ", "tension"),
+    [(2.16, 1.785, 0.392, 1.443), pytest.param(1.96, 1.86, 0.56, 1.35, marks=pytest.mark.thorough)],
+)
+def test_slip_that_recedes_past_a_kink(a: float, c: float, dQ: float, tension: float) -> None:
+    """At x = -b the rate at which the stick zone falls has a root.  The other solution errs like
+    cells**-1.5, so that two of them tell the limit."""
+    zone, b = zone_of("rounded_wedge", a, c, dQ, tension), OWN["rounded_wedge"]["b"]
+    half = half_cycle("rounded_wedge", a, c, dQ, tension)
+    one, other = (np.array(turning(half, breaks=(-b, b), cells=n).zone) for n in (200, 400))
+    assert zone.m < b < a
+    assert_allclose((zone.m, zone.n), other + (other - one) / (2**1.5 - 1), atol=2e-8 * (a + c))
 
 
 @pytest.mark.enough("hertz", "wedge")

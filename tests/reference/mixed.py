@@ -76,9 +76,14 @@ class Gain:
         return np.where(x < self.n_end, self.table(np.minimum(x, self.n_end)), self.beyond(x))
 
 
-def turning(half: HalfCycle, rounds: int = 30) -> Turning:
-    """The steady cycle at constant loads, where slip turns round on the right."""
-    window = _Window(half)
+def turning(
+    half: HalfCycle, rounds: int = 30, breaks: tuple[float, ...] = (), cells: int = CELLS
+) -> Turning:
+    """The steady cycle at constant loads, where slip turns round on the right.
+
+    breaks: places where the pressure changes its formula; integrals are cut there.
+    """
+    window = _Window(half, breaks, cells)
     gain = Gain(window.c, lambda x: window.twice(x) / 2, window.twice)
     before = np.nan
     for _ in range(rounds):
@@ -118,6 +123,8 @@ def _kernel(t: Floats, width: float) -> Floats:
 @dataclass(frozen=True)
 class _Window:
     half: HalfCycle
+    breaks: tuple[float, ...] = ()
+    cells: int = CELLS
 
     @property
     def a(self) -> float:
@@ -132,9 +139,20 @@ class _Window:
         """H."""
         return 8 * self.half.dQ / (np.pi * self.half.dsigma)
 
+    @property
+    def places(self) -> int:
+        """Elements of a table."""
+        return 3 * self.cells // 10
+
     def twice(self, x: Floats) -> Floats:
         """2 f p."""
         return 2 * self.half.f * self.half.ends[0].p(x)
+
+    def beside(self, zone: Zone, left: float, cuts: tuple[float, ...], *r: Function) -> Slip:
+        """Slip on the left from -left, on the right over the cuts to c; cut at breaks, too."""
+        lefts = (x for x in self.breaks if -left < x < -zone.m)
+        rights = (x for x in (*cuts, *self.breaks) if zone.n < x < self.c)
+        return Slip(zone, (-left, *lefts), (*rights, self.c), *r)
 
     def grow(self, gain: Gain) -> tuple[Slip, float]:
         """Phase 1: the slip at its end, and the part of the half-cycle gone.
@@ -143,9 +161,8 @@ class _Window:
         """
 
         def slip(n: float) -> Slip:
-            zone = Zone(self.width - n, n)
-            right = tuple(cut for cut in (gain.n_end, self.c) if cut > n)
-            return Slip(zone, (-self.a,), right, self.twice, lambda x: gain(x) - self.twice(x))
+            zone, r = Zone(self.width - n, n), lambda x: gain(x) - self.twice(x)
+            return self.beside(zone, self.a, (gain.n_end,), self.twice, r)
 
         def missing(n: float) -> float:
             force, moment = slip(n).missing(0.0, 0.0)
@@ -159,15 +176,15 @@ class _Window:
     def recede(self, grown: Slip, part: float) -> _Receding:
         """Phase 2, until all of the right sticks or the half-cycle ends."""
         H, dsigma = self.width, self.half.dsigma
-        m = np.linspace(grown.zone.m, H - self.c, CELLS + 1)
+        m = np.linspace(grown.zone.m, H - self.c, self.cells + 1)
         missing = self.twice(-m[1:]) - [grown.shear(-place) for place in m[1:]]
-        rates = np.zeros(CELLS)
-        for i in range(CELLS):
+        rates = np.zeros(self.cells)
+        for i in range(self.cells):
             weights = -dsigma / 4 * np.diff(_kernel(m[: i + 2] - m[i + 1], H))
             rates[i] = (missing[i] - weights[:-1] @ rates[:i]) / weights[-1]
         parts = part + np.append(0, np.cumsum(rates * -np.diff(m)))
         gone = int(np.count_nonzero(parts < 1))
-        if gone <= CELLS:  # the half-cycle ends first
+        if gone <= self.cells:  # the half-cycle ends first
             last = float(np.interp(1.0, parts, m))
             m, parts, rates = np.append(m[:gone], last), np.append(parts[:gone], 1.0), rates[:gone]
         return _Receding(H, dsigma, m, parts, rates)
@@ -178,11 +195,12 @@ class _Window:
         left = 1 - float(receded.parts[-1])
         if left <= 0:
             end = Zone(m, self.width - m)
-            x = graded([n1, end.n], 60)
+            x = graded([n1, end.n], self.places)
             return end, Gain(end.n, _tabled(x, receded.gain(x)), np.zeros_like)
         slip = self._third(grown, receded, left)
         n = slip.zone.n
-        x = graded([n1 if n1 < n else 2 * n - self.c, n], 60)  # n1 is less than n in the end
+        # n1 is less than n in the end
+        x = graded([n1 if n1 < n else 2 * n - self.c, n], self.places)
         won = receded.gain(x[:-1]) + [slip.shear(place) for place in x[:-1]]
         table = _tabled(x, np.append(won, self.twice(x[-1:])))
         return slip.zone, Gain(n, table, self.twice)
@@ -191,13 +209,13 @@ class _Window:
         """The slip of phase 3, by the conditions for the part of the loads that is left."""
         m3, n1 = float(receded.m[-1]), grown.zone.n
         dQ, dsigma = left * self.half.dQ, left * self.half.dsigma
-        x = m3 * (np.linspace(0, 1, 120) ** 2 / 2 - 1)
+        x = m3 * (np.linspace(0, 1, 2 * self.places) ** 2 / 2 - 1)
         lacking = _tabled(x, self.twice(x) - receded.gain(x) - [grown.shear(at) for at in x])
-        y = graded([n1, self.c], 60)
+        y = graded([n1, self.c], self.places)
         won = _tabled(y, receded.gain(y))
 
         def slip(zone: Zone) -> Slip:
-            return Slip(zone, (-m3,), (self.c,), lacking, lambda x: self.twice(x) - won(x))
+            return self.beside(zone, m3, (), lacking, lambda x: self.twice(x) - won(x))
 
         near = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5)
         for u, v in product(near, near):

@@ -15,7 +15,8 @@ half-cycle has three phases:
 
        (dsigma/4) int_m^m1 sqrt((H - t)/t) Lambda(mu) dmu = 2 f p(-m) - dq1(-m),    t = mu - m,
 
-   m1 and dq1 those at the end of phase 1.
+   m1 and dq1 those at the end of phase 1.  Where m passes a kink of the body, p has d log d, d the
+   distance from it: Lambda has a root before the kink and none behind, and is kept leg by leg.
 3. All of the right edge sticks, m + c = H, and from now on it slips as in moderate tension.
 
 Each half-cycle ends as the other one began, with the sign of shear turned.  So what slips back on
@@ -117,17 +118,21 @@ CROWDED, CROWDED_WEIGHTS = double_exponential(2.0**-4)
 
 
 class Receded(NamedTuple):
-    """Phase 2: Lambda as a series in v, mu = m_1 - span v**2; m, the part and v at its end.
+    """Phase 2, in legs between the breaks that m passes; its m and part at the end.
 
-    stretch: number of the stretch that the table spans.
+    tops     where m is when a leg begins
+    spans    how far the table of a leg reaches
+    rates    a leg's Lambda as a series in s, mu = top - span sin(pi s/2)**2, a row each
+    s        where the last leg ends
+    stretch  number of the stretch that the last table spans, four a leg
     """
 
-    m_1: float
-    span: float
+    tops: Any
+    spans: Any
     rates: Any
     m: float
     part: float
-    v: float
+    s: float
     stretch: int
 
 
@@ -146,7 +151,7 @@ class State(NamedTuple):
     stretch: int
 
 
-RECEDED = record(Receded, real, real, vector, real, real, real, whole)
+RECEDED = record(Receded, vector, vector, matrix, real, real, real, whole)
 STATE = record(State, real, real, GAIN, real, real, whole)
 
 
@@ -201,18 +206,19 @@ def _eliminated(rows: Any) -> Any:
 
 @kernel(vector(real, vector))
 def abel(width: float, right: Any) -> Any:
-    """The series Lambda whose integrals at the places v are `right`.
+    """The series Lambda(s) whose integrals at the places s are `right`.
 
-    int_0^(pi/2) sqrt(width - (v sin(phi))**2) cos(phi) Lambda(v cos(phi)) dphi = right
+    int_0^(pi/2) sqrt(width - (v sin(phi))**2) cos(phi) Lambda dphi = right,   v = sin(pi s/2),
+    Lambda where v is v cos(phi)
     """
     count = len(right)
     rows = np.zeros((count, count + 1))
     for i in range(count):
-        v = chebyshev_place(i, count)
+        v = math.sin(math.pi / 2 * chebyshev_place(i, count))
         for j in range(ANGLES):
             phi = math.pi / 2 * GAUSS[j]
             far = math.sqrt(max(width - (v * math.sin(phi)) ** 2, 0.0)) * math.cos(phi)
-            t = 2 * v * math.cos(phi) - 1
+            t = 4 / math.pi * math.asin(v * math.cos(phi)) - 1
             term = math.pi / 2 * GAUSS_WEIGHTS[j] * far
             last = t * term
             for k in range(count):
@@ -226,68 +232,109 @@ def abel(width: float, right: Any) -> Any:
 
 
 @kernel(real(vector, real, real))
-def _gone(rates: Any, span: float, v: float) -> float:
-    """The part of the half-cycle since phase 1:  span int_0^v 2 v Lambda dv."""
+def _gone(rates: Any, span: float, s: float) -> float:
+    """The part of the half-cycle since a leg began:  span int_0^s (pi/2) sin(pi s) Lambda ds."""
     part = 0.0
     for i in range(len(GAUSS)):
-        part += GAUSS_WEIGHTS[i] * GAUSS[i] * summed(rates, v * GAUSS[i])
-    return 2 * span * v * v * part
+        part += GAUSS_WEIGHTS[i] * math.sin(math.pi * s * GAUSS[i]) * summed(rates, s * GAUSS[i])
+    return math.pi / 2 * span * s * part
 
 
-@kernel(vector(FRICTION, SLIP, real, whole))
-def _rates(of: Any, grown: Any, span: float, count: int) -> Any:
-    """Lambda down to m_1 - span."""
-    v = np.array([chebyshev_place(i, count) for i in range(count)])
-    places = span * v * v - grown.m
+@kernel(real(FRICTION, RECEDED, real))
+def _won(of: Any, receded: Any, x: float) -> float:
+    """(dsigma/4) int sqrt((H - x - mu)/(x + mu)) Lambda dmu over mu > m, while x sticks."""
+    total, legs = 0.0, len(receded.tops)
+    for leg in range(legs):
+        last = receded.tops[leg + 1] if leg < legs - 1 else receded.m
+        room = _width(of) - x - receded.tops[leg]
+        top = min(0.0, room)
+        length = receded.tops[leg] + top - last
+        if length > 0:
+            rates, span = receded.rates[leg], receded.spans[leg]
+            for i in range(len(CROWDED)):
+                below_top = length * CROWDED[len(CROWDED) - 1 - i]
+                s = 2 / math.pi * math.asin(math.sqrt(min((below_top - top) / span, 1.0)))
+                above, below = below_top + (room - top), (x + last) + length * CROWDED[i]
+                weight = length * CROWDED_WEIGHTS[i]
+                total += weight * summed(rates, s) * math.sqrt(above / below)
+    return float(of.cycle[5] / 4 * total)
+
+
+@kernel(vector(FRICTION, SLIP, RECEDED, real, whole))
+def _rates(of: Any, grown: Any, before: Any, span: float, count: int) -> Any:
+    """Lambda on the leg behind those before, down to m - span."""
+    s = np.array([chebyshev_place(i, count) for i in range(count)])
+    places = span * np.sin(math.pi / 2 * s) ** 2 - before.m
     right = rubbed(of, places)
     for i in range(count):
-        right[i] = 2 * (right[i] - change(grown, places[i])) / (of.cycle[5] * span * v[i])
+        right[i] -= change(grown, places[i]) + _won(of, before, places[i])
+        right[i] *= 2 / (of.cycle[5] * span * math.sin(math.pi / 2 * s[i]))
     return abel(_width(of) / span, right)
+
+
+@kernel(real(FRICTION, real, real))
+def _next_break(of: Any, m: float, least: float) -> float:
+    """Where m passes a break next, falling; `least` where it does not."""
+    found = least
+    for place in of.cuts:
+        if found < -place < m:
+            found = -place
+    return found
+
+
+@kernel(RECEDED(RECEDED, real, vector, real, whole))
+def _with_leg(before: Any, span: float, rates: Any, part: float, stretch: int) -> Any:
+    """One more leg, which begins where the last one ends, as far as its table reaches."""
+    legs = len(before.tops)
+    tops, spans = np.full(legs + 1, before.m), np.full(legs + 1, span)
+    series = np.empty((legs + 1, len(rates)))
+    tops[:legs], spans[:legs], series[:legs] = before.tops, before.spans, before.rates
+    series[legs] = rates
+    return Receded(tops, spans, series, before.m - span, part, 1.0, stretch)
+
+
+@kernel(RECEDED(RECEDED, real, real, real))
+def _ending(receded: Any, m: float, part: float, s: float) -> Any:
+    """The same with another end."""
+    return Receded(receded.tops, receded.spans, receded.rates, m, part, s, receded.stretch)
+
+
+@kernel(RECEDED(RECEDED, real))
+def _cut_off(receded: Any, part: float) -> Any:
+    """Ended in its last leg, with the half-cycle; part: what was gone before that leg."""
+    top, span, rates = receded.tops[-1], receded.spans[-1], receded.rates[-1]
+    bracket = (0.0, 1.0, 1.0, 1.0)
+    for _ in range(STEPS if receded.part < math.inf else 0):
+        s = bracket[2]
+        excess = part + _gone(rates, span, s) - 1
+        rate = math.pi / 2 * span * math.sin(math.pi * s) * summed(rates, s)
+        bracket = narrowed(bracket, excess, rate, 4 * EPS)
+        if bracket[1] - bracket[0] <= 8 * EPS:
+            return _ending(receded, top - span * math.sin(math.pi / 2 * s) ** 2, 1.0, s)
+    return _ending(receded, math.nan, 1.0, math.nan)
 
 
 @kernel(RECEDED(FRICTION, SLIP, real, real, whole, whole))
 def _recede(of: Any, grown: Any, middle: float, part: float, stretch: int, count: int) -> Any:
     """Phase 2, until all of the right edge sticks or the half-cycle ends.
 
-    How far m falls is not known beforehand: tables reach further and further.
+    How far m falls is not known beforehand: tables reach further and further.  At a break begins
+    another leg, as Lambda has a root before it.
     """
-    m_1, sticks_all_right = grown.m, _width(of) - of.c
-    full = m_1 - max(sticks_all_right, -middle)
-    rates, whole_part, span = np.zeros(count), math.nan, full
-    while full > 0:
-        span = STRETCHES[stretch] * full
-        rates = _rates(of, grown, span, count)
-        whole_part = part + _gone(rates, span, 1.0)
-        if not whole_part < 1 or stretch == len(STRETCHES) - 1:
-            break
-        stretch += 1
-    if whole_part < 1 and sticks_all_right >= -middle:
-        return Receded(m_1, span, rates, m_1 - span, whole_part, 1.0, stretch)
-    bracket = (0.0, 1.0, 1.0, 1.0)
-    for _ in range(STEPS if 1 <= whole_part < math.inf else 0):
-        v = bracket[2]
-        excess, rate = part + _gone(rates, span, v) - 1, 2 * span * v * summed(rates, v)
-        bracket = narrowed(bracket, excess, rate, 4 * EPS)
-        if bracket[1] - bracket[0] <= 8 * EPS:
-            return Receded(m_1, span, rates, m_1 - span * v * v, 1.0, v, stretch)
-    return Receded(m_1, span, rates, math.nan, 1.0, math.nan, stretch)
-
-
-@kernel(real(FRICTION, RECEDED, real))
-def _won(of: Any, receded: Any, x: float) -> float:
-    """(dsigma/4) int sqrt((H - x - mu)/(x + mu)) Lambda dmu over mu > m, while x sticks."""
-    room = _width(of) - x - receded.m_1
-    top = min(0.0, room)
-    length = receded.m_1 + top - receded.m
-    if not length > 0:
-        return 0.0
-    total = 0.0
-    for i in range(len(CROWDED)):
-        below_top = length * CROWDED[len(CROWDED) - 1 - i]
-        rate = summed(receded.rates, min(math.sqrt((below_top - top) / receded.span), 1.0))
-        above, below = below_top + (room - top), (x + receded.m) + length * CROWDED[i]
-        total += CROWDED_WEIGHTS[i] * rate * math.sqrt(above / below)
-    return float(of.cycle[5] / 4 * length * total)
+    sticks_all_right, nowhere = _width(of) - of.c, np.empty(0)
+    least, legs = max(sticks_all_right, -middle), 0
+    receded = Receded(nowhere, nowhere, np.empty((0, count)), grown.m, part, math.nan, 0)
+    while receded.m > least:
+        before, full = receded, receded.m - _next_break(of, receded.m, least)
+        for i in range(max(min(stretch - 4 * legs, 3), 0), len(STRETCHES)):
+            span = STRETCHES[i] * full
+            rates = _rates(of, grown, before, span, count)
+            gone = before.part + _gone(rates, span, 1.0)
+            receded = _with_leg(before, span, rates, gone, 4 * legs + i)
+            if not gone < 1:
+                return _cut_off(receded, before.part)
+        legs += 1
+    return receded if sticks_all_right >= -middle else _ending(receded, math.nan, 1.0, math.nan)
 
 
 @kernel(GAIN(FRICTION, RECEDED, SLIP, real, real, real, whole))
@@ -341,9 +388,11 @@ def _half_cycle(of: Any, middle: float, begun: Any, count: int) -> Any:
     receded = _recede(of, grown, middle, part, begun.stretch, count)
     if not receded.m < grown.m:
         return nothing
-    for i in range(count):
-        if not summed(receded.rates, receded.v * chebyshev_place(i, count)) >= 0:
-            return nothing
+    for leg in range(len(receded.tops)):
+        end = receded.s if leg == len(receded.tops) - 1 else 1.0
+        for i in range(count):
+            if not summed(receded.rates[leg], end * chebyshev_place(i, count)) >= 0:
+                return nothing
     m, n, left, right = receded.m, H - receded.m, 0.0, 0.0
     won_right = _won_from(of, receded, grown, n_1, min(n, c), 0.0, count)
     if not receded.part < 1:
