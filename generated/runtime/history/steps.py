@@ -154,16 +154,23 @@ def at_place(
 # ---------------------------------------------------------------- steps
 
 
-@kernel(real(vector, vector, vector, matrix))
-def _slid(w: Any, before: Any, s: Any, state: Any) -> float:
-    """Add the slip of a step to the state, and tell friction's work in it."""
+@kernel(real(vector, vector, vector, vector, matrix))
+def _slid(w: Any, bound: Any, q: Any, s: Any, state: Any) -> float:
+    """Add the slip of a step to the state, and tell friction's work in it; bound, q: before it.
+
+    What the edge leaves behind counts, too, and so does what it covers while it still is outside:
+    the mean of f p over a step is not half the sum of both ends where an edge passes, but over all
+    places these differences add up to nothing, since f P goes straight.
+    """
     work = 0.0
     for i in range(w.size):
         state[SLIPPED, i] = 0.0
         if state[BOUND, i] > 0 and state[PLACES, i] != 0:
             state[SLIPPED, i] = -2 * s[i]
             state[SLIP, i] += state[SLIPPED, i]
-            work += w[i] * (before[i] + state[BOUND, i]) / 2 * abs(state[SLIPPED, i])
+            work += w[i] * (bound[i] + state[BOUND, i]) / 2 * abs(state[SLIPPED, i])
+        elif bound[i] > 0 and state[BOUND, i] == 0:
+            work -= w[i] * q[i] * s[i]
     return work
 
 
@@ -212,7 +219,8 @@ def step(
         for i in range(count):
             state[SHEAR, i], state[PLACES, i] = sense * state[BOUND, i], sense
         return SLIDING, math.nan
-    trial, s, given = state[SHEAR].copy(), np.empty(count), np.empty(1)
+    held, trial = state[SHEAR].copy(), state[SHEAR].copy()
+    s, given = np.empty(count), np.empty(1)
     given[0] = now[Q]
     if afresh:
         trial[:] = 0.0
@@ -229,4 +237,4 @@ def step(
     _guessed(old, state, afresh)
     if not nearest(A_, B, z, w, trial, state[BOUND], given, state[PLACES], state[SHEAR], s, room):
         return UNSOLVED, math.nan
-    return COMPUTED, _slid(w, old, s, state)
+    return COMPUTED, _slid(w, old, held, s, state)
