@@ -100,6 +100,8 @@ class History(NamedTuple):
     work       friction's, so far
     error      estimated: of the ends in parts of the width, of shear in its mean over f P/(a + c);
                0 where all is exact
+    work_error estimated, of work; its difference between two instants is that of the work between
+               them
     """
 
     a: Array
@@ -112,6 +114,7 @@ class History(NamedTuple):
     slip: Array
     work: Array
     error: Array
+    work_error: Array
 
 
 class SteadyCycle(NamedTuple):
@@ -124,8 +127,8 @@ class SteadyCycle(NamedTuple):
     work        friction's in a cycle
     rounds      how often the cycle was repeated
     drift       change of slip from the last round but one to the last, over the most slip
-    error       estimated, of m and n alone, in parts of the width; 0 where they are exact.  None is
-                stated of work, which is within some 3 % at tol = 1e-3
+    error       estimated, of m and n alone, in parts of the width; 0 where they are exact
+    work_error  estimated, of work, which is computed always
     """
 
     m: Array
@@ -137,3 +140,4 @@ class SteadyCycle(NamedTuple):
     rounds: Array
     drift: Array
     error: Array
+    work_error: Array

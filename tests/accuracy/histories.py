@@ -71,10 +71,10 @@ def on_elements(case: Case, loads: Any, tol: float = 1e-3, cycle: bool = False) 
     loads = np.array(np.broadcast_arrays(*loads), dtype=float)
     given = np.hstack([[F, tol, 0.0], loads.ravel()])[None]
     own = np.array([[case.own[parameter.name] for parameter in case.module._BODY.parameters]])
-    out = np.empty((1, 7 if cycle else 8 * loads.shape[1]))
+    out = np.empty((1, 8 if cycle else 9 * loads.shape[1]))
     name = "each_cycle" if cycle else "each_history"
     kernel_of(f"history.solve.{name}")(case.module._BODY.law, given, own, out)
-    return out[0] if cycle else out.reshape(-1, 8)
+    return out[0] if cycle else out.reshape(-1, 9)
 
 
 # ---------------------------------------------------------------- random histories

@@ -28,6 +28,37 @@ ROUNDING = 1e-11
 ROUNDS = 30
 """Rounds in which all elements may change their places."""
 
+STICK, SLIP = 1.0, 2.0
+"""What the factor in `room` is of, in the row below it."""
+
+
+@kernel(whole(matrix, vector, real, matrix))
+def _factor(A: Any, places: Any, kind: float, room: Any) -> int:
+    """Cholesky's factor of the rows and columns of A that stick or slip, into room, unless it is
+    there: the places that end a step begin the next one.  Their number, 0 where there is none."""
+    count = places.size
+    mine = room[count]
+    few, same = 0, True
+    for i in range(count):
+        wanted = kind if (places[i] == 0) == (kind == STICK) else 0.0
+        same, mine[i] = same and mine[i] == wanted, wanted
+        few += wanted > 0
+    if same:
+        return few
+    row = 0
+    for i in range(count):
+        if mine[i] > 0:
+            column = row
+            for j in range(i, count):
+                if mine[j] > 0:
+                    room[row, column] = A[i, j]
+                    column += 1
+            row += 1
+    if factored(room, few):
+        return few
+    mine[:] = 0.0
+    return 0
+
 
 @kernel(whole(matrix, vector, vector, vector, vector, vector, matrix))
 def _few_stick(A: Any, w: Any, places: Any, e: Any, s: Any, mu: Any, room: Any) -> int:
@@ -41,17 +72,14 @@ def _few_stick(A: Any, w: Any, places: Any, e: Any, s: Any, mu: Any, room: Any) 
             few += 1
     by_one, by_rest = np.empty(few), np.zeros(few)
     for k in range(few):
-        i = chosen[k]
-        by_one[k] = w[i]
-        for j in range(few):
-            room[k, j] = A[i, chosen[j]]
+        by_one[k] = w[chosen[k]]
     force = mu[0]
     for j in range(count):
         if places[j] != 0 and e[j] != 0:
             force -= w[j] * e[j]
             for k in range(few):
                 by_rest[k] -= A[j, chosen[k]] * e[j]
-    if not factored(room, few):
+    if not _factor(A, places, STICK, room):
         return 0
     resolved(room, few, by_one)
     resolved(room, few, by_rest)
@@ -87,11 +115,8 @@ def _few_slip(B: Any, z: Any, w: Any, places: Any, e: Any, s: Any, mu: Any, room
             few += 1
     by_one, by_rest = np.empty(few), np.empty(few)
     for k in range(few):
-        i = chosen[k]
-        by_one[k], by_rest[k] = z[i], e[i]
-        for j in range(few):
-            room[k, j] = B[i, chosen[j]]
-    if not factored(room, few):
+        by_one[k], by_rest[k] = z[chosen[k]], e[chosen[k]]
+    if few > 0 and not _factor(B, places, SLIP, room):
         return 0
     resolved(room, few, by_one)
     resolved(room, few, by_rest)
@@ -157,7 +182,10 @@ def nearest(
     s: Any,
     room: Any,
 ) -> int:
-    """q, s and the places, which hold a guess; given[0] is Q.  0 where it is not found."""
+    """q, s and the places, which hold a guess; given[0] is Q.  0 where it is not found.
+
+    room: a matrix with one row more than A, zero at first and left alone between calls.
+    """
     count = w.size
     largest, needed = 0.0, given[0]
     e, mu, old = np.empty(count), np.empty(1), np.empty(count)

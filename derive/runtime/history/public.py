@@ -59,7 +59,7 @@ def history(
     {arguments}
 
     Returns History(a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m];
-    error).  Slip is told, and no rate, since time is not given: what slips between two instants is
+    error; work_error [J/m]).  Slip is told, and no rate, since time is not given: what slips between two instants is
     np.diff(slip, axis=-2) where x is a row.
     NaN where there is no contact; m and n where it slides, slip and work from then on.
     """
@@ -69,7 +69,7 @@ def history(
     given = _given(asked, numbers, x, tol)
     places = np.shape(x) if x is not None else ()
     count = math.prod(places) if x is not None else 0
-    out = np.empty((given.rows.shape[0], given.instants * (8 + 2 * count)))
+    out = np.empty((given.rows.shape[0], given.instants * (9 + 2 * count)))
     law = asked.body.law
     run("history.reversals.each_history", law, given.rows, given.own, out)
     rest = np.flatnonzero(np.isnan(out[:, 5]))
@@ -78,15 +78,15 @@ def history(
         run("history.solve.each_history", law, given.rows[rest], given.own[rest], computed)
         out[rest] = computed
     shape = (*given.cycles, given.instants)
-    found = out.reshape((*shape, 8 + 2 * count))
-    a, c, m, n, intervals, regime, work, error = (found[..., i] for i in range(8))
+    found = out.reshape((*shape, 9 + 2 * count))
+    a, c, m, n, intervals, regime, work, error, work_error = (found[..., i] for i in range(9))
     q = slip = None
     if x is not None:
-        q = (found[..., 8 : 8 + count] * given.E_star[..., None, None]).reshape((*shape, *places))
-        slip = found[..., 8 + count :].reshape((*shape, *places))
-    work = work * given.E_star[..., None]
-    intervals = np.nan_to_num(intervals).astype(np.int64)
-    return History(a, c, m, n, intervals, regime.astype(np.int64), q, slip, work, error)
+        q = (found[..., 9 : 9 + count] * given.E_star[..., None, None]).reshape((*shape, *places))
+        slip = found[..., 9 + count :].reshape((*shape, *places))
+    work, work_error = (v * given.E_star[..., None] for v in (work, work_error))
+    intervals, regime = np.nan_to_num(intervals).astype(np.int64), regime.astype(np.int64)
+    return History(a, c, m, n, intervals, regime, q, slip, work, error, work_error)
 
 
 def steady_cycle(
@@ -113,7 +113,8 @@ def steady_cycle(
     {arguments}
 
     Returns SteadyCycle(m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift;
-    error).  Slip range, shear and work are computed on elements, where m and n are exact, too.
+    error; work_error [J/m]).  Slip range, shear and work are computed on elements, where m and n are
+    exact, too.
     NaN where the contact is lost or slides; m and n where no place sticks all the time.
     """
     numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
@@ -123,10 +124,10 @@ def steady_cycle(
     given = _given(asked, numbers, x, tol)
     places = np.shape(x) if x is not None else ()
     count = math.prod(places) if x is not None else 0
-    out = np.empty((given.rows.shape[0], 7 + 2 * count))
+    out = np.empty((given.rows.shape[0], 8 + 2 * count))
     run("history.solve.each_cycle", asked.body.law, given.rows, given.own, out)
-    found = out.reshape((*given.cycles, 7 + 2 * count))
-    m, n, regime, work, rounds, drift, error = (found[..., i] for i in range(7))
+    found = out.reshape((*given.cycles, 8 + 2 * count))
+    m, n, regime, work, rounds, drift, error, work_error = (found[..., i] for i in range(8))
     zone, accuracy = _exact(asked, numbers)
     known = np.isfinite(zone.m)
     m, n = np.where(known, zone.m, m), np.where(known, zone.n, n)
@@ -134,9 +135,10 @@ def steady_cycle(
     error = np.where(known, accuracy, error)
     q = slip = None
     if x is not None:
-        slip = found[..., 7 : 7 + count].reshape((*given.cycles, *places))
-        q = (found[..., 7 + count :] * given.E_star[..., None]).reshape((*given.cycles, *places))
-    values = (m, n, regime, slip, q, work * given.E_star, rounds, drift, error)
+        slip = found[..., 8 : 8 + count].reshape((*given.cycles, *places))
+        q = (found[..., 8 + count :] * given.E_star[..., None]).reshape((*given.cycles, *places))
+    work, work_error = work * given.E_star, work_error * given.E_star
+    values = (m, n, regime, slip, q, work, rounds, drift, error, work_error)
     return SteadyCycle(*(v if v is None else v[()] for v in values))
 
 

@@ -46,8 +46,8 @@ from .path import SIGMA, M, P, Q
 MODERATE, FULL_STICK = 1.0, 5.0
 """Codes of Regime."""
 
-FEATURES = 8
-"""a, c, m, n, intervals, regime, work and error of an instant, as of `solve`."""
+FEATURES = 9
+"""a, c, m, n, intervals, regime, work, error and work_error of an instant, as of `solve`."""
 
 IN_PHASE = 1e-9
 """How far sigma may be from k Q, over the largest."""

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels import LOOP, kernel, matrix, opened, real, results, vector, whole
+from ..kernels import LOOP, kernel, matrix, opened, real, results, truth, vector, whole
 from ..shared import shared
 from .elements import influence, inverse_of
 from .path import INSTANT, A, C, path
@@ -37,8 +37,11 @@ NO_STICK = 10.0
 SAMPLES = 24
 """Places at which shear is compared between two meshes."""
 
-FEATURES = 8
-"""a, c, m, n, intervals, regime, work and error of an instant."""
+FEATURES = 9
+"""a, c, m, n, intervals, regime, work, error and work_error of an instant."""
+
+ZONE = 8
+"""m, n, regime, work, rounds, drift, error and work_error of a cycle."""
 
 FEWEST, MIDDLE = 64, 256
 """Elements of the first mesh; from where on steps are halved."""
@@ -53,6 +56,9 @@ though a slip zone that shrinks was longer before."""
 EACH = 16
 """Elements of a mesh over the places it is crowded towards, at least."""
 
+APART = 3.0
+"""Ends that lie closer together count as one when a mesh is crowded towards them, over tol."""
+
 ROUNDS = 40
 """Most rounds of a cycle."""
 
@@ -61,6 +67,9 @@ REPEATED = 1e-4
 
 THRESHOLD = 1e-4
 """Slip in a round that is none, over the most; thirty times as much is tried, too."""
+
+RISEN = 4.0
+"""Slip over that at a place near the end of the stick zone, where it is led back from."""
 
 
 @kernel(vector(matrix, vector))
@@ -110,9 +119,28 @@ def _apart(places: Any, size: float, apart: float, most: int) -> Any:
 
 
 @shared
+def _laid(law: Any, own: Any, rows: Any, count: int, fronts: Any) -> Any:
+    """A mesh for a path: its ends, A and its inverse, z, and what the steps write into."""
+    ends = mesh_for(law, own, rows, count, fronts)
+    A_ = influence(ends)
+    B = inverse_of(A_)
+    z = _pushed(B, ends[1:] - ends[:-1])
+    return ends, A_, B, z, np.zeros((count + 1, count)), np.zeros((5, count))
+
+
+@kernel(truth(vector, vector))
+def _move(row: Any, last: Any) -> bool:
+    """Whether loads change between two rows of a path."""
+    for i in range(4):
+        if row[i] != last[i]:
+            return True
+    return False
+
+
+@shared
 def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
     """A history on one mesh: a row an instant of the features, then q and slip at the places and q
-    at the samples.  The error is that of a front between two elements."""
+    at the samples.  The error is that of a front between two elements, that of work is left out."""
     instants, asked = loads.shape[1], places.size
     found = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
     found[:, 5] = NONE
@@ -122,23 +150,16 @@ def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
         known = known or rows[k, A] + rows[k, C] > 0
     if not (known and f > 0):
         return found
-    ends = mesh_for(law, own, rows, count, fronts)
-    x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
-    A_ = influence(ends)
-    B = inverse_of(A_)
-    z = _pushed(B, w)
-    room, state = np.empty_like(A_), np.zeros((5, x.size))
-    lost = False
+    ends, A_, B, z, room, state = _laid(law, own, rows, count, fronts)
+    x, lost = (ends[1:] + ends[:-1]) / 2, False
     work, regime, m, n, runs, off = 0.0, NONE, math.nan, math.nan, 0.0, 0.0
     for k in range(rows.shape[0]):
         row, last = rows[k], rows[max(k - 1, 0)]
-        moves = k == 0
         for i in range(4):
-            moves = moves or row[i] != last[i]
             lost = lost or not math.isfinite(row[i])
         if lost:
             regime = NONE if regime != UNSOLVED else UNSOLVED
-        elif moves and regime != UNSOLVED:
+        elif (k == 0 or _move(row, last)) and regime != UNSOLVED:
             regime, more = step(law, own, f, ends, last, row, A_, B, z, state, room)
             work += more
             m, n, runs, off = math.nan, math.nan, 0.0, 0.0
@@ -204,18 +225,22 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
         while True:
             fine = followed(law, own[row], f, loads, places, elements, fronts)
             if elements > FEWEST:
-                met = True
+                met, work_off, done, meant = True, 0.0, 0.0, 0.0
                 for k in range(count):
                     told = fine[k]
                     mean = f * loads[0, k] / (told[0] + told[1])
                     told[7] = _error(told, coarse[k], mean, first)
                     met = met and (told[7] <= tol or told[5] in (NONE, SLIDING))
+                    if told[5] != NONE:
+                        work_off += abs((told[6] - done) - (coarse[k, 6] - meant))
+                        done, meant = told[6], coarse[k, 6]
+                        told[8] = work_off
             if met or elements >= _most(tol):
                 break
             coarse, elements = fine, 2 * elements
             fronts = np.concatenate((-coarse[:, 2], coarse[:, 3]))
             widest = np.nanmax(coarse[:, 0] + coarse[:, 1])
-            fronts = _apart(fronts, widest, 10 * tol, elements // EACH)
+            fronts = _apart(fronts, widest, APART * tol, elements // EACH)
         for k in range(count):
             for i in range(first):
                 out[row, k * first + i] = fine[k, i]
@@ -226,8 +251,8 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(results(2)(vector, vector, vector, vector, real))
 def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> Any:
-    """m and n of the longest run of elements that always touch and slip by no more; the way that is
-    slipped rises from there with the power 3/2."""
+    """m and n of the longest run of elements that always touch and slip by no more, led back to
+    where nothing slips: the way that is slipped rises from there with the power 3/2."""
     most, start, length, low, high = 0.0, 0, 0.0, -1, -1
     for i in range(x.size):
         most = max(most, way[i])
@@ -246,34 +271,32 @@ def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> 
     for side in range(2):
         outward, last = (-1, low) if side == 0 else (1, high)
         near, far = last + 2 * outward, last + 3 * outward
+        while 0 <= far + outward < x.size and way[far] < RISEN * way[near]:
+            far += outward
         found[side] = ends[last] if side == 0 else ends[last + 1]
         if 0 <= far < x.size and always[near] > 0 and always[far] > 0:
             g, G = way[near] ** (2 / 3), way[far] ** (2 / 3)
             if g < G:
                 root = x[near] - (x[far] - x[near]) * g / (G - g)
-                least, largest = min(x[last], x[near]), max(x[last], x[near])
-                found[side] = min(max(root, least), largest)
+                inner = (x[low] + x[high]) / 2
+                found[side] = min(max(root, min(inner, x[near])), max(inner, x[near]))
     return -found[0], found[1]
 
 
 @shared
 def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
-    """A cycle on one mesh: m, n, regime, work, rounds, drift, error of a front; then at the places
-    the range of slip and q at the first instant."""
+    """A cycle on one mesh: m, n, regime, work, rounds, drift, error of a front, that of work by the
+    drift; then at the places the range of slip and q at the first instant."""
     asked = places.size
-    found = np.full(7 + 2 * asked, math.nan)
+    found = np.full(ZONE + 2 * asked, math.nan)
     found[2] = NONE
     least = 1 if count < MIDDLE else 2
     rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
             return found
-    ends = mesh_for(law, own, rows, count, fronts)
-    x, w = (ends[1:] + ends[:-1]) / 2, ends[1:] - ends[:-1]
-    A_ = influence(ends)
-    B = inverse_of(A_)
-    z = _pushed(B, w)
-    room, state = np.empty_like(A_), np.zeros((5, x.size))
+    ends, A_, B, z, room, state = _laid(law, own, rows, count, fronts)
+    x = (ends[1:] + ends[:-1]) / 2
     way, before, always = np.zeros(x.size), np.zeros(x.size), np.ones(x.size)
     low, high = np.zeros(x.size), np.zeros(x.size)
     work, drift = 0.0, math.inf
@@ -284,10 +307,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
         low[:] = high[:] = state[SLIP]
         for k in range(first, last):
             row, gone = rows[k], rows[max(k - 1, 0)]
-            moves = k == 0
-            for i in range(4):
-                moves = moves or row[i] != gone[i]
-            if not moves:
+            if not (k == 0 or _move(row, gone)):
                 continue
             code, more = step(law, own, f, ends, gone, row, A_, B, z, state, room)
             if code != COMPUTED:
@@ -307,7 +327,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
         found[4] = turn
         if turn > 1 and drift <= REPEATED:
             break
-    found[3], found[5] = work, drift
+    found[3], found[5], found[7] = work, drift, drift * work
     inner_a = inner_c = math.inf
     for k in range(rows.shape[0]):
         inner_a, inner_c = min(inner_a, rows[k, A]), min(inner_c, rows[k, C])
@@ -331,8 +351,8 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
             j = np.searchsorted(ends, places[i]) - 1
             j = min(max(j if places[i] > x[j] else j - 1, 0), x.size - 2)
             t = min(max((places[i] - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
-            found[7 + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
-        found[7 + asked + i], _ = at_place(law, own, f, ends, x, state, rows[-1], places[i])
+            found[ZONE + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
+        found[ZONE + asked + i], _ = at_place(law, own, f, ends, x, state, rows[-1], places[i])
     return found
 
 
@@ -340,7 +360,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
 def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
     """given: as for each_history, the last instant being the first again.
 
-    out: m, n, regime, work, rounds, drift, error; range of slip and q at the places.
+    out: m, n, regime, work, rounds, drift, error, work_error; range of slip and q at the places.
     """
     law = opened(law)
     for row in range(given.shape[0]):
@@ -354,16 +374,17 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
             fine = repeated(law, own[row], f, loads, places, elements, fronts)
             if elements > FEWEST:
                 met = fine[2] == coarse[2]
+                fine[7] += abs(fine[3] - coarse[3])
                 if fine[2] == COMPUTED:
                     away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
                     away /= fine[0] + fine[1]
                     fine[6] += away
-                    met = met and away <= tol
+                    met = met and fine[6] <= tol
                 elif not met:
                     fine[6] = math.nan
             if met or elements >= _most(tol):
                 break
             coarse, elements = fine, 2 * elements
             fronts = np.array([-coarse[0], coarse[1]])
-            fronts = _apart(fronts, coarse[0] + coarse[1], 10 * tol, elements // EACH)
+            fronts = _apart(fronts, coarse[0] + coarse[1], APART * tol, elements // EACH)
         out[row] = fine
