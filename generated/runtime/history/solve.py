@@ -4,7 +4,9 @@ r"""Histories and steady cycles on ever finer meshes, and the estimate of their 
 Each mesh has twice the elements of the one before and is crowded towards the ends of the stick zone
 that were found on that one; it is the last where both agree to the tolerance.  What is told is that
 of the last.  Its error is put at the difference between the last two, which is more than what the
-last is off, and for ends part of an element more, since a front is found between two elements.
+last is off, and for ends half an element more, since a front is found between two elements.
+Friction's work is off by no more than the sum of what the last two differ in from instant to
+instant.
 """
 
 import math
@@ -43,8 +45,9 @@ FEATURES = 9
 ZONE = 8
 """m, n, regime, work, rounds, drift, error and work_error of a cycle."""
 
-FEWEST, MIDDLE = 64, 256
-"""Elements of the first mesh; from where on steps are halved."""
+FEWEST = 64
+"""Elements of the first mesh; on finer ones steps are shorter, too: as many to an instant of a cycle
+as there are times more elements, half as many to one of a history."""
 
 REACH = 3.84
 """How far an edge may move in a step, over the width of the contact, times the elements."""
@@ -91,7 +94,7 @@ def _between_elements(ends: Any, m: float, n: float, a: float, c: float) -> floa
         place, edge = (-m, -a) if side == 0 else (n, c)
         if math.isfinite(place):
             i = min(max(np.searchsorted(ends, place) - 1, 0), ends.size - 2)
-            off = max(off, (1.0 if place == edge else 0.3) * (ends[i + 1] - ends[i]))
+            off = max(off, (1.0 if place == edge else 0.5) * (ends[i + 1] - ends[i]))
     return off
 
 
@@ -144,7 +147,7 @@ def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
     instants, asked = loads.shape[1], places.size
     found = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
     found[:, 5] = NONE
-    rows = path(law, own, loads, f, REACH / count, 1 if count < MIDDLE else 2, LAST)
+    rows = path(law, own, loads, f, REACH / count, max(count // (2 * FEWEST), 1), LAST)
     known = False
     for k in range(rows.shape[0]):
         known = known or rows[k, A] + rows[k, C] > 0
@@ -290,7 +293,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
     asked = places.size
     found = np.full(ZONE + 2 * asked, math.nan)
     found[2] = NONE
-    least = 1 if count < MIDDLE else 2
+    least = count // FEWEST
     rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
@@ -344,8 +347,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
             wide_m, wide_n = _never_slips(x, ends, always, way, 30 * THRESHOLD)
             h = inner_a + inner_c
             off = max(abs(wide_m - m), abs(wide_n - n))
-            off = max(off, _between_elements(ends, m, n, inner_a, inner_c))
-            found[6] = off / h
+            found[6] = (off + _between_elements(ends, m, n, inner_a, inner_c)) / h
     for i in range(asked):
         if ends[0] <= places[i] <= ends[x.size]:
             j = np.searchsorted(ends, places[i]) - 1
