@@ -1,7 +1,9 @@
 """Property tests draw the same examples on every machine; no test sees the user's own cache."""
 
 import gc
+import importlib
 import os
+import pkgutil
 from fnmatch import fnmatchcase
 from itertools import count
 from pathlib import Path
@@ -9,6 +11,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+import generated.runtime
 from derive.cache import VARIABLE
 
 settings.register_profile("ci", derandomize=True, deadline=None)
@@ -29,6 +32,13 @@ SHARED = "findings"
 
 SLOW_EXAMPLES = {"derive.proof.prove.prove_sheet"}
 """Examples in docstrings cannot be marked where they stand."""
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile the kernels of a fresh clone once, before several processes each would."""
+    if config.getoption("numprocesses", None):
+        for module in pkgutil.walk_packages(generated.runtime.__path__, "generated.runtime."):
+            importlib.import_module(module.name)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -67,13 +67,6 @@ def places(*cuts: float) -> tuple[Any, Any]:
     return x.ravel(), weight.ravel()
 
 
-@pytest.mark.parametrize("name", CLOSED)
-@pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
-def test_it_carries_the_shear_load(name: str, tension: float) -> None:
-    case = Case(name, tension)
-    assert_allclose(case.integral(case.change), case.dQ, rtol=1e-7)
-
-
 @pytest.mark.enough("0.0-*")
 @pytest.mark.parametrize("name", CLOSED)
 @pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
@@ -94,15 +87,6 @@ def test_its_strain_in_the_stick_zone_is_that_of_the_tension(
         regular = np.sum(weight * (change - q) / (x - s))
         strain = (regular + q * np.log((x - low) / (high - x))) / np.pi
         assert_allclose(strain, case.dsigma / 4, rtol=1e-5, atol=1e-5 * case.dQ)
-
-
-def test_superposition() -> None:
-    """Ciavarella and Jaeger: f (p1 + p2) - 2 f p of the patch, by functions of the sheet alone."""
-    case, x = Case("hertz", 0.6, 0.01), np.linspace(-1.6, 1.1, 28)
-    own = {"E_star": E_STAR, **case.own}
-    p = sum(hertz.pressure(x, of.a, of.c, **own) for of in (case.first, case.second))
-    patch = hertz.pressure(x, case.zone.m, case.zone.n, **own)
-    assert_allclose(case.change(x), F * p - 2 * F * patch, rtol=1e-12, atol=1e-15)
 
 
 @pytest.mark.parametrize("name", ["hertz", "wedge", "flat_rounded"])
@@ -136,26 +120,6 @@ def test_slip_of_moderate_tension_is_the_gap_beside_the_patch(name: str) -> None
             assert_allclose(slip, 2 * F * gap, rtol=1e-6)
 
 
-@pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
-def test_slip_is_the_integral_of_the_mismatch_of_strain(tension: float) -> None:
-    """(E*/2) d slip/dx = |(1/pi) PV int dq/(x - xi) dxi - dsigma/4| by quadrature of dq."""
-    case = Case("hertz", tension)
-    low, high = case.ends[0], case.ends[-1]
-    for end, edge in ((-case.zone.m, low), (case.zone.n, high)):
-        x = end + 0.5 * (edge - end)
-        step = 1e-3 * (edge - end)
-        before, after = (
-            case.body.slip_range(x + s, *case.cycle, **case.law) for s in (-step, step)
-        )
-        here = float(case.change(x))
-        case.ends.append(x)
-        regular = case.integral(lambda s, x=x, here=here: (case.change(s) - here) / (x - s))
-        case.ends.pop()
-        strain = (regular + here * np.log((x - low) / (high - x))) / np.pi - case.dsigma / 4
-        rate = (after - before) / (2 * abs(step))
-        assert_allclose(rate, 2 / E_STAR * abs(strain), rtol=2e-3)
-
-
 def test_outside_and_unknown() -> None:
     case = Case("wedge", 0.6)
     assert case.change(2.0) == 0 and case.change(-2.0) == 0
@@ -174,25 +138,6 @@ def test_outside_and_unknown() -> None:
     assert np.isnan(wedge.slip_range(0.995, *overtaken, **law))  # it slips back first
     none = wedge.shear_change(np.array([-1.0, 0.5]), case.first, case.first, 0.0, 0.0, **case.law)
     assert np.all(none == 0)
-
-
-@pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
-def test_it_is_finite_at_the_apex(tension: float) -> None:
-    """The pressures' logarithms cancel in the stick zone."""
-    case = Case("wedge", tension)
-    here, beside = case.change(0.0), case.change(1e-7)
-    assert_allclose(here, beside, rtol=1e-4)
-
-
-def test_part_of_the_way() -> None:
-    """dq until then: the same with what has changed until then, growing nowhere backwards."""
-    case, x = Case("hertz", 0.6), np.linspace(-1.5, 1.0, 26)
-    parts = np.array([0.25, 0.5, 1.0])[:, None]
-    found = hertz.shear_change(
-        x, case.first, case.first, parts * case.dQ, parts * case.dsigma, **case.law
-    )
-    assert found.shape == (3, 26)
-    assert np.all(np.diff(found, axis=0) > -1e-15)
 
 
 # ------------------------------------------------------------------ the shear itself
@@ -251,15 +196,6 @@ def test_shear_of_a_cylinder_by_hand(fall: float) -> None:
     here = Contact(1.0, 1.0, 0.0)
     found = hertz.shear(x, here, Q, 0.0, dQ=fall * Q, f=f, E_star=4.0, R=1.0)
     assert_allclose(found, wanted, atol=1e-14)
-
-
-@pytest.mark.parametrize("name", ["wedge", "two_radii"])
-@pytest.mark.parametrize("tension", CYCLES.values(), ids=CYCLES)
-def test_the_upper_end_of_a_full_reversal_is_the_lower_one_reversed(
-    name: str, tension: float
-) -> None:
-    loop, x = Loop(name, tension, fall=2.0), np.linspace(-1.45, 0.95, 25)
-    assert_allclose(loop.shear(x, 1.0), -loop.shear(x), rtol=1e-12)
 
 
 def test_mirrored_loads_give_the_mirror_image() -> None:

@@ -95,50 +95,6 @@ def test_slip_that_recedes_past_a_kink(a: float, c: float, dQ: float, tension: f
     assert_allclose((zone.m, zone.n), other + (other - one) / (2**1.5 - 1), atol=2e-8 * (a + c))
 
 
-@pytest.mark.enough("hertz", "wedge")
-@pytest.mark.parametrize("name", ["hertz", "wedge", "two_radii", "quartic"])
-def test_the_zone_goes_over_into_those_of_both_neighbours(name: str) -> None:
-    """a + n(moderate) = 8 dQ/(pi dsigma) at the lower border, m + n(large) at the upper one."""
-    tension = np.linspace(0.95, 1.45, 251)
-    zone = zone_of(name, 1.5, 1.25, 0.2, tension)
-    alone = zone_of(name, 1.5, 1.25, 0.2, tension, mixed=False)
-    turns = np.isnan(alone.m)
-    assert np.all(np.isfinite(zone.m))
-    first, last = np.flatnonzero(turns)[[0, -1]]
-    assert np.array_equal(np.flatnonzero(turns), np.arange(first, last + 1))
-    for m, others in ((zone.m, alone.m), (zone.n, alone.n)):
-        assert_allclose(m[~turns], others[~turns], rtol=0)
-        steps = np.abs(np.diff(m))  # a step over a border is no longer than those beside it
-        for border in (first - 1, last):
-            beside = np.delete(steps[border - 2 : border + 3], 2)
-            assert steps[border] <= 2 * np.max(beside)
-
-
-def test_the_left_zone_grows_and_the_right_end_stays_between_its_neighbours() -> None:
-    tension = np.linspace(1.02, 1.15, 14)
-    zone = zone_of("wedge", 1.5, 1.25, 0.2, tension)
-    assert np.all(zone.regime == Regime.MIXED)
-    assert np.all(np.diff(zone.m) < 0)
-    assert np.all((zone.n < 1.25) & (zone.n > 1.2))
-
-
-def test_a_body_seen_from_behind() -> None:
-    there = zone_of("wedge", 1.5, 1.25, 0.2, 1.05)
-    back = zone_of("wedge", 1.25, 1.5, 0.2, -1.05)
-    assert_allclose((there.m, there.n), (back.n, back.m), rtol=1e-9)
-
-
-def test_it_scales_with_lengths_and_loads() -> None:
-    """m and n are lengths; E* phi measures loads."""
-    zone = zone_of("wedge", 1.5, 1.25, 0.2, 1.05)
-    here = Contact(1.5e-3, 1.25e-3, 0.0)
-    law = {"E_star": 60e9, "phi": 0.05}
-    shear = 2 * F * 0.2 * wedge.load(here.a, here.c, **law)
-    change = 1.05 * 8 * shear / (np.pi * 2.75e-3)
-    small = wedge.stick_zone(here, here, shear, change, f=F, **law, mixed=True)
-    assert_allclose((1e3 * small.m, 1e3 * small.n), (zone.m, zone.n), rtol=1e-8)
-
-
 @pytest.mark.enough("wedge", "flat_rounded")
 @pytest.mark.parametrize("name", OWN)
 def test_nearly_all_random_cycles_are_solved(name: str) -> None:
@@ -200,15 +156,3 @@ def test_varying_loads_stay_unknown() -> None:
     law = {"f": F, "E_star": E_STAR, "phi": 0.25}
     zone = wedge.stick_zone(first, second, shear, change, **law, mixed=True)
     assert zone.regime == Regime.MIXED and np.isnan(zone.m)
-
-
-def test_a_cycle_may_be_lazy() -> None:
-    array = pytest.importorskip("dask.array")
-    tension = np.linspace(1.02, 1.1, 4)
-    here, shear, change = cycle("wedge", 1.5, 1.25, 0.2, tension)
-    law = {"f": F, "E_star": E_STAR, "phi": 0.25}
-    lazy = wedge.stick_zone(
-        here, here, shear, array.from_array(change, chunks=2), **law, mixed=True
-    )
-    known = wedge.stick_zone(here, here, shear, change, **law, mixed=True)
-    assert_allclose(lazy.n.compute(), known.n, rtol=1e-9)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from derive.runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, Law, handed, kernel
+from generated.runtime.kernels import BREAKS, PRESSURE, SERIES, SLOPE, STATE, Law, handed, kernel
 
 
 class Case(NamedTuple):

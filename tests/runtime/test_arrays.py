@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from derive.runtime.arrays import BLOCK, elementwise, shape_of
-from derive.runtime.types import Array, Contact, Edges
 from generated import hertz, unequal_wedge, wedge
+from generated.runtime.arrays import BLOCK, elementwise, shape_of
+from generated.runtime.types import Array, Contact, Edges
 
 VALUES: Mapping[str, float] = {
     **{"x": 0.25, "a": 2.0, "c": 1.5, "P": 1.0, "M": 0.125, "alpha": 0.0625, "dQ": 0.5},

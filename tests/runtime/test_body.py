@@ -11,12 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derive.library import library, load_geometry
-from derive.runtime.body import Body, Parameter, kernel_of
-from derive.runtime.cycle import CYCLE, SOLVED
-from derive.runtime.history.public import HISTORIES
-from derive.runtime.words import EXAMPLES, MEANINGS
+from derive.library import library
 from generated import hertz, wedge
+from generated.runtime.body import Body, Parameter, kernel_of
+from generated.runtime.cycle import CYCLE, SOLVED
 
 EVERY = pytest.mark.parametrize("name", library())
 
@@ -44,21 +42,6 @@ def test_examples_of_every_function_are_right(name: str) -> None:
     assert runner.summarize(verbose=False).failed == 0
 
 
-@EVERY
-def test_docstrings_tell_of_every_argument(name: str) -> None:
-    own = {q.name: q for q in load_geometry(name).parameters}
-    for function in bound(module(name)).values():
-        lines = [line.split(maxsplit=1) for line in function.__doc__.splitlines()]
-        told = {line[0]: line[1] for line in reversed(lines) if len(line) == 2}
-        for argument, p in inspect.signature(function).parameters.items():
-            assert argument in told
-            if argument in own:
-                assert told[argument] == f"{own[argument].meaning} [{own[argument].unit}]"
-                assert p.kind is p.KEYWORD_ONLY and p.default is p.empty
-        assert "{arguments}" not in function.__doc__
-        assert f"Derived from derive/geometries/{name}.py." in function.__doc__
-
-
 SIGNATURES = {
     "stick_zone": "first, second, dQ, dsigma, *, f, E_star, phi, mixed=False",
     "tension_threshold": "first, second, dQ, *, f, E_star, phi",
@@ -80,13 +63,6 @@ def test_signatures_are_those_of_the_contract() -> None:
 
     assert {name: told(function) for name, function in bound(wedge).items()} == SIGNATURES
     assert {"contact", "contact_at_tilt"} <= bound(module("two_radii")).keys()
-
-
-def test_there_is_an_example_and_a_meaning_of_everything() -> None:
-    functions = (*SOLVED, *CYCLE, *HISTORIES)
-    assert EXAMPLES.keys() == {function.__name__ for function in functions}
-    for function in functions:
-        assert {*[*inspect.signature(function).parameters][1:]} <= MEANINGS.keys()
 
 
 @pytest.mark.parametrize("name", ["stick_zone", "march", "slip_zones"])

@@ -8,7 +8,7 @@ import inspect
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import ModuleType
@@ -20,9 +20,9 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from derive.codegen.publish import package_files, publish
-from derive.runtime import body as runtime_body
-from derive.runtime.cycle import CYCLE, SOLVED
 from generated import hertz, hyperbola, wedge
+from generated.runtime import body as runtime_body
+from generated.runtime.cycle import CYCLE, SOLVED
 from generated.runtime.types import Contact, Regime
 
 ROOT = Path(__file__).parents[2]
@@ -68,6 +68,14 @@ def each(given: dict[str, Any], change: Callable[[Any], Any]) -> dict[str, Any]:
         k: Contact(*map(change, v)) if isinstance(v, Contact) else change(v) if np.ndim(v) else v
         for k, v in given.items()
     }
+
+
+def pulled(body: str, name: str) -> Iterator[dict[str, Any]]:
+    """Two cycles of moderate tension, and of large tension on a wedge, which is the quickest."""
+    given = cases(body, name, 2)
+    yield given
+    if body == "wedge" and {"dsigma", "sigma"} & given.keys():
+        yield given | {k: 4 * given[k] for k in ("dsigma", "sigma") if k in given}
 
 
 def fields(result: Any) -> tuple[Any, ...]:
@@ -255,13 +263,14 @@ def test_dask_arrays_stay_lazy_and_give_the_same(body: str, name: str) -> None:
 
 PLAIN = """
 import sys
-from tests.runtime.test_cycle import OWN, NAMES, called, cases
+from tests.runtime.test_cycle import OWN, NAMES, called, pulled
 from generated.runtime.kernels import COMPILED
 assert not COMPILED
 for body in OWN:
     for name in NAMES:
-        for value in called(body, name, cases(body, name, 2)):
-            print(*map(repr, map(float, value.ravel())))
+        for given in pulled(body, name):
+            for value in called(body, name, given):
+                print(*map(repr, map(float, value.ravel())))
 """
 
 
@@ -278,9 +287,10 @@ def test_plain_python_gives_what_is_compiled() -> None:
     lines = iter(run.stdout.splitlines())
     for body in OWN:
         for name in NAMES:
-            for known in called(body, name, cases(body, name, 2)):
-                found = [float(number) for number in next(lines).split()]
-                assert_allclose(found, known.ravel(), rtol=1e-12, atol=1e-15, err_msg=name)
+            for given in pulled(body, name):
+                for known in called(body, name, given):
+                    found = [float(number) for number in next(lines).split()]
+                    assert_allclose(found, known.ravel(), rtol=1e-11, atol=1e-15, err_msg=name)
 
 
 FRESH = """

@@ -15,14 +15,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from derive.runtime import kernels
-from derive.runtime.body import Asked, Body, Example, Parameter
-from derive.runtime.history import batch, public
-from derive.runtime.history.elements import influence, inverse_of
-from derive.runtime.history.path import INSTANT, path
-from derive.runtime.history.steps import mesh_for, step
-from derive.runtime.kernels import COMPILED, kernel, matrix, opened, real, vector, whole
-from derive.runtime.types import Regime, StickZone
+from generated.runtime import kernels
+from generated.runtime.body import Asked, Body, Example, Parameter
+from generated.runtime.history import batch, public
+from generated.runtime.history.elements import influence, inverse_of
+from generated.runtime.history.path import INSTANT, path
+from generated.runtime.history.steps import mesh_for, step
+from generated.runtime.kernels import COMPILED, kernel, matrix, opened, real, vector, whole
+from generated.runtime.types import Regime, StickZone
 from tests.reference.friction import Friction
 from tests.reference.kernel import Surface
 from tests.reference.mesh import graded

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from derive.runtime.kernels import COMPILED, LAW, LOOP, Law, handed, kernel, opened, real, vector
+from generated.runtime.kernels import COMPILED, LAW, LOOP, Law, handed, kernel, opened, real, vector
 from tests.runtime import laws
 
 ROOT = Path(__file__).parents[2]
@@ -62,7 +62,7 @@ def test_functions_that_are_no_kernels_are_compiled_when_they_are_handed_over() 
 WITHOUT_NUMBA = """
 import sys
 sys.modules["numba"] = None
-from derive.runtime import kernels
+from generated.runtime import kernels
 from generated import hertz
 assert not kernels.COMPILED
 here = hertz.Contact(1.0, 1.0, 0.0)

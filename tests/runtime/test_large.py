@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from derive.runtime.slip.zone import LARGE
+from generated.runtime.slip.zone import LARGE
 
 from .laws import Case, flat_rounded, hertz, wedge
 from .test_moderate import state, zone

@@ -7,11 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from derive.runtime.inverse import contact_at_tilt
-from derive.runtime.kernels import LOOP, Law, kernel, opened
-from derive.runtime.slip import bounded, mixed, newton, tables
-from derive.runtime.slip.large import large_zone
-from derive.runtime.slip.mixed import turned_round, turning
+from generated.runtime.inverse import contact_at_tilt
+from generated.runtime.kernels import LOOP, Law, kernel, opened
+from generated.runtime.slip import bounded, mixed, newton, tables
+from generated.runtime.slip.large import large_zone
+from generated.runtime.slip.mixed import turned_round, turning
 from tests.reference.conditions import HalfCycle, Patch
 from tests.reference.loads import State
 from tests.reference.mixed import turning as another_solution

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from mpmath import mpf
 
-from derive.runtime import segments
-from derive.runtime.kernels import COMPILED, kernel, real
+from generated.runtime import segments
+from generated.runtime.kernels import COMPILED, kernel, real
 
 DIGITS = 90
 """So many that differences of the definitions keep 40."""

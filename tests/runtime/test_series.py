@@ -1,16 +1,11 @@
 """Series of the slip zones against closed stick zones, theory's second order, and symmetry."""
 
-import json
 import math
-import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from derive.runtime.slip.series import each_slip_zones
+from generated.runtime.slip.series import each_slip_zones
 
 from .laws import flat_rounded, hertz, wedge
 
@@ -142,31 +137,3 @@ def test_what_is_not_known():
 @pytest.mark.parametrize("order", [1, 2, 3])
 def test_without_any_change_nothing_slips(order):
     assert np.all(series(wedge, [1.5, 1.0, 0, 0, F, 0, 0, order])[0, :2] == 0)
-
-
-ROWS = [
-    [1.5, 1.0, 0.05, 0.2, F, 0.01, -0.004, 2.0],
-    [1.5, 1.0, 0.05, -0.9, F, 0.0, 0.0, 1.0],
-    [1.2, 1.0, 0.1, 0.0, F, 0.0, 0.0, 3.0],
-    [1.5, 1.0, 0.1, 30.0, F, 0.0, 0.0, 1.0],
-]
-SCRIPT = """
-import json, sys
-from tests.runtime.laws import wedge
-from tests.runtime.test_series import series
-print(json.dumps(series(wedge, *json.loads(sys.argv[1])).tolist()))
-"""
-
-
-def test_it_runs_as_plain_python_too():
-    root = Path(__file__).parents[2]
-    found = subprocess.run(
-        [sys.executable, "-c", SCRIPT, json.dumps(ROWS)],
-        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(root)},
-        cwd=root,
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-    )
-    plain = np.array(json.loads(found.stdout))
-    assert plain == pytest.approx(series(wedge, *ROWS), rel=1e-11, nan_ok=True)

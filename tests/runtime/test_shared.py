@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from derive.runtime.elementary import where
-from derive.runtime.kernels import kernel, real
-from derive.runtime.shared import by_position, shared
+from generated.runtime.elementary import where
+from generated.runtime.kernels import kernel, real
+from generated.runtime.shared import by_position, shared
 
 
 @shared

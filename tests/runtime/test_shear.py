@@ -12,8 +12,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import root
 
-from derive.runtime.kernels import COMPILED
-from derive.runtime.slip import bounded, quadrature, shear
+from generated.runtime.slip import shear
 from tests.runtime.laws import flat_rounded, hertz, wedge
 
 NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = range(7)
@@ -202,21 +201,6 @@ def test_the_change_is_exact_close_to_a_slip_zone(known, side, away):
     assert change(case, x, cycle, zone)[0] == pytest.approx(wanted, abs=1e-11 * scale)
 
 
-def test_a_cylinder_follows_cattaneo_and_mindlin():
-    """q = f (p - p*), p* of the stick zone, and 2 f (p - p*) of what it falls by after that."""
-    a, Q, fall, x = 1.0, 0.25, 0.3, np.linspace(-1.2, 1.2, 49)
-
-    def p(half):
-        return np.sqrt(np.maximum(half**2 - x**2, 0)) / 2
-
-    P = math.pi / 4
-    m_rise, m_fall = math.sqrt(1 - Q / (f * P)), math.sqrt(1 - fall / (2 * f * P))
-    zones = (m_rise, m_rise, MODERATE, m_fall, m_fall, MODERATE)
-    rows = np.column_stack([x, np.tile([a, a, Q, 0, fall, 0, f, *zones], (x.size, 1))])
-    q = f * (p(a) - p(m_rise)) - 2 * f * (p(a) - p(m_fall))
-    assert run(shear.each_shear, hertz, rows) == pytest.approx(q, abs=1e-15)
-
-
 LARGE_CYCLE = (1.2, 1.0, 1.2, 1.0, 0.3, 0.8, f)
 """Of a cylinder, whose zone follows; as well as after three quarters of it."""
 
@@ -305,19 +289,3 @@ def test_seen_from_the_other_side(known):
         assert of(case, -x, *turned) == pytest.approx(
             of(case, x, cycle, zone), rel=1e-12, abs=1e-14
         )
-
-
-@pytest.mark.skipif(not COMPILED, reason="there is nothing compiled")
-def test_the_text_is_what_was_compiled(known, monkeypatch):
-    case, cycle, zone = known
-    law = type(case.functions)(*(function.py_func for function in case.functions))
-    x, _ = places(case, cycle, zone, count=3)
-    found = change(case, x, cycle, zone), slip(case, x, cycle, zone)
-    for module in (bounded, quadrature, shear):
-        for name, function in vars(module).items():
-            if hasattr(function, "py_func"):
-                monkeypatch.setattr(module, name, function.py_func)
-    monkeypatch.setattr(shear, "opened", lambda law: law)
-    case = case._replace(law=law)
-    for of, compiled in zip((change, slip), found, strict=True):
-        assert of(case, x, cycle, zone) == pytest.approx(compiled, rel=1e-12, nan_ok=True)

@@ -7,10 +7,10 @@ import pytest
 from mpmath import mpf
 from sympy import Rational, Symbol, lambdify, series, simplify, sqrt, symbols
 
-from derive.runtime.slip import series as runtime
 from derive.symbols import E_star, a, c, dsigma, f, h
 from derive.theory import slip
 from derive.theory.edges import Edge, pressure_series
+from generated.runtime.slip import series as runtime
 from tests.derive.bodies import sheet
 from tests.derive.partial_slip import integral
 

@@ -1,0 +1,109 @@
+"""Both conditions of a stick zone: their integrals by hand, their rates, and a zone put back."""
+
+import math
+
+import numpy as np
+import pytest
+
+from generated.runtime.kernels import LOOP, kernel, opened
+from generated.runtime.slip import bounded
+from generated.runtime.slip.bounded import Slip, Zone
+from generated.runtime.slip.quadrature import slip_nodes
+
+from .laws import flat_rounded, hertz, wedge
+from .test_moderate import solved, zone
+
+LEVEL = 2
+
+
+@kernel(LOOP)
+def _each_even(law, given, own, out):
+    """given: h, the lengths of two zones, and r in them; out: the sums."""
+    for i in range(given.shape[0]):
+        h, left, right, r_left, r_right = given[i]
+        at_left = slip_nodes(np.empty(0), 1.0, 0.0, left, left, LEVEL)
+        at_right = slip_nodes(np.empty(0), 1.0, 0.0, right, right, LEVEL)
+        one = Zone(at_left[0], at_left[1], np.full(at_left.shape[1], r_left), left, r_left)
+        other = Zone(at_right[0], at_right[1], np.full(at_right.shape[1], r_right), right, r_right)
+        out[i, 0], out[i, 1], _, _ = bounded.sums(Slip(h / 2, h / 2, left, right, one, other))
+
+
+@kernel(LOOP)
+def _each_sums(law, given, own, out):
+    """given: a cycle, m and n; out: the sums."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        of = bounded.friction(law, own[i], given[i, :7].copy(), 1.0, -1.0, math.nan)
+        m, n = given[i, 7], given[i, 8]
+        slip = bounded.beside(of, m, n, of.a - m, of.c - n, LEVEL)
+        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = bounded.sums(slip)
+
+
+@kernel(LOOP)
+def _each_solution(law, given, own, out):
+    """given: a cycle, m and n; out: m, n and the share of the loads, found in either way."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        of = bounded.friction(law, own[i], given[i, :7].copy(), 1.0, -1.0, math.nan)
+        m, n = given[i, 7], given[i, 8]
+        slip = bounded.solved(of, 1.01 * (of.a - m), 0.99 * (of.c - n), LEVEL)
+        out[i, 0], out[i, 1], out[i, 2] = slip.m, slip.n, bounded.share(of, slip)
+        slip = bounded.placed(of, m + n, math.nan, LEVEL)
+        out[i, 3], out[i, 4], out[i, 5] = slip.m, slip.n, bounded.share(of, slip)
+
+
+def test_both_conditions_by_hand():
+    """int sqrt((h + y)/y) dy = w + h t and int sqrt(y/(h + y)) dy = w - h t over a zone that is l
+    long, w = sqrt(l (l + h)) and t = arsinh sqrt(l/h)."""
+    h, lengths, r = 2.0, (0.5, 0.75), (1.5, -0.25)
+    ((L, R),) = solved(_each_even, hertz, [(h, *lengths, *r)])
+    near, far = [], []
+    for length in lengths:
+        w, t = math.sqrt(length * (length + h)), math.asinh(math.sqrt(length / h))
+        near.append(w + h * t)
+        far.append(w - h * t)
+    assert pytest.approx(r[0] * near[0] + r[1] * far[1], rel=1e-13) == L
+    assert pytest.approx(r[0] * far[0] + r[1] * near[1], rel=1e-13) == R
+
+
+CYCLES = [
+    (hertz, (1.1, 0.9, 1.12, 0.93, 0.05, 0.35, 0.5), (0.8, 0.6)),
+    (wedge, (1.2, 0.7, 1.2, 0.7, 0.1, 0.5, 0.5), (0.9, 0.4)),
+    (flat_rounded, (1.8, 1.9, 1.8, 1.9, 0.02, 0.9, 0.6), (1.4, 1.3)),
+]
+EACH = pytest.mark.parametrize(("case", "cycle", "ends"), CYCLES, ids=["hertz", "wedge", "flat"])
+
+
+@EACH
+def test_rates_are_those_of_differences(case, cycle, ends):
+    """As bounded.py states them, to what finite parts that stop short of the stick zone are good
+    for: Newton's method asks no more of them."""
+    (m, n), step = ends, 1e-5
+
+    def off(m, n):
+        ((L, R, *rates),) = solved(_each_sums, case, [(*cycle, m, n)], 4)
+        left, right = bounded.pulls(cycle[4], cycle[5], m + n)
+        return np.array([L - left, R - right]), rates
+
+    (left, right), (by_m, by_n) = off(m, n)
+    F = (right - left) / (m + n)
+    of_m = (off(m + step, n)[0] - off(m - step, n)[0]) / (2 * step)
+    of_n = (off(m, n + step)[0] - off(m, n - step)[0]) / (2 * step)
+    wanted = -F / 2 + by_m / 2, F / 2, -F / 2, F / 2 + by_n / 2
+    assert (*of_m, *of_n) == pytest.approx(wanted, abs=5e-5 * abs(of_m[0]))
+
+
+@EACH
+def test_a_zone_is_found_by_two_unknowns_and_in_a_bracket(case, cycle, ends):
+    """Newton's method from a guess; and the place of a stick zone of that width, which leaves all
+    of the loads."""
+    ((m, n, _),) = zone(case, cycle)
+    (found,) = solved(_each_solution, case, [(*cycle, m, n)], 6)
+    assert found == pytest.approx([m, n, 1, m, n, 1], rel=1e-8)
+
+
+def test_a_cycle_is_seen_so_that_tension_loads_the_left_edge_more():
+    cycle = np.array([1.0, 2.0, 3.0, 4.0, 5.0, -6.0, 7.0])
+    assert bounded.sense_of(cycle) == -1 and bounded.sense_of(-cycle) == 1
+    assert bounded.seen(cycle).tolist() == [2, 1, 4, 3, 5, 6, 7]
+    assert bounded.seen(-cycle).tolist() == (-cycle).tolist()

@@ -1,0 +1,53 @@
+"""Newton's method in a bracket, and for two slip zones: steps worked out by hand."""
+
+import math
+
+import pytest
+
+from generated.runtime.slip.newton import log_step, moved, narrowed
+
+
+def found(function, low, high, x, least, rounds=200):
+    """The bracket after as many steps as it takes to close it to 2 `least`."""
+    bracket = low, high, x, high - low
+    for count in range(rounds):
+        bracket = narrowed(bracket, *function(bracket[2]), least)
+        if bracket[1] - bracket[0] <= 2 * least:
+            return bracket, count
+    return bracket, rounds
+
+
+def test_a_root_in_a_bracket():
+    """x**3 = 2 by Newton's steps, which are quick; the bracket closes from both sides."""
+    (low, high, *_), count = found(lambda x: (x**3 - 2, 3 * x * x), 0.0, 4.0, 3.0, 1e-15)
+    assert low <= 2 ** (1 / 3) + 1e-15 and high >= 2 ** (1 / 3) - 1e-15
+    assert high - low <= 2e-15 and count < 12
+
+
+@pytest.mark.parametrize("rate", [0.0, 1e-9, 1e9])
+def test_a_rate_that_is_wrong_costs_halvings_alone(rate):
+    """A step function: nothing but the middle leads anywhere."""
+    (low, high, *_), count = found(lambda x: (-1.0 if x < 0.3 else 1.0, rate), 0.0, 1.0, 0.5, 1e-12)
+    assert low <= 0.3 <= high and count < 100
+
+
+def test_one_step_by_hand():
+    """From x = 1 with value 2 and rate 8: to 3/4; with rate 1 the step leaves the bracket."""
+    assert narrowed((0.0, 2.0, 1.0, 2.0), 2.0, 8.0, 0.0) == (0.0, 1.0, 0.75, 0.25)
+    assert narrowed((0.0, 2.0, 1.0, 2.0), 2.0, 1.0, 0.0) == (0.0, 1.0, 0.5, 0.5)
+    # shorter than the least, it is made so long
+    assert narrowed((0.0, 2.0, 1.0, 2.0), -1e-9, 1.0, 0.25) == (1.0, 2.0, 1.25, 0.25)
+
+
+def test_a_step_of_two_slip_zones_by_hand():
+    """1 + 2 dl = 0 and 1 + 4 dr = 0: dl = -1/2, dr = -1/4.  With l = 1, r = 2 and 4 that stick
+    the stick zone grows by 3/4, so that ln(l/4) falls by 1/2 + 3/16, and ln(r/4) by 1/8 + 3/16."""
+    by_left, by_right = log_step(1.0, 2.0, (1.0, 2.0, 0.0), (1.0, 0.0, 4.0), 4.0)
+    assert (by_left, by_right) == (-0.6875, -0.3125)
+    assert all(map(math.isnan, log_step(1.0, 1.0, (1.0, 1.0, 2.0), (1.0, 2.0, 4.0), 1.0)))
+
+
+def test_slip_zones_that_are_moved_share_the_width_as_before():
+    """1 : 4 : 2 with logarithms that grow by ln 2 and ln 3 are 2 : 4 : 6 of the same 7."""
+    left, right = moved(7.0, 1.0, 2.0, math.log(2), math.log(3))
+    assert (left, right) == pytest.approx((7 / 6, 7 / 2), rel=1e-15)

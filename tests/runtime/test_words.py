@@ -1,0 +1,34 @@
+"""What docstrings of bound functions say: every argument, an example of each."""
+
+import importlib
+import inspect
+
+import pytest
+
+from derive.library import library, load_geometry
+from generated.runtime.cycle import CYCLE, SOLVED
+from generated.runtime.history.public import HISTORIES
+from generated.runtime.words import EXAMPLES, MEANINGS
+from tests.runtime.test_body import bound
+
+
+@pytest.mark.parametrize("name", library())
+def test_docstrings_tell_of_every_argument(name: str) -> None:
+    own = {q.name: q for q in load_geometry(name).parameters}
+    for function in bound(importlib.import_module(f"generated.{name}")).values():
+        lines = [line.split(maxsplit=1) for line in function.__doc__.splitlines()]
+        told = {line[0]: line[1] for line in reversed(lines) if len(line) == 2}
+        for argument, p in inspect.signature(function).parameters.items():
+            assert argument in told
+            if argument in own:
+                assert told[argument] == f"{own[argument].meaning} [{own[argument].unit}]"
+                assert p.kind is p.KEYWORD_ONLY and p.default is p.empty
+        assert "{arguments}" not in function.__doc__
+        assert f"Derived from derive/geometries/{name}.py." in function.__doc__
+
+
+def test_there_is_an_example_and_a_meaning_of_everything() -> None:
+    functions = (*SOLVED, *CYCLE, *HISTORIES)
+    assert EXAMPLES.keys() == {function.__name__ for function in functions}
+    for function in functions:
+        assert {*[*inspect.signature(function).parameters][1:]} <= MEANINGS.keys()
