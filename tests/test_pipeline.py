@@ -52,6 +52,7 @@ def files(tmp_path: Path) -> list[str]:
 # ------------------------------------------------------------------ in earnest
 
 
+@pytest.mark.thorough  # the comparison of all of generated/ does so, too
 @pytest.mark.slow
 def test_several_processes_build_what_is_committed_and_keep_it() -> None:
     names = ("quartic", "hertz")

@@ -80,6 +80,7 @@ BODIES: dict[str, tuple[Expr, Callable[[mpf, mpf], list[list[mpf]]]]] = {
 }
 
 
+@pytest.mark.enough("beside a root")
 @pytest.mark.parametrize("name", BODIES)
 def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(name: str) -> None:
     """No common denominator, and t**k/t**2 as one power: apart, both leave float64 at small t."""
@@ -97,6 +98,7 @@ def test_a_power_with_an_open_exponent_beside_other_terms_keeps_its_digits(name:
                         assert abs(abs(mpf(value)) - abs(total)) <= 1e-13 * size, t
 
 
+@pytest.mark.enough("pi")
 @pytest.mark.parametrize("exponent", [pi, sqrt(2), Rational(7, 3)], ids=str)
 def test_a_power_that_is_no_whole_or_half_one_is_written_as_it_is(exponent: Expr) -> None:
     """g = x**2/(2 L) + phi x + b u**q, u = |x|/b: g'' = 1/L + q (q - 1) u**(q - 2)/b, also where
@@ -123,6 +125,7 @@ def test_a_corner_where_an_exponential_is_e_becomes_code() -> None:
             assert found[1] == pytest.approx(0.125 * np.e / 0.5, rel=1e-15)
 
 
+@pytest.mark.enough("exponential", "logarithm")
 @pytest.mark.parametrize(
     ("g", "rate"),
     [
@@ -179,6 +182,7 @@ SMOOTH: dict[str, tuple[Expr, Callable[[mpf], mpf], list[tuple[float, float]]]] 
 }  # fmt: skip
 
 
+@pytest.mark.enough("flanks*")
 @pytest.mark.parametrize("name", SMOOTH)
 def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(name: str) -> None:
     """Far out on flanks, and close to a place without curvature; the corner lies beside."""

@@ -102,6 +102,7 @@ def test_a_rewritten_form_that_is_false_stops_the_module(monkeypatch: pytest.Mon
 BUILT = "import sys; from derive.pipeline import build; sys.stdout.write(build('wedge').text)"
 
 
+@pytest.mark.thorough  # `derive generate --check` builds in processes of other seeds, too
 def test_the_text_does_not_depend_on_the_hash_seed() -> None:
     """From g(x) to the text in a fresh interpreter; each orders its sets in its own way."""
     run = subprocess.run(
@@ -416,6 +417,7 @@ NAMED = [
 """Profiles whose parameters are called as the local variables of the code."""
 
 
+@pytest.mark.enough("g0")
 @pytest.mark.parametrize("g", NAMED)
 def test_local_variables_give_way_to_parameters(g: Expr) -> None:
     text = module_text(assumed(derive_sheet(Geometry("named", g))), "named.py")

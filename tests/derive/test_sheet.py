@@ -43,6 +43,7 @@ def test_one_more_formula_makes_a_new_sheet() -> None:
     assert len(longer) == len(body) + 1
 
 
+@pytest.mark.enough("hertz", "flat_rounded", "two_radii", "three_corners")
 @pytest.mark.parametrize("name", BODIES)
 def test_a_flat_formula_holds_arguments_material_and_parameters_only(name: str) -> None:
     body = sheet(name)

@@ -130,25 +130,28 @@ def expected(of: Any, samples: int) -> Any:
     return of.Counts(*counts, np.bincount(regime, minlength=len(wedge.Regime)))
 
 
-def test_the_monte_carlo_counts_what_numpy_counts(monte_carlo: Any, tmp_path: Path) -> None:
+@pytest.mark.enough("1-2")
+@pytest.mark.parametrize(("chunk", "workers"), [(1, 2), (5, 1)])
+def test_the_monte_carlo_counts_what_numpy_counts(
+    monte_carlo: Any, tmp_path: Path, chunk: int, workers: int
+) -> None:
     """Whatever the chunks and the workers: 120,000 samples, the last stream of them not whole."""
     samples = 2 * monte_carlo.STREAM + 20_000
     wanted = expected(monte_carlo, samples)
     lines = [*monte_carlo.report(wanted)]
-    for chunk, workers in ((1, 2), (5, 1)):
-        done = run(
-            f"--samples={samples}",
-            f"--chunk={chunk * monte_carlo.STREAM}",
-            f"--workers={workers}",
-            f"--out={tmp_path / 'slip.csv'}",
-        )
-        assert done.returncode == 0, done.stderr
-        assert done.stderr.replace(COMPILING, "") == ""
-        rows = np.genfromtxt(tmp_path / "slip.csv", delimiter=",", skip_header=1)
-        assert_array_equal(rows[:, 2], wanted.left)
-        assert_array_equal(rows[:, 3], wanted.right)
-        assert done.stdout.splitlines()[-len(lines) :] == lines
-        assert "100%" in done.stdout
+    done = run(
+        f"--samples={samples}",
+        f"--chunk={chunk * monte_carlo.STREAM}",
+        f"--workers={workers}",
+        f"--out={tmp_path / 'slip.csv'}",
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.replace(COMPILING, "") == ""
+    rows = np.genfromtxt(tmp_path / "slip.csv", delimiter=",", skip_header=1)
+    assert_array_equal(rows[:, 2], wanted.left)
+    assert_array_equal(rows[:, 3], wanted.right)
+    assert done.stdout.splitlines()[-len(lines) :] == lines
+    assert "100%" in done.stdout
 
 
 def test_the_quantiles_are_those_of_the_samples(monte_carlo: Any) -> None:
@@ -160,6 +163,7 @@ def test_the_quantiles_are_those_of_the_samples(monte_carlo: Any) -> None:
     assert np.all(np.abs(found - np.nanquantile(left, monte_carlo.QUANTILES)) < width)
 
 
+@pytest.mark.enough("arguments1*")
 @pytest.mark.parametrize(
     ("arguments", "status", "words"),
     [

@@ -72,7 +72,7 @@ def test_zones_that_grow_are_not_enough() -> None:
     assert zone.n - many.n > 2e-4
 
 
-@pytest.mark.enough("1.08-*", "0.931-*")
+@pytest.mark.enough("1.08-*")
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("part", "regime"),

@@ -303,6 +303,7 @@ print(repr(float(zone.m)))
 """
 
 
+@pytest.mark.thorough  # it compiles a runtime of its own
 @pytest.mark.slow
 def test_a_fresh_copy_of_the_package_works_anywhere(tmp_path: Path) -> None:
     """With NumPy and numba alone; it compiles its own kernels, and says so."""

@@ -41,6 +41,7 @@ def sheet_of(name: str) -> FormulaSheet:
     return derive_sheet(many_parts if name == "many_parts" else load_geometry(name))
 
 
+@pytest.mark.enough("many_parts", "flat_rounded")
 @pytest.mark.parametrize("name", [*BODIES, "many_parts"])
 def test_the_sums_are_the_derived_formulas(name: str) -> None:
     sheet = sheet_of(name)
