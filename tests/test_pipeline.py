@@ -13,7 +13,7 @@ from derive.cache import users_cache
 from derive.errors import NotProven
 from derive.library import FOLDER, library
 from derive.parallel import Report
-from derive.pipeline import DONE, GENERATED, KEPT, STAGES, build, build_all
+from derive.pipeline import DONE, KEPT, STAGES, build, build_all
 from derive.proof.verdict import Verdict
 
 ROOT = Path(__file__).parents[1]
@@ -52,19 +52,6 @@ def files(tmp_path: Path) -> list[str]:
 # ------------------------------------------------------------------ in earnest
 
 
-@pytest.mark.thorough  # the comparison of all of generated/ does so, too
-@pytest.mark.slow
-def test_several_processes_build_what_is_committed_and_keep_it() -> None:
-    names = ("quartic", "hertz")
-    built = build_all(names, jobs=2, fresh=True)
-    committed = [(GENERATED / f"{name}.py").read_text(encoding="utf-8") for name in names]
-    assert [body.text for body in built] == committed
-    assert all(body.seconds > 0 and not body.kept for body in built)
-    again = build_all(names[::-1], jobs=2)[::-1]
-    assert again == built
-    assert all(body.kept for body in again)
-
-
 OWN = {
     "an exponential up to e": "b*phi*exp(x/b) + phi*Max(0, x - b)",
     "numbers that SymPy keeps exact": "phi*b*exp((x/b - pi**Rational(1, 3))/sqrt(2)) + phi*Abs(x)",
@@ -74,7 +61,7 @@ OWN = {
 """Bodies that nobody here thought of, from a file of one's own to a proven module."""
 
 
-@pytest.mark.enough("a cubic that is switched on")
+@pytest.mark.thorough
 @pytest.mark.slow
 @pytest.mark.parametrize("words", OWN)
 def test_a_body_of_one_s_own_is_proven_and_tried(words: str, tmp_path: Path) -> None:

@@ -195,6 +195,7 @@ def test_loads_where_the_curvature_is_a_small_difference_keep_their_digits(name:
                 assert abs(mpf(float(found)) / wanted - 1) < 1e-12, (a, c)
 
 
+@pytest.mark.thorough
 def test_a_tilt_whose_left_edge_lies_just_beyond_a_smooth_kink() -> None:
     """At -b g'' = 0 and g''' jumps; the quadrature is done when the tilt agrees, too.
 

@@ -164,8 +164,6 @@ def demand_all(of: FormulaSheet) -> None:
     "hyperbola",
     "circular_arc",
     "exponential",
-    "double_pole",
-    "catenary",
 )
 @pytest.mark.parametrize("name", [*MADE_UP, *LIBRARY])
 def test_every_form_is_proven(name: str) -> None:
@@ -215,6 +213,7 @@ NO_RULE = {
 }
 
 
+@pytest.mark.enough("arctangent", "cosh*", "logarithm*")
 @pytest.mark.parametrize("name", NO_RULE)
 def test_a_term_without_a_rule_leaves_the_integrals(name: str) -> None:
     profile, told = NO_RULE[name]

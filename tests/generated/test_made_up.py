@@ -208,7 +208,7 @@ def test_every_function_against_quadrature_of_the_slope(made: tuple[Profile, Mod
     assert carried >= 6
 
 
-@pytest.mark.enough("one_side_cubic", "soft_wedge")
+@pytest.mark.enough("one_side_cubic")
 def test_narrow_contacts_around_a_kink_keep_their_digits(made: tuple[Profile, ModuleType]) -> None:
     """Wherever the kink lies: nothing is lost to powers of its distance from the origin."""
     profile, module = made

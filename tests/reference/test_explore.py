@@ -57,6 +57,7 @@ def test_where_only_one_half_cycle_turns_round_its_smallest_zone_is_exact() -> N
     assert point.off(point.smallest) <= point.estimate < point.off(point.large.zone)
 
 
+@pytest.mark.thorough
 @pytest.mark.slow
 def test_zones_that_grow_are_not_enough() -> None:
     # what was at friction goes on slipping while pressure falls; in one step it would not show

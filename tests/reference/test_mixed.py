@@ -23,6 +23,7 @@ def test_wedge(part: float) -> None:
     assert max(found.error) < 3e-4
 
 
+@pytest.mark.thorough
 def test_hertz() -> None:
     # the paper's threshold, 4 f E*/R (b - sqrt(b^2 - 2 R dQ/(pi E* f))), with b = R = E* = 1
     dQ, f = 0.15 * HERTZ_LOAD, 0.5

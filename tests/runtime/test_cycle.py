@@ -19,7 +19,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from derive.codegen.publish import package_files, publish
 from generated import hertz, hyperbola, wedge
 from generated.runtime import body as runtime_body
 from generated.runtime.cycle import CYCLE, SOLVED
@@ -291,29 +290,3 @@ def test_plain_python_gives_what_is_compiled() -> None:
                 for known in called(body, name, given):
                     found = [float(number) for number in next(lines).split()]
                     assert_allclose(found, known.ravel(), rtol=1e-11, atol=1e-15, err_msg=name)
-
-
-FRESH = """
-import numpy as np
-from copied.roller import contact, stick_zone, Regime
-here = contact(np.pi, 0.0, E_star=4.0, R=1.0)
-zone = stick_zone(here, here, 0.1, 0.0, f=0.5, E_star=4.0, R=1.0)
-assert Regime(zone.regime) is Regime.MODERATE
-print(repr(float(zone.m)))
-"""
-
-
-@pytest.mark.thorough  # it compiles a runtime of its own
-@pytest.mark.slow
-def test_a_fresh_copy_of_the_package_works_anywhere(tmp_path: Path) -> None:
-    """With NumPy and numba alone; it compiles its own kernels, and says so."""
-    text = (ROOT / "generated" / "hertz.py").read_text()
-    stuck = (ROOT / "generated" / "full_stick.py").read_text()
-    publish(package_files({"roller": text, "full_stick": stuck}), tmp_path / "copied")
-    run = subprocess.run(
-        [sys.executable, "-c", FRESH], cwd=tmp_path, capture_output=True, text=True
-    )
-    assert run.returncode == 0, run.stderr
-    assert_allclose(float(run.stdout), np.sqrt(1 - 0.1 / np.pi), rtol=1e-14)
-    assert run.stderr in ("", "compiling the solvers, once for this installation: some twenty "
-                          "seconds ...\n")  # fmt: skip
