@@ -113,8 +113,8 @@ def build_all(
     limit: seconds that the search for the closed forms of one body may take.
 
     Raises what `build` raises for the first source that fails, and ends the others; LostProcess;
-    TwoOfOneName before anything is built, where the files say so; RanAway for a file whose body goes
-    beyond STRANGERS.
+    TwoOfOneName before anything is built, where the files say so; RanAway for a file whose body
+    goes beyond STRANGERS.
     """
     _demand_names_of_their_own(sources)
     keys = _keys(sources, limit)

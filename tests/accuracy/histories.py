@@ -378,8 +378,8 @@ PARTS = 4
 def works(case: Case, loads: Any) -> Works:
     """Friction's work beside that of the loads, from shear and pressure at 600 places.
 
-    Where the surfaces stick at x0, Q moves with u, the displacement at x0 by q.  Tension strains the
-    one body by sigma/E*, say, and turns with the displacement of the other ends, which reciprocity
+    Where the surfaces stick at x0, Q moves with u, the displacement at x0 by q.  Tension strains
+    the one body by sigma/E*, say, and works on its other ends' displacement, which reciprocity
     gives as X, the integral of q x: a cycle's work is, over E*,
 
         2 (int Q du + int (x0 Q - X) dsigma/4).
@@ -404,7 +404,8 @@ def works(case: Case, loads: Any) -> Works:
     distance = abs(nodes - x0)
     potential = -np.diff(np.sign(nodes - x0) * distance * (np.log(distance) - 1)) / np.pi
     q = found.q[last]
-    by_shear = 2 * (np.trapezoid(Q, q @ potential) + np.trapezoid((x0 * Q - q @ (w * x)) / 4, sigma))
+    by_tension = np.trapezoid((x0 * Q - q @ (w * x)) / 4, sigma)
+    by_shear = 2 * (np.trapezoid(Q, q @ potential) + by_tension)
     given = {name: value for name, value in own.items() if name != "f"}
     contact = case.module.contact(P, M, **given)
     p = np.array(

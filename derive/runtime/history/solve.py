@@ -45,8 +45,8 @@ ZONE = 8
 """m, n, regime, work, rounds, drift, error and work_error of a cycle."""
 
 FEWEST = 64
-"""Elements of the first mesh; on finer ones steps are shorter, too: as many to an instant of a cycle
-as there are times more elements, half as many to one of a history."""
+"""Elements of the first mesh.  A mesh of k times as many takes k times as many steps to an instant
+of a cycle, and half of that to one of a history."""
 
 REACH = 3.84
 """How far an edge may move in a step, over the width of the contact, times the elements."""
@@ -133,7 +133,7 @@ def _laid(law: Any, own: Any, rows: Any, count: int, fronts: Any) -> Any:
 @kernel(truth(vector, vector))
 def _move(row: Any, last: Any) -> bool:
     """Whether loads change between two rows of a path."""
-    for i in range(4):
+    for i in range(4):  # noqa: SIM110 - numba compiles no `any` over a generator
         if row[i] != last[i]:
             return True
     return False

@@ -60,8 +60,8 @@ def history(
     {arguments}
 
     Returns History(a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m];
-    error; work_error [J/m]).  Slip is told, and no rate, since time is not given: what slips between two instants is
-    np.diff(slip, axis=-2) where x is a row.
+    error; work_error [J/m]).  Time is not given, hence no rate of slip: what slips between two
+    instants is np.diff(slip, axis=-2) where x is a row.
     NaN where there is no contact; m and n where it slides, slip and work from then on.
     """
     numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
@@ -114,8 +114,8 @@ def steady_cycle(
     {arguments}
 
     Returns SteadyCycle(m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift;
-    error; work_error [J/m]).  Slip range, shear and work are computed on elements, where m and n are
-    exact, too.
+    error; work_error [J/m]).  Slip range, shear and work are computed on elements, even where m and
+    n are exact.
     NaN where the contact is lost or slides; m and n where no place sticks all the time.
     """
     numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
