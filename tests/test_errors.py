@@ -11,6 +11,7 @@ from derive.errors import BadUnit, UserError
 FACTS = {
     "str": "some 'text', α",
     "int": 3,
+    "float": 2.5,
     "tuple[str, ...]": ("hertz", "wedge"),
     "object": object(),
 }
@@ -22,7 +23,7 @@ def example(kind: type[UserError]) -> UserError:
 
 
 def annotation(fact: "dataclasses.Field[object]") -> str:
-    return fact.type.__name__ if fact.type in (str, int, object) else str(fact.type)
+    return fact.type.__name__ if isinstance(fact.type, type) else str(fact.type)
 
 
 MISTAKES = [
