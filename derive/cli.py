@@ -97,6 +97,11 @@ def list_() -> None:
 @main.command()
 @click.argument("name", required=False)
 @click.option("--latex", is_flag=True, help="As one LaTeX display.")
+@click.option(
+    "--code",
+    type=click.Choice(["c", "fortran", "javascript", "julia", "matlab"]),
+    help="Its closed formulas as functions of this language.",
+)
 @click.option("--html", is_flag=True, help="As a page for the browser: NAME.html.")
 @click.option(
     "--all", "every", is_flag=True, help="With --html: a page of every body, and an index."
@@ -117,6 +122,7 @@ def list_() -> None:
 def show(
     name: str | None,
     latex: bool,
+    code: str | None,
     html: bool,
     every: bool,
     out: Path | None,
@@ -124,8 +130,8 @@ def show(
     limit: float,
 ) -> None:
     """The derived and proven formula sheet of NAME, a geometry or a geometry file."""
-    if html + latex + bool(slip) > 1:
-        raise click.UsageError("--html, --latex and --slip exclude each other: give one of them")
+    if html + latex + bool(code) + bool(slip) > 1:
+        raise click.UsageError("--html, --latex, --code and --slip exclude each other: give one")
     if (every or out) and not html:
         raise click.UsageError("--all and --out go with --html: add it")
     if (name is None) != every:
@@ -152,6 +158,10 @@ def show(
         click.echo(f"{geometry.name}: {sheet.remark}", err=True)
     if latex:
         click.echo(sheet.latex)
+    elif code:
+        from derive.codegen.languages import code_of
+
+        click.echo(code_of(sheet, code))
     else:
         _print(view.formulas(sheet))
 

@@ -227,6 +227,24 @@ class TwoOfOneName(UserError):
 
 
 @dataclass
+class NoSuchName(UserError):
+    """A name of a body that another language cannot carry."""
+
+    body: str
+    language: str
+    given: str
+    why: str
+
+    @property
+    def message(self) -> str:
+        """Which name, and what to do."""
+        return (
+            f"{self.body} in {self.language}: {self.given!r} {self.why}; give it another name in "
+            "a geometry file of your own"
+        )
+
+
+@dataclass
 class LostProcess(UserError):
     """One of several processes that ended before its work was done."""
 

@@ -685,3 +685,23 @@ class TestSlip:
         done = CliRunner().invoke(main, ["show", name, "--slip", order])
         assert done.exit_code == 2
         assert "--slip" in done.output
+
+
+class TestCode:
+    """`derive show NAME --code LANGUAGE`."""
+
+    def test_it_prints_functions(self, unproven: None) -> None:
+        done = run("show", "hertz", "--code", "julia")
+        assert done.exit_code == 0
+        assert "function load(a, c, E_star, R)" in done.output
+
+    @pytest.mark.parametrize("other", [("--latex",), ("--html",), ("--slip", "2")])
+    def test_one_form_at_a_time(self, other: tuple[str, ...]) -> None:
+        done = run("show", "hertz", "--code", "c", *other)
+        assert done.exit_code == 2
+        assert "exclude each other" in done.output
+
+    def test_a_language_that_is_not_spoken(self) -> None:
+        done = run("show", "hertz", "--code", "perl")
+        assert done.exit_code == 2
+        assert "'c', 'fortran', 'javascript', 'julia', 'matlab'" in done.output

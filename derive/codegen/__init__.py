@@ -1,4 +1,4 @@
-"""From proven formulas to NumPy.
+"""From proven formulas to NumPy, and in closed form to other languages.
 
 plan      which way each function takes: formula, sum over parts, quadrature, solved
 program   named steps, then outputs: what a function computes, before it is text
@@ -14,6 +14,7 @@ cuts      where a body without closed formulas is cut for quadrature
 integrals what such a body evaluates, as its docstrings print it
 curve     the text of such a body: its curve, and the functions that are integrated over it
 module    the one template of a generated module
+languages the closed formulas in C, Fortran, JavaScript, Julia or MATLAB
 mark      what every generated file begins with
 trial     runs the module as it was printed, and compares
 publish   compares a whole package with what is on disk, or replaces it
