@@ -18,7 +18,7 @@ B = inverse_of(A)
 def solution(trial, load, places=None):
     """Whether it is found, q, s and the places."""
     places = np.zeros(W.size) if places is None else places.copy()
-    q, s, room = np.zeros(W.size), np.zeros(W.size), np.empty_like(A)
+    q, s, room = np.zeros(W.size), np.zeros(W.size), np.zeros((W.size + 1, W.size))
     given = np.array([load])
     found = nearest(A, B, B @ W, W, trial, BOUND, given, places, q, s, room)
     return found, q, s, places
