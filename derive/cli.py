@@ -484,11 +484,10 @@ def _accept(file: Path | None, label: str | None) -> None:
 def _paper(file: Path | None, label: str | None) -> "Paper":
     """The claims of a paper, or the one claim of it that is asked for."""
     from derive.errors import UnknownClaim
-    from derive.paper.andresen2020 import paper
-    from derive.paper.userfile import read_claims
+    from derive.paper.userfile import built_in, read_claims
 
     with _console(stderr=True).status("deriving what the paper is compared with"):
-        source = paper() if file is None else read_claims(file)
+        source = built_in() if file is None else read_claims(file)
     if label is None:
         return source
     labels = tuple(claim.label for claim in source.claims)

@@ -146,7 +146,7 @@ def _erratum(finding: "Finding") -> Group:
             ("printed", report.printed(finding.claim)),
             ("corrected", report.corrected(finding)),
             ("evidence", report.evidence(finding)),
-            ("consequence", report.consequence(finding)),
+            ("consequence", finding.claim.consequence),
         )
         if text
     ]

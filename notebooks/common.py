@@ -13,15 +13,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from IPython.display import Markdown, display
-from sympy import lambdify
+from sympy import lambdify, symbols
 
 ROOT = Path(__file__).resolve().parents[1]
 if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
 from derive import plot  # noqa: E402
-from derive.paper.andresen2020 import paper  # noqa: E402
-from derive.paper.andresen2020.symbols import Delta_Q, Delta_sigma, a, c  # noqa: E402
+from derive.paper.userfile import built_in as paper  # noqa: E402
 
 Array = Any
 
@@ -126,6 +125,7 @@ class Ends(NamedTuple):
 def _printed_K_T() -> tuple[Callable[..., Array], Callable[..., Array]]:
     """Delta K_T of eq. (32) with the half-widths that the paper says, from its claims."""
     claims = (paper()[f"K_T/tilted/{side}"] for side in ("left", "right"))
+    Delta_Q, Delta_sigma, a, c = symbols("Delta_Q Delta_sigma a c")
     left, right = (
         lambdify((Delta_Q, Delta_sigma, own), claim.right, "numpy")
         for claim, own in zip(claims, (a, c), strict=True)

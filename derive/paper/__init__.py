@@ -12,9 +12,7 @@
     zero         an expression               whether it vanishes identically, by exact steps alone
     repair       a printed equation          others that a slip of the pen could have made of it
     quick        an expression               a few digits of it at once, to tell candidates apart
-    bodies       a proven sheet              its formulas, in variables that leave no root
-    anybody      an equation                 whether it holds for every convex body
-    exact        a contact and its loads     the permanent stick zone, from its two conditions
+    bodies       a geometry                  its formulas, each proven
     tending      a claim about a limit       whether both sides come near each other, by what power
     diagnosis    a false equation            by which constant and powers its sides differ
     verdict      a claim                     Finding: verdict, evidence, the corrected equation
@@ -32,7 +30,7 @@
     lines        a claims file               where its claims stand, and the file with one changed
     mistakes     a claims file               all that is wrong with it
     userfile     a claims file in TOML       the claims in it
-    andresen2020                             the paper that the method of this project is from
+    andresen2020/                            claims files of the paper that the method is from
 
 Nothing but the command line imports this package.  No verdict is typed in: `expected` in a claim
 is compared with what was found, and decides the exit status alone.

@@ -5,7 +5,7 @@ formula of a sheet, a defining integral, a root of the conditions of stick, or a
 map of signs is nothing but such an entry, `M: -M` say, and can be read there.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -15,8 +15,6 @@ from sympy.logic.boolalg import Boolean
 
 Meaning = Mapping[Symbol, Expr]
 Point = dict[Symbol, mpf]
-Sample = Callable[[Point], mpf]
-"""A number that no formula gives, such as the root of two conditions, at one point."""
 
 
 class Verdict(StrEnum):
@@ -112,7 +110,6 @@ class Range:
 SCALE = Range(-1.5, 1.5, powers=True)
 """A length, a load or a modulus; they are homogeneous, so their size matters little."""
 SIGNED = Range(-2, 2)
-FRACTION = Range(0.05, 0.95)
 
 
 @dataclass(frozen=True)
@@ -151,7 +148,6 @@ class Claim:
     conventions  maps to try where it does not hold as it stands
     through      two expressions that must agree once `left`, a symbol, is replaced by `right`;
                  for a definition, which by itself says nothing that could be wrong
-    samples      numbers that stand for symbols of the meaning which no formula gives
     cases        the points themselves, where few are all that can be afforded; numbers as text
     source       the equation as the source has it, as text, where the sides cannot keep its form:
                  SymPy takes a - a for zero as soon as it is written
@@ -161,7 +157,7 @@ class Claim:
     steps        how the comparison was derived, for `--explain`
     unchecked    why it cannot be decided, if it cannot
     expected     the verdict found when the claim was last looked at by a person
-    consequence  what the difference does to a user's numbers, computed on demand
+    consequence  what the difference does to a user's numbers
     """
 
     label: str
@@ -184,7 +180,6 @@ class Claim:
     rounded: Rounded | None = None
     conventions: tuple[Convention, ...] = ()
     through: tuple[Expr, Expr] | None = None
-    samples: Mapping[Symbol, Sample] = field(default_factory=dict)
     swaps: tuple[Symbol, ...] = ()
     cases: tuple[Mapping[Symbol, str], ...] = ()
     source: str = ""
@@ -193,7 +188,7 @@ class Claim:
     steps: tuple[str, ...] = ()
     unchecked: str = ""
     expected: Verdict | None = None
-    consequence: Callable[[], str] | None = None
+    consequence: str = ""
 
     def sides(self, left: Expr, right: Expr) -> tuple[Expr, Expr]:
         """What is compared if the printed sides were these."""

@@ -5,7 +5,7 @@ Meant     what the symbols of the source are
 Put       a printed equation with its calls as symbols, and what these stand for
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -14,7 +14,7 @@ from sympy import Derivative, Expr, Integral, Limit, Symbol
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
-from derive.paper.bodies import Body, at
+from derive.paper.bodies import Body, placed
 from derive.paper.claim import Meaning
 from derive.paper.dimensions import Call, Units
 from derive.paper.formula import FROM_POLE, IMPROPER, PrincipalValue, ToInfinity, proper
@@ -24,7 +24,6 @@ from derive.units import Dimension, parse_unit
 
 PLACES = {"x": x, "s": Symbol("s", real=True), "xi": Symbol("xi", real=True)}
 _UNITS = {E_star: parse_unit("Pa"), f: parse_unit("-")}
-_EDGES = (Symbol("a", real=True), Symbol("c", real=True))
 _CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
 
 
@@ -73,7 +72,7 @@ class Context:
             known = self.body.sheet[call.func.__name__]
             formula = self.body.formula(known.name).xreplace({e: M / P})
             table = dict(zip(known.arguments, call.args, strict=True))
-            expr = expr.xreplace({call: at(formula.subs(table, simultaneous=True), *_EDGES)})
+            expr = expr.xreplace({call: placed(formula, table)})
         expr = proper(expr)
         return expr.doit() if expr.has(Derivative, Limit) else expr
 
@@ -97,11 +96,23 @@ class Meant:
     written  as the file says it, other symbols put in and calls left as they are
     ours     in variables alone
     lost     names of symbols that are defined by themselves
+    needs    names of all symbols that a symbol is written with
     """
 
     written: dict[Symbol, Expr]
     ours: dict[Symbol, Expr]
     lost: set[str] = field(default_factory=set)
+    needs: dict[str, set[str]] = field(default_factory=dict)
+
+    def without(self, changed: Iterable[str]) -> "Meant":
+        """What stays as it is if some symbols are given another meaning."""
+        names = set(changed)
+        kept = {n: needs for n, needs in self.needs.items() if n not in names and not needs & names}
+        written, ours = (
+            {symbol: expr for symbol, expr in table.items() if symbol.name in kept}
+            for table in (self.written, self.ours)
+        )
+        return Meant(written, ours, set(self.lost), kept)
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,7 @@ class Quotient:
 
 def diagnosis(claim: Claim) -> str:
     """In words, or nothing."""
-    if claim.relation.is_ordered or claim.samples or claim.cases or claim.toward is not None:
+    if claim.relation.is_ordered or claim.cases or claim.toward is not None:
         return ""
     found = quotient(claim)
     return f"left over right is {found.told} at {found.count} points" if found else ""

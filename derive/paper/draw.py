@@ -93,7 +93,7 @@ def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
 
 def _further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     symbols = variables(claim)
-    if claim.cases or claim.samples or not symbols:
+    if claim.cases or not symbols:
         return
     few = has_integral(claim)
     rng = _random(claim, "further")
@@ -148,7 +148,7 @@ def variables(claim: Claim) -> list[Symbol]:
         found |= condition.free_symbols
     for symbol in held:
         found |= claim.meaning.get(symbol, symbol).free_symbols
-    return sorted(found - set(claim.samples) - _bound(claim), key=in_order)
+    return sorted(found - _bound(claim), key=in_order)
 
 
 def in_order(symbol: Symbol) -> tuple[str, str]:
@@ -450,7 +450,7 @@ def _closest(
 
 def touching(claim: Claim, exprs: Sequence[Expr]) -> Iterator[tuple[Point, tuple[Point, ...]]]:
     """Points where the sides of an inequality seem to touch, with those beside them."""
-    if claim.cases or claim.samples or has_integral(claim) or not variables(claim):
+    if claim.cases or has_integral(claim) or not variables(claim):
         return
     rng = _random(claim, "touching")
     found = _closest(claim, variables(claim), rng, exprs[0] - exprs[1])

@@ -13,7 +13,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Add, Expr, Integral, Symbol
 
-from derive.paper.claim import Claim, Meaning, Point
+from derive.paper.claim import Meaning, Point
 from derive.paper.draw import in_order
 from derive.paper.quadrature import Value
 from derive.paper.quick import Unknown, approximately
@@ -90,12 +90,9 @@ class _Numbers(dict[Symbol, mpf]):
         return self[symbol]
 
 
-def numbers(claim: Claim, meaning: Meaning, point: Point, care: Care = Care.TWICE) -> Point:
+def numbers(meaning: Meaning, point: Point, care: Care = Care.TWICE) -> Point:
     """Numbers for our symbols and for the source's at one point."""
-    known = dict(point)
-    for symbol, sample in claim.samples.items():
-        known[symbol] = sample(point)
-    return _Numbers(_Numbers(known, {}, care), meaning, care)
+    return _Numbers(_Numbers(point, {}, care), meaning, care)
 
 
 def _sides(

@@ -17,7 +17,6 @@ from derive.paper.claim import Paper, Point, Verdict
 from derive.paper.draw import has_integral, is_allowed
 from derive.paper.report import (
     as_displayed,
-    consequence,
     corrected,
     evidence,
     printed,
@@ -80,7 +79,7 @@ def _section(number: int, finding: Finding) -> str:
         ("corrected", _typeset(as_displayed(repair)) + _code(told) if repair and told else ""),
         ("differs by", escape(finding.diagnosis)),
         ("evidence", escape(evidence(finding))),
-        ("consequence", escape(consequence(finding))),
+        ("consequence", escape(finding.claim.consequence)),
         ("both sides", _curves(finding)),
     ]
     listed = "".join(f"<dt>{head}</dt><dd>{text}</dd>\n" for head, text in entries if text)
@@ -126,7 +125,7 @@ def _is_plain(element: ElementTree.Element) -> bool:
 def _curves(finding: Finding) -> str:
     """Both sides along one variable, where the claim fails and they are quick to compute."""
     claim, pairs = finding.claim, finding.judged.pairs
-    if finding.verdict != Verdict.FAILS or not pairs or has_integral(claim) or claim.samples:
+    if finding.verdict != Verdict.FAILS or not pairs or has_integral(claim):
         return ""
     sides = [side.xreplace(dict(claim.meaning)) for side in claim.sides(claim.left, claim.right)]
     point = pairs[-1].point

@@ -27,7 +27,8 @@ def _text(equation: Claim | Repair, relation: Relation) -> str:
     return f"{text_of(equation.left)} {relation} {text_of(equation.right)}"
 
 
-def _latex(equation: Claim | Repair, relation: Relation) -> str:
+def latex_of_equation(equation: Claim | Repair, relation: Relation) -> str:
+    """An equation, or one that is proposed for it, in LaTeX."""
     sign = _SIGNS.get(relation, relation)
     return rf"{_of(equation.left)} {sign} {_of(equation.right)}"
 
@@ -51,7 +52,7 @@ def _spelled(name: str) -> str:
 
 def as_displayed(equation: Claim | Repair) -> str:
     """An equation in LaTeX."""
-    return _latex(equation, equation.relation)
+    return latex_of_equation(equation, equation.relation)
 
 
 def corrected(finding: Finding) -> str | None:
@@ -155,12 +156,6 @@ def units(findings: Iterable[Finding]) -> list[str]:
     ]
 
 
-def consequence(finding: Finding) -> str:
-    """What the error does to a user's numbers; computed when it is asked for."""
-    tell = finding.claim.consequence
-    return tell() if tell else ""
-
-
 _SENSES = {
     Verdict.HOLDS: "one sign",
     Verdict.NUMERICAL: "one sign",
@@ -201,7 +196,7 @@ def as_json(findings: Iterable[Finding]) -> str:
             "units": finding.claim.units or None,
             "evidence": evidence(finding),
             "reason": finding.judged.why,
-            "consequence": consequence(finding) or None,
+            "consequence": finding.claim.consequence or None,
         }
         for finding in findings
     ]
@@ -230,9 +225,11 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
         lines += [f"{finding.verdict}, `{finding.claim.label}`.", ""]
         lines += [f"- printed: {_in_markdown(finding.claim)}"]
         if finding.repair:
-            lines.append(f"- corrected: ${_latex(finding.repair, finding.repair.relation)}$")
+            lines.append(
+                f"- corrected: ${latex_of_equation(finding.repair, finding.repair.relation)}$"
+            )
         lines.append(f"- evidence: {evidence(finding)}")
-        if told := consequence(finding):
+        if told := finding.claim.consequence:
             lines.append(f"- consequence: {told}")
         lines.append("")
     return "\n".join(lines)
@@ -241,7 +238,7 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
 def _in_markdown(claim: Claim) -> str:
     if claim.unchecked and not claim.source:
         return "`" + " ".join(claim.latex.split()) + "`"
-    return f"`{claim.source}`" if claim.source else f"${_latex(claim, claim.relation)}$"
+    return f"`{claim.source}`" if claim.source else f"${latex_of_equation(claim, claim.relation)}$"
 
 
 _ESCAPED = {
@@ -288,7 +285,7 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
         if finding.repair:
             lines += ["Corrected:", *_display(finding.repair, finding.repair.relation)]
         lines.append(rf"Evidence: {_plain(evidence(finding))}.")
-        if told := consequence(finding):
+        if told := finding.claim.consequence:
             lines.append(rf"\par Consequence: {_plain(told)}.")
     return "\n".join([*lines, r"\end{document}", ""])
 
@@ -300,7 +297,7 @@ def _printed_in_latex(claim: Claim) -> list[str]:
 
 
 def _display(equation: Claim | Repair, relation: Relation) -> list[str]:
-    return [r"\begin{equation*}", _latex(equation, relation), r"\end{equation*}"]
+    return [r"\begin{equation*}", latex_of_equation(equation, relation), r"\end{equation*}"]
 
 
 # ------------------------------------------------------------------ for a reader who doubts
@@ -322,7 +319,7 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
         ("verdict", [f"{finding.verdict}: {finding.judged.why}"]),
         ("convention", _convention(finding)),
         ("corrected", _correction(finding)),
-        ("consequence", [consequence(finding)]),
+        ("consequence", [finding.claim.consequence]),
     ]
     return [(heading, lines) for heading, lines in told if any(lines)]
 

@@ -29,6 +29,21 @@
     order = 1.5                                #   left less right is of this order
     given = ["(8)", "(11)"]                    # claims of the form symbol = ... it follows from
     conventions = [{ what = "...", symbols = { ... }, contradicts = "..." }]
+    ranges = { t = [0.4, 0.9] }                # of variables, in this claim
+    through = "p = integral(h, s, 0, c)"       # h = ... is judged by what it makes of this
+    allowed = { sigma = "..." }                # a bound, judged where it is just reached, is met
+    beyond = { sigma = "..." }                 #   with these symbols, and is not with those
+    leading = true                             # ~ between leading terms, compared as by =
+    swaps = ["a", "c"]                         # symbols that may stand for each other by mistake
+    cases = [{ l = 1 }]                        # the only points to look at
+    family = "large tension"                   # looked at in the same points as others of that name
+    equation = "(3)"                           # the display that it is a part of
+    against = "..."                            # what it is compared with, in words
+    steps = ["..."]                            # how that was found
+    consequence = "..."                        # what the error does to a user's numbers
+
+    [signs]                                    # which claims show the sense of a quantity
+    moment = ["(2)", "half-width"]
 
 The body's parameters, E_star and f are variables from the start, and [variables] may give them a
 range; x, s and xi are places, drawn on both sides of zero where it gives them none.
@@ -40,10 +55,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache, partial
+from os.path import isdir
 from pathlib import Path
 from typing import Any, TypeGuard, TypeVar
 
-from sympy import Expr, Rational, Symbol, false, true
+from sympy import Expr, Limit, Rational, Symbol, false, true
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadClaimsFile, BadFormula, BadText, BadUnit, NotAccepted, UserError
@@ -53,6 +69,7 @@ from derive.paper.bodies import Body, of_library
 from derive.paper.claim import (
     SCALE,
     SIGNED,
+    Bound,
     Claim,
     Convention,
     Meaning,
@@ -87,6 +104,9 @@ from derive.writing.draft import Wanted, draft
 
 Read = TypeVar("Read")
 
+BUILT_IN = Path(__file__).parent / "andresen2020"
+"""The claims files of the paper that the method of this project is from."""
+
 _LARGEST = 200_000
 """Bytes of a claims file."""
 _MOST = 500
@@ -95,7 +115,7 @@ _SECONDS = 30.0
 """Seconds that the verdict on a claim may take, and then the search for a correction."""
 _MOST_SECONDS = 86_400
 _FROM_THE_START: Mapping[str, Expr] = {**PLACES, "E_star": E_star, "f": f}
-_KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims"})
+_KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims", "signs"})
 _OF_A_SYMBOL = frozenset({"is", "meaning", "proposal", "unit"})
 _OF_A_VARIABLE = frozenset({"meaning", "low", "high", "unit"})
 _OF_A_BODY = frozenset({"g", "units"})
@@ -103,7 +123,9 @@ _OF_A_CONVENTION = frozenset({"what", "symbols", "contradicts"})
 _OF_A_CLAIM = (
     frozenset(("label", "place", "says", "printed", "latex", "understood", "expected", "symbols"))
     | {"part", "accepted"}
-    | {"conventions", "unchecked", "require", "as", "order", "given", "body"}
+    | {"conventions", "unchecked", "require", "as", "order", "given", "body", "ranges", "through"}
+    | {"allowed", "beyond", "leading", "swaps", "cases", "family", "equation", "against", "steps"}
+    | {"consequence"}
 )
 
 
@@ -122,12 +144,26 @@ class Reading:
 
 
 def read_claims(path: Path) -> Paper:
-    """The claims of a file.
+    """The claims of a file, or of all files of a folder in the order of their names.
 
     Raises BadClaimsFile or BadFormula, and Mistakes where there are several.  A claim that lacks
     something, an accepted reading or the meaning of a symbol, is there as unchecked.
     """
-    return _file(path).paper()
+    if not isdir(path):  # which a name that no file can have is not
+        return _file(path).paper()
+    papers = [_file(each).paper() for each in sorted(path.glob("*.toml"))]
+    if not papers:
+        raise BadClaimsFile(str(path), "has no claims file in it", "name a file, or its folder")
+    signs = dict[str, tuple[str, ...]]()
+    for each in papers:
+        signs |= {name: signs.get(name, ()) + labels for name, labels in each.signs.items()}
+    return Paper(papers[0].title, tuple(c for each in papers for c in each.claims), signs)
+
+
+@cache
+def built_in() -> Paper:
+    """The paper that the method of this project is from."""
+    return read_claims(BUILT_IN)
 
 
 def open_readings(path: Path) -> list[Reading]:
@@ -199,8 +235,14 @@ class _File:
             self.context = self._context(self.data.get("body"), self.name)
         self._read_symbols()
         claims = self._claims()
+        signs = dict[str, tuple[str, ...]]()
+        with self._noted():
+            signs = {
+                name: self._list(self._table("signs"), name, "signs")
+                for name in self._table("signs")
+            }
         demand_none(self.mistakes)
-        return Paper(str(self.data.get("title", self.name)), claims)
+        return Paper(str(self.data.get("title", self.name)), claims, signs)
 
     def _context(self, given: object, where: str) -> Context:
         """The body that is named, or written down, with all variables; each is derived once."""
@@ -279,7 +321,8 @@ class _File:
         """What all symbols are, with a body and in one claim; each mistake is noted once."""
         key = repr((id(context), sorted((own or {}).items(), key=str)))
         if key not in self.meant:
-            self.meant[key] = Meant({}, {})
+            shared = own and context is self.context
+            self.meant[key] = self._meant(context).without(own) if shared else Meant({}, {})
             symbols = {**self.symbols, **(own or {})}
             for name in symbols:
                 with self._noted():
@@ -314,6 +357,8 @@ class _File:
         for inner in sorted(found.free_symbols & set(others.values()), key=str):
             if not self._define(inner.name, symbols, context, meant, (*outer, name)):
                 return False
+        needed = {each.name for each in found.free_symbols}
+        meant.needs[name] = needed.union(*(meant.needs.get(each, ()) for each in needed))
         meant.written[symbol] = found.xreplace(meant.written)
         meant.ours[symbol] = self._in_time(where, lambda: context.put_in(meant.written[symbol]))
         return True
@@ -408,6 +453,10 @@ class _File:
             "place": str(given.get("place", Path(self.name).name)),
             "says": str(given.get("says", label)),
             "latex": str(given.get("latex", "")),
+            "equation": str(given.get("equation", "")),
+            "consequence": str(given.get("consequence", "")),
+            "steps": self._list(given, "steps", where),
+            "seconds": self.seconds,
         }
         with self._noted():
             common["expected"] = self._verdict(given, where)
@@ -437,10 +486,14 @@ class _File:
         if "given" in given:
             meant = self._follows(given, where, symbols, meant)
         self.read[label] = left, right
-        lacking = [n for n in symbols if Symbol(n) not in meant.ours and _held(n, left, right)]
+        through = self._through(given, where, left, names)
+        sides = (left, right)
+        if through is not None:
+            sides = through[0].xreplace({left: right}), through[1].xreplace({left: right})
+        lacking = [n for n in symbols if Symbol(n) not in meant.ours and _held(n, *sides)]
         if lacking:
             return _lacking(given, common, lacking)
-        read = _Read(given, where, text, left, relation, right)
+        read = _Read(given, where, text, left, relation, right, through)
         try:
             return self._judged(read, context, meant, common)
         except NoPole as error:
@@ -451,43 +504,131 @@ class _File:
     ) -> Claim:
         """A claim that can be judged."""
         given, where, left, right = read.given, read.where, read.left, read.right
-        calls = calls_in(left, right)
+        compared = read.through or (left, right)
+        calls = calls_in(left, right, *compared)
         named = {call: Symbol(as_text(call)) for call in calls}
         put = Put(context, named, meant.ours)
         left, right = (put.without_calls(side) for side in (left, right))
+        compared = tuple(put.without_calls(side) for side in compared)
         called = {**meant.ours, **put.called(meant.ours)}
         self._demand_bound(where, left, right, called)
-        held = _variables(left, right, called)
+        held = _variables(*compared, called) - _inside(*compared, called)
         rounded = self._rounded(read, context, put)
         relation = read.relation
-        if relation == Relation.LIKE and "as" not in given:
+        if relation == Relation.LIKE and not given.keys() & {"as", "leading"}:
             relation = Relation.EQUAL
         conditions = self._conditions(read, context, meant, held)
         held = held.union(*(each.free_symbols for each in conditions))
-        sides = (read.left.xreplace(meant.written), read.right.xreplace(meant.written))
-        one_symbol = any(side in meant.ours for side in (read.left, read.right))
-        sheet = context.sheet
-        claims = ", ".join(map(str, given.get("given", ())))
+        reached = self._reached(given, where, put, context)
+        if reached is not None:
+            changed = (*reached.allowed.values(), *reached.beyond.values())
+            held = held.union(*(expr.free_symbols for expr in changed))
+        ranges = self.ranges | self._ranges(given, where, context)
         return Claim(
             left=left,
             right=right,
             relation=relation,
+            reached=reached,
             meaning=called,
-            against=f"the formulas of {self.name}"
-            + (f" and the sheet of {sheet.geometry.name}" if sheet else "")
-            + (f", given {claims}" if claims else ""),
-            ranges=_places(held) | {s: r for s, r in self.ranges.items() if s in held},
+            against=self._against(given, context),
+            ranges=_places(held) | {s: r for s, r in ranges.items() if s in held},
             conditions=conditions,
-            defined=one_symbol and sides[0] == sides[1] and "given" not in given,
+            defined=_is_defined(read, meant),
+            through=compared if read.through else None,
+            cases=self._cases(given, where, context),
+            family=str(given.get("family", "")),
             toward=self._toward(read, context, meant),
             order=self._order(given, where),
             rounded=rounded,
             conventions=self._conventions(given, where, put, context),
             source=read.text,
-            seconds=self.seconds,
-            swaps=tuple(s for s in meant.ours if left.has(s) or right.has(s)),
+            swaps=self._swaps(read, (left, right), meant, context),
             **common,
         )
+
+    def _against(self, given: Mapping[str, Any], context: Context) -> str:
+        """What a claim is compared with, in words."""
+        if "against" in given:
+            return str(given["against"])
+        sheet, claims = context.sheet, ", ".join(map(str, given.get("given", ())))
+        told = f" and the sheet of {sheet.geometry.name}" if sheet else ""
+        return f"the formulas of {self.name}{told}" + (f", given {claims}" if claims else "")
+
+    def _through(
+        self, given: Mapping[str, Any], where: str, left: Expr, names: Names
+    ) -> tuple[Expr, Expr] | None:
+        """The equation by which a definition is judged, as both its sides."""
+        if "through" not in given:
+            return None
+        if not isinstance(left, Symbol):
+            raise self._bad(f"{where}: through goes with symbol = ...", "write the symbol first")
+        text = self._text(given, "through", where)
+        first, relation, second = self._in_time(where, lambda: equation(text, names))
+        if relation != Relation.EQUAL or not (first.has(left) or second.has(left)):
+            why = f"{where}: through is no equation that holds {left}"
+            raise self._bad(why, "write one that is true if the claim is")
+        if any(call.has(left) for call in calls_in(first, second)):
+            why = f"{where}: through holds {left} inside a formula that is called"
+            raise self._bad(why, "write it outside")
+        return first, second
+
+    def _reached(
+        self, given: Mapping[str, Any], where: str, put: Put, context: Context
+    ) -> Bound | None:
+        """How a bound is judged off the place where it is reached."""
+        if not given.keys() & {"allowed", "beyond"}:
+            return None
+        tables = [self._inner(given, key, where) for key in ("allowed", "beyond")]
+        if not all(tables):
+            why = f"{where} has one of allowed and beyond alone"
+            raise self._bad(why, 'write both, as allowed = { sigma = "..." }')
+        return Bound(*(self._changed(given, where, table, put, context) for table in tables))
+
+    def _ranges(
+        self, given: Mapping[str, Any], where: str, context: Context
+    ) -> dict[Symbol, Range]:
+        """Where variables are drawn in one claim."""
+        found = dict[Symbol, Range]()
+        for name, ends in self._inner(given, "ranges", where).items():
+            symbol = context.variables.get(name)
+            if not isinstance(symbol, Symbol):
+                raise self._bad(f"{where}: ranges: {name!r} is no variable", "declare it")
+            if not (isinstance(ends, list) and len(ends) == 2 and all(map(_is_bound, ends))):
+                raise self._bad(f"{where}: ranges: {name} has no two ends", "write [0.1, 0.9]")
+            if ends[0] >= ends[1] or (symbol.is_positive and ends[0] < 0):
+                remedy = "write the lower end first, above zero where the variable is positive"
+                raise self._bad(f"{where}: ranges: {name} cannot be in {ends}", remedy)
+            found[symbol] = Range(float(ends[0]), float(ends[1]))
+        return found
+
+    def _cases(
+        self, given: Mapping[str, Any], where: str, context: Context
+    ) -> tuple[Mapping[Symbol, str], ...]:
+        """The points of a claim, where it names them itself."""
+        listed = given.get("cases", [])
+        if not isinstance(listed, list) or not all(isinstance(each, dict) for each in listed):
+            raise self._bad(f"{where}: cases is no list of tables", "write [{ l = 1 }]")
+        made = []
+        for each in listed:
+            for name, value in each.items():
+                if not isinstance(context.variables.get(name), Symbol) or not _is_bound(value):
+                    why = f"{where}: cases: {name} = {value!r} is no variable with a number"
+                    raise self._bad(why, "write [{ l = 1 }] with variables of the claim")
+            made.append({context.variables[name]: str(value) for name, value in each.items()})
+        return tuple(made)
+
+    def _swaps(
+        self, read: "_Read", sides: tuple[Expr, Expr], meant: Meant, context: Context
+    ) -> tuple[Symbol, ...]:
+        """Symbols that may have been mistaken for each other."""
+        if "swaps" not in read.given:
+            return tuple(s for s in meant.ours if any(side.has(s) for side in sides))
+        named = self._list(read.given, "swaps", read.where)
+        symbols = {**context.variables, **{s.name: s for s in meant.ours}}
+        for name in named:
+            if not isinstance(symbols.get(name), Symbol):
+                raise self._bad(f"{read.where}: swaps: {name!r} is no symbol", "declare it")
+        return tuple(symbols[name] for name in named)
 
     def _follows(
         self, given: Mapping[str, Any], where: str, symbols: Mapping[str, Any], meant: Meant
@@ -522,16 +663,19 @@ class _File:
         self, read: "_Read", context: Context, meant: Meant, held: set[Symbol]
     ) -> tuple[Boolean, ...]:
         """Where the formulas called are defined, and what the claim requires, in ours."""
-        found = set[Boolean]()
+        found, bound = set[Boolean](), set[Symbol]()
         for side in (read.left, read.right):
-            found |= set(context.conditions(side.xreplace(meant.written)))
+            written = side.xreplace(meant.written)
+            found |= set(context.conditions(written))
+            bound |= {over.limits[-1][0] for over in integrals(written)}
+            bound |= {limit.args[1] for limit in written.atoms(Limit)}
         listed = read.given.get("require", [])
         for text in [listed] if isinstance(listed, str) else listed:
             names = self._names(f"{read.where}: require", [s.name for s in meant.ours], context)
             needed = self._in_time(read.where, partial(read_condition, str(text), names))
             found.add(needed.xreplace(meant.ours))
-        bound = {over.limits[-1][0] for over in integrals(read.left, read.right)} - held
-        kept = [each for each in found if each != true and not each.free_symbols & bound]
+        inside = bound - held
+        kept = [each for each in found if each != true and not each.free_symbols & inside]
         if false in found:
             why = f"{read.where}: what it requires is nowhere true"
             raise self._bad(why, "mend require, or the arguments of the formulas called")
@@ -653,12 +797,22 @@ class _File:
             what = self._text(each, "what", where)
             against = self._text(each, "contradicts", where)
             symbols = self._inner(each, "symbols", where)
-            own = {**self._inner(given, "symbols", where), **symbols}
-            other = self._meant(context, own).ours
-            changed = {s: expr for s, expr in other.items() if put.meaning.get(s) != expr}
-            changed |= put.called(other)
+            changed = self._changed(given, where, symbols, put, context)
             made.append(Convention(what, changed, against))
         return tuple(made)
+
+    def _changed(
+        self,
+        given: Mapping[str, Any],
+        where: str,
+        symbols: Mapping[str, Any],
+        put: Put,
+        context: Context,
+    ) -> Meaning:
+        """What is meant otherwise if some symbols of a claim stand for something else."""
+        other = self._meant(context, {**self._inner(given, "symbols", where), **symbols}).ours
+        changed = {s: expr for s, expr in other.items() if put.meaning.get(s) != expr}
+        return {**changed, **put.called(other)}
 
     def _verdict(self, given: Mapping[str, Any], where: str) -> Verdict | None:
         if "expected" not in given:
@@ -687,6 +841,12 @@ class _File:
         if not isinstance(found, str) or not found.strip():
             raise self._bad(f"{where} has no {key}", f'write {key} = "..."')
         return found
+
+    def _list(self, data: Mapping[str, Any], key: str, where: str) -> tuple[str, ...]:
+        found = data.get(key, [])
+        if not isinstance(found, list) or not all(isinstance(each, str) for each in found):
+            raise self._bad(f"{where}: {key} is no list of texts", f'write {key} = ["..."]')
+        return tuple(found)
 
     def _demand_known(self, data: Mapping[str, Any], known: frozenset[str], where: str) -> None:
         for key in data:
@@ -719,6 +879,7 @@ class _Read:
     left: Expr
     relation: Relation
     right: Expr
+    through: tuple[Expr, Expr] | None = None
 
 
 @cache
@@ -733,9 +894,22 @@ def _formula_of(said: object) -> str:
     return str(text).strip()
 
 
+def _is_defined(read: "_Read", meant: Meant) -> bool:
+    """Whether the file says in the same words what a symbol is, alone on its side."""
+    if read.given.keys() & {"given", "through", "allowed"}:
+        return False
+    for one, other in ((read.left, read.right), (read.right, read.left)):
+        if one in meant.ours:
+            words = meant.needs[one.name] | {one.name}
+            table = {s: expr for s, expr in meant.written.items() if s.name in words}
+            if one.xreplace(table) == other.xreplace(table):
+                return True
+    return False
+
+
 def _may_be_rough(given: Mapping[str, Any], text: str) -> bool:
     """Whether ~ may stand in an equation: in a limit, or before a constant printed rounded."""
-    return "as" in given or may_be_rounded(text)
+    return bool(given.keys() & {"as", "leading"}) or may_be_rounded(text)
 
 
 def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str]) -> Claim:
@@ -752,6 +926,13 @@ def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
     """What both sides, or what their symbols stand for, depend on; some may cancel in the end."""
     held = left.free_symbols | right.free_symbols
     return set().union(*(meaning.get(symbol, symbol).free_symbols for symbol in held))
+
+
+def _inside(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
+    """Variables of printed integrals that both sides, written out, do not depend on."""
+    along = {over.limits[-1][0] for over in integrals(left, right)}
+    table = dict(meaning)
+    return along - left.xreplace(table).free_symbols - right.xreplace(table).free_symbols
 
 
 def _places(held: set[Symbol]) -> dict[Symbol, Range]:

@@ -314,7 +314,7 @@ class _Judging:
             left, right = left.xreplace(dict(meaning)), right.xreplace(dict(meaning))
 
         def value(care: Care) -> Point:
-            return numbers(self.claim, meaning, point, care)
+            return numbers(meaning, point, care)
 
         pair = apart(left, right, value, point) if not self.found else None
         return pair or both(left, right, value, point, self.integrals)
@@ -365,8 +365,6 @@ class _Judging:
         agree = f"both sides agree to {min(worst, 2 * DIGITS)} digits {self._where()}"
         if self.claim.reached is not None:
             agree += f"; off the bound the relation is right on both sides at {_OFF} points each"
-        if self.claim.samples:
-            return self._judged(Verdict.NUMERICAL, agree)
         left, right = self._in_ours()
         try:
             how = vanishes(left - right, _ranges(self.claim))
@@ -464,7 +462,7 @@ def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
     1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4: what fades like that must be proven,
     and so must a printed sign, which is zero at a place that no point may meet.
     """
-    if claim.relation.is_ordered or has_integral(claim) or claim.samples or claim.toward:
+    if claim.relation.is_ordered or has_integral(claim) or claim.toward:
         return judged.good
     table = dict(claim.meaning)
     sides = [side.xreplace(table) for side in claim.sides(left, right)]
@@ -563,7 +561,7 @@ class _Screen:
     def _numbers(self, n: int, care: Care) -> Point:
         key = (n, mpmath.mp.dps, care)
         if key not in self.known:
-            self.known[key] = numbers(self.claim, self.claim.meaning, self.points[n], care)
+            self.known[key] = numbers(self.claim.meaning, self.points[n], care)
         return self.known[key]
 
 

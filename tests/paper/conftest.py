@@ -6,7 +6,7 @@ stops where a verdict is not the expected one.
 
 import pytest
 
-from derive.paper.andresen2020 import paper
+from derive.paper.userfile import built_in as paper
 from derive.paper.verdict import Finding, check
 
 

@@ -3,26 +3,21 @@
 from collections import Counter, defaultdict
 from dataclasses import replace
 
-import mpmath
 import pytest
-from sympy import simplify
 
-from derive.paper import exact
-from derive.paper.andresen2020 import paper
 from derive.paper.claim import Verdict
 from derive.paper.draw import LEAST, variables
-from derive.paper.formula import Names, equation
 from derive.paper.numbers import DIGITS
 from derive.paper.report import (
     as_latex,
     as_markdown,
-    consequence,
     corrected,
     errata,
     evidence,
     printed,
     signs,
 )
+from derive.paper.userfile import built_in as paper
 from derive.paper.verdict import Finding, check
 from tests.paper.displayed import DISPLAYED
 from tests.paper.mutants import FEWEST, mutants, survives
@@ -105,22 +100,8 @@ def test_an_equation_is_printed_as_its_source_has_it() -> None:
     for label, text in AS_PRINTED.items():
         assert printed(paper()[label]) == text
     assert "- (K_Q2*sqrt(x + a_2 - d_2) - " in printed(paper()["section 3.2/difference"])
-    assert "2*(d_2/(2*sqrt(x + a_1)) + ...)" in printed(paper()["eq:DeltaQApprox"])
+    assert "f*K_N*(2*(d_2/(2*sqrt(x + a_1))) + Delta_a/" in printed(paper()["eq:DeltaQApprox"])
     assert "(1 + gamma)*4*f**2*P**2" in printed(paper()["inequalitywedge"])
-
-
-def test_the_source_s_text_is_what_is_judged() -> None:
-    in_words = ("h(x, c)", "m, n", "Delta_q ~")
-    others = [
-        claim for claim in paper().claims if claim.source and not claim.source.startswith(in_words)
-    ]
-    assert len(others) >= 8
-    for claim in others:
-        held = claim.left.free_symbols | claim.right.free_symbols | set(claim.swaps)
-        known = {s.name: s for s in held}
-        left, _, right = equation(claim.source, Names(claim.label, known, {}))
-        assert simplify(left - claim.left) == 0, claim.label
-        assert simplify(right - claim.right) == 0, claim.label
 
 
 @pytest.mark.thorough
@@ -189,7 +170,6 @@ def test_a_computed_number_is_counted_once(findings: dict[str, Finding]) -> None
 def test_what_sympy_would_write_otherwise_is_shown_as_printed() -> None:
     assert printed(paper()["section 3.2/limit"]).count("sqrt(x + a_2 - d_2)") == 2
     assert "c - x" in printed(paper()["eqn:FlatPunchCP"])
-    assert "gamma_t" in printed(paper()["m and gamma_2/strain"])
 
 
 @pytest.mark.thorough
@@ -219,7 +199,7 @@ def test_a_convention_holds_under_its_map_and_names_the_place(
 def test_the_consequence_of_every_error_is_told(findings: dict[str, Finding]) -> None:
     for finding in errata(findings.values()):
         if finding.claim.label != "eqn:FIE/cylinder":
-            assert consequence(finding), finding.claim.label
+            assert finding.claim.consequence, finding.claim.label
 
 
 @pytest.mark.thorough
@@ -264,43 +244,3 @@ def test_broken_claims_are_found(part: int) -> None:
     known = {"section 4.1/no moment/alpha", "section 4.1/no moment/gamma"}  # 0 and 1
     assert set(few) == known & {claim.label for claim in claims}
     assert tried > 100
-
-
-# ------------------------------------------------------------------ consequences by hand
-
-
-def test_slip_zones_of_a_tilted_wedge_without_tension() -> None:
-    """gamma = (1 - sin 27 deg)/(1 + sin 27 deg) = tan(31.5 deg)**2; exact d = (dQ/2fP) a, printed
-    times sqrt((1 + gamma)/2) at the left and sqrt((1 + 1/gamma)/2) at the right edge."""
-    skew = exact.skewness(mpmath.mpf("0.3"))
-    gamma = skew**2
-    assert mpmath.almosteq(gamma, mpmath.tan(mpmath.radians(31.5)) ** 2, 1e-14)
-    shear = mpmath.mpf("0.3")
-    left, right = exact.leading_as_printed(skew, shear, mpmath.mpf(0))
-    assert mpmath.almosteq(left, 0.15 / skew * mpmath.sqrt((1 + gamma) / 2), 1e-12)
-    assert mpmath.almosteq(right, 0.15 * skew * mpmath.sqrt((1 + 1 / gamma) / 2), 1e-12)
-    m, n = exact.moderate(skew, shear, mpmath.mpf(0))
-    for mended, true in zip(
-        exact.leading(skew, shear, mpmath.mpf(0)), (1 / skew - m, skew - n), strict=True
-    ):
-        assert mpmath.almosteq(mended, true, 1e-13)
-
-
-def test_large_tension_is_the_published_example() -> None:
-    """dQ = 0.3 f P, twice the threshold: edge terms are 23 % and 39 % too large."""
-    shear, skew = mpmath.mpf("0.3"), mpmath.mpf(1)
-    tension = 2 * exact.threshold(skew, shear)
-    m, n = exact.large(skew, shear, tension)
-    errors = [
-        float(100 * (mended / (1 - edge) - 1))
-        for mended, edge in zip(exact.leading(skew, shear, tension), (m, n), strict=True)
-    ]
-    assert errors == pytest.approx([23.4, 39.2], abs=0.1)
-
-
-def test_both_regimes_meet_at_the_threshold() -> None:
-    """n = c there by the moderate solution, and the large one tends to nearly that."""
-    shear, skew = mpmath.mpf("0.3"), exact.skewness(mpmath.mpf("0.2"))
-    tension = exact.threshold(skew, shear)
-    _, n = exact.moderate(skew, shear, tension)
-    assert mpmath.almosteq(n, skew, 1e-14)
