@@ -149,7 +149,7 @@ def read_claims(path: Path) -> Paper:
     Raises BadClaimsFile or BadFormula, and Mistakes where there are several.  A claim that lacks
     something, an accepted reading or the meaning of a symbol, is there as unchecked.
     """
-    if not isdir(path):  # which a name that no file can have is not
+    if not isdir(path):  # noqa: PTH112 - False for a name that no file can have
         return _file(path).paper()
     papers = [_file(each).paper() for each in sorted(path.glob("*.toml"))]
     if not papers:
