@@ -69,6 +69,7 @@ def unproven(monkeypatch: pytest.MonkeyPatch) -> None:
     """The pipeline without the seconds that its proofs take."""
     monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
     monkeypatch.setattr(derive.codegen.trial, "demand_right", lambda *_: None)
+    monkeypatch.setattr(derive.pipeline, "STRANGERS", None)  # another process would know of neither
 
 
 STUCK = (Path(__file__).parents[1] / "generated" / "full_stick.py").read_text(encoding="utf-8")
@@ -243,7 +244,7 @@ def test_a_formula_is_never_broken_where_no_terminal_is() -> None:
 @pytest.mark.usefixtures("shown_unproven")
 def test_show_prints_closed_forms_beside_the_integrals() -> None:
     printed = done("show", "catenary")
-    assert "Closed forms stand behind the integrals" in printed
+    assert "Closed forms follow the integrals" in printed
     assert "load_closed" in printed
     assert "besseli(1, (a + c)/(2*b))" in printed
     assert "Integral(" in printed
@@ -575,7 +576,7 @@ time.sleep(600)
 def test_bad_input_is_told_by_several_processes_as_by_one(here: Path) -> None:
     """The other body is not waited for."""
     (here / "waits").mkdir()
-    (here / "waits.py").write_text(WAITS)
+    (here / "waits.py").write_text(WAITS.replace('"cylinder"', '"waits"'))
     (here / "concave.py").write_text(CYLINDER.replace("g=x", "g=-x"))
     one = run("generate", "concave.py", "hertz", "--out", "new", "--jobs", "1")
     began = time.perf_counter()
@@ -601,7 +602,7 @@ def test_ctrl_c_ends_every_process_and_writes_nothing(here: Path) -> None:
     """Both processes are in the middle of their bodies."""
     (here / "waits").mkdir()
     for name in ("waits.py", "waits_too.py"):
-        (here / name).write_text(WAITS)
+        (here / name).write_text(WAITS.replace('"cylinder"', f'"{name.removesuffix(".py")}"'))
     before = sorted(p.name for p in here.iterdir())
     started = subprocess.Popen(
         [sys.executable, "-c", INTERRUPTIBLE],

@@ -37,6 +37,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         )
 
     monkeypatch.setattr(derive.pipeline, "build", build)
+    monkeypatch.setattr(derive.pipeline, "STRANGERS", None)  # another process would know of neither
     return sources
 
 
@@ -45,7 +46,8 @@ def files(tmp_path: Path) -> list[str]:
     """Geometry files of one's own."""
     paths = [tmp_path / name for name in ("b.py", "a.py", "c.py")]
     for path in paths:
-        path.write_text(f"{FOLDER.joinpath('hertz.py').read_text()}# {path.name}\n")
+        text = FOLDER.joinpath("hertz.py").read_text().replace('"hertz"', f'"{path.stem}"')
+        path.write_text(f"{text}# {path.name}\n")
     return [str(path) for path in paths]
 
 
