@@ -395,7 +395,7 @@ def works(case: Case, loads: Any) -> Works:
     a, c = plain.a.max(), plain.c.max()
     nodes = (c - a) / 2 - (a + c) / 2 * np.cos(np.linspace(0, np.pi, 601))
     x, w = (nodes[1:] + nodes[:-1]) / 2, np.diff(nodes)
-    found = case.module.history(*thrice, x=x, **own)
+    found = case.module.history(*thrice, x=x, tol=1e-4, **own)
     last = slice(-count, None)
     P, M, Q, sigma = (v[last] for v in thrice)
     at = np.argmin(abs(x))

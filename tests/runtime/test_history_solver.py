@@ -112,6 +112,7 @@ def test_a_cycle_that_slides_has_no_zone():
 # ---------------------------------------------------------------- energy
 
 
+@pytest.mark.enough("hertz", "rounded_wedge")
 @pytest.mark.parametrize("body", TURNED)
 def test_friction_takes_what_the_loads_give(body):
     """Within what is stated, and 1e-4 for the sums over time and place of the loads' work."""
