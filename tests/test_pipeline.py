@@ -58,6 +58,8 @@ OWN = {
     "an exponential up to e": "b*phi*exp(x/b) + phi*Max(0, x - b)",
     "numbers that SymPy keeps exact": "phi*b*exp((x/b - pi**Rational(1, 3))/sqrt(2)) + phi*Abs(x)",
     "an irrational power": "x**2/(2*R) + phi*x + b*(Abs(x)/b)**pi",
+    "an elliptical tip": "Piecewise((b*(1 - sqrt(1 - x**2/R**2)), Abs(x) < R*phi/sqrt(phi**2 + "
+    "b**2/R**2)), (b + phi*Abs(x) - sqrt(b**2 + R**2*phi**2), True))",
     "a cubic that is switched on": "Max(0, x**3 - b**3)/L**2 + x**2/(2*R)",
 }
 """Bodies that nobody here thought of, from a file of one's own to a proven module."""

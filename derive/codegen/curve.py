@@ -154,6 +154,10 @@ def _branch(piece: Piece, place: Expr, sense: int) -> Iterator[str]:
     def rates(expr: Expr) -> list[Expr]:
         return [sense * _rate(term) for term in Add.make_args(expr)]
 
+    printer = NumPyPrinter({_t})
+    place, named = _place(place, piece.slope)
+    for symbol, value in named.items():
+        yield f"        {symbol} = {printer.doprint(value)}"
     given = piece.slope.subs(x, place + sense * _t)
     slope = _shortest(simplify, Add.make_args(given))
     curvature = _shortest(_positive_form, rates(slope), is_positive=True)
@@ -164,6 +168,27 @@ def _branch(piece: Piece, place: Expr, sense: int) -> Iterator[str]:
     for symbol, value in steps:
         yield f"        {symbol} = {printer.doprint(value)}"
     yield f"        return {', '.join(map(as_float, map(printer.doprint, values)))}"
+
+
+def _place(place: Expr, slope: Expr) -> tuple[Expr, dict[Symbol, Expr]]:
+    """A break as it enters the formulas: by a name where it holds a root.
+
+    Roots of several parameters would keep the search for short forms busy for minutes.
+
+    >>> from sympy import symbols
+    >>> b, R = symbols("b R", positive=True)
+    >>> _place(-b, x / R)
+    (-b, {})
+    >>> _place(-b / sqrt(b**2 + R**2), x / R)
+    (-x_0, {x_0: b/sqrt(R**2 + b**2)})
+    """
+    if all(power.exp.is_Integer for power in place.atoms(Pow)):
+        return place, {}
+    sense = -1 if place.could_extract_minus_sign() else 1
+    name = next(_named("x_", [place, slope])).name
+    is_positive = (sense * place).is_positive
+    symbol = Symbol(name, positive=True) if is_positive else Symbol(name, real=True)
+    return sense * symbol, {symbol: sense * place}
 
 
 class _tanh(Function):

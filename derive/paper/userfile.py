@@ -321,8 +321,9 @@ class _File:
         """What all symbols are, with a body and in one claim; each mistake is noted once."""
         key = repr((id(context), sorted((own or {}).items(), key=str)))
         if key not in self.meant:
-            shared = own and context is self.context
-            self.meant[key] = self._meant(context).without(own) if shared else Meant({}, {})
+            self.meant[key] = Meant({}, {})
+            if own and context is self.context:
+                self.meant[key] = self._meant(context).without(own)
             symbols = {**self.symbols, **(own or {})}
             for name in symbols:
                 with self._noted():
