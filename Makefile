@@ -27,7 +27,7 @@ PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal
 
 all: $(STAMP)
 	$(BIN)/derive generate --fresh
-	$(BIN)/derive check
+	$(BIN)/derive check --html build/paper.html
 
 test: $(STAMP)
 	$(BIN)/ruff check .

@@ -4,6 +4,7 @@ Exit status: 0 done, 1 a check fell short, 2 bad input.  SymPy is imported by th
 it, so that help is instant.
 """
 
+import os
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
     from derive.pipeline import Order
 
 _WIDE = 10_000
-"""Columns where the output is no terminal, so that nothing is broken that a program reads."""
+"""Columns where the output is no terminal and COLUMNS is not set: nothing is broken that a program
+reads."""
 
 FELL_SHORT, BAD_INPUT = 1, 2
 
@@ -315,6 +317,13 @@ def generate(
 )
 @click.option("--explain", metavar="LABEL", help="One claim: the steps and the numbers.")
 @click.option(
+    "--html",
+    "page",
+    type=click.Path(path_type=Path),
+    metavar="PAGE",
+    help="Write all findings as a page for the browser, too.",
+)
+@click.option(
     "--accept",
     "accepting",
     is_flag=True,
@@ -332,6 +341,7 @@ def check(
     file: Path | None,
     form: str,
     explain: str | None,
+    page: Path | None,
     accepting: bool,
     drafted: Path | None,
     inline: bool,
@@ -351,7 +361,9 @@ def check(
         _accept(file, explain)
         return
     from derive import view
+    from derive.handbook.shelf import put_page
     from derive.paper import report
+    from derive.paper.page import as_html
     from derive.paper.verdict import check as judged
 
     paper = _paper(file, explain)
@@ -368,13 +380,17 @@ def check(
     elif form == "latex":
         click.echo(report.as_latex(paper, findings))
     elif form == "html":
-        from derive.paper.page import as_html
-
         click.echo(as_html(paper, findings))
     elif explain is not None:
         _print(view.explained(findings[0]))
     else:
-        _print(view.checked(paper, findings))
+        _print(view.checked(findings))
+    if page is not None:
+        put_page(as_html(paper, findings), page)
+        _print(f"Wrote {_shown(page.resolve())}")
+    elif form == "table" and explain is None:
+        given = "" if file is None else f"{_typed(file)} "
+        _print(f"More: {_command()} check {given}--explain CLAIM, or --html PAGE for all of it")
     wrong = report.unexpected(findings)
     if wrong:
         labels = ", ".join(finding.claim.label for finding in wrong)
@@ -552,7 +568,7 @@ def _console(stderr: bool = False) -> Console:
     return Console(
         stderr=stderr,
         force_terminal=False if stderr and not there else None,
-        width=None if there else _WIDE,
+        width=None if there or os.environ.get("COLUMNS") else _WIDE,
         highlight=False,
         markup=False,
         emoji=False,

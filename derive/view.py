@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
+from rich.padding import Padding
 from rich.table import Column, Table
 from rich.text import Text
 
@@ -18,7 +19,6 @@ from derive.proof.verdict import Verdict
 
 if TYPE_CHECKING:
     from derive.codegen.publish import Difference
-    from derive.paper.claim import Paper
     from derive.paper.verdict import Finding
     from derive.sheet import FormulaSheet
 
@@ -28,7 +28,8 @@ def listing(sheets: "Iterable[FormulaSheet]") -> Table:
     from derive.notation import text_of
 
     names = Column("geometry", no_wrap=True)
-    table = Table(names, Column("g(x)", overflow="fold"), "closed form", "numerical", "body")
+    body = Column("body", min_width=16)  # its longest word
+    table = Table(names, Column("g(x)", overflow="fold"), "closed form", "numerical", body)
     for sheet in sheets:
         closed, numerical = by_form(sheet.is_closed)
         table.add_row(
@@ -42,18 +43,21 @@ def listing(sheets: "Iterable[FormulaSheet]") -> Table:
 
 
 def summary(bodies: Iterable[Body]) -> Table:
-    """What was built: closed form or numerical, how each formula was proven, time."""
+    """What was built: closed form or numerical, how many formulas were proven how, time."""
     table = Table(
         Column("geometry", no_wrap=True),
-        *("closed form", "numerical", "proved", "agrees to 30 digits or more", "time"),
+        *("closed form", "numerical"),
+        Column("proved", justify="right"),
+        Column("by 30 digits", justify="right"),
+        Column("time", no_wrap=True, justify="right"),
     )
     for body in bodies:
         table.add_row(
             Text(body.name, style="bold cyan"),
             _row(body.closed),
             _row(body.numerical),
-            Text(_row(map(_stem, body.formulas(Verdict.PROVED))), style="green"),
-            Text(_row(map(_stem, body.formulas(Verdict.NUMERICAL))), style="yellow"),
+            Text(str(len(body.formulas(Verdict.PROVED))), style="green"),
+            Text(str(len(body.formulas(Verdict.NUMERICAL))), style="yellow"),
             "kept" if body.kept else f"{body.seconds:.1f} s",
         )
     return table
@@ -62,11 +66,6 @@ def summary(bodies: Iterable[Body]) -> Table:
 def _row(words: Iterable[str]) -> str:
     """Every word once, in a row."""
     return ", ".join(dict.fromkeys(words)) or "-"
-
-
-def _stem(name: str) -> str:
-    """A formula's name, of both edges the same."""
-    return name.replace("_left", "").replace("_right", "")
 
 
 def formulas(sheet: "FormulaSheet") -> Group:
@@ -116,41 +115,24 @@ _VERDICTS = {
 }
 
 
-def checked(paper: "Paper", findings: "Sequence[Finding]") -> Group:
-    """What was found of every claim of a paper, which sign each section takes, and its errata."""
+def checked(findings: "Sequence[Finding]") -> Group:
+    """The verdict on every claim, and a line for each that is not true as printed."""
     from derive.paper import report
 
-    table = Table("claim", "place", "verdict", "says")
-    for finding, row in zip(findings, report.rows(findings), strict=True):
-        verdict = Text(str(row.verdict), style=_VERDICTS[row.verdict])
-        if not row.expected:
-            verdict.append(" (unexpected)", style="bold red")
-        table.add_row(Text(row.label, style="cyan"), row.place, verdict, finding.claim.says)
+    table = Table(Column("claim", no_wrap=True), Column("verdict", no_wrap=True), "place")
+    for finding in findings:
+        verdict = _verdict_of(finding)
+        table.add_row(Text(finding.claim.label, style="cyan"), verdict, finding.claim.place)
     parts: list[RenderableType] = [table]
-    parts += [Text(f"sign of the {line}", style="dim") for line in report.signs(paper, findings)]
-    parts += [Text(line, style="bold red") for line in report.units(findings)]
-    parts += [Text(line) for line in report.reasons(findings)]
-    parts += map(_erratum, report.errata(findings))
+    for finding, remark in report.remarks(findings):
+        line = Text.assemble((finding.claim.label, "cyan"), ": ", _verdict_of(finding), ": ")
+        parts.append(line.append(remark))
     return Group(*parts, Text(report.summary(findings), style="bold"))
 
 
-def _erratum(finding: "Finding") -> Group:
-    """One error: as printed, as corrected, why, and what it does."""
-    from derive.paper import report
-
+def _verdict_of(finding: "Finding") -> Text:
     verdict = Text(str(finding.verdict), style=_VERDICTS[finding.verdict])
-    head = Text.assemble("\n", verdict, (f"  {finding.claim.place}", "bold"))
-    lines = [
-        Text.assemble((f"  {heading:12}", "cyan"), text)
-        for heading, text in (
-            ("printed", report.printed(finding.claim)),
-            ("corrected", report.corrected(finding)),
-            ("evidence", report.evidence(finding)),
-            ("consequence", finding.claim.consequence),
-        )
-        if text
-    ]
-    return Group(head, *lines)
+    return verdict if finding.as_expected else verdict.append(" (unexpected)", style="bold red")
 
 
 def explained(finding: "Finding") -> Group:
@@ -160,5 +142,10 @@ def explained(finding: "Finding") -> Group:
     parts: list[RenderableType] = [Text(finding.claim.label, style="bold cyan")]
     for heading, lines in report.explanation(finding):
         parts.append(Text(heading, style="bold"))
-        parts += [Text(f"    {line}") for line in lines]
+        parts += [Padding(Text(line), (0, 0, 0, 4)) for line in lines]
+    if rows := report.numbers(finding):
+        table = Table("point", "left", "right", title="numbers", title_justify="left")
+        for row in rows:
+            table.add_row(*row)
+        parts.append(table)
     return Group(*parts)

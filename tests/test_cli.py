@@ -286,7 +286,7 @@ def test_generate_tells_of_a_limit_that_struck(
     assert again.stderr == told
     third = run("generate", "catenary", "--out", "made")
     assert "kept" not in third.stdout
-    assert "load_closed" in third.stdout
+    assert "by special functions" in third.stdout
     assert third.stderr == ""
     assert (here / "made" / "catenary.py").read_bytes() == text
 
@@ -706,3 +706,19 @@ class TestCode:
         done = run("show", "hertz", "--code", "perl")
         assert done.exit_code == 2
         assert "'c', 'fortran', 'javascript', 'julia', 'matlab'" in done.output
+
+
+def test_tables_keep_to_the_columns_that_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Into a pipe, too; no word is cut."""
+    monkeypatch.setenv("COLUMNS", "80")
+    printed = done("list")
+    assert max(map(len, lines(printed))) == 80
+    assert "…" not in printed
+
+
+def test_findings_as_a_page(here: Path) -> None:
+    example = str(ROOT / "examples" / "cattaneo_mindlin.toml")
+    done = run("check", example, "--html", "page.html")
+    assert done.exit_code == 0
+    assert "stick zone: fails: c = a*sqrt(1 - Q/(P*f))" in done.stdout
+    assert "half-width" in (here / "page.html").read_text()

@@ -138,22 +138,20 @@ def errata(findings: Iterable[Finding]) -> list[Finding]:
     return [finding for finding in findings if finding.verdict in wrong]
 
 
-def reasons(findings: Iterable[Finding]) -> list[str]:
-    """Why claims were not checked, one line each."""
-    return [
-        f"{finding.claim.label}: unchecked, {finding.judged.why}"
-        for finding in findings
-        if finding.verdict == Verdict.UNCHECKED
-    ]
-
-
-def units(findings: Iterable[Finding]) -> list[str]:
-    """What does not fit in the units of claims, judged or not, one line each."""
-    return [
-        f"{finding.claim.label}: its units do not fit, {finding.claim.units}"
-        for finding in findings
-        if finding.claim.units
-    ]
+def remarks(findings: Iterable[Finding]) -> list[tuple[Finding, str]]:
+    """What is to be said of a claim that is not true as printed, or not checked, in one line."""
+    told = []
+    for finding in findings:
+        parts = [f"its units do not fit, {finding.claim.units}"] if finding.claim.units else []
+        if finding.verdict == Verdict.UNCHECKED:
+            parts.append(finding.judged.why)
+        elif finding.convention is not None:
+            parts.append(f"true with {finding.convention.what}")
+        elif finding.verdict == Verdict.FAILS:
+            parts.append(corrected(finding) or finding.diagnosis or "no correction was found")
+        if parts:
+            told.append((finding, "; ".join(parts)))
+    return told
 
 
 _SENSES = {
@@ -217,7 +215,8 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
     if told_signs := signs(paper, findings):
         lines += ["", "## Signs, section by section", ""]
         lines += [f"- {line}" for line in told_signs]
-    if open_claims := reasons(findings):
+    unchecked = [finding for finding in findings if finding.verdict == Verdict.UNCHECKED]
+    if open_claims := [f"{each.claim.label}: {each.judged.why}" for each in unchecked]:
         lines += ["", "## Not checked", "", *(f"- {line}" for line in open_claims)]
     lines += ["", "## Errata", ""]
     for finding in errata(findings):
@@ -314,8 +313,7 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
         ("printed", [printed(claim) or "no equation"]),
         ("compared with", [claim.against] if claim.against else []),
         ("steps", list(claim.steps)),
-        ("symbols", [f"{s} = {text_of(expr)}" for s, expr in claim.meaning.items()]),
-        ("numbers", _numbers(finding)),
+        ("symbols", [f"{s} = {text_of(claim.meaning[s])}" for s in _held(claim)]),
         ("verdict", [f"{finding.verdict}: {finding.judged.why}"]),
         ("convention", _convention(finding)),
         ("corrected", _correction(finding)),
@@ -324,15 +322,22 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
     return [(heading, lines) for heading, lines in told if any(lines)]
 
 
-def _numbers(finding: Finding) -> list[str]:
-    """Both sides at the first points, then at those of the corrected equation."""
-    lines = []
-    for pair in finding.judged.pairs[:_SHOWN]:
-        where = ", ".join(f"{s} = {mpmath.nstr(v, 6)}" for s, v in pair.point.items())
-        left, right = (mpmath.nstr(side, 34) for side in (pair.left, pair.right))
-        lines += [f"at {where}", f"    left  {left}", f"    right {right}"]
-    more = len(finding.judged.pairs) - _SHOWN
-    return [*lines, f"and at {more} more points"] if more > 0 else lines
+def _held(claim: Claim) -> list[Symbol]:
+    """The symbols of a claim's equation that stand for something else."""
+    sides = (*claim.sides(claim.left, claim.right), claim.left, claim.right)
+    held = set().union(*(side.free_symbols for side in sides))
+    return [symbol for symbol in claim.meaning if symbol in held]
+
+
+def numbers(finding: Finding) -> list[tuple[str, str, str]]:
+    """The first points, and both sides there."""
+    return [
+        (
+            ", ".join(f"{s} = {mpmath.nstr(v, 6)}" for s, v in pair.point.items()),
+            *(mpmath.nstr(side, 16) for side in (pair.left, pair.right)),
+        )
+        for pair in finding.judged.pairs[:_SHOWN]
+    ]
 
 
 def _convention(finding: Finding) -> list[str]:
