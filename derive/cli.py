@@ -209,23 +209,22 @@ _SENSES = (
 
 
 def _show_slip(name: str, order: int) -> None:
-    """The terms of both slip zones, one under the other."""
+    """The terms of both slip zones, one under the other, then what their coefficients are."""
     from derive import derive_sheet, load_geometry
-    from derive.derivation import slip_terms
+    from derive.derivation import slip_series
     from derive.notation import text_of
-    from derive.theory.edges import Edge
-    from derive.theory.slip import senses
 
     sheet = derive_sheet(load_geometry(name))
-    for edge in Edge:
-        side = edge.name.lower()
-        try:
-            with _console(stderr=True).status(f"deriving {order} terms at the {side} edge"):
-                terms = slip_terms(sheet, edge, order, senses)
-        except ValueError as error:
-            raise click.BadParameter(str(error), param_hint="--slip") from None
-        for number, term in enumerate(terms, 1):
-            click.echo(f"d_{side}, order {number}: {text_of(term)}")
+    try:
+        with _console(stderr=True).status(f"deriving {order} terms"):
+            terms, known = slip_series(sheet, order)
+    except ValueError as error:
+        raise click.BadParameter(str(error), param_hint="--slip") from None
+    for edge, found in terms.items():
+        for number, term in enumerate(found, 1):
+            click.echo(f"d_{edge.name.lower()}, order {number}: {text_of(term)}")
+    for symbol, value in known.items():
+        click.echo(f"{symbol} = {text_of(value)}")
     click.echo(_SENSES)
 
 

@@ -7,7 +7,7 @@ Out: FormulaSheet without proofs.
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
-from sympy import Expr, S, Symbol, factor, pi, sqrt
+from sympy import Expr, Symbol, pi, sqrt
 from sympy.logic.boolalg import Boolean
 from sympy.polys.polyerrors import BasePolynomialError
 
@@ -21,7 +21,7 @@ from derive.sheet import (
     load_conditions,
     tilt_conditions,
 )
-from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, h, m, mid, n, x
+from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, m, mid, n, x
 from derive.theory import contact_law, equilibrium, slip, stick, superposition
 from derive.theory.algebra import tidy
 from derive.theory.closed_forms import NoRule, closed_forms
@@ -109,33 +109,43 @@ _FOUND = (
 _RULES = "int g' cos(n theta) dtheta, x = mid + (h/2) cos(theta), term by term"
 
 
-def slip_terms(
-    sheet: FormulaSheet, edge: Edge, order: int, kappa: tuple[Expr, Expr] = (S.One, S.One)
-) -> tuple[Expr, ...]:
-    """Terms of order 1, 2, ... of one body's slip zone under constant loads; the zone is their sum.
+def slip_series(
+    sheet: FormulaSheet, order: int
+) -> tuple[dict[Edge, tuple[Expr, ...]], dict[Symbol, Expr]]:
+    """Terms of order 1, 2, ... of both slip zones under constant loads; a zone is their sum.
 
-    kappa: senses of slip at the left and the right edge; 1 and -1 under large, rising tension.
+    Returns the terms, in ratios, and what each symbol in them is, down to the body's parameters.
 
     Raises ValueError for an order below 1, or above that known of a body
     whose formulas are integrals.
 
     >>> from derive.library import load_geometry
-    >>> sheet = derive_sheet(load_geometry("wedge"))
-    >>> slip_terms(sheet, Edge.RIGHT, 1)[0]
-    -c*(pi*a*dsigma + pi*c*dsigma - 8*dQ)/(16*E_star*f*phi*sqrt(a*c))
+    >>> terms, known = slip_series(derive_sheet(load_geometry("wedge")), 1)
+    >>> terms[Edge.RIGHT]
+    (D_right,)
+    >>> known[terms[Edge.RIGHT][0]]
+    K_T_right/(K_N_right*f*kappa_right)
     """
     if order < 1:
         raise ValueError(f"a series has an order of 1 or more; got {order}")
-    known: dict[Expr, Expr] = dict(zip(slip.senses, kappa, strict=True))
-    for side in Edge:
-        name = side.name.lower()
-        known[slip.stuck_edge(side)] = sheet[f"K_T_{name}"].expr
-        series = _pressure_terms(sheet, side, order)
-        known |= dict(zip(slip.coefficients(name, order), series, strict=True))
-    found = [term.xreplace(known) for term in slip.terms(order)[edge is Edge.RIGHT]]
-    if not sheet.frame.is_long:  # long sums are too long to factor
-        found = [factor(term) for term in found]
-    return tuple(sheet.frame.flat(term) for term in found)
+    ratios: dict[Symbol, Expr] = {}
+    values: dict[Symbol, Expr] = {}
+    pressed = []
+    for edge, first, sense in zip(Edge, (slip.D_left, slip.D_right), slip.senses, strict=True):
+        side, stuck = edge.name.lower(), slip.stuck_edge(edge)
+        names = [*("K_N", "L_N"), *(f"C_{k}" for k in range(2, order))][:order]
+        symbols = [Symbol(f"{name}_{side}", positive=True) for name in names]
+        values[stuck] = sheet[f"K_T_{side}"].expr
+        values |= dict(zip(symbols, _pressure_terms(sheet, edge, order), strict=True))
+        ratios[first] = stuck / (f * sense * symbols[0])
+        over = (symbol / symbols[0] for symbol in symbols[1:])
+        ratios |= dict(zip(slip.ratios(side, order), over, strict=True))
+        pressed.append(symbols[0] * sense)
+    ratios |= {slip.rho: pressed[1] / pressed[0], slip.width: h}
+    terms = dict(zip(Edge, slip.terms_in_ratios(order), strict=True))
+    held = set().union(*(term.free_symbols for found in terms.values() for term in found))
+    shown = {symbol: value for symbol, value in ratios.items() if symbol in held}
+    return terms, shown | {s: sheet.frame.flat(value) for s, value in values.items()}
 
 
 def _pressure_terms(sheet: FormulaSheet, edge: Edge, order: int) -> list[Expr]:

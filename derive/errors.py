@@ -65,7 +65,7 @@ class BadName(UserError):
         """What was wrong with the name."""
         return (
             f"{self.what} {self.given!r} {self.why}; a name is letters, digits and "
-            "_, does not start with a digit, and is none of the theory's own, such as a, c, d, E, "
+            "_, does not start with a digit, and is none of the theory's own, such as a, c, E, "
             "f, h, m, n, p, q, s, t, x: choose another"
         )
 

@@ -82,10 +82,10 @@ QUANTITIES: dict[str, Quantity] = {q.name: q for q in _TABLE}
 
 _USED_BESIDES = (
     # by the theory
-    *("b1", "d", "da", "dc", "dq", "d_left", "d_right", "h", "kappa", "lambda", "m", "mid", "n"),
-    *("p", "p1", "p2", "pi", "q", "Q", "sigma", "t", "theta", "w", "xi"),
+    *("da", "dc", "dq", "d_left", "d_right", "h", "kappa", "lambda", "m", "mid", "n"),
+    *("p", "pi", "q", "Q", "sigma", "t", "theta", "xi"),
     # by SymPy
-    *("E", "I", "N", "O", "S", "oo", "nan", "inf"),
+    *("E", "I", "N", "O", "oo", "nan", "inf"),
     # by the generated modules
     *("np", "Any", "LEAST", "MOST", "TINY", "elementwise", "where", "kink_logarithm"),
     *(

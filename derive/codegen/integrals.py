@@ -29,6 +29,7 @@ from sympy import (
     sqrt,
 )
 
+from derive.codegen.function import local
 from derive.notation import text_of
 from derive.piece import Piece
 from derive.profile import Kink
@@ -115,12 +116,17 @@ class Integrals:
         found = {self.sheet[name].symbol: self.formula(name) for name in names}
         if "moment" in names:
             found[P] = self.formula("load")
+        own = Function(local(self.sheet, "w"))  # a parameter may have the theory's name
+
+        def text(expr: Expr) -> str:
+            return text_of(expr.replace(w, own))
+
         for symbol, expr in found.items():
-            yield f"{symbol} = {text_of(expr)}"
+            yield f"{symbol} = {text(expr)}"
         held = {node.func for expr in found.values() for node in expr.atoms(Function)}
         for called, definition in self.definitions.items():
             if called.func in held:
-                yield f"{called} = {text_of(definition)}"
+                yield f"{text(called)} = {text(definition)}"
         if FinitePart in held:
             yield _IN_WORDS
 

@@ -28,12 +28,13 @@ from sympy import (
     gamma,
     pi,
     series,
+    simplify,
     solve,
     sqrt,
     symbols,
 )
 
-from derive.symbols import dsigma, f, h
+from derive.symbols import a, c, dsigma, f, h
 from derive.theory.edges import Edge
 
 HALF = Rational(1, 2)
@@ -129,6 +130,43 @@ def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
         (found,) = solve(equations, pair, dict=True)
         known |= {symbol: value.subs(width, h).factor() for symbol, value in found.items()}
     return tuple(known[pair[0]] for pair in unknown), tuple(known[pair[1]] for pair in unknown)
+
+
+D_left, D_right, rho, width = symbols("D_left D_right rho h", positive=True)
+"""Slip zones of order 1, K_N kappa at the right edge over that at the left, contact width."""
+
+
+def ratios(side: str, order: int) -> tuple[Symbol, ...]:
+    """The second and the next coefficients of the pressure at one edge over its K_N."""
+    return symbols(f"c_{side}_1:{order}", real=True)
+
+
+def terms_in_ratios(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
+    """`terms` by the slip zones of order 1: few, since tension follows from both K_T.
+
+    K_T_left - K_T_right = dsigma sqrt(h)/4.
+
+    >>> first, second = terms_in_ratios(2)[0]
+    >>> first
+    D_left
+    >>> second.coeff(D_right**2)
+    rho/(4*h)
+    """
+    K = Symbol("K", positive=True)
+    stuck = {K_T_left: D_left * f * K, K_T_right: D_right * f * K * rho}
+    pressed: dict[Expr, Expr] = {}
+    for side, sense, first in (("left", kappa_left, K), ("right", kappa_right, K * rho)):
+        names = coefficients(side, order)
+        both = zip(names, (S.One, *ratios(side, order)), strict=True)
+        pressed |= {name: ratio * first / sense for name, ratio in both}
+    tension = {dsigma: 4 * (K_T_left - K_T_right) / sqrt(width)}
+
+    def shortened(term: Expr) -> Expr:
+        by_width = term.subs(c, width - a).xreplace(tension)
+        return expand(simplify(by_width.xreplace(stuck | pressed)))
+
+    left, right = (tuple(map(shortened, found)) for found in terms(order))
+    return left, right
 
 
 def slip_zone(edge: Edge, pull: Expr, K_N: Expr) -> Expr:

@@ -129,3 +129,13 @@ def test_the_lines_define_all_that_they_hold() -> None:
         "w(xi) = sqrt((a + xi)*(c - xi))",
         "g''(xi) = Piecewise((-6*(b + xi)/R**2, b < -xi), (0, b > xi), (6*(-b + xi)/R**2, True))",
     ]
+
+
+def test_a_parameter_may_have_the_name_of_the_theory_s_root() -> None:
+    w = parameter("w", "half-width", unit="m")
+    sheet = derive_sheet(Geometry("valley", g=w * (cosh(x / w) - 1)))
+    assert list(Integrals(sheet).lines(("load",))) == [
+        "P = E_star*Integral(g''(xi)*w_(xi), (xi, -a, c))/2",
+        "w_(xi) = sqrt((a + xi)*(c - xi))",
+        "g''(xi) = cosh(xi/w)/w",
+    ]

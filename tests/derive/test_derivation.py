@@ -1,5 +1,7 @@
 """Whole sheets: known bodies by hand, and what holds for every body whatever its profile."""
 
+from importlib import import_module
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -7,9 +9,11 @@ from mpmath import mpf
 from sympy import Expr, Max, Symbol, atan, log, pi, simplify, sqrt
 
 from derive import Geometry, parameter, x
-from derive.derivation import derive_sheet
+from derive.derivation import derive_sheet, slip_series
+from derive.library import load_geometry
 from derive.proof.symbolic import symbolic_proof
 from derive.symbols import E_star, a, c
+from derive.theory.edges import Edge
 from tests.derive.bodies import BODIES, VALUES, close, evaluated, mirrored, sheet, value
 
 pytestmark = pytest.mark.slow
@@ -212,3 +216,33 @@ def test_the_contact_law_of_many_lengths_at_one_kink_is_proven() -> None:
     found = derive_sheet(Geometry("many_lengths", g=g))
     for name in ("edge_ratio", "load_rate", "punch", *EDGES):
         assert symbolic_proof(found, name) is not None, name
+
+
+@pytest.mark.parametrize(
+    ("name", "own", "dsigma", "senses"),
+    [
+        ("wedge", {"phi": 0.05}, 0.0, (1, 1)),
+        ("wedge", {"phi": 0.05}, 3e6, (1, -1)),
+        ("rounded_wedge", {"b": 4e-4, "phi": 0.05}, 2e6, (1, -1)),
+    ],
+)
+def test_the_printed_series_are_the_slip_zones(
+    name: str, own: dict[str, float], dsigma: float, senses: tuple[int, int]
+) -> None:
+    """The terms of `derive show --slip` by its own definitions, against the module, which solves
+    the conditions to the third order as they stand: of zones of 1e-4 of the width the third term is
+    1e-8, and the fourth, by which both differ, 1e-12."""
+    a_, c_, dQ, friction = 1.1e-3, 0.9e-3, 5e2, 0.5
+    numbers = {"a": a_, "c": c_, "dQ": dQ, "dsigma": dsigma, "f": friction, "E_star": 60e9, **own}
+    numbers |= {"kappa_left": senses[0], "kappa_right": senses[1]}
+    terms, known = slip_series(derive_sheet(load_geometry(name)), 3)
+    for symbol, expr in reversed(known.items()):
+        numbers[symbol.name] = expr.xreplace(
+            {s: numbers[s.name] for s in expr.free_symbols}
+        ).evalf()
+    module = import_module(f"generated.{name}")
+    zones = module.slip_zones(a_, c_, dQ, dsigma, f=friction, E_star=60e9, **own, order=3)
+    for edge, zone in zip(Edge, zones, strict=True):
+        found = sum(terms[edge])
+        total = found.xreplace({s: numbers[s.name] for s in found.free_symbols}).evalf()
+        assert float(total) == pytest.approx(float(zone), rel=1e-10)

@@ -33,6 +33,11 @@ def test_a_name_of_the_theory_is_refused(name: str) -> None:
     assert "choose another" in caught.value.message
 
 
+@pytest.mark.parametrize("name", ["p1", "b1", "d", "S", "w"])
+def test_what_the_theory_calls_otherwise_is_free(name: str) -> None:
+    assert parameter(name, "radius").name == name
+
+
 @pytest.mark.parametrize("name", ["", "2b", "b b", "_b", "é", "lambda", "b\n", 3, None])
 def test_what_is_no_identifier_is_refused(name: str) -> None:
     with pytest.raises(BadName) as caught:
