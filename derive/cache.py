@@ -21,6 +21,7 @@ import ast
 import json
 import os
 import re
+import stat
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -185,11 +186,32 @@ class Cache:
 
 
 def users_cache() -> Cache:
-    """The cache that the environment asks for."""
+    """The cache that the environment asks for; none where others may write to it."""
+    folder = _asked_for()
+    return Cache(folder if folder and _is_private(folder) else None)
+
+
+def distrusted() -> Path | None:
+    """The directory that is asked for and not used, since others may write to it."""
+    folder = _asked_for()
+    return folder if folder and not _is_private(folder) else None
+
+
+def _asked_for() -> Path | None:
     folder = os.environ.get(VARIABLE)
     if folder is None:
         folder = user_cache_dir("contact-derive", appauthor=False)
-    return Cache(Path(folder) if folder else None)
+    return Path(folder) if folder else None
+
+
+def _is_private(folder: Path) -> bool:
+    """Whether nobody else may write to a directory; one that is not there will be made so."""
+    try:
+        status = folder.stat()
+    except OSError:
+        return True
+    mine = not hasattr(os, "getuid") or status.st_uid == os.getuid()
+    return mine and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
 
 
 def _last_used(path: Path) -> float:

@@ -4,11 +4,12 @@ Exit status: 0 done, 1 a check fell short, 2 bad input.  SymPy is imported by th
 it, so that help is instant.
 """
 
+import errno
 import os
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from math import inf
 from pathlib import Path
@@ -60,13 +61,39 @@ class _Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> object:
         try:
-            return super().invoke(ctx)
+            _demand_surroundings()
+            done = super().invoke(ctx)
+            sys.stdout.flush()
+            return done
         except UserError as error:
             _complain("Error", error.message.replace("`derive ", f"`{_command()} "))
+            ctx.exit(BAD_INPUT)
+        except OSError as error:
+            if error.errno == errno.EPIPE:  # whoever read this has seen enough
+                raise
+            _complain("Error", f"{error.strerror}{f': {error.filename}' if error.filename else ''}")
+            _forget_the_output()
             ctx.exit(BAD_INPUT)
         except NotProven as error:
             _complain("Not proven", str(error))
             ctx.exit(FELL_SHORT)
+
+
+def _demand_surroundings() -> None:
+    """An output to print to, and a directory to be in."""
+    if sys.stdout is None:
+        raise OSError(errno.EBADF, "the standard output is closed, and there is much to print")
+    try:
+        Path.cwd()
+    except OSError as error:
+        why = "the working directory is not there any more: change to another"
+        raise OSError(error.errno, why) from error
+
+
+def _forget_the_output() -> None:
+    """What could not be written is not tried again as the process ends."""
+    with suppress(OSError, AttributeError):  # closed, or no file
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 class _WithFormula(click.Command):
@@ -513,9 +540,13 @@ def _paper(file: Path | None, label: str | None) -> "Paper":
 
 def _built(sources: Sequence[str], jobs: int | None, fresh: bool, limit: float) -> "list[Body]":
     """Every body, under a progress bar; which searches were ended by their limit."""
+    from derive.cache import distrusted
     from derive.parallel import cores
     from derive.pipeline import STAGES, build_all
 
+    if folder := distrusted():
+        why = "others may write to it, so nothing is kept there"
+        click.echo(f"{folder}: {why}: take that right away, or set DERIVE_CACHE", err=True)
     with _progress(len(sources), STAGES) as step:
         bodies = build_all(sources, step, jobs or cores(), fresh, limit)
     for body in bodies:

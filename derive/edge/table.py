@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from derive.errors import BadTable
+from derive.files import Unreadable, bytes_of
 
 LARGEST = 20_000_000
 """Bytes of a file."""
@@ -110,15 +111,9 @@ def _text(path: Path) -> str:
     Raises BadTable.
     """
     try:
-        if path.is_dir():
-            raise BadTable(str(path), "is a directory", "name one file")
-        size = path.stat().st_size
-        if size > LARGEST:
-            raise BadTable(path.name, f"has {size} bytes", f"give at most {LARGEST}")
-        raw = path.read_bytes()
-    except OSError as error:
-        why = f"cannot be read ({error.strerror})"
-        raise BadTable(str(path), why, "name a file that is there") from error
+        raw = bytes_of(path, LARGEST)
+    except Unreadable as error:
+        raise BadTable(str(path), str(error), "name one table") from error
     coding = "utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
     try:
         text = raw.decode(coding)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derive.errors import BadClaimsFile
+from derive.files import Unreadable, bytes_of
 
 _LARGEST = 5_000_000
 """Bytes of a LaTeX file."""
@@ -95,14 +96,11 @@ def displays(path: Path, inline: bool = False) -> Source:
 
 def _text(path: Path) -> str:
     try:
-        if path.stat().st_size > _LARGEST:
-            raise BadClaimsFile(str(path), f"is larger than {_LARGEST} bytes", "split it")
-        return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
+        return bytes_of(path, _LARGEST).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         raise BadClaimsFile(str(path), "is no text in UTF-8", "convert it") from error
-    except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", None) or str(error)
-        raise BadClaimsFile(str(path), f"cannot be read ({why})", "give a LaTeX file") from error
+    except Unreadable as error:
+        raise BadClaimsFile(str(path), str(error), "give a LaTeX file") from error
 
 
 def _without_comments(text: str) -> str:

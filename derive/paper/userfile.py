@@ -63,6 +63,7 @@ from sympy import Expr, Limit, Rational, Symbol, false, true
 from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadClaimsFile, BadFormula, BadText, BadUnit, NotAccepted, UserError
+from derive.files import Unreadable, bytes_of
 from derive.library import is_in_library, library
 from derive.limit import LimitReached, within
 from derive.paper.bodies import Body, of_library
@@ -182,17 +183,16 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
     """A claims file as text and as data; raises BadClaimsFile."""
     remedy = "give a claims file as in examples/cattaneo_mindlin.toml"
     try:
-        if path.stat().st_size > _LARGEST:
-            raise BadClaimsFile(str(path), f"is larger than {_LARGEST} bytes", "split it")
-        text = path.read_bytes().decode("utf-8-sig")
+        text = bytes_of(path, _LARGEST).decode("utf-8-sig")
         return text, tomllib.loads(text)
+    except Unreadable as error:
+        raise BadClaimsFile(str(path), str(error), remedy) from error
     except tomllib.TOMLDecodeError as error:
         raise BadClaimsFile(str(path), f"is no TOML ({error})", remedy) from error
     except UnicodeDecodeError as error:
         raise BadClaimsFile(str(path), "is no text in UTF-8", remedy) from error
-    except (OSError, ValueError, RecursionError) as error:
-        why = getattr(error, "strerror", None) or str(error)
-        raise BadClaimsFile(str(path), f"cannot be read ({why})", remedy) from error
+    except (ValueError, RecursionError) as error:
+        raise BadClaimsFile(str(path), f"cannot be read ({error})", remedy) from error
 
 
 @dataclass
@@ -950,16 +950,17 @@ _FAR = 1e6
 
 
 def _texts(data: object) -> Iterator[str]:
-    """All keys and texts of a file."""
-    if isinstance(data, str):
-        yield data
-    elif isinstance(data, Mapping):
-        for key, value in data.items():
-            yield key
-            yield from _texts(value)
-    elif isinstance(data, list):
-        for each in data:
-            yield from _texts(each)
+    """All keys and texts of a file, however deep it is nested."""
+    left = [data]
+    while left:
+        each = left.pop()
+        if isinstance(each, str):
+            yield each
+        elif isinstance(each, Mapping):
+            yield from each
+            left += each.values()
+        elif isinstance(each, list):
+            left += each
 
 
 def _held(name: str, *sides: Expr) -> bool:

@@ -1,0 +1,91 @@
+"""Hostile surroundings: one clear line each, the right exit status, and nothing is lost."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform == "win32", reason="devices and rights of Unix"),
+]
+
+
+def derive(
+    folder: Path, command: str, before: str = "", **variables: str
+) -> "subprocess.CompletedProcess[str]":
+    """A command of the shell in a folder; `$derive` is the program."""
+    settings = os.environ | {"PYTHONPATH": str(ROOT), **variables}
+    settings["derive"] = f"{sys.executable} -m derive"
+    return subprocess.run(
+        ["sh", "-c", f"{before} $derive {command}"],
+        cwd=folder,
+        env=settings,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+
+
+def demand_one_line(done: "subprocess.CompletedProcess[str]", part: str) -> None:
+    assert done.returncode == 2, done.stderr
+    assert len(done.stderr.splitlines()) == 1, done.stderr
+    assert done.stderr.startswith("Error: ")
+    assert part in done.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device")
+@pytest.mark.parametrize("command", ["list", "show hertz --latex"])
+def test_a_full_output(tmp_path: Path, command: str) -> None:
+    demand_one_line(derive(tmp_path, f"{command} > /dev/full"), "No space left")
+
+
+def test_a_closed_output(tmp_path: Path) -> None:
+    demand_one_line(derive(tmp_path, "list >&-"), "output is closed")
+
+
+def test_a_reader_that_has_seen_enough(tmp_path: Path) -> None:
+    done = derive(tmp_path, "show hertz | head -1")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    "command", ["new body 'x**2/R'", "generate hertz --out made", "check claims.toml"]
+)
+def test_a_directory_that_is_gone(tmp_path: Path, command: str) -> None:
+    done = derive(tmp_path, command, "mkdir gone && cd gone && rmdir ../gone;")
+    demand_one_line(done, "the working directory is not there any more")
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        *("check {}", "check {} --draft claims.toml", "edge {} --f 0.5"),
+        *("show {}", "generate {} --out made"),
+    ],
+)
+def test_a_device_without_end(tmp_path: Path, command: str) -> None:
+    done = derive(tmp_path, command.format("/dev/zero"))
+    demand_one_line(done, "no file but a device or a pipe")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_key_of_5000_parts(tmp_path: Path) -> None:
+    (tmp_path / "claims.toml").write_text(f"{'.'.join('a' * 5000)} = 1\n")
+    done = derive(tmp_path, "check claims.toml")
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert "the file has 'a', which means nothing here" in done.stderr
+
+
+def test_a_cache_that_others_may_write_to(tmp_path: Path) -> None:
+    (tmp_path / "open").mkdir()
+    (tmp_path / "open").chmod(0o777)
+    done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="open")
+    assert done.returncode == 0
+    assert "others may write to it, so nothing is kept there" in done.stderr
+    assert list((tmp_path / "open").iterdir()) == []
