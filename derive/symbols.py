@@ -116,7 +116,7 @@ _USED_BESIDES = (
     *("second_term", "third_term", "curve_of", "excess", "polynomial", "kernel"),
     *("Array", "exists", "first", "second", "order", "mixed", "own", "asked", "piece", "side"),
     *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure", "pieces"),
-    *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "tension_threshold", "slip_zones"),
+    *("K_N", "L_N", "K_T", "L_T", "K_Q", "stick_zone", "why", "tension_threshold", "slip_zones"),
     *("Contact", "Edges", "StickZone", "Threshold", "Regime", "March"),
     *("stick_margin", "shear", "shear_change", "slip_error", "slip_range", "slip_terms"),
     *("closing_tension", "march", "history", "steady_cycle", "full_stick", "runtime"),

@@ -29,7 +29,7 @@ __all__ = ["K_N", "K_T", "L_N", "L_T", "Contact", "Edges", "History", "March", "
 __all__ += ["SteadyCycle", "StickZone", "Threshold", "closing_tension", "contact"]
 __all__ += ["contact_at_tilt", "history", "load", "march", "moment", "pressure", "shear"]
 __all__ += ["shear_change", "slip_error", "slip_range", "slip_zones", "steady_cycle"]
-__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt"]
+__all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 
 @elementwise
@@ -337,6 +337,7 @@ _BODY = Body(
 )
 
 stick_zone = _BODY.bound(cycle.stick_zone)
+why = _BODY.bound(cycle.why)
 tension_threshold = _BODY.bound(cycle.tension_threshold)
 closing_tension = _BODY.bound(cycle.closing_tension)
 slip_zones = _BODY.bound(cycle.slip_zones)

@@ -9,6 +9,7 @@ segments    functions of the parts of a contact that pieces of a polynomial body
 shared      functions that serve arrays, and kernels once numba compiles them
 body        one body: its law, its parameters, its functions of a cycle
 cycle       what these functions take and return; they load the kernels when they are needed
+reasons     what a regime means, and why a cycle has none
 words       what their docstrings say of one body
 
 Kernels, each of one case, in plain Python with `math`, compiled by numba:

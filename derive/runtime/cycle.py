@@ -12,7 +12,8 @@ import numpy as np
 from .arrays import shape_of
 from .body import Asked, kernel_of, numbers_of, with_options
 from .chunks import any_lazy, over_chunks
-from .types import Array, Contact, Edges, March, StickZone, Threshold
+from .reasons import reason
+from .types import Array, Contact, Edges, March, Regime, StickZone, Threshold
 
 _BOTH = ("first.a", "first.c", "second.a", "second.c")
 _LOADS = ("dQ", "dsigma")
@@ -172,6 +173,36 @@ def stick_zone(
         options={"mixed": bool(mixed)},
     )
     return zone._replace(regime=zone.regime.astype(np.int64))
+
+
+def why(
+    asked: Asked,
+    first: Contact,
+    second: Contact,
+    dQ: Array,
+    dsigma: Array,
+    *,
+    f: Array,
+    E_star: Array,
+) -> str:
+    """Why a cycle has no stick zone, or what its regime means, in words.
+
+    One cycle at a time: every argument is a number.
+    {arguments}
+
+    Returns a text: all that is wrong with the numbers where the regime is NONE.
+    Raises ValueError for arrays.
+    """
+    zone = stick_zone(asked, first, second, dQ, dsigma, f=f, E_star=E_star)
+    if np.ndim(zone.regime):
+        raise ValueError(f"why takes one cycle, in numbers; got arrays of {np.shape(zone.regime)}")
+    return reason(
+        Regime(int(zone.regime)),
+        {"f": f, "E_star": E_star, **asked.own},
+        {"dQ": dQ, "dsigma": dsigma},
+        {"first": (first.a, first.c), "second": (second.a, second.c)},
+        asked.body.demands,
+    )
 
 
 def tension_threshold(
@@ -514,7 +545,7 @@ SOLVED = (contact, contact_at_tilt)
 """What a body has closed formulas of, or not."""
 
 CYCLE = (
-    *(stick_zone, tension_threshold, closing_tension, slip_zones, slip_error),
+    *(stick_zone, why, tension_threshold, closing_tension, slip_zones, slip_error),
     *(shear_change, shear, slip_range, march),
 )
 """What every body is bound to."""

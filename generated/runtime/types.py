@@ -26,7 +26,7 @@ class Edges(NamedTuple):
 class Regime(IntEnum):
     """How a cycle slips.
 
-    NONE        there is no such cycle, or one of its numbers is none
+    NONE        there is no such cycle, or one of its numbers is none: `why` says which
     MODERATE    forward slip at both edges: m and n are exact
     LARGE       slip of opposite signs at the edges: m and n are exact
     MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, but exact
