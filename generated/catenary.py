@@ -2,6 +2,9 @@
 """Catenary, a hyperbolic cosine: a cylinder whose flanks steepen without limit.
 
 g(x) = b**2*(cosh(x/b) - 1)/R, from derive/geometries/catenary.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -39,15 +42,25 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g'(xi) = b*sinh(xi/b)/R
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        R     relative radius of curvature at the apex [m]
-        b     distance over which the flanks steepen [m]
-    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    R, b : array_like
+        Relative radius of curvature at the apex [m]; distance over which the flanks steepen [m].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0.
+
+    Notes
+    -----
     alpha numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived
     from derive/geometries/catenary.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, R=1.0, b=1.0):.6g}"
     '0.361354'
     """
@@ -62,16 +75,26 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = cosh(xi/b)/R
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature at the apex [m]
-        b       distance over which the flanks steepen [m]
-    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature at the apex [m]; distance over which the flanks steepen [m].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0.
+
+    Notes
+    -----
     P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
     derive/geometries/catenary.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '1.52958'
     """
@@ -87,16 +110,26 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = cosh(xi/b)/R
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature at the apex [m]
-        b       distance over which the flanks steepen [m]
-    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature at the apex [m]; distance over which the flanks steepen [m].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0.
+
+    Notes
+    -----
     M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
     from derive/geometries/catenary.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.45122'
     """
@@ -112,17 +145,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
             xi))))
         g''(xi) = cosh(xi/b)/R
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature at the apex [m]
-        b       distance over which the flanks steepen [m]
-    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature at the apex [m]; distance over which the flanks steepen [m].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0.
+
+    Notes
+    -----
     p numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived from
     derive/geometries/catenary.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.585715'
     """
@@ -139,19 +183,28 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         r_right(xi) = sqrt((a + xi)/(c - xi))
         g''(xi) = cosh(xi/b)/R
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature at the apex [m]
-        b       distance over which the flanks steepen [m]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature at the apex [m]; distance over which the flanks steepen [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 40
     digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
     the right edge; 40 digits at 24 points.  Derived from derive/geometries/catenary.py; evaluated
     by quadrature.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0, b=1.0)]
     ['1.31724', '1.01557']
     """
@@ -172,19 +225,28 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         FinitePart: of the integral that ends at a distance d from the edge, without its term in
             1/sqrt(d), as d goes to 0; by parts next to the edge
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature at the apex [m]
-        b       distance over which the flanks steepen [m]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature at the apex [m]; distance over which the flanks steepen [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 37
     digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
     the right edge; 37 digits at 24 points.  Derived from derive/geometries/catenary.py; evaluated
     by quadrature.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0, b=1.0)]
     ['-0.824249', '-0.46346']
     """

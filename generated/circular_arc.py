@@ -2,6 +2,9 @@
 """Circular arc, without the parabolic approximation.
 
 g(x) = R - sqrt(R**2 - x**2), from derive/geometries/circular_arc.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -39,14 +42,25 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g'(xi) = xi/sqrt(R**2 - xi**2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        R     radius of the arc [m]
-    Returns alpha [rad].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    R : array_like
+        Radius of the arc [m].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0 and a < R and c < R.
+
+    Notes
+    -----
     alpha numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived
     from derive/geometries/circular_arc.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{tilt(0.75, 0.5, R=1.0):.6g}"
     '0.18925'
     """
@@ -61,15 +75,26 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-    Returns P [N/m].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the arc [m].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0 and a < R and c < R.
+
+    Notes
+    -----
     P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
     derive/geometries/circular_arc.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{load(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.386889'
     """
@@ -85,15 +110,26 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-    Returns M [N].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the arc [m].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0 and a < R and c < R.
+
+    Notes
+    -----
     M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
     from derive/geometries/circular_arc.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{moment(0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0.0597185'
     """
@@ -109,16 +145,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
             xi))))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-    Returns p [Pa].  NaN unless a + c > 0 and a < R and c < R, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the arc [m].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0 and a < R and c < R.
+
+    Notes
+    -----
     p numerical: quadrature of the defining integral of g(x); 40 digits at 24 points.  Derived from
     derive/geometries/circular_arc.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 0.75, 0.5, E_star=1.0, R=1.0):.6g}"
     '0'
     """
@@ -135,18 +183,28 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         r_right(xi) = sqrt((a + xi)/(c - xi))
         g''(xi) = R**2/(R**2 - xi**2)**(3/2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and a < R and c < R,
-    with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the arc [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and a < R and c < R.
+
+    Notes
+    -----
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 40
     digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
     the right edge; 40 digits at 24 points.  Derived from derive/geometries/circular_arc.py;
     evaluated by quadrature.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['1.09433', '0.711794']
     """
@@ -167,18 +225,28 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         FinitePart: of the integral that ends at a distance d from the edge, without its term in
             1/sqrt(d), as d goes to 0; by parts next to the edge
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the arc [m]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and a < R and c <
-    R, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the arc [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and a < R and c < R.
+
+    Notes
+    -----
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 35
     digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
     the right edge; 34 digits at 24 points.  Derived from derive/geometries/circular_arc.py;
     evaluated by quadrature.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(0.75, 0.5, E_star=1.0, R=1.0)]
     ['-2.63694', '-0.70202']
     """

@@ -3,6 +3,9 @@
 
 g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
+
 In the formulas below
     h = a + c
     t_1 = edge_angle(a - b, b + c)
@@ -62,16 +65,25 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
         alpha = (h*involute(t_1)/(2*R) - h*involute(t_3)/(2*R) + t_1*Max(0, -b - c)/R -
             t_3*Max(0, -a - b)/R)/pi
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        R     radius of the rounded edges [m]
-        b     half-width of the flat [m]
-    Returns alpha [rad].  NaN unless a + c > 0 and (a > b) | (c > b), with lengths of 1e-75 to 1e75
-    m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    R, b : array_like
+        Radius of the rounded edges [m]; half-width of the flat [m].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0 and (a > b) | (c > b).
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{tilt(3.0, 2.0, R=1.0, b=1.0):.6g}"
     '0.367875'
     """
@@ -91,16 +103,26 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 
         P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-    Returns P [N/m].  NaN unless a + c > 0 and (a > b) | (c > b), with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the rounded edges [m]; half-width of the flat [m].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0 and (a > b) | (c > b).
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{load(3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '2.53246'
     """
@@ -116,16 +138,26 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
         M = E_star*h**2*(-h*(-sin(t_1)**3 + sin(t_3)**3)/3 + (a - c)*(segment(t_1) +
             segment(t_3)))/(32*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-    Returns M [N].  NaN unless a + c > 0 and (a > b) | (c > b), with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the rounded edges [m]; half-width of the flat [m].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0 and (a > b) | (c > b).
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
     at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{moment(3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '1.82431'
     """
@@ -146,17 +178,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-    Returns p [Pa].  NaN unless a + c > 0 and (a > b) | (c > b), with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the rounded edges [m]; half-width of the flat [m].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0 and (a > b) | (c > b).
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.392783'
     """
@@ -177,17 +220,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         K_N_left = E_star*sqrt(h)*(t_1/2 + sin(t_1)/2 + segment(t_3/2))/(pi*R)
         K_N_right = E_star*sqrt(h)*(t_3/2 + sin(t_3)/2 + segment(t_1/2))/(pi*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and (a > b) | (c >
-    b), with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the rounded edges [m]; half-width of the flat [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b) | (c > b).
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(3.0, 2.0, E_star=1.0, R=1.0, b=1.0)]
     ['0.88135', '0.753378']
     """
@@ -214,17 +266,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         k_left = Piecewise((1/R, a - b > 0), (0, a + b > 0), (1/R, True))
         k_right = Piecewise((1/R, b - c < 0), (0, b + c > 0), (1/R, True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       radius of the rounded edges [m]
-        b       half-width of the flat [m]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and (a > b) | (c >
-    b), with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, b : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
+        the rounded edges [m]; half-width of the flat [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b) | (c > b).
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(3.0, 2.0, E_star=1.0, R=1.0, b=1.0)]
     ['-0.148383', '-0.196186']
     """

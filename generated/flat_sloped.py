@@ -3,6 +3,9 @@
 
 g(x) = phi*Max(0, -b + Abs(x)), from derive/geometries/flat_sloped.py.
 
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
+
 In the formulas below
     edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
     root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
@@ -46,16 +49,25 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
         t_1 = edge_angle(a - b, b + c)
         t_3 = edge_angle(-b + c, a + b)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        b     half-width of the flat [m]
-        phi   slope of the sides [rad]
-    Returns alpha [rad].  NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b, with
-    lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    b, phi : array_like
+        half-width of the flat [m]; slope of the sides [rad].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{tilt(3.0, 2.0, b=1.0, phi=0.125):.6g}"
     '0.0175923'
     """
@@ -74,17 +86,26 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         P = E_star*phi*sqrt(Max(0, a - b)*Max(0, b + c))/2 + E_star*phi*sqrt(Max(0, a +
             b)*Max(0, -b + c))/2
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the flat [m]
-        phi     slope of the sides [rad]
-    Returns P [N/m].  NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b, with lengths
-    of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the flat [m]; slope of the sides [rad].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{load(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.278093'
     """
@@ -103,17 +124,26 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         M = E_star*phi*sqrt(Max(0, a - b)*Max(0, b + c))*(a + 2*b - c)/8 +
             E_star*phi*sqrt(Max(0, a + b)*Max(0, -b + c))*(a - 2*b - c)/8
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the flat [m]
-        phi     slope of the sides [rad]
-    Returns M [N].  NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b, with lengths
-    of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the flat [m]; slope of the sides [rad].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
     at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{moment(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0835698'
     """
@@ -136,18 +166,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
             2*x)*Max(0, a - b)/h, b + x)/(2*pi)
         h = a + c
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the flat [m]
-        phi     slope of the sides [rad]
-    Returns p [Pa].  NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b, with lengths
-    of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the flat [m]; slope of the sides [rad].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0637272'
     """
@@ -177,17 +217,27 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         tan_2 = root_ratio(a + b, -b + c)
         cot_2 = root_ratio(-b + c, a + b)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the flat [m]
-        phi     slope of the sides [rad]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and (a > b) | (c >
-    b) and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the flat [m]; slope of the sides [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b
+        and c > -b.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0306902', '0.0501169']
     """
@@ -214,17 +264,27 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         tan_2 = root_ratio(a + b, -b + c)
         cot_2 = root_ratio(-b + c, a + b)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the flat [m]
-        phi     slope of the sides [rad]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and (a > b) | (c >
-    b) and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the flat [m]; slope of the sides [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b) | (c > b) and a >
+        -b and c > -b.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 46 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.00539662', '0.0151476']
     """

@@ -2,6 +2,9 @@
 """Cylinder on a half-plane (Hertz).
 
 g(x) = x**2/(2*R), from derive/geometries/hertz.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -41,17 +44,29 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
         alpha = e/R
         e = M/P
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature [m]
-    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    P : array_like
+        Normal load per unit depth [N/m].
+    M : array_like
+        Moment per unit depth, M = -int p x dx [N].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature [m].
 
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha [rad]; NaN unless P > 0.
+
+    Notes
+    -----
     a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 49 digits at 24
     points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 49 digits at 24
     points.  Derived from derive/geometries/hertz.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, R=1.0)]
     ['1.37838', '0.878379', '0.25']
     """
@@ -72,17 +87,28 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
         a = R*alpha + 2*sqrt(P*R/(pi*E_star))
         c = -R*alpha + 2*sqrt(P*R/(pi*E_star))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        P       normal load per unit depth [N/m]
-        alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature [m]
-    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0, with lengths of 1e-75 to 1e75
-    m.
+    Parameters
+    ----------
+    P : array_like
+        Normal load per unit depth [N/m].
+    alpha : array_like
+        tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature [m].
 
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha as given; NaN unless P > 0.
+
+    Notes
+    -----
     a and c numerical: put back into load(a, c), tilt(a, c); 49 digits at 24 points.  Derived from
     derive/geometries/hertz.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, R=1.0)]
     ['1.15963', '1.09713', '0.03125']
     """
@@ -100,14 +126,25 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
 
         alpha = (a - c)/(2*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        R     relative radius of curvature [m]
-    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    R : array_like
+        Relative radius of curvature [m].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/hertz.py.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, R=1.0):.6g}"
     '0.25'
     """
@@ -123,15 +160,26 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
         P = pi*E_star*(a + c)**2/(16*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature [m]
-    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature [m].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/hertz.py.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, R=1.0):.6g}"
     '1.22718'
     """
@@ -147,15 +195,26 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
         M = pi*E_star*(a - c)*(a + c)**2/(32*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature [m]
-    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature [m].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
     at 24 points.  Derived from derive/geometries/hertz.py.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, R=1.0):.6g}"
     '0.306796'
     """
@@ -171,16 +230,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
         p = E_star*sqrt((a + x)*(c - x))/(2*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature [m]
-    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature [m].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/hertz.py.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0):.6g}"
     '0.5'
     """
@@ -198,16 +269,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         K_N_left = E_star*sqrt(a + c)/(2*R)
         K_N_right = E_star*sqrt(a + c)/(2*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature [m]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/hertz.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0)]
     ['0.790569', '0.790569']
     """
@@ -226,16 +307,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
         L_N_left = -E_star/(4*R*sqrt(a + c))
         L_N_right = -E_star/(4*R*sqrt(a + c))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature [m]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 48 digits at 24 points.  Derived from derive/geometries/hertz.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0)]
     ['-0.158114', '-0.158114']
     """

@@ -2,6 +2,9 @@
 """Hyperbola: a wedge far from its apex, a parabola of radius b/phi close to it.
 
 g(x) = phi*sqrt(b**2 + x**2), from derive/geometries/hyperbola.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -39,15 +42,26 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g'(xi) = phi*xi/sqrt(b**2 + xi**2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        b     distance from the apex over which the flanks bend [m]
-        phi   slope of the flanks far from the apex [rad]
-    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    b, phi : array_like
+        Distance from the apex over which the flanks bend [m]; slope of the flanks far from the apex
+        [rad].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0.
+
+    Notes
+    -----
     alpha numerical: quadrature of the defining integral of g(x); 38 digits at 24 points.  Derived
     from derive/geometries/hyperbola.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, b=1.0, phi=0.125):.6g}"
     '0.0160854'
     """
@@ -62,16 +76,26 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       distance from the apex over which the flanks bend [m]
-        phi     slope of the flanks far from the apex [rad]
-    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex over which the flanks bend [m]; slope of the flanks far from the apex [rad].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0.
+
+    Notes
+    -----
     P numerical: (E*/2) I_1 of g(x) by quadrature; 36 digits at 24 points.  Derived from
     derive/geometries/hyperbola.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.10313'
     """
@@ -87,16 +111,26 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       distance from the apex over which the flanks bend [m]
-        phi     slope of the flanks far from the apex [rad]
-    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex over which the flanks bend [m]; slope of the flanks far from the apex [rad].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0.
+
+    Notes
+    -----
     M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 36 digits at 24 points.  Derived
     from derive/geometries/hyperbola.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0193152'
     """
@@ -112,17 +146,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
             xi))))
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       distance from the apex over which the flanks bend [m]
-        phi     slope of the flanks far from the apex [rad]
-    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex over which the flanks bend [m]; slope of the flanks far from the apex [rad].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0.
+
+    Notes
+    -----
     p numerical: quadrature of the defining integral of g(x); 38 digits at 24 points.  Derived from
     derive/geometries/hyperbola.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0451244'
     """
@@ -139,19 +184,28 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         r_right(xi) = sqrt((a + xi)/(c - xi))
         g''(xi) = b**2*phi/(b**2 + xi**2)**(3/2)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       distance from the apex over which the flanks bend [m]
-        phi     slope of the flanks far from the apex [rad]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex over which the flanks bend [m]; slope of the flanks far from the apex [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
     digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
     the right edge; 36 digits at 24 points.  Derived from derive/geometries/hyperbola.py; evaluated
     by quadrature.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0427744', '0.0591275']
     """
@@ -172,19 +226,28 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         FinitePart: of the integral that ends at a distance d from the edge, without its term in
             1/sqrt(d), as d goes to 0; by parts next to the edge
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       distance from the apex over which the flanks bend [m]
-        phi     slope of the flanks far from the apex [rad]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex over which the flanks bend [m]; slope of the flanks far from the apex [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
     digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
     the right edge; 36 digits at 24 points.  Derived from derive/geometries/hyperbola.py; evaluated
     by quadrature.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0101019', '0.0123675']
     """

@@ -2,6 +2,9 @@
 """Parabola plus quartic: a cylinder whose flanks steepen.
 
 g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -38,15 +41,26 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
 
         alpha = (a - c)*(8*L**3 + 5*R*a**2 + 2*R*a*c + 5*R*c**2)/(16*L**3*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        L     distance at which the quartic alone has slope one [m]
-        R     relative radius of curvature at the apex [m]
-    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    L, R : array_like
+        Distance at which the quartic alone has slope one [m]; relative radius of curvature at the
+        apex [m].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, L=1.0, R=1.0):.6g}"
     '0.851562'
     """
@@ -66,16 +80,26 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
         P = pi*E_star*(a + c)**2*(16*L**3 + 15*R*a**2 - 18*R*a*c + 15*R*c**2)/(256*L**3*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance at which the quartic alone has slope one [m]
-        R       relative radius of curvature at the apex [m]
-    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/parabola_quartic.py.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
     '2.89539'
     """
@@ -95,16 +119,26 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
         M = pi*E_star*(a - c)*(a + c)**2*(8*L**3 + 9*R*a**2 - 6*R*a*c + 9*R*c**2)/(256*L**3*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance at which the quartic alone has slope one [m]
-        R       relative radius of curvature at the apex [m]
-    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
     at 24 points.  Derived from derive/geometries/parabola_quartic.py.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
     '1.08337'
     """
@@ -126,17 +160,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
         p = E_star*sqrt((a + x)*(c - x))*(8*L**3 + 3*R*a**2 - 2*R*a*c - 4*R*a*x + 3*R*c**2 +
             4*R*c*x + 8*R*x**2)/(16*L**3*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance at which the quartic alone has slope one [m]
-        R       relative radius of curvature at the apex [m]
-    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
     '0.984375'
     """
@@ -167,17 +212,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         K_N_left = E_star*sqrt(a + c)*(8*L**3 + 15*R*a**2 - 6*R*a*c + 3*R*c**2)/(16*L**3*R)
         K_N_right = E_star*sqrt(a + c)*(8*L**3 + 3*R*a**2 - 6*R*a*c + 15*R*c**2)/(16*L**3*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance at which the quartic alone has slope one [m]
-        R       relative radius of curvature at the apex [m]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/parabola_quartic.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0, R=1.0)]
     ['3.53286', '2.05054']
     """
@@ -196,17 +250,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         L_N_left = -E_star*(8*L**3 + 55*R*a**2 + 26*R*a*c - 5*R*c**2)/(32*L**3*R*sqrt(a + c))
         L_N_right = E_star*(-8*L**3 + 5*R*a**2 - 26*R*a*c - 55*R*c**2)/(32*L**3*R*sqrt(a + c))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance at which the quartic alone has slope one [m]
-        R       relative radius of curvature at the apex [m]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, R : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 46 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, L=1.0, R=1.0)]
     ['-3.27592', '-1.7936']
     """

@@ -2,6 +2,9 @@
 """Power law: a cusp-like to blunt apex; a wedge at k = 1, a parabola at k = 2.
 
 g(x) = L**(1 - k)*Abs(x)**k/k, from derive/geometries/power.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -39,15 +42,25 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
         w(xi) = sqrt((a + xi)*(c - xi))
         g'(xi) = Piecewise((-L**(1 - k)*(-xi)**(k - 1), xi < 0), (L**(1 - k)*xi**(k - 1), True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        L     distance from the apex at which the flanks have slope one [m]
-        k     exponent, above one [-]
-    Returns alpha [rad].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    L, k : array_like
+        Distance from the apex at which the flanks have slope one [m]; exponent, above one [-].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0 and k > 1.
+
+    Notes
+    -----
     alpha numerical: quadrature of the defining integral of g(x); 39 digits at 24 points.  Derived
     from derive/geometries/power.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, L=1.0, k=2.0):.6g}"
     '0.25'
     """
@@ -63,16 +76,26 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
         g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
             2)*(k - 1), True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-        k       exponent, above one [-]
-    Returns P [N/m].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, k : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m]; exponent, above one [-].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0 and k > 1.
+
+    Notes
+    -----
     P numerical: (E*/2) I_1 of g(x) by quadrature; 40 digits at 24 points.  Derived from
     derive/geometries/power.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '1.22718'
     """
@@ -89,16 +112,26 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
         g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
             2)*(k - 1), True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-        k       exponent, above one [-]
-    Returns M [N].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, k : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m]; exponent, above one [-].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0 and k > 1.
+
+    Notes
+    -----
     M numerical: -(E*/2) (I_2 - mid I_1) of g(x) by quadrature; 40 digits at 24 points.  Derived
     from derive/geometries/power.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '0.306796'
     """
@@ -115,17 +148,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
         g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
             2)*(k - 1), True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-        k       exponent, above one [-]
-    Returns p [Pa].  NaN unless a + c > 0 and k > 1, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, k : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m]; exponent, above one [-].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0 and k > 1.
+
+    Notes
+    -----
     p numerical: quadrature of the defining integral of g(x); 39 digits at 24 points.  Derived from
     derive/geometries/power.py; evaluated by quadrature.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
     '0.5'
     """
@@ -143,19 +187,28 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
         g''(xi) = Piecewise((L**(1 - k)*(-xi)**(k - 2)*(k - 1), xi < 0), (L**(1 - k)*xi**(k -
             2)*(k - 1), True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-        k       exponent, above one [-]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and k > 1, with
-    lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, k : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m]; exponent, above one [-].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and k > 1.
+
+    Notes
+    -----
     K_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 39
     digits at 24 points.  K_N_right numerical: quadrature of the defining integral of g(x), next to
     the right edge; 39 digits at 24 points.  Derived from derive/geometries/power.py; evaluated by
     quadrature.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0, k=2.0)]
     ['0.790569', '0.790569']
     """
@@ -177,19 +230,28 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
         FinitePart: of the integral that ends at a distance d from the edge, without its term in
             1/sqrt(d), as d goes to 0; by parts next to the edge
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-        k       exponent, above one [-]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and k > 1, with
-    lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L, k : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m]; exponent, above one [-].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and k > 1.
+
+    Notes
+    -----
     L_N_left numerical: quadrature of the defining integral of g(x), next to the left edge; 36
     digits at 24 points.  L_N_right numerical: quadrature of the defining integral of g(x), next to
     the right edge; 35 digits at 24 points.  Derived from derive/geometries/power.py; evaluated by
     quadrature.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, L=1.0, k=2.0)]
     ['-0.158114', '-0.158114']
     """

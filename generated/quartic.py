@@ -2,6 +2,9 @@
 """Quartic: flatter at its apex than any parabola.
 
 g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -38,14 +41,25 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
 
         alpha = (a - c)*(5*a**2 + 2*a*c + 5*c**2)/(16*L**3)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        L     distance from the apex at which the flanks have slope one [m]
-    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    L : array_like
+        Distance from the apex at which the flanks have slope one [m].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/quartic.py.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, L=1.0):.6g}"
     '0.601562'
     """
@@ -61,15 +75,26 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
         P = 3*pi*E_star*(a + c)**2*(5*a**2 - 6*a*c + 5*c**2)/(256*L**3)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/quartic.py.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, L=1.0):.6g}"
     '1.6682'
     """
@@ -85,15 +110,26 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
         M = 3*pi*E_star*(a - c)*(a + c)**2*(3*a**2 - 2*a*c + 3*c**2)/(256*L**3)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
     at 24 points.  Derived from derive/geometries/quartic.py.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, L=1.0):.6g}"
     '0.776578'
     """
@@ -115,16 +151,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
         p = E_star*sqrt((a + x)*(c - x))*(3*a**2 - 2*a*c - 4*a*x + 3*c**2 + 4*c*x +
             8*x**2)/(16*L**3)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/quartic.py.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0):.6g}"
     '0.484375'
     """
@@ -147,16 +195,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
         K_N_left = 3*E_star*sqrt(a + c)*(5*a**2 - 2*a*c + c**2)/(16*L**3)
         K_N_right = 3*E_star*sqrt(a + c)*(a**2 - 2*a*c + 5*c**2)/(16*L**3)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/quartic.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0)]
     ['2.74229', '1.25997']
     """
@@ -175,16 +233,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
         L_N_left = -E_star*(55*a**2 + 26*a*c - 5*c**2)/(32*L**3*sqrt(a + c))
         L_N_right = E_star*(5*a**2 - 26*a*c - 55*c**2)/(32*L**3*sqrt(a + c))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        L       distance from the apex at which the flanks have slope one [m]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, L : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
+        from the apex at which the flanks have slope one [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 46 digits at 24 points.  Derived from derive/geometries/quartic.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, L=1.0)]
     ['-3.11781', '-1.63549']
     """

@@ -4,6 +4,9 @@
 g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), from
     derive/geometries/rounded_wedge.py.
 
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
+
 In the formulas below
     h = a + c
     sin_1 = sqrt(Min(h, Max(0, a - b))/h)
@@ -88,16 +91,25 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
         t_1 = edge_angle(a - b, b + c)
         t_3 = edge_angle(-b + c, a + b)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        b     half-width of the rounded apex [m]
-        phi   slope of the flanks [rad]
-    Returns alpha [rad].  NaN unless a + c > 0 and a > -b and c > -b, with lengths of 1e-75 to 1e75
-    m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    b, phi : array_like
+        half-width of the rounded apex [m]; slope of the flanks [rad].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0 and a > -b and c > -b.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 47 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{tilt(3.0, 2.0, b=1.0, phi=0.125):.6g}"
     '0.0165156'
     """
@@ -119,16 +131,26 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
         P = E_star*h**2*phi*part_area(t_2, cos_1*sin_2 + cos_2*sin_1)/(16*b)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the rounded apex [m]
-        phi     slope of the flanks [rad]
-    Returns P [N/m].  NaN unless a + c > 0 and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the rounded apex [m]; slope of the flanks [rad].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0 and a > -b and c > -b.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 49 digits at 24 points.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{load(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.297035'
     """
@@ -144,16 +166,26 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         M = E_star*h**2*phi*(-h*part_arm(t_2, sin_1, cos_1, sin_2, cos_2)/3 + (a -
             c)*part_area(t_2, cos_1*sin_2 + cos_2*sin_1))/(32*b)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the rounded apex [m]
-        phi     slope of the flanks [rad]
-    Returns M [N].  NaN unless a + c > 0 and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the rounded apex [m]; slope of the flanks [rad].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0 and a > -b and c > -b.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 46 digits
     at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{moment(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0787576'
     """
@@ -178,17 +210,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the rounded apex [m]
-        phi     slope of the flanks [rad]
-    Returns p [Pa].  NaN unless a + c > 0 and a > -b and c > -b, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the rounded apex [m]; slope of the flanks [rad].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0 and a > -b and c > -b.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0941076'
     """
@@ -209,17 +252,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         K_N_left = E_star*sqrt(h)*phi*part_weight(t_2, cos_1*cos_2)/(pi*b)
         K_N_right = E_star*sqrt(h)*phi*part_weight(t_2, sin_1*sin_2)/(pi*b)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the rounded apex [m]
-        phi     slope of the flanks [rad]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and a > -b and c >
-    -b, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the rounded apex [m]; slope of the flanks [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and a > -b and c > -b.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.0295854', '0.0455819']
     """
@@ -242,17 +294,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         k_left = Piecewise((0, a - b > 0), (phi/b, a + b > 0), (0, True))
         k_right = Piecewise((0, b - c < 0), (phi/b, b + c > 0), (0, True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        b       half-width of the rounded apex [m]
-        phi     slope of the flanks [rad]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and a > -b and c >
-    -b, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, b, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
+        of the rounded apex [m]; slope of the flanks [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and a > -b and c > -b.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 46 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
     ['0.00457246', '0.0105478']
     """

@@ -3,6 +3,9 @@
 
 g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geometries/two_radii.py.
 
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
+
 In the formulas below
     h = a + c
     t_1 = edge_angle(a, c)
@@ -62,15 +65,25 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
         alpha = (-h*involute(t_2)/(2*R_2) - t_2*Max(0, -a)/R_2 + h*involute(t_1)/(2*R_1) +
             t_1*Max(0, -c)/R_1)/pi
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        R_1   relative radius of curvature on the left [m]
-        R_2   relative radius of curvature on the right [m]
-    Returns alpha [rad].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    R_1, R_2 : array_like
+        Relative radius of curvature on the left [m]; relative radius of curvature on the right [m].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 50 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.25'
     """
@@ -90,16 +103,26 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
 
         P = E_star*h**2*(segment(t_2)/R_2 + segment(t_1)/R_1)/16
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R_1     relative radius of curvature on the left [m]
-        R_2     relative radius of curvature on the right [m]
-    Returns P [N/m].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R_1, R_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the left [m]; relative radius of curvature on the right [m].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '1.22718'
     """
@@ -115,16 +138,26 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
         M = E_star*h**2*(-h*(sin(t_2)**3/R_2 - sin(t_1)**3/R_1)/3 + (a - c)*(segment(t_2)/R_2 +
             segment(t_1)/R_1))/32
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R_1     relative radius of curvature on the left [m]
-        R_2     relative radius of curvature on the right [m]
-    Returns M [N].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R_1, R_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the left [m]; relative radius of curvature on the right [m].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
     at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.306796'
     """
@@ -149,17 +182,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R_1     relative radius of curvature on the left [m]
-        R_2     relative radius of curvature on the right [m]
-    Returns p [Pa].  NaN unless a + c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R_1, R_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the left [m]; relative radius of curvature on the right [m].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 50 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.5'
     """
@@ -180,17 +224,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
         K_N_left = E_star*sqrt(h)*(segment(t_2/2)/R_2 + (t_1 + sin(t_1))/(2*R_1))/pi
         K_N_right = E_star*sqrt(h)*((t_2 + sin(t_2))/(2*R_2) + segment(t_1/2)/R_1)/pi
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R_1     relative radius of curvature on the left [m]
-        R_2     relative radius of curvature on the right [m]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R_1, R_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the left [m]; relative radius of curvature on the right [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0)]
     ['0.790569', '0.790569']
     """
@@ -217,17 +270,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
         k_left = Piecewise((1/R_1, a > 0), (1/R_2, True))
         k_right = Piecewise((1/R_2, c > 0), (1/R_1, True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R_1     relative radius of curvature on the left [m]
-        R_2     relative radius of curvature on the right [m]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0, with lengths of
-    1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R_1, R_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the left [m]; relative radius of curvature on the right [m].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0)]
     ['-0.158114', '-0.158114']
     """

@@ -2,6 +2,9 @@
 """Wedge with unequal flanks.
 
 g(x) = Piecewise((-phi_1*x, x < 0), (phi_2*x, True)), from derive/geometries/unequal_wedge.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -42,18 +45,29 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
             phi_2*atan2(2*P/(E_star*(phi_1 + phi_2)), 2*e))/pi
         e = M/P
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi_1   slope of the left flank [rad]
-        phi_2   slope of the right flank [rad]
-    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    P : array_like
+        Normal load per unit depth [N/m].
+    M : array_like
+        Moment per unit depth, M = -int p x dx [N].
+    E_star, phi_1, phi_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the left flank [rad]; slope of the right flank [rad].
 
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha [rad]; NaN unless P > 0.
+
+    Notes
+    -----
     a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 46 digits at 24
     points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 46 digits at 24
     points.  Derived from derive/geometries/unequal_wedge.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi_1=0.125, phi_2=0.125)]
     ['8.51561', '7.51561', '0.00496713']
     """
@@ -87,18 +101,28 @@ def contact_at_tilt(
         a = -2*P/(E_star*(phi_1 + phi_2)*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2))))
         c = -2*P*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2)))/(E_star*(phi_1 + phi_2))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        P       normal load per unit depth [N/m]
-        alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi_1   slope of the left flank [rad]
-        phi_2   slope of the right flank [rad]
-    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0 and alpha > -phi_2 and alpha <
-    phi_1, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    P : array_like
+        Normal load per unit depth [N/m].
+    alpha : array_like
+        tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
+    E_star, phi_1, phi_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the left flank [rad]; slope of the right flank [rad].
 
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha as given; NaN unless P > 0 and alpha > -phi_2 and alpha < phi_1.
+
+    Notes
+    -----
     a and c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.  Derived from
     derive/geometries/unequal_wedge.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi_1=0.125, phi_2=0.125)]
     ['11.9728', '5.34543', '0.03125']
     """
@@ -123,15 +147,25 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
         alpha = (-phi_1*theta_1 + pi*phi_1 - phi_2*theta_1)/pi
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c   edges of the contact at x = -a and x = c [m]
-        phi_1  slope of the left flank [rad]
-        phi_2  slope of the right flank [rad]
-    Returns alpha [rad].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    phi_1, phi_2 : array_like
+        Slope of the left flank [rad]; slope of the right flank [rad].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 47 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, phi_1=0.125, phi_2=0.125):.6g}"
     '0.0160236'
     """
@@ -149,16 +183,26 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
 
         P = E_star*sqrt(a*c)*(phi_1 + phi_2)/2
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi_1   slope of the left flank [rad]
-        phi_2   slope of the right flank [rad]
-    Returns P [N/m].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi_1, phi_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the left flank [rad]; slope of the right flank [rad].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 49 digits at 24 points.
     Derived from derive/geometries/unequal_wedge.py.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125):.6g}"
     '0.153093'
     """
@@ -174,16 +218,26 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
 
         M = E_star*sqrt(a*c)*(a - c)*(phi_1 + phi_2)/8
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi_1   slope of the left flank [rad]
-        phi_2   slope of the right flank [rad]
-    Returns M [N].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi_1, phi_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the left flank [rad]; slope of the right flank [rad].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
     at 24 points.  Derived from derive/geometries/unequal_wedge.py.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125):.6g}"
     '0.0191366'
     """
@@ -202,17 +256,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
         u_1 = c*(a + x)
         v_1 = a*(c - x)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi_1   slope of the left flank [rad]
-        phi_2   slope of the right flank [rad]
-    Returns p [Pa].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi_1, phi_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the left flank [rad]; slope of the right flank [rad].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125):.6g}"
     '0.0567155'
     """
@@ -232,17 +297,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
         K_N_left = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*a)
         K_N_right = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*c)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi_1   slope of the left flank [rad]
-        phi_2   slope of the right flank [rad]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a > 0 and c > 0, with lengths
-    of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi_1, phi_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the left flank [rad]; slope of the right flank [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/unequal_wedge.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125)]
     ['0.0410936', '0.0616404']
     """
@@ -261,17 +335,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
         L_N_left = E_star*sqrt(a*c)*(3*a + 2*c)*(phi_1 + phi_2)/(6*pi*a**2*(a + c)**(3/2))
         L_N_right = E_star*sqrt(a*c)*(2*a + 3*c)*(phi_1 + phi_2)/(6*pi*c**2*(a + c)**(3/2))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi_1   slope of the left flank [rad]
-        phi_2   slope of the right flank [rad]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a > 0 and c > 0, with
-    lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi_1, phi_2 : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the left flank [rad]; slope of the right flank [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 46 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, phi_1=0.125, phi_2=0.125)]
     ['0.0118715', '0.0246562']
     """

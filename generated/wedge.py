@@ -2,6 +2,9 @@
 """Shallow wedge on a half-plane; its apex half-angle is pi/2 - phi.
 
 g(x) = phi*Abs(x), from derive/geometries/wedge.py.
+
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -41,17 +44,29 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
         alpha = phi*(pi - 2*atan2(P/(E_star*phi), 2*e))/pi
         e = M/P
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        P       normal load per unit depth [N/m]
-        M       moment per unit depth, M = -int p x dx [N]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-    Returns Contact(a [m], c [m], alpha [rad]).  NaN unless P > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    P : array_like
+        Normal load per unit depth [N/m].
+    M : array_like
+        Moment per unit depth, M = -int p x dx [N].
+    E_star, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the flanks [rad].
 
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha [rad]; NaN unless P > 0.
+
+    Notes
+    -----
     a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 44 digits at 24
     points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 48 digits at 24
     points.  Derived from derive/geometries/wedge.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi=0.125)]
     ['8.51561', '7.51561', '0.00496713']
     """
@@ -80,17 +95,28 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
         a = -P/(E_star*phi*tan(pi*(alpha - phi)/(4*phi)))
         c = -P*tan(pi*(alpha - phi)/(4*phi))/(E_star*phi)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        P       normal load per unit depth [N/m]
-        alpha   tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-    Returns Contact(a [m], c [m], alpha as given).  NaN unless P > 0 and alpha > -phi and alpha <
-    phi, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    P : array_like
+        Normal load per unit depth [N/m].
+    alpha : array_like
+        tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
+    E_star, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the flanks [rad].
 
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha as given; NaN unless P > 0 and alpha > -phi and alpha < phi.
+
+    Notes
+    -----
     a and c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.  Derived from
     derive/geometries/wedge.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi=0.125)]
     ['11.9728', '5.34543', '0.03125']
     """
@@ -119,14 +145,25 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
         alpha = phi*(pi - 2*theta_1)/pi
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        phi   slope of the flanks [rad]
-    Returns alpha [rad].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    phi : array_like
+        Slope of the flanks [rad].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/wedge.py.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, phi=0.125):.6g}"
     '0.0160236'
     """
@@ -142,15 +179,26 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
 
         P = E_star*phi*sqrt(a*c)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-    Returns P [N/m].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the flanks [rad].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Derived from derive/geometries/wedge.py.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.153093'
     """
@@ -166,15 +214,26 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
 
         M = E_star*phi*sqrt(a*c)*(a - c)/4
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-    Returns M [N].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the flanks [rad].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
     at 24 points.  Derived from derive/geometries/wedge.py.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.0191366'
     """
@@ -193,16 +252,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
         u_1 = c*(a + x)
         v_1 = a*(c - x)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-    Returns p [Pa].  NaN unless a > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the flanks [rad].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/wedge.py.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
     '0.0567155'
     """
@@ -222,16 +293,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
         K_N_left = 2*E_star*phi*sqrt(a*c/(a + c))/(pi*a)
         K_N_right = 2*E_star*phi*sqrt(a*c/(a + c))/(pi*c)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a > 0 and c > 0, with lengths
-    of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the flanks [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Derived from derive/geometries/wedge.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, phi=0.125)]
     ['0.0410936', '0.0616404']
     """
@@ -250,16 +331,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
         L_N_left = E_star*phi*sqrt(a*c)*(3*a + 2*c)/(3*pi*a**2*(a + c)**(3/2))
         L_N_right = E_star*phi*sqrt(a*c)*(2*a + 3*c)/(3*pi*c**2*(a + c)**(3/2))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        phi     slope of the flanks [rad]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a > 0 and c > 0, with
-    lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
+        the flanks [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a > 0 and c > 0.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 45 digits at 24 points.  Derived from derive/geometries/wedge.py.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, phi=0.125)]
     ['0.0118715', '0.0246562']
     """

@@ -3,6 +3,9 @@
 
 g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/wedge_parabola.py.
 
+Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
+geometry are positive and lengths are between 1e-75 and 1e75 m.
+
 In the formulas below
     h = a + c
     t_2 = edge_angle(c, a)
@@ -70,15 +73,25 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
         alpha = (phi*t_1 - h*involute(t_2)/(2*R) - t_2*Max(0, -a)/R)/pi
         t_1 = edge_angle(a, c)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c  edges of the contact at x = -a and x = c [m]
-        R     relative radius of curvature on the right [m]
-        phi   slope of the left flank [rad]
-    Returns alpha [rad].  NaN unless a + c > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    R, phi : array_like
+        Relative radius of curvature on the right [m]; slope of the left flank [rad].
 
+    Returns
+    -------
+    alpha : ndarray
+        [rad]; NaN unless a + c > 0 and c > 0.
+
+    Notes
+    -----
     alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
     integral of g(x); 48 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{tilt(1.5, 1.0, R=1.0, phi=0.125):.6g}"
     '-0.21036'
     """
@@ -94,16 +107,26 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
         P = E_star*phi*sqrt(Max(0, a)*Max(0, c))/2 + E_star*h**2*segment(t_2)/(16*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-    Returns P [N/m].  NaN unless a + c > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the right [m]; slope of the left flank [rad].
 
+    Returns
+    -------
+    P : ndarray
+        [N/m]; NaN unless a + c > 0 and c > 0.
+
+    Notes
+    -----
     P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{load(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.534937'
     """
@@ -121,16 +144,26 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
         M = E_star*phi*sqrt(Max(0, a)*Max(0, c))*(a - c)/8 + E_star*h**2*(-h*sin(t_2)**3/3 + (a
             - c)*segment(t_2))/(32*R)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-    Returns M [N].  NaN unless a + c > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the right [m]; slope of the left flank [rad].
 
+    Returns
+    -------
+    M : ndarray
+        [N]; NaN unless a + c > 0 and c > 0.
+
+    Notes
+    -----
     M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
     at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{moment(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '-0.0289272'
     """
@@ -150,17 +183,28 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        x       position along the interface, right positive [m]
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-    Returns p [Pa].  NaN unless a + c > 0 and c > 0, with lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    x : array_like
+        Position along the interface, right positive [m].
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the right [m]; slope of the left flank [rad].
 
+    Returns
+    -------
+    p : ndarray
+        [Pa]; NaN unless a + c > 0 and c > 0.
+
+    Notes
+    -----
     p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
     integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.359742'
     """
@@ -184,17 +228,26 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
         tan_1 = root_ratio(a, c)
         cot_1 = root_ratio(c, a)
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]).  NaN unless a + c > 0 and c > 0, with
-    lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the right [m]; slope of the left flank [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and c > 0.
+
+    Notes
+    -----
     K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
     Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125)]
     ['0.118599', '0.621996']
     """
@@ -226,17 +279,26 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
         k_left = Piecewise((0, a > 0), (1/R, True))
         k_right = Piecewise((1/R, c > 0), (0, True))
 
-    Arguments broadcast, results are float64 of their shape; NaN unless constants are positive.
-        a, c    edges of the contact at x = -a and x = c [m]
-        E_star  composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]
-        R       relative radius of curvature on the right [m]
-        phi     slope of the left flank [rad]
-    Returns Edges(left [Pa/m**(3/2)], right [Pa/m**(3/2)]).  NaN unless a + c > 0 and c > 0, with
-    lengths of 1e-75 to 1e75 m.
+    Parameters
+    ----------
+    a, c : array_like
+        Edges of the contact at x = -a and x = c [m].
+    E_star, R, phi : array_like
+        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
+        radius of curvature on the right [m]; slope of the left flank [rad].
 
+    Returns
+    -------
+    Edges
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and c > 0.
+
+    Notes
+    -----
     L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
     the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
 
+    Examples
+    --------
     >>> [f"{v:.6g}" for v in L_N(1.5, 1.0, E_star=1.0, R=1.0, phi=0.125)]
     ['0.0301586', '-0.204532']
     """

@@ -22,13 +22,12 @@ from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
 from derive.proof.verdict import Proof
+from derive.runtime.body import sentence
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
 from derive.units import Dimension, dimension_of, parse_unit
 
 LINE = 100
-
-_SHAPES = "Arguments broadcast, results are float64 of their shape"
 
 _width = Symbol("h")
 """Contact width by its name, where code is checked for it."""
@@ -152,33 +151,32 @@ class FunctionText:
             lines += textwrap.wrap(
                 equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
             )
-        lines += [
-            "",
-            f"{_SHAPES}; NaN unless constants are positive." if self.keywords else f"{_SHAPES}.",
-        ]
-        given = self._given
-        width = max(map(len, given))
-        for name, meaning in given.items():
-            lines += textwrap.wrap(
-                f"{name:{width}}  {meaning}",
-                LINE - 4,
-                initial_indent="    ",
-                subsequent_indent=" " * (width + 6),
-            )
-        lines += textwrap.wrap(f"Returns {self._returns}.  {self._existence}", LINE - 4)
-        lines += ["", *textwrap.wrap(self._proofs, LINE - 4), "", *self._doctest]
+        lines += ["", *_section("Parameters")]
+        optional = {symbol.name for symbol, _ in self.function.defaults}
+        for name, meaning in self._given.items():
+            kind = "array_like, optional" if name in optional else "array_like"
+            lines += [f"{name} : {kind}", *_indented(meaning)]
+        kind, fields = self._returns
+        lines += ["", *_section("Returns"), kind, *_indented(f"{fields}; {self._existence}")]
+        lines += ["", *_section("Notes"), *textwrap.wrap(self._proofs, LINE - 4)]
+        lines += ["", *_section("Examples"), *self._doctest]
         return f'"""{inside_quotes(chr(10).join(lines))}\n"""'
 
     @property
     def _given(self) -> dict[str, str]:
-        """What the arguments mean, both edges at once."""
+        """What the arguments mean, both edges at once, and all that is material or geometry."""
         found = {}
-        for symbol in (*self.function.arguments, *self.keywords):
-            q = self.sheet.geometry.quantities[str(symbol)]
+        quantities = self.sheet.geometry.quantities
+        for symbol in self.function.arguments:
+            q = quantities[str(symbol)]
             if symbol == a:
-                found["a, c"] = f"edges of the contact at x = -a and x = c [{q.unit}]"
+                found["a, c"] = f"Edges of the contact at x = -a and x = c [{q.unit}]."
             elif symbol != c:
-                found[q.name] = f"{q.meaning} [{q.unit}]"
+                found[q.name] = sentence(f"{q.meaning} [{q.unit}]")
+        if self.keywords:
+            law = [quantities[str(symbol)] for symbol in self.keywords]
+            meanings = "; ".join(f"{q.meaning} [{q.unit}]" for q in law)
+            found[", ".join(q.name for q in law)] = sentence(meanings)
         return found
 
     @property
@@ -194,19 +192,23 @@ class FunctionText:
             yield "e = M/P"
 
     @property
-    def _returns(self) -> str:
+    def _returns(self) -> tuple[str, str]:
+        """What comes out, and of which units."""
         fields = []
         for field, source in self.function.fields:
             if isinstance(source, str):
-                fields.append(f"{field or self.sheet[source].symbol} [{self.sheet[source].unit}]")
+                unit = f"[{self.sheet[source].unit}]"
+                fields.append(f"{field} {unit}" if field else unit)
             else:
                 fields.append(f"{field} as given")
-        return f"{self.function.kind}({', '.join(fields)})" if self.function.kind else fields[0]
+        (_, first), *_ = self.function.fields
+        symbol = self.sheet[first].symbol if isinstance(first, str) else first
+        return self.function.kind or f"{symbol} : ndarray", ", ".join(fields)
 
     @property
     def _existence(self) -> str:
         needed = map(str, _without_constants(self.conditions))
-        return f"NaN unless {' and '.join(needed)}, with lengths of 1e-75 to 1e75 m."
+        return f"NaN unless {' and '.join(needed)}."
 
     @property
     def _proofs(self) -> str:
@@ -242,6 +244,14 @@ class FunctionText:
         else:
             yield f'>>> f"{{{self.function.name}({call}):.6g}}"'
             yield repr(shown[0])
+
+
+def _section(name: str) -> list[str]:
+    return [name, "-" * len(name)]
+
+
+def _indented(text: str) -> list[str]:
+    return textwrap.wrap(text, LINE - 4, initial_indent="    ", subsequent_indent="    ")
 
 
 def printer_of(program: Program, arguments: set[Symbol]) -> NumPyPrinter:

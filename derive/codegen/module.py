@@ -96,6 +96,7 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
     origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
     paragraphs = [textwrap.fill(sheet.geometry.title, LINE - 4)]
     paragraphs.append(textwrap.fill(origin, LINE, subsequent_indent=" " * 4))
+    paragraphs.append(textwrap.fill(SHAPES, LINE))
     if carried_by(sheet) is Route.PARTS:
         lines = [
             textwrap.fill(line, LINE, initial_indent=" " * 4, subsequent_indent=" " * 8)
@@ -103,6 +104,12 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
         ]
         paragraphs.append("\n".join(["In the formulas below", *lines]))
     return "\n\n".join(paragraphs)
+
+
+SHAPES = (
+    "Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and "
+    "geometry are positive and lengths are between 1e-75 and 1e75 m."
+)
 
 
 def _offered(names: list[str]) -> str:
@@ -122,6 +129,8 @@ def full_stick_text(sheet: FormulaSheet) -> str:
     code = "\n\n".join(FunctionText(sheet, f, "derive/theory/stick.py").text for f in made)
     return formatted(f'''{MARK}
 """Full stick: how shear changes next to the edges of a contact that does not slip.
+
+{textwrap.fill(SHAPES, LINE)}
 """
 
 import numpy as np

@@ -95,12 +95,16 @@ def contact(asked: Asked, P: Array, M: Array = 0.0, *, E_star: Array) -> Contact
         P = load(a, c), M = moment(a, c); solved for a and c by Newton's method
         alpha = tilt(a, c)
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns Contact(a [m], c [m], alpha [rad]).
-    NaN unless P > 0, E_star > 0, the body's own parameters are positive and there is a contact.
-    The derivatives follow from K_N: a contact grows by flat punches.
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha [rad].  NaN unless P > 0, E_star > 0, the body's own parameters
+        are positive and there is a contact.  The derivatives follow from K_N: a contact
+        grows by flat punches.
     """
     given, loads = {"P": P, "M": M}, ("P", "M")
     return asked.solved(
@@ -113,12 +117,16 @@ def contact_at_tilt(asked: Asked, P: Array, alpha: Array = 0.0, *, E_star: Array
 
         P = load(a, c), alpha = tilt(a, c); solved for a and c by Newton's method
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns Contact(a [m], c [m], alpha as given).
-    NaN unless P > 0, E_star > 0, the body's own parameters are positive and there is a contact.
-    The derivatives follow from K_N: a contact grows by flat punches.
+    Returns
+    -------
+    Contact
+        a [m], c [m], alpha as given.  NaN unless P > 0, E_star > 0, the body's own
+        parameters are positive and there is a contact.  The derivatives follow from K_N: a
+        contact grows by flat punches.
     """
     return asked.solved(
         "inverse.each_contact_at_tilt",
@@ -152,14 +160,18 @@ def stick_zone(
             int r sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones,
             r = +/- f (p1 + p2), the upper sign on the left if dsigma > 0
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns StickZone(m [m], n [m], regime as a code of Regime).
-    NaN unless the regime is MODERATE, LARGE or FULL_STICK; where slip reverses within a half-cycle,
-    MIXED, they are given if the normal loads are constant and forward slip overtakes it in the end,
-    or if `mixed` asks for them; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-    steady_cycle answers every cycle, with an estimate of its error where that is computed.
+    Returns
+    -------
+    StickZone
+        m [m], n [m], regime as a code of Regime.  NaN unless the regime is MODERATE, LARGE
+        or FULL_STICK; where slip reverses within a half-cycle, MIXED, they are given if the
+        normal loads are constant and forward slip overtakes it in the end, or if `mixed`
+        asks for them, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding. steady_cycle
+        answers every cycle, with an estimate of its error where that is computed.
     """
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, for all cycles; got {mixed!r:.60}")
@@ -187,11 +199,23 @@ def why(
 ) -> str:
     """Why a cycle has no stick zone, or what its regime means, in words.
 
-    One cycle at a time: every argument is a number.
+    Parameters
+    ----------
     {arguments}
 
-    Returns a text: all that is wrong with the numbers where the regime is NONE.
-    Raises ValueError for arrays.
+    Returns
+    -------
+    str
+        All that is wrong with the numbers where the regime is NONE.
+
+    Raises
+    ------
+    ValueError
+        For arrays.
+
+    Notes
+    -----
+    One cycle at a time: every argument is a number.
     """
     zone = stick_zone(asked, first, second, dQ, dsigma, f=f, E_star=E_star)
     if np.ndim(zone.regime):
@@ -212,11 +236,15 @@ def tension_threshold(
 
         constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns Threshold(lower [Pa], upper [Pa]).
-    NaN unless there is such a range; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    Returns
+    -------
+    Threshold
+        lower [Pa], upper [Pa].  NaN unless there is such a range, and where dQ < 0 or dQ >=
+        f (P1 + P2), which is sliding.
     """
     return _tensions(asked, "tension_threshold", first, second, dQ, f, E_star)
 
@@ -230,13 +258,16 @@ def closing_tension(
             dsigma = 4 f E* ((alpha1 + alpha2)/2 - tilt(m, c)), c that of the smaller contact
         lower: the same with a kept
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns Threshold(lower [Pa], upper [Pa]); slip reverses before it closes, see
-    tension_threshold.
-    NaN unless the reduced load is positive; nor where dQ < 0 or dQ >= f (P1 + P2), which is
-    sliding.
+    Returns
+    -------
+    Threshold
+        lower [Pa], upper [Pa]. slip reverses before it closes, see tension_threshold.  NaN
+        unless the reduced load is positive, and where dQ < 0 or dQ >= f (P1 + P2), which is
+        sliding.
     """
     return _tensions(asked, "closing_tension", first, second, dQ, f, E_star)
 
@@ -278,12 +309,15 @@ def slip_zones(
         orders 2 and 3: the conditions of stick_zone for the pressure's first two or three terms
             at each edge of both contacts, cut behind that power of d, solved as they stand
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns Edges(left [m], right [m]).
-    NaN unless slip reaches in at both edges and leaves some stick; nor where dQ < 0 or dQ >= f (P1
-    + P2), which is sliding.
+    Returns
+    -------
+    Edges
+        left [m], right [m].  NaN unless slip reaches in at both edges and leaves some
+        stick, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 3)
@@ -307,11 +341,15 @@ def slip_error(
 
         |d(order + 1) - d(order)|
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns Edges(left [m], right [m]).
-    NaN unless both orders give slip zones; nor where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    Returns
+    -------
+    Edges
+        left [m], right [m].  NaN unless both orders give slip zones, and where dQ < 0 or dQ
+        >= f (P1 + P2), which is sliding.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 2)
@@ -355,13 +393,17 @@ def shear_change(
         large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi where it sticks,
             w = sqrt((xi + m)(xi - n)), negative on the left
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns dq [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if the
-    regime of the whole half-cycle is MODERATE or LARGE.
-    NaN unless the stick zone is known without `mixed`; nor in full stick between two contacts; nor
-    where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+    Returns
+    -------
+    dq : ndarray
+        [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if
+        the regime of the whole half-cycle is MODERATE or LARGE. NaN unless the stick zone
+        is known without `mixed`, in full stick between two contacts, and where dQ < 0 or dQ
+        >= f (P1 + P2), which is sliding.
     """
     return _at_places(asked, "shear_change", x, first, second, dQ, dsigma, f, E_star)
 
@@ -382,12 +424,15 @@ def slip_range(
         (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4
         moderate tension and constant loads: 2 f times the gap beside the patch [-m, n]
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns slip [m], positive.
-    NaN unless x lies in both contacts and the regime is MODERATE, LARGE or FULL_STICK; nor where dQ
-    < 0 or dQ >= f (P1 + P2), which is sliding.
+    Returns
+    -------
+    slip : ndarray
+        [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
+        or FULL_STICK, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     """
     return _at_places(asked, "slip_range", x, first, second, dQ, dsigma, f, E_star)
 
@@ -445,14 +490,18 @@ def shear(
             upper end of a cycle, by all of the half-cycle's change at the lower end, from which
             q rises by shear_change
 
-    Arguments broadcast; results are float64 of the broadcast shape.
+    Parameters
+    ----------
     {arguments}
 
-    Returns q [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
-    NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or both LARGE, it
-    slips back only where it slipped and drives none of that on, and dQ <= 2 Q; so reverse all
-    signs, those of q too, where the lower end has the larger shear load; nor where Q < 0, dQ < 0,
-    or Q >= f P, which is sliding.
+    Returns
+    -------
+    q : ndarray
+        [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
+        NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or
+        both LARGE, it slips back only where it slipped and drives none of that on, and dQ
+        <= 2 Q; so reverse all signs, those of q too, where the lower end has the larger
+        shear load.  NaN, too, where Q < 0 or dQ < 0, and where Q >= f P, which is sliding.
     """
     given = {"x": x, **_edges_of(contact, "contact"), "Q": Q, "sigma": sigma}
     given |= {"dQ": dQ, "dsigma": dsigma}
@@ -492,15 +541,24 @@ def march(
             half-cycle that ends now: by stick_zone, or by slip_zones if an order is given; where
             the whole half-cycle is MIXED it has not, and only its end may be known
 
-    Arguments broadcast; the instants of a cycle lie along the last axis.
-    Of a Dask array, that axis must be one chunk.
+    Parameters
+    ----------
     {arguments}
 
-    Returns March(a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime).
-    A whole cycle is NaN, and its regime says why: OUT_OF_PHASE unless all loads are as far on their
-    way between both states at every instant, to 1e-6 of their change; NOT_CLOSED unless the last
-    instant leads back to the first; SLIDING where |Q| >= f P at any instant; NONE where a contact
-    does not exist.  For cycles out of phase steady_cycle, for what is no cycle history.
+    Returns
+    -------
+    March
+        a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  A
+        whole cycle is NaN, and its regime says why: OUT_OF_PHASE unless all loads are as
+        far on their way between both states at every instant, to 1e-6 of their change;
+        NOT_CLOSED unless the last instant leads back to the first; SLIDING where |Q| >= f P
+        at any instant; NONE where a contact does not exist.  For cycles out of phase
+        steady_cycle, for what is no cycle history.
+
+    Notes
+    -----
+    Arguments broadcast; the instants of a cycle lie along the last axis.  Of a Dask array, that
+    axis must be one chunk.
     """
     _demand_order(order, 0, 3)
     numbers = numbers_of(

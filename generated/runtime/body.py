@@ -19,6 +19,8 @@ import numpy as np
 from .arrays import Numbers, evaluated, is_foreign, positive_or_nan, real, shape_of
 from .chunks import any_lazy, is_lazy, over_chunks
 
+_SHAPES = "Arguments broadcast; results are float64 of the broadcast shape."
+
 CASES = 65_536
 """Cases that are solved in one piece."""
 
@@ -106,23 +108,39 @@ class Body:
         call.__signature__ = signature(function).replace(parameters=arguments)  # type: ignore[attr-defined]
         call.__name__ = call.__qualname__ = function.__name__
         call.__module__ = self.functions["state"].__module__  # by which Dask's workers find it
-        call.__doc__ = self._described(function, [a.name for a in arguments])
+        call.__doc__ = self._described(function, arguments)
         return call
 
-    def _described(self, function: Callable[..., Any], arguments: list[str]) -> str:
+    def _described(self, function: Callable[..., Any], arguments: list[Argument]) -> str:
         """The function's docstring with its arguments, and an example in the body's numbers."""
         words = importlib.import_module(".words", __package__)
         name = function.__name__
         meanings = {p.name: f"{p.meaning} [{p.unit}]" for p in self.parameters}
         meanings = words.MEANINGS | meanings | words.OTHERWISE.get(name, {})
-        width = max(map(len, arguments))
-        lines = [f"    {a:{width}}  {meanings[a]}" for a in arguments]
+        lines = []
+        for a in arguments:
+            kind = words.TYPES.get(a.name, "array_like")
+            optional = "" if a.default is a.empty else ", optional"
+            lines += [f"{a.name} : {kind}{optional}", f"    {sentence(meanings[a.name])}"]
         text = cleandoc(function.__doc__ or "").replace("{arguments}", "\n".join(lines))
         if self.demands:
             positive = "parameters are positive"
             text = text.replace(positive, f"{positive}, {self.demands}")
         example = words.EXAMPLES[name].format_map(self.example.words)
-        return f"{text}\n\nDerived from {self.origin}.\n\n{example}"
+        if "\nNotes\n" not in text:
+            text += f"\n\nNotes\n-----\n{_SHAPES}"
+        return f"{text}\nDerived from {self.origin}.\n\nExamples\n--------\n{example}"
+
+
+def sentence(words: str) -> str:
+    """A few words with a capital, unless a name comes first, and a full stop.
+
+    >>> sentence("normal load"), sentence("dQ falls"), sentence("E*, say")
+    ('Normal load.', 'dQ falls.', 'E*, say.')
+    """
+    first = words.split(maxsplit=1)[0] if words.split() else ""
+    capital = words[:1].upper() if first.isalpha() and first.islower() else words[:1]
+    return f"{capital}{words[1:]}."
 
 
 class Asked(NamedTuple):

@@ -25,6 +25,12 @@ MEANINGS = {
 }
 """What each argument is."""
 
+TYPES = {
+    **dict.fromkeys(("contact", "first", "second"), "Contact"),
+    **{"mixed": "bool", "order": "int", "tol": "float"},
+}
+"""What is no array of numbers."""
+
 OTHERWISE = {
     "shear": {
         "Q": "shear load that is reached first [N/m]",

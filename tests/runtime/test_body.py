@@ -96,7 +96,10 @@ def test_a_body_of_one_s_own() -> None:
     body = Body(functions, "here.py", example, Parameter("R", "a radius", "m"))
     assert "law" not in vars(body)
     contact = body.bound(SOLVED[0])
-    assert "R       a radius [m]" in contact.__doc__ and "Derived from here.py." in contact.__doc__
+    assert (
+        "R : array_like\n    A radius [m]." in contact.__doc__
+        and "Derived from here.py." in contact.__doc__
+    )
     found = contact(np.array([1.0, -1.0]), 0.25, E_star=1.0, R=1.0)
     np.testing.assert_allclose(found.a, [0.25 + 2 / math.sqrt(math.pi), np.nan], rtol=1e-13)
     assert "law" in vars(body)

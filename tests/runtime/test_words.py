@@ -2,10 +2,12 @@
 
 import importlib
 import inspect
+from itertools import pairwise
 
 import pytest
 
 from derive.library import library, load_geometry
+from generated.runtime.body import sentence
 from generated.runtime.cycle import CYCLE, SOLVED
 from generated.runtime.history.public import HISTORIES
 from generated.runtime.words import EXAMPLES, MEANINGS
@@ -16,12 +18,17 @@ from tests.runtime.test_body import bound
 def test_docstrings_tell_of_every_argument(name: str) -> None:
     own = {q.name: q for q in load_geometry(name).parameters}
     for function in bound(importlib.import_module(f"generated.{name}")).values():
-        lines = [line.split(maxsplit=1) for line in function.__doc__.splitlines()]
-        told = {line[0]: line[1] for line in reversed(lines) if len(line) == 2}
+        lines = function.__doc__.splitlines()
+        told = {
+            line.partition(" : ")[0]: below.strip()
+            for line, below in pairwise(lines)
+            if " : " in line and below.startswith("    ")
+        }
         for argument, p in inspect.signature(function).parameters.items():
             assert argument in told
             if argument in own:
-                assert told[argument] == f"{own[argument].meaning} [{own[argument].unit}]"
+                meaning = f"{own[argument].meaning} [{own[argument].unit}]"
+                assert told[argument] == sentence(meaning)
                 assert p.kind is p.KEYWORD_ONLY and p.default is p.empty
         assert "{arguments}" not in function.__doc__
         assert f"Derived from derive/geometries/{name}.py." in function.__doc__

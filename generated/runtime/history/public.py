@@ -55,14 +55,22 @@ def history(
             of reversals, each with load(m, n) = P - dQ/(2 f) and tilt(m, n) = alpha - dsigma/(4 f
             E*) by the changes since it, 2 Q and 2 sigma before the first one
 
-    Arguments broadcast; time lies along the last axis, and between two instants all loads go
-    straight.  Many histories are shared by the cores; Dask arrays stay lazy.
+    Parameters
+    ----------
     {arguments}
 
-    Returns History(a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m];
-    error; work_error [J/m]).  Time is not given, hence no rate of slip: what slips between two
-    instants is np.diff(slip, axis=-2) where x is a row.
-    NaN where there is no contact; m and n where it slides, slip and work from then on.
+    Returns
+    -------
+    History
+        a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error;
+        work_error [J/m].  Time is not given, hence no rate of slip: what slips between two
+        instants is np.diff(slip, axis=-2) where x is a row.  NaN where there is no contact;
+        m and n where it slides, slip and work from then on.
+
+    Notes
+    -----
+    Arguments broadcast; time lies along the last axis, and between two instants all loads go
+    straight.  Many histories are shared by the cores; Dask arrays stay lazy.
     """
     numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
     if any_lazy(numbers.values()):
@@ -109,14 +117,22 @@ def steady_cycle(
             last round, to and fro added, than 1e-4 of the most; how far the ends move with thirty
             times that is part of the error
 
-    Arguments broadcast; time lies along the last axis, and from the last instant the loads go back
-    to the first.  Many cycles are shared by the cores; Dask arrays stay lazy.
+    Parameters
+    ----------
     {arguments}
 
-    Returns SteadyCycle(m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift;
-    error; work_error [J/m]).  Slip range, shear and work are computed on elements, even where m and
-    n are exact.
-    NaN where the contact is lost or slides; m and n where no place sticks all the time.
+    Returns
+    -------
+    SteadyCycle
+        m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error;
+        work_error [J/m].  Slip range, shear and work are computed on elements, even where m
+        and n are exact.  NaN where the contact is lost or slides; m and n where no place
+        sticks all the time.
+
+    Notes
+    -----
+    Arguments broadcast; time lies along the last axis, and from the last instant the loads go
+    back to the first.  Many cycles are shared by the cores; Dask arrays stay lazy.
     """
     numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
     if any_lazy(numbers.values()):
