@@ -45,6 +45,13 @@ MEANT = {"x": "the place along the interface", "p": "the contact pressure"}
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?nan|[+-]?inf(inity)?", re.I)
 _COMMENT = re.compile(r"(#|!|%|//|\*\*)")
 _UNIT = re.compile(r"[\[(]\s*([^\])]*?)\s*[\])]")
+_BEHIND = re.compile(r"(.+?)\s*[_/ ]\s*(\S+)")
+"""A name and a unit without brackets, as in x_mm or p / MPa."""
+
+_COUNTED = re.compile(r"(?:(?<=^p)|(?<=^q)|(?<=^dq)|(?<=pressure)|(?<=cpress)| (?:step )?)\d+$")
+"""The number of a load step behind a name; CSHEAR1 and CSHEAR2 are components."""
+
+_SCALES = {"x": LENGTHS, "p": STRESSES, "q": STRESSES}
 
 
 @dataclass(frozen=True)
@@ -232,6 +239,11 @@ def _header(
     for i, name in enumerate(names):
         if found := _UNIT.search(name):
             units.setdefault(i, found.group(1))
+        elif behind := _BEHIND.fullmatch(name.strip(' "')):
+            bare, unit = behind.groups()
+            if _key(unit) in {u for what in _meant(bare) for u in _SCALES.get(what, {})} - {"in"}:
+                units.setdefault(i, unit)
+                names[i] = bare
     return [_UNIT.sub("", name).strip(' "') for name in names], units
 
 
@@ -256,6 +268,17 @@ def _key(unit: str) -> str:
     return unit if unit in LENGTHS else unit.lower()
 
 
+def _meant(name: str) -> list[str]:
+    """What a column of this name holds."""
+    plain = re.sub(r"[^a-z0-9]+", " ", name.lower()).strip()
+    without = _COUNTED.sub("", plain)
+    return [
+        what
+        for what, known in NAMES.items()
+        if plain in known or (what in "pq" and without in known)
+    ]
+
+
 def _columns(names: Sequence[str], shown: str) -> dict[str, list[int]]:
     """Which columns hold what.
 
@@ -263,11 +286,8 @@ def _columns(names: Sequence[str], shown: str) -> dict[str, list[int]]:
     """
     found: dict[str, list[int]] = {}
     for i, name in enumerate(names):
-        plain = re.sub(r"[^a-z0-9]+", " ", name.lower()).strip()
-        without = re.sub(r" (?:step )?\d+$", "", plain)
-        for what, known in NAMES.items():
-            if plain in known or (what in "pq" and without in known):
-                found.setdefault(what, []).append(i)
+        for what in _meant(name):
+            found.setdefault(what, []).append(i)
     for what in ("x", "p"):
         if what not in found:
             raise BadTable(

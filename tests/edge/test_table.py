@@ -54,6 +54,8 @@ GOOD = {
     + "".join(f"{x:.8e},{p:.8e}\n" for x, p in zip(X, P, strict=True)).replace("e", "D"),
     "byte order mark": "\ufeff" + HEAD + rows(X, P),
     "N/mm2": "x [mm],p [N/mm^2]\n" + rows(X, P),
+    "units behind underscores": "x_mm,p_MPa\n" + rows(X, P),
+    "units behind strokes": "x / mm,Contact pressure / N/mm2\n" + rows(X, P),
     "header repeated": HEAD + rows(X[:25], P[:25]) + HEAD + rows(X[25:], P[25:]),
 }
 
@@ -208,6 +210,57 @@ def test_both_ends_of_a_half_cycle(tmp_path: Path) -> None:
     for zone in found.zones:
         assert_allclose(zone.da, 0.05e-3, atol=1e-6)
         assert zone.d > 0.05e-3
+
+
+def test_columns_that_are_numbered_are_load_steps(tmp_path: Path) -> None:
+    """p1 and p2; of Abaqus' two components of shear the second is another direction."""
+    path = tmp_path / "t.csv"
+    path.write_text("x [mm],p1 [MPa],p2 [MPa],q1 [MPa],q2 [MPa]\n" + rows(X, P, P, 0 * Q, Q))
+    assert [(step.name, step.q.max() > 0) for step in read(path) if step.q is not None] == [
+        ("p1", False),
+        ("p2", True),
+    ]
+    path.write_text("x [mm],CPRESS [MPa],CSHEAR1 [MPa],CSHEAR2 [MPa]\n" + rows(X, P, Q, 0 * Q))
+    (step,) = read(path)
+    assert step.q is not None and step.q.max() > 0
+
+
+def test_a_contact_that_slides_has_no_slip_zone(tmp_path: Path) -> None:
+    """P = 100 pi N/mm and f = 0.5 hold 100 pi over a half-cycle; 3.2 dq is 96 pi, 3.5 dq 105 pi."""
+    path = tmp_path / "t.csv"
+    for factor, slides in ((3.2, False), (3.5, True)):
+        path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X, P, factor * Q))
+        found = find(read(path), "t.csv", 0.5)
+        assert any("slides" in note for note in found.notes) is slides
+        assert all(np.isnan(zone.d) == slides for zone in found.zones)
+
+
+def test_the_validity_knows_the_width(tmp_path: Path) -> None:
+    """Here K_N/L_N and K_T/L_T are 4 mm, and the contact is 2 mm wide."""
+    path = tmp_path / "t.csv"
+    path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X, P, Q))
+    for zone in find(read(path), "t.csv", 0.5).zones:
+        assert_allclose(zone.part, zone.d / 2e-3, rtol=0.01)
+
+
+@pytest.mark.parametrize(("units", "told"), [("m Pa", True), ("mm Pa", True), ("mm MPa", False)])
+def test_units_that_cannot_be_are_told(units: str, told: bool, tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text("x [{}],p [{}]\n".format(*units.split()) + rows(X, P))
+    found = find(read(path), "t.csv", 0.5)
+    assert any("check the units" in note for note in found.notes) is told
+
+
+def test_without_an_edge_shear_is_not_said_to_be_missing(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    some = np.abs(X) < 0.15
+    path.write_text(
+        "x [mm],p [MPa],dq [MPa]\n"
+        + rows(X[some], P[some] * [0.3, *[1] * (sum(some) - 2), 0.3], Q[some])
+    )
+    notes = find(read(path), "t.csv", 0.5).notes
+    assert any("neither edge was found" in note for note in notes)
+    assert not any("has no shear" in note for note in notes)
 
 
 def test_one_edge_alone(tmp_path: Path) -> None:
