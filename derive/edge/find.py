@@ -4,7 +4,7 @@ The half-cycle leads from the first load step to the last.  Slip zones are told 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot, nan
 
 import numpy as np
@@ -26,6 +26,9 @@ INSIDE = 0.5
 """Pressure at an end of a table, over the largest, that says that contact does not end there."""
 
 SIDES = ("left", "right")
+
+PRESSURES, WIDTHS = (1e4, 1e11), (1e-7, 1.0)
+"""Largest pressures and widths between which a table's units are believed [Pa, m]."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +103,9 @@ def find(
                 shown, "has one edge", "--dQ and --dsigma need both: give a shear column"
             )
         stuck = _from_loads(last, dQ or 0.0, dsigma or 0.0)
-    if not stuck:
+    if not stuck and all(np.isnan(e.pressure.edge) for e in last.values()):
+        notes.append("no slip zone: neither edge was found")
+    elif not stuck:
         notes.append(
             "no slip zone: the table has no shear traction of a run without slip; give one, or "
             "--dQ and --dsigma"
@@ -111,15 +116,51 @@ def find(
         for side in SIDES
         if side in last and side in stuck
     )
-    for zone in zones:
+    unlikely = _unlikely(steps[-1])
+    notes += [unlikely] if unlikely else []
+    slides = _slides(steps, last, stuck, f)
+    if slides:
+        notes.append(slides)
+        none = dict.fromkeys(("d", "error", "series", "part"), nan)
+        zones = tuple(replace(zone, **none) for zone in zones)  # type: ignore[arg-type]
+    for zone in () if slides else zones:
         if np.isnan(zone.d):
             notes.append(f"{zone.side} edge: slip does not reach in at both ends of the half-cycle")
         elif zone.part > 0.3:
             notes.append(
                 f"{zone.side} edge: the slip zone is {zone.part:.1f} of the distance at which the "
-                "next term matters as much: the series is no good there"
+                "next term matters as much: the series does not hold so far in"
             )
     return Findings(tuple(edges), tuple(shears), zones, tuple(notes))
+
+
+def _unlikely(step: Step) -> str:
+    """What speaks against the units of a table; "" if nothing does."""
+    highest, inside = float(np.max(step.p)), step.x[step.p > 0]
+    width = float(np.ptp(inside))
+    if PRESSURES[0] <= highest <= PRESSURES[1] and WIDTHS[0] <= width <= WIDTHS[1]:
+        return ""
+    return f"pressure rises to {highest:.3g} Pa over a contact of {width:.3g} m: check the units"
+
+
+def _slides(
+    steps: Sequence[Step],
+    last: dict[str, Found],
+    stuck: dict[str, tuple[float, float, float, float]],
+    f: float,
+) -> str:
+    """Why the whole contact slides; "" where it does not, or where that is not known."""
+    if len(last) < 2 or len(stuck) < 2:
+        return ""
+    h = last["right"].pressure.edge - last["left"].pressure.edge
+    dQ = np.pi * np.sqrt(h) * (stuck["left"][0] + stuck["right"][0]) / 2
+    holds = f * sum(np.trapezoid(step.p, step.x) for step in (steps[0], steps[-1]))
+    if not abs(dQ) >= holds:
+        return ""
+    return (
+        f"no slip zone: the contact slides, since dQ = {dQ:.3g} N/m and f (P_1 + P_2) is "
+        f"{holds:.3g} N/m"
+    )
 
 
 def _edges(step: Step, shown: str, notes: list[str]) -> list[Found]:
@@ -195,7 +236,7 @@ def _move(first: Found | None, last: Found) -> float:
     if first is None:
         return 0.0
     outward = -1 if last.side == "left" else 1
-    return outward * (last.pressure.edge - first.pressure.edge)
+    return outward * (last.pressure.edge - first.pressure.edge) + 0.0  # not -0
 
 
 def _zone(
@@ -262,6 +303,7 @@ def _zone(
     order = 2
     if not error < hypot(first_error, first_series):
         d, error, series, order = first_d, first_error, first_series, 1
-    over = reach(fit.K_N, K_T, L_N=fit.L_N, L_T=L_T)
+    width = last["right"].pressure.edge - last["left"].pressure.edge if pair else None
+    over = reach(fit.K_N, K_T, L_N=fit.L_N, L_T=L_T, h=width)
     part = d / float(over) if over > 0 else nan
     return Zone(side, K_T, K_T_error, moves[side], d, error, series, order, part)

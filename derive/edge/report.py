@@ -22,6 +22,9 @@ ZONES = (
     "d/reach",
 )
 
+SERIES = "series is what one more term would change"
+REACH = "d/reach is the slip zone over the distance at which the next term matters as much"
+
 PAGE = """<!doctype html>
 <html lang="en">
 <head>
@@ -95,7 +98,11 @@ def as_text(found: Findings) -> str:
             "",
             "Slip zones at the end of the half-cycle",
             *_aligned([ZONES, *zone_rows(found)]),
+            "",
+            f"  {SERIES}",
+            f"  {REACH}",
         ]
+    parts += ["", "+- is one standard deviation"]
     parts += ["", "Why"]
     for e in found.edges:
         where = f"{e.step}, " if e.step else ""
@@ -103,7 +110,7 @@ def as_text(found: Findings) -> str:
             parts.append(f"  {where}{e.side}: {e.pressure.why}")
     parts += [f"  {side}, shear: {fit.why}" for side, fit in found.shears if fit.why]
     if found.notes:
-        parts += ["", "To be known", *(f"  {note}" for note in found.notes)]
+        parts += ["", "Notes", *(f"  {note}" for note in found.notes)]
     return "\n".join(parts)
 
 
@@ -138,7 +145,8 @@ def as_page(found: Findings, steps: Sequence[Step], title: str) -> str:
             "<h2>Slip zones at the end of the half-cycle</h2>",
             _table(ZONES, zone_rows(found)),
         ]
-    body.append("<p>± is one standard deviation; series is what one more term would change.</p>")
+    meant = ["± is one standard deviation", *([SERIES, REACH] if found.zones else [])]
+    body.append(f"<p>{'; '.join(meant)}.</p>")
     last = [e for e in found.edges if e.step == steps[-1].name and np.isfinite(e.pressure.edge)]
     zones = {zone.side: zone.d for zone in found.zones}
     for e in last:
@@ -148,7 +156,7 @@ def as_page(found: Findings, steps: Sequence[Step], title: str) -> str:
             f"<p>{escape(e.pressure.why)}.</p>",
         ]
     if found.notes:
-        body += ["<h2>To be known</h2>", "<ul>"]
+        body += ["<h2>Notes</h2>", "<ul>"]
         body += [f"<li>{escape(note)}</li>" for note in found.notes] + ["</ul>"]
     return PAGE.format(title=escape(title), body="\n".join(body))
 
