@@ -144,7 +144,7 @@ def match(
     one = len(wished) == 1
     turned = dQ < 0
     if turned:
-        dQ, dsigma = -dQ, -dsigma
+        dQ, dsigma = -dQ, 0.0 - dsigma
     friction = dict(f=f, E_star=E_star, **own)
     zone = module.stick_zone(first, second, dQ, dsigma, **friction)
     d = Edges(float(second.a - zone.m), float(second.c - zone.n))

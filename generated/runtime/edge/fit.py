@@ -464,10 +464,10 @@ def _warning(nodes: int, misfit: float, part: float, name: str) -> str:
     if misfit**2 > WORST:
         said.append(
             f"no stretch shows the square root (misfit {misfit:.1f} times the scatter): too coarse "
-            "a mesh, or a kink next to the edge"
+            "a mesh, a kink next to the edge" + (", or slip" if name == "K_T" else "")
         )
     if not part < POOR:
-        said.append(f"{name} is known to {100 * part:.0f} % alone")
+        said.append(f"{name} is known only to {100 * part:.0f} %")
     return "; ".join(said)
 
 
