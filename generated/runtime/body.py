@@ -138,7 +138,7 @@ def sentence(words: str) -> str:
     >>> sentence("normal load"), sentence("dQ falls"), sentence("E*, say")
     ('Normal load.', 'dQ falls.', 'E*, say.')
     """
-    first = words.split(maxsplit=1)[0] if words.split() else ""
+    first = words.split(maxsplit=1)[0].rstrip(",;") if words.split() else ""
     capital = words[:1].upper() if first.isalpha() and first.islower() else words[:1]
     return f"{capital}{words[1:]}."
 

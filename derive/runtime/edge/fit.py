@@ -125,15 +125,30 @@ class _Chosen(NamedTuple):
 def fit_pressure(x: Array, p: Array) -> PressureFit:
     """The edge nearer to the first point, K_N and L_N, from nodal pressures.
 
-    x  nodes along the interface, all in one direction [m]
-    p  contact pressure there, zero outside the contact [Pa]
+    Parameters
+    ----------
+    x : array_like
+        Nodes along the interface, all in one direction [m].
+    p : array_like
+        Contact pressure there, zero outside the contact [Pa].
 
-    Nodes outside the contact may be left out; then the next one is taken to lie as far off as the
-    nodes of the contact do.
+    Returns
+    -------
+    PressureFit
+        NaN, and a warning that says why, where no stretch shows the square root.
 
-    Returns PressureFit; NaN, and a warning that says why, where no stretch shows the square root.
-    Raises ValueError for what is no table of one contact.
+    Raises
+    ------
+    ValueError
+        For what is no table of one contact.
 
+    Notes
+    -----
+    Nodes outside the contact may be left out; then the next one is taken to lie as far off as
+    the nodes of the contact do.
+
+    Examples
+    --------
     >>> x = np.linspace(-1.03, 1.07, 64)
     >>> found = fit_pressure(x, np.sqrt(np.maximum(1 - x**2, 0.0)))
     >>> f"{found.edge:.4f}, K_N = {found.K_N:.3f}"  # -1 and sqrt(2)
@@ -204,16 +219,33 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
 def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -> ShearFit:
     """K_T and L_T of an edge, from the change of shear of a run in which nothing slips.
 
-    x           nodes along the interface, all in one direction [m]
-    dq          change of shear there, of a bonded contact or of one that sticks [Pa]
-    edge        where the edge nearer to the first node lies, as fit_pressure finds it [m]
-    edge_error  how well that is known [m]
+    Parameters
+    ----------
+    x : array_like
+        Nodes along the interface, all in one direction [m].
+    dq : array_like
+        Change of shear there, of a bonded contact or of one that sticks [Pa].
+    edge : float
+        Where the edge nearer to the first node lies, as fit_pressure finds it [m].
+    edge_error : float, optional
+        How well that is known [m].
 
+    Returns
+    -------
+    ShearFit
+        NaN, and a warning that says why, where no stretch shows the root.
+
+    Raises
+    ------
+    ValueError
+        For what is no table, and for an edge that does not lie next to it.
+
+    Notes
+    -----
     Nodes beyond the edge, and that of the element in which contact ends, are left out.
 
-    Returns ShearFit; NaN, and a warning that says why, where no stretch shows the root.
-    Raises ValueError for what is no table, and for an edge that does not lie next to it.
-
+    Examples
+    --------
     >>> x = np.linspace(-1, 1, 64)[1:-1]
     >>> found = fit_stuck_shear(x, 1 / np.sqrt(1 - x**2), -1.0)
     >>> f"K_T = {found.K_T:.3f}"  # 1/sqrt(2) = 0.7071
@@ -271,14 +303,32 @@ def K_N_from_loads(P: Array, M: Array, a: Array, c: Array) -> Edges:
 
         K_N dedge = 2 (dP +/- 4 (dM + mid dP)/h)/(pi sqrt(h)), the upper sign at the left edge
 
+    Parameters
+    ----------
+    P : array_like
+        Normal load per unit depth [N/m].
+    M : array_like
+        Moment per unit depth, M = -int p x dx [N].
+    a, c : array_like
+        The contact [-a, c] [m].
+
+    Returns
+    -------
+    Edges
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)], of the contact between both. NaN at an edge that
+        does not move.
+
+    Raises
+    ------
+    ValueError
+        Unless there are two loads.
+
+    Notes
+    -----
     Each argument holds the two loads along its last axis; the others broadcast.
-        P  normal load per unit depth [N/m]
-        M  moment per unit depth, M = -int p x dx [N]
-        a, c  the contact [-a, c] [m]
 
-    Returns Edges(left [Pa/sqrt(m)], right [Pa/sqrt(m)]), of the contact between both.
-    NaN at an edge that does not move.  Raises ValueError unless there are two loads.
-
+    Examples
+    --------
     >>> R, h = 2.0, np.array([1.99, 2.01])  # a cylinder, E* = 1: P = pi h**2/(16 R)
     >>> found = K_N_from_loads(np.pi * h**2 / (16 * R), 0.0 * h, h / 2, h / 2)
     >>> f"{found.left:.4f}"  # sqrt(h)/(2 R)

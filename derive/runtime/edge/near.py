@@ -160,17 +160,31 @@ def tractions(
         where it slips   dq = f (p_1 + p_2), over the sense of slip
         where it sticks  dq = f (p_1 + p_2) - sqrt(s - d) R(s - d), full stick's far from the edge
 
+    Parameters
+    ----------
+    s : array_like
+        Distance inward from the edge as it lies where the shear is highest [m].
+    K_N, K_T, f, L_N, L_T, N_N, N_T, da, order : array_like
+        As in slip_zone.
+    share : array_like, optional
+        Of the half-cycle, 0 at its start to 1 at its end; all loads go straight.
+    back : bool, optional
+        The half-cycle that lowers the shear instead of that which raises it.
+    mean : array_like, optional
+        Mean of K_T over the cycle; Q and sigma came to it from nothing [Pa sqrt(m)].
+
+    Returns
+    -------
+    Tractions
+        p [Pa], q [Pa], dq [Pa].  NaN where slip_zone is; q too where the edge moves and does
+        not slip at s. Good where s is small against `reach`.
+
+    Notes
+    -----
     Arguments broadcast; results are float64 of the broadcast shape.
-        s      distance inward from the edge as it lies where the shear is highest [m]
-        K_N, K_T, f, L_N, L_T, N_N, N_T, da, order  as in slip_zone
-        share  of the half-cycle, 0 at its start to 1 at its end; all loads go straight
-        back   the half-cycle that lowers the shear instead of that which raises it
-        mean   mean of K_T over the cycle; Q and sigma came to it from nothing [Pa sqrt(m)]
 
-    Returns Tractions(p [Pa], q [Pa], dq [Pa]).
-    NaN where slip_zone is; q too where the edge moves and does not slip at s.  Good where s is
-    small against `reach`.
-
+    Examples
+    --------
     >>> p, q, dq = tractions(1e-4, 1e10, 1e6, f=0.5)
     >>> f"{q / p:.3g} and {dq / p:.3g}"  # slips: f and 2 f
     '0.5 and 1'
@@ -222,14 +236,27 @@ def slip_range(
 
         (2/E*) int_0^(d - s) sqrt(u) R(-u) du; order 1: (8 f K_N/(3 E*)) (d - s)**(3/2)
 
+    Parameters
+    ----------
+    s : array_like
+        Distance inward from the edge as it lies where the shear is highest [m].
+    E_star : array_like
+        Composite modulus, see E_star() [Pa].
+    K_N, K_T, f, L_N, L_T, N_N, N_T, da, order : array_like
+        As in slip_zone.
+
+    Returns
+    -------
+    ndarray
+        The slip range [m]; 0 where it sticks. NaN where slip_zone is, and for places that leave
+        contact.
+
+    Notes
+    -----
     Arguments broadcast; results are float64 of the broadcast shape.
-        s       distance inward from the edge as it lies where the shear is highest [m]
-        E_star  composite modulus, see E_star() [Pa]
-        K_N, K_T, f, L_N, L_T, N_N, N_T, da, order  as in slip_zone
 
-    Returns the slip range [m]; 0 where it sticks.
-    NaN where slip_zone is, and for places that leave contact.
-
+    Examples
+    --------
     >>> f"{slip_range(0.0, 1e10, 1e6, f=0.5, E_star=1e11):.3g}"
     '3.77e-07'
     """
@@ -263,13 +290,24 @@ def work(
 
         2 int_0^d f p times the slip range ds; order 1: pi f**2 K_N**2 d**3/(3 E*)
 
+    Parameters
+    ----------
+    E_star : array_like
+        Composite modulus, see E_star() [Pa].
+    K_N, K_T, f, L_N, L_T, N_N, N_T, order : array_like
+        As in slip_zone.
+
+    Returns
+    -------
+    ndarray
+        The work [J/m]. NaN where slip_zone is.
+
+    Notes
+    -----
     Arguments broadcast; results are float64 of the broadcast shape.
-        E_star  composite modulus, see E_star() [Pa]
-        K_N, K_T, f, L_N, L_T, N_N, N_T, order  as in slip_zone
 
-    Returns the work [J/m].
-    NaN where slip_zone is.
-
+    Examples
+    --------
     >>> f"{work(1e10, 1e6, f=0.5, E_star=1e11):.3g}"
     '0.00209'
     """
@@ -307,13 +345,24 @@ def peak(
         f p(s) where the slip of the highest load ends, s = d if mean = 0; nearer to the edge q = f
         p, the largest q/p there is
 
+    Parameters
+    ----------
+    K_N, K_T, f, L_N, L_T, N_N, N_T, order : array_like
+        As in slip_zone.
+    mean : array_like, optional
+        Mean of K_T over the cycle; Q and sigma came to it from nothing [Pa sqrt(m)].
+
+    Returns
+    -------
+    Peak
+        s [m], q [Pa], q over the sense of slip there. NaN where slip_zone is.
+
+    Notes
+    -----
     Arguments broadcast; results are float64 of the broadcast shape.
-        K_N, K_T, f, L_N, L_T, N_N, N_T, order  as in slip_zone
-        mean  mean of K_T over the cycle; Q and sigma came to it from nothing [Pa sqrt(m)]
 
-    Returns Peak(s [m], q [Pa]), q over the sense of slip there.
-    NaN where slip_zone is.
-
+    Examples
+    --------
     >>> s, q = peak(1e10, 1e6, f=0.5)
     >>> f"{s:.3g} m, {q:.3g} Pa"
     '0.0002 m, 7.07e+07 Pa'
@@ -338,12 +387,23 @@ def reach(
 
         the least of |K_N/L_N|, |K_T/L_T| and h, of those given
 
+    Parameters
+    ----------
+    K_N, K_T, L_N, L_T, h : array_like
+        As in slip_zone.
+
+    Returns
+    -------
+    ndarray
+        The distance [m]: the first order's error is about d over it, in parts of d. NaN if
+        neither L_N, L_T nor h is given.
+
+    Notes
+    -----
     Arguments broadcast; results are float64 of the broadcast shape.
-        K_N, K_T, L_N, L_T, h  as in slip_zone
 
-    Returns the distance [m]: the first order's error is about d over it, in parts of d.
-    NaN if neither L_N, L_T nor h is given.
-
+    Examples
+    --------
     >>> f"{reach(1e10, 1e6, L_N=-5e12, L_T=2e8):.3g} m"
     '0.002 m'
     """

@@ -22,14 +22,26 @@ def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
 
         1/E* = (1 - nu**2)/E + (1 - nu_2**2)/E_2
 
+    Parameters
+    ----------
+    E, nu : array_like
+        Young's modulus [Pa] and Poisson's ratio [-] of one body.
+    E_2, nu_2 : array_like, optional
+        Of the other one; the same if not given, either both or none.
+
+    Returns
+    -------
+    ndarray
+        E* [Pa]. NaN unless E > 0 and -1 < nu <= 1/2. Warns (EdgeWarning) where Dundurs' beta is
+        not zero: what is derived here holds for similar bodies, in which shear does not change
+        the pressure.
+
+    Notes
+    -----
     Arguments broadcast; results are float64 of the broadcast shape.
-        E, nu      Young's modulus [Pa] and Poisson's ratio [-] of one body
-        E_2, nu_2  of the other one; the same if not given, either both or none
 
-    Returns E* [Pa].
-    NaN unless E > 0 and -1 < nu <= 1/2.  Warns (EdgeWarning) where Dundurs' beta is not zero: what
-    is derived here holds for similar bodies, in which shear does not change the pressure.
-
+    Examples
+    --------
     >>> f"{E_star(210e9, 0.3):.4g}"
     '1.154e+11'
     """
@@ -60,12 +72,22 @@ def dundurs(E: Array, nu: Array, E_2: Array, nu_2: Array) -> Array:
 
         beta = (E* /2) ((1 - 2 nu)(1 + nu)/E - (1 - 2 nu_2)(1 + nu_2)/E_2)
 
+    Parameters
+    ----------
+    E, nu, E_2, nu_2 : array_like
+        Young's modulus [Pa] and Poisson's ratio [-] of each body.
+
+    Returns
+    -------
+    ndarray
+        Beta [-], between -1/2 and 1/2; its sign changes with the bodies. NaN where E_star is.
+
+    Notes
+    -----
     Arguments broadcast; results are float64 of the broadcast shape.
-        E, nu, E_2, nu_2  Young's modulus [Pa] and Poisson's ratio [-] of each body
 
-    Returns beta [-], between -1/2 and 1/2; its sign changes with the bodies.
-    NaN where E_star is.
-
+    Examples
+    --------
     >>> f"{dundurs(70e9, 0.33, 210e9, 0.3):.3f}"  # aluminium on steel
     '0.117'
     """

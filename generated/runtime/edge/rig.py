@@ -111,21 +111,39 @@ def match(
 
         K_N(a, c) = K_N;  a - a_1 = da;  K_T(a, c, dQ, dsigma) = K_T
 
-    All are numbers.
-        edge    an Edge, and M = dM = 0; or a body's Edges(left, right) of two, for both edges
-        module  the body: a generated module, such as generated.hertz
-        f       coefficient of friction, of both contacts [-]
-        E_star  composite modulus of the rig [Pa]
-        free    the name of a parameter to be found, too, so that L_N is met
-        others  parameters of the body, but for the free one
+    Parameters
+    ----------
+    edge : Edge or Edges
+        An Edge, and M = dM = 0; or a body's Edges(left, right) of two, for both edges.
+    module : module
+        The body: a generated module, such as generated.hertz.
+    f : float
+        Coefficient of friction, of both contacts [-].
+    E_star : float
+        Composite modulus of the rig [Pa].
+    free : str, optional
+        The name of a parameter to be found, too, so that L_N is met.
+    **parameters : float
+        Parameters of the body, but for the free one.
 
-    L_T is met by dsigma where it is given; else dsigma = 0, for one edge.  Loads that shear the
-    other way are turned, so that dQ >= 0: slip is the same, of the other sense.  Where a body can
-    do it in several ways, the widest contact is taken.
+    Returns
+    -------
+    Rig
+        Its warning says whether the rig's loads can be.
 
-    Returns Rig; its warning says whether the rig's loads can be.
-    Raises ValueError where the wishes cannot be met, and says which.
+    Raises
+    ------
+    ValueError
+        Where the wishes cannot be met, and says which.
 
+    Notes
+    -----
+    All are numbers.  L_T is met by dsigma where it is given; else dsigma = 0, for one edge.
+    Loads that shear the other way are turned, so that dQ >= 0: slip is the same, of the other
+    sense. Where a body can do it in several ways, the widest contact is taken.
+
+    Examples
+    --------
     >>> from generated import hertz
     >>> rig = match(Edge(2.5e10, 2e6), hertz, f=0.5, E_star=115e9, R=0.1)
     >>> f"P = {rig.P:.4g} N/m, dQ = {rig.dQ:.4g} N/m, slip zone {1e6 * rig.d.left:.0f} um"

@@ -96,25 +96,49 @@ def slip_zone(
         order 3, with N_N and N_T too, without h
         with h and the other edge: both conditions of a body's slip_zones; L_T is theirs
 
+    Parameters
+    ----------
+    K_N : array_like
+        Coefficient of sqrt(s) in the pressure, s the distance inward [Pa/sqrt(m)].
+    K_T : array_like
+        Coefficient of 1/sqrt(s) in the full-stick change of shear, signed [Pa sqrt(m)].
+    f : array_like
+        Coefficient of friction [-].
+    L_N, N_N : array_like, optional
+        Coefficients of s**(3/2) and s**(5/2) in the pressure [Pa/m**(3/2), Pa/m**(5/2)].
+    L_T, N_T : array_like, optional
+        Coefficients of s**(1/2) and s**(3/2) in the change [Pa/sqrt(m), Pa/m**(3/2)].
+    da : array_like, optional
+        How much further the edge reaches than at the other end of the half-cycle [m].
+    h : array_like, optional
+        Width of the contact, where it is known [m].
+    order : int, optional
+        1, 2 or 3; the highest that the coefficients allow if not given.
+    then : Pressure, optional
+        Pressure next to the edge at the other end of the half-cycle; what follows from K_N,
+        L_N, N_N and da if not given.
+    other : OtherEdge, optional
+        OtherEdge; needs h.
+
+    Returns
+    -------
+    SlipZone
+        d [m], error [m].  error: what one more term changes; where no more is known, what the
+        last one changed; NaN at order 1 where nothing else is known. NaN unless K_N, f and h
+        are positive and slip reaches in at both contacts of the half-cycle.
+
+    Raises
+    ------
+    ValueError
+        For an order that the coefficients do not allow, and for coefficients that say a thing
+        twice.
+
+    Notes
+    -----
     Arguments broadcast; results are float64 of the broadcast shape.
-        K_N    coefficient of sqrt(s) in the pressure, s the distance inward [Pa/sqrt(m)]
-        K_T    coefficient of 1/sqrt(s) in the full-stick change of shear, signed [Pa sqrt(m)]
-        f      coefficient of friction [-]
-        L_N, N_N  coefficients of s**(3/2) and s**(5/2) in the pressure [Pa/m**(3/2), Pa/m**(5/2)]
-        L_T, N_T  coefficients of s**(1/2) and s**(3/2) in the change [Pa/sqrt(m), Pa/m**(3/2)]
-        da     how much further the edge reaches than at the other end of the half-cycle [m]
-        h      width of the contact, where it is known [m]
-        order  1, 2 or 3; the highest that the coefficients allow if not given
-        then   Pressure next to the edge at the other end of the half-cycle; what follows from K_N,
-               L_N, N_N and da if not given
-        other  OtherEdge; needs h
 
-    Returns SlipZone(d [m], error [m]).  error: what one more term changes; where no more is known,
-    what the last one changed; NaN at order 1 where nothing else is known.
-    NaN unless K_N, f and h are positive and slip reaches in at both contacts of the half-cycle.
-    Raises ValueError for an order that the coefficients do not allow, and for coefficients that say
-    a thing twice.
-
+    Examples
+    --------
     >>> d, error = slip_zone(1e10, 1e6, f=0.5)
     >>> f"{d:.3g} m"  # K_T/(f K_N)
     '0.0002 m'
