@@ -15,6 +15,7 @@
 #             docs/accuracy.md, some minutes
 # make notebooks runs all notebooks in place, some two minutes; make lab opens them in Jupyter
 # make picture   draws the README's picture
+# make docs      the documentation, with the handbook of bodies: build/docs/index.html
 
 PYTHON ?= python3
 VENV   := .venv
@@ -23,7 +24,7 @@ STAMP  := $(VENV)/.installed
 PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n auto --dist worksteal
 
 .PHONY: all test quick thorough mutants bench bench-monte-carlo series solver comparison accuracy notebooks \
-	lab picture clean
+	lab picture docs clean
 
 all: $(STAMP)
 	$(BIN)/derive generate --fresh
@@ -71,6 +72,12 @@ lab: $(STAMP)
 
 picture: $(STAMP)
 	$(BIN)/python -m notebooks.picture
+
+docs: $(STAMP)
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[docs]'
+	$(BIN)/python docs/site/pages.py build/site
+	$(BIN)/python -m sphinx -W --keep-going -q -b html build/site build/docs
+	$(BIN)/derive show --all --html --out build/docs/handbook
 
 $(STAMP): pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; make PYTHON=python3.12, say")'
