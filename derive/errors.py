@@ -381,6 +381,21 @@ class BadTarget(UserError):
 
 
 @dataclass
+class InstalledPackage(UserError):
+    """The package `generated` of an installation, which is not written to."""
+
+    given: str
+
+    @property
+    def message(self) -> str:
+        """Why it is left alone, and what to add."""
+        return (
+            f"{self.given} belongs to an installed package and is left as it is: say where the "
+            "modules go, as in `derive generate --out my_package`"
+        )
+
+
+@dataclass
 class MissingLibrary(UserError):
     """A library that only some of the package needs, and that is not installed."""
 

@@ -38,7 +38,7 @@ from derive.codegen.publish import (
     package_files,
     publish,
 )
-from derive.errors import BadProfile, NeedsOutput, TwoOfOneName
+from derive.errors import BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
 from derive.library import FOLDER, is_in_library, library, load_geometry
 from derive.limit import DEFAULT
 from derive.parallel import Bounds, Report, in_processes
@@ -197,8 +197,8 @@ class Order:
     sources: names and files; none for the whole library.
     folder: None for the package `generated`.
 
-    Raises NeedsOutput for a file without a folder, BadOutput for a folder that must not be
-    replaced.
+    Raises NeedsOutput for a file without a folder, InstalledPackage for no folder where `generated`
+    is an installed one, BadOutput for a folder that must not be replaced.
     """
 
     sources: tuple[str, ...] = ()
@@ -212,6 +212,8 @@ class Order:
             if not is_in_library(source):
                 load_geometry(source)  # a name that is unknown is told first
                 raise NeedsOutput(source)
+        if not (GENERATED.parent / "pyproject.toml").exists():  # no clone: an installation
+            raise InstalledPackage(str(GENERATED))
 
     @property
     def target(self) -> Path:

@@ -21,7 +21,7 @@ from importlib.util import find_spec
 from derive.errors import MissingLibrary
 
 if find_spec("matplotlib") is None:
-    raise MissingLibrary("matplotlib", "drawing", "notebooks")
+    raise MissingLibrary("matplotlib", "drawing", "plot")
 
 from derive.plot.histories import film, friction_work, instants, slip_map, work
 from derive.plot.live import Live, Loads, sliders

@@ -19,6 +19,8 @@ html_title = project
 html_static_path = ["docs/site/style"]
 html_css_files = ["site.css"]
 html_show_sphinx = False
+html_show_sourcelink = False
+html_copy_source = False
 html_math_renderer = "mathml"
 
 nb_execution_mode = "off"  # the notebooks are kept with their outputs

@@ -68,21 +68,33 @@ def theory() -> Iterator[str]:
     for name in BODIES:
         geometry = load_geometry(name)
         sheet = prove_sheet(derive_sheet(geometry)).demand_proven()
-        yield f"## {geometry.title}\n"
+        yield f"## {geometry.title.removesuffix('.')}\n"
         yield f"$$g(x) = {latex_of(geometry.g)}$$ ({name}-profile)\n"
         for parameter in geometry.parameters:
             meaning = f"{parameter.meaning} [{parameter.unit}]"
             yield f"- ${latex_of(parameter.symbol)}$: {meaning}"
         yield ""
         for symbol, expr in sheet.definitions.items():
-            yield f"$$${latex_of(symbol)} = {latex_of(expr)}$$\n".replace("$$$", "$$", 1)
+            yield f"$$\n{latex_of(symbol)} = {latex_of(expr)}\n$$\n"
         for formula in sheet.values():
             label = f"{name}-{formula.name}".replace("_", "-")
-            yield f"### {formula.meaning[0].upper()}{formula.meaning[1:]}\n".replace("*", "\\*")
+            yield f"### {_heading(formula.meaning)}\n"
             yield f"$$\n{formula.left} = {latex_of(sheet.shown(formula.name))}\n$$ ({label})\n"
             yield f"`{formula.name}` [{formula.unit}], where `{formula.assumptions}`.\n"
             yield f"- Source: {_plain(formula.source)}."
-            yield f"- {_plain(str(formula.proof)).capitalize()}.\n"
+            proof = _plain(str(formula.proof))
+            yield f"- {proof[0].upper()}{proof[1:]}.\n"
+
+
+POWERS = {"1/sqrt(s)": "$1/\\sqrt{s}$", "sqrt(s)": "$\\sqrt{s}$", "s**(3/2)": "$s^{3/2}$"}
+"""Powers of the distance from an edge, as meanings name them and as a heading shows them."""
+
+
+def _heading(meaning: str) -> str:
+    """A meaning as a heading; one that begins with a symbol, such as P'(c), keeps its case."""
+    for power, formula in POWERS.items():
+        meaning = meaning.replace(power, formula)
+    return meaning if meaning[1:2] == "'" else f"{meaning[0].upper()}{meaning[1:]}"
 
 
 def _plain(text: str) -> str:

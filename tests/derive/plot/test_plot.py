@@ -531,7 +531,7 @@ def test_without_matplotlib_one_clear_error() -> None:
         "except MissingLibrary as error:\n    print(error)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    said, remedy = "matplotlib is not installed, and drawing needs it", "contact-derive[notebooks]"
+    said, remedy = "matplotlib is not installed, and drawing needs it", "contact-derive[plot]"
     assert done.stdout == f"{said}: pip install '{remedy}'\n", done.stderr
 
 

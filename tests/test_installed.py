@@ -1,0 +1,65 @@
+"""What an installed package does without a clone, and `generated` without SymPy."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import derive.pipeline
+from derive.cli import main
+from derive.errors import MissingLibrary
+from derive.library import library
+
+ROOT = Path(__file__).parents[1]
+
+WITHOUT = """
+import sys
+
+blocked = ("sympy", "mpmath", "flint", "gmpy2", "derive", "click", "rich", "matplotlib")
+for name in blocked:
+    sys.modules[name] = None  # an import of it fails
+from importlib import import_module
+
+for body in sys.argv[1:]:
+    import_module("generated." + body)
+from generated import hertz
+
+print(hertz.load(1.5, 1.0, E_star=1.0, R=1.0))
+"""
+
+
+def test_generated_needs_nothing_of_the_derivation() -> None:
+    command = [sys.executable, "-c", WITHOUT, *library(), "edge", "full_stick"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout) == pytest.approx(1.22718463, rel=1e-8)  # 25 pi/64: pi (5/2)^2/16
+
+
+@pytest.mark.parametrize("asked", [[], ["hertz"], ["hertz", "--check"]])
+def test_an_installed_package_is_not_written_to(
+    asked: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    installed = tmp_path / "site-packages" / "generated"
+    installed.mkdir(parents=True)
+    monkeypatch.setattr(derive.pipeline, "GENERATED", installed)
+    done = CliRunner().invoke(main, ["generate", *asked])
+    assert done.exit_code == 2
+    assert done.output.count("\n") == 1
+    assert "--out" in done.output and "installed" in done.output
+    assert not list(installed.iterdir())
+
+
+def test_a_word_about_a_missing_library_names_an_extra_that_there_is() -> None:
+    text = (ROOT / "pyproject.toml").read_text()
+    asked = [
+        name
+        for path in sorted((ROOT / "derive").rglob("*.py"))
+        for name in re.findall(r'MissingLibrary\(.*"(\w+)"\)', path.read_text())
+    ]
+    assert len(asked) >= 3
+    for extra in asked:
+        assert f"\n{extra} = [" in text
+        assert f"[{extra}]" in str(MissingLibrary("a library", "a page", extra))
