@@ -37,7 +37,8 @@ def test_the_tutorial_works_as_it_stands(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(tmp_path))
     text = README.read_text()
-    commands = re.findall(r"^\.venv/bin/derive (.*?)(?: +#.*)?$", text, re.M)
+    (block,) = re.findall(r"```sh\n(derive new.*?)```", text, re.S)
+    commands = re.findall(r"^derive (.*?)(?: +#.*)?$", block, re.M)
     assert len(commands) >= 3
     for command in commands:
         done = CliRunner().invoke(main, shlex.split(command), catch_exceptions=False)

@@ -23,6 +23,7 @@ html_show_sourcelink = False
 html_copy_source = False
 html_math_renderer = "mathml"
 
+nb_render_markdown_format = "myst"  # what code prints as Markdown holds formulas
 nb_execution_mode = "off"  # the notebooks are kept with their outputs
 nb_mime_priority_overrides = [
     ("html", "application/vnd.jupyter.widget-view+json", None),
