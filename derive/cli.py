@@ -120,7 +120,7 @@ def list_() -> None:
     from derive.library import library
 
     laws = (derive_law(load_geometry(name)) for name in library())
-    _print(view.listing(with_closed_forms(law) for law in laws))
+    _print_table(view.listing(with_closed_forms(law) for law in laws))
 
 
 @main.command()
@@ -328,7 +328,7 @@ def generate(
         _report_drift(order, bodies)
         return
     changed = order.write(bodies)
-    _print(view.summary(bodies))
+    _print_table(view.summary(bodies))
     _print(f"{'Wrote' if changed else 'Nothing to change in'} {_shown(order.target)}")
 
 
@@ -408,9 +408,9 @@ def check(
     elif form == "html":
         click.echo(as_html(paper, findings))
     elif explain is not None:
-        _print(view.explained(findings[0]))
+        _print_table(view.explained(findings[0]))
     else:
-        _print(view.checked(findings))
+        _print_table(view.checked(findings))
     if page is not None:
         put_page(as_html(paper, findings), page)
         _print(f"Wrote {_shown(page.resolve())}")
@@ -450,6 +450,7 @@ def edge(
     from derive.edge import report
     from derive.edge.find import find
     from derive.edge.table import read
+    from derive.files import write_whole
     from derive.writing.options import said
 
     if not 0 < friction < inf:
@@ -457,6 +458,11 @@ def edge(
     given = said("--unit", units)
     if wrong := given.keys() - {"x", "p"}:
         raise click.BadParameter(f"{wrong.pop()!r} is not x or p", param_hint="--unit")
+    if table is not None and table.exists():
+        head = table.read_bytes()[: len(report.CSV_HEAD)] if table.is_file() else b""
+        if head != report.CSV_HEAD.encode():
+            why = f"{str(table)!r} is there already, and no table of results: give another file"
+            raise click.BadParameter(why, param_hint="--csv")
     steps = read(file, given)
     found = find(steps, file.name, friction, dQ, dsigma)
     click.echo(report.as_text(found))
@@ -467,7 +473,7 @@ def edge(
         click.echo(f"Wrote {_shown(html.absolute())}")
     if table is not None:
         try:
-            table.write_text(report.as_csv(found), encoding="utf-8")
+            write_whole(report.as_csv(found), table)
         except OSError as error:
             raise click.BadParameter(str(error), param_hint="--csv") from None
         click.echo(f"Wrote {_shown(table.absolute())}")
@@ -592,13 +598,13 @@ def _progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str
         yield step
 
 
-def _console(stderr: bool = False) -> Console:
+def _console(stderr: bool = False, columns: str = "") -> Console:
     """What is printed may be coloured into a pipe, by FORCE_COLOR; what moves is for terminals."""
     there = (sys.stderr if stderr else sys.stdout).isatty()
     return Console(
         stderr=stderr,
         force_terminal=False if stderr and not there else None,
-        width=None if there or os.environ.get("COLUMNS") else _WIDE,
+        width=None if there or columns else _WIDE,
         highlight=False,
         markup=False,
         emoji=False,
@@ -607,6 +613,11 @@ def _console(stderr: bool = False) -> Console:
 
 def _print(what: RenderableType) -> None:
     _console().print(what)
+
+
+def _print_table(what: RenderableType) -> None:
+    """A table keeps to COLUMNS in a pipe, too; formulas and names of files are never broken."""
+    _console(columns=os.environ.get("COLUMNS", "")).print(what)
 
 
 def _complain(what: str, message: str) -> None:

@@ -1,9 +1,11 @@
-"""Reading a file that a user names: all of it, and no more than it may hold.
+"""Files that a user names: read whole, and no more than they may hold; written whole or not at all.
 
-In:  a path and a number of bytes.
-Out: the file's bytes.
+In:  a path and a number of bytes, or a text.
+Out: the file's bytes, or the file.
 """
 
+import os
+import tempfile
 from pathlib import Path
 
 
@@ -29,3 +31,19 @@ def bytes_of(path: Path, most: int) -> bytes:
     if len(found) > most:
         raise Unreadable(f"is larger than {most} bytes")
     return found
+
+
+def write_whole(text: str, path: Path) -> None:
+    """Write a file in place of another; nobody sees half of it, and what fails leaves the old one.
+
+    Raises OSError.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    descriptor, name = tempfile.mkstemp(".tmp", f".{path.stem}-", path.parent)
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(text.encode())
+        Path(name).chmod(0o644)
+        Path(name).replace(path)
+    finally:
+        Path(name).unlink(missing_ok=True)

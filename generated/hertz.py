@@ -48,7 +48,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
     ----------
     P : array_like
         Normal load per unit depth [N/m].
-    M : array_like
+    M : array_like, optional
         Moment per unit depth, M = -int p x dx [N].
     E_star, R : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
@@ -91,8 +91,8 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     ----------
     P : array_like
         Normal load per unit depth [N/m].
-    alpha : array_like
-        tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
+    alpha : array_like, optional
+        Tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
     E_star, R : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
         radius of curvature [m].

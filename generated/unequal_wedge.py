@@ -49,7 +49,7 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
     ----------
     P : array_like
         Normal load per unit depth [N/m].
-    M : array_like
+    M : array_like, optional
         Moment per unit depth, M = -int p x dx [N].
     E_star, phi_1, phi_2 : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
@@ -105,8 +105,8 @@ def contact_at_tilt(
     ----------
     P : array_like
         Normal load per unit depth [N/m].
-    alpha : array_like
-        tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
+    alpha : array_like, optional
+        Tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
     E_star, phi_1, phi_2 : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
         the left flank [rad]; slope of the right flank [rad].

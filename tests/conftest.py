@@ -34,6 +34,9 @@ SLOW_EXAMPLES = {"derive.proof.prove.prove_sheet"}
 """Examples in docstrings cannot be marked where they stand."""
 
 
+os.environ.pop("COLUMNS", None)  # tables in a pipe are as wide as they need to be
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Compile the kernels of a fresh clone once, before several processes each would."""
     if config.getoption("numprocesses", None):

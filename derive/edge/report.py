@@ -120,6 +120,10 @@ def _aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
         yield "  " + "  ".join(f"{cell:>{w}}" for cell, w in zip(row, widths, strict=True))
 
 
+CSV_HEAD = "load_step,side,"
+"""What a table of results begins with."""
+
+
 def as_csv(found: Findings) -> str:
     """One row a load step and edge, in SI units; slip zones where the half-cycle ends."""
     out = io.StringIO()

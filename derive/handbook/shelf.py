@@ -1,6 +1,5 @@
 """Pages on disk: one file, or a directory of them, whole or not at all."""
 
-import os
 import shutil
 import tempfile
 from collections.abc import Mapping
@@ -8,6 +7,7 @@ from pathlib import Path
 
 from derive.errors import BadPage
 from derive.exchange import put_in_place
+from derive.files import write_whole
 
 MARK = '<meta name="generator" content="derive '
 """What a page made by a command of this package holds, so that it may be replaced."""
@@ -24,19 +24,9 @@ def put_page(text: str, path: Path) -> None:
     if (path.exists() or path.is_symlink()) and not _is_ours(path):
         raise BadPage(str(path), "is there already, and no page made here")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, name = tempfile.mkstemp(".tmp", f".{path.stem}-", path.parent)
+        write_whole(text, path)
     except OSError as error:
         raise BadPage(str(path), f"cannot be written ({error.strerror})") from error
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(text.encode())
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
-    except OSError as error:
-        raise BadPage(str(path), f"cannot be written ({error.strerror})") from error
-    finally:
-        Path(name).unlink(missing_ok=True)
 
 
 def put_pages(pages: Mapping[str, str], folder: Path) -> None:

@@ -292,3 +292,13 @@ def test_the_chain_on_the_example() -> None:
         off = abs(1e3 * one.d - exact[one.side])
         assert off < 2e3 * np.hypot(one.error, one.series)
         assert off < 0.1 * exact[one.side]
+
+
+def test_a_table_that_was_given_is_not_written_over(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text("mine\n")
+    for target in (path, tmp_path):
+        result = run(path, "--f", 0.5, "--csv", target)
+        assert result.exit_code == 2
+        assert "is there already, and no table of results" in " ".join(result.output.split())
+    assert path.read_text() == "mine\n"

@@ -234,7 +234,7 @@ def plain(monkeypatch):
     """The module with its kernels as plain Python; and laws so."""
     for name, value in vars(inverse).copy().items():
         if hasattr(value, "py_func"):
-            monkeypatch.setattr(inverse, name, value.py_func)
+            monkeypatch.setattr(inverse, name, getattr(value, "py_func", value))
     return lambda case: Law(*(getattr(f, "py_func", f) for f in case.functions))
 
 
@@ -275,7 +275,7 @@ def sought(function, far=math.inf, top=math.inf, guess=1.0):
     for count in range(inverse.STEPS):
         at = math.exp(search.y)
         value, rate = function(at)
-        search = inverse._next.py_func(search, value, rate * at)
+        search = getattr(inverse._next, "py_func", inverse._next)(search, value, rate * at)
         if search.step == 0:
             return (at if search.top < math.inf else math.nan), count
     return math.nan, inverse.STEPS
