@@ -114,3 +114,18 @@ def test_the_pressure_of_a_circular_arc_beside_its_lowest_point(place: float) ->
         wanted = float(mpmath.quad(integrand, below) + mpmath.quad(integrand, above[::-1]))
     found = circular_arc.pressure(place, left, right, E_star=math.pi, R=3.0)
     assert_allclose(found, wanted, rtol=1e-13)
+
+
+@pytest.mark.parametrize("k", [1.001, 1.03, 1.06, 1.064, 1.1])
+def test_a_power_law_close_to_a_wedge_is_right_or_nan(k: float) -> None:
+    """P = (E*/2) int x g' / sqrt(a**2 - x**2) dx, a beta function where a = c.
+
+    Near k = 1, g'' ~ x**(k - 2) leaves a share x**(k - 1) below any x: 4e-16 at the least float.
+    """
+    a = 0.75
+    beta = math.sqrt(math.pi) / 2 * math.gamma((k + 1) / 2) / math.gamma(k / 2 + 1)
+    expected = E * a**k / R ** (k - 1) * beta
+    load = float(power.load(a, a, E_star=E, L=R, k=k))
+    half_width = float(power.contact(expected, 0.0, E_star=E, L=R, k=k).a)
+    for value, right in ((load, expected), (half_width, a)):
+        assert math.isnan(value) if k < 1.065 else abs(value / right - 1) < 1e-12
