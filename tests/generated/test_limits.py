@@ -129,3 +129,22 @@ def test_a_power_law_close_to_a_wedge_is_right_or_nan(k: float) -> None:
     half_width = float(power.contact(expected, 0.0, E_star=E, L=R, k=k).a)
     for value, right in ((load, expected), (half_width, a)):
         assert math.isnan(value) if k < 1.065 else abs(value / right - 1) < 1e-12
+
+
+def _load_of_an_arc(a: float) -> float:
+    """P = E* R (K - E), complete elliptic integrals of the modulus a / R."""
+    squared = (mpmath.mpf(a) / R) ** 2
+    return float(E * R * (mpmath.ellipk(squared) - mpmath.ellipe(squared)))
+
+
+@pytest.mark.parametrize("short", [1e-3, 1e-5, 1e-6, 1e-8])
+def test_an_arc_close_to_its_end_is_right_or_nan(short: float) -> None:
+    """To 1e-12, or to what the last digit of a changes: a / (R - a) times as much in R - a."""
+    a = R * (1 - short)
+    expected = _load_of_an_arc(a)
+    last_digit = _load_of_an_arc(math.nextafter(a, R)) / expected - 1
+    load = float(circular_arc.load(a, a, E_star=E, R=R))
+    half_width = float(circular_arc.contact(expected, 0.0, E_star=E, R=R).a)
+    assert short < 3e-6 or not (math.isnan(load) or math.isnan(half_width))
+    assert math.isnan(load) or abs(load / expected - 1) < max(1e-12, last_digit)
+    assert math.isnan(half_width) or abs(half_width / a - 1) < 1e-12
