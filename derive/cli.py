@@ -387,10 +387,12 @@ def check(
         _accept(file, explain)
         return
     from derive import view
-    from derive.handbook.shelf import put_page
     from derive.paper import report
-    from derive.paper.page import as_html
     from derive.paper.verdict import check as judged
+
+    if page is not None or form == "html":
+        from derive.handbook.shelf import put_page
+        from derive.paper.page import as_html
 
     paper = _paper(file, explain)
     with _progress(len(paper.claims), ("checking",)) as step:
