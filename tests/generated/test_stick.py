@@ -150,6 +150,28 @@ def test_large_tension_against_another_solution(
         assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("a", "c", "part", "ratio"),
+    [(2.615, 0.34, 0.6584, -1.257), (0.0772, 0.278, 0.673, 1.8335), (6.22, 2.51, 0.74, -1.775)],
+)
+def test_a_stick_zone_that_all_but_leaves_the_apex(
+    a: float, c: float, part: float, ratio: float
+) -> None:
+    """One end comes within a hundredth of the width to the apex, where pressure is infinite: cycles
+    that a coarser premise called MIXED.  part: of 2 f P; ratio: of 8 dQ/(pi h)."""
+    with mpmath.workdps(24):
+        shear = part * F * sum(loads("wedge", (a, c), (a, c)))
+        dsigma = ratio * 8 * shear / (np.pi * (a + c))
+        here = Contact(a, c, 0.0)
+        zone = wedge.stick_zone(here, here, shear, dsigma, f=F, **law("wedge"))
+        assert zone.regime == Regime.LARGE
+        assert min(zone.m, zone.n) < 0.01 * (a + c)
+        sense = 1 if ratio > 0 else -1
+        whole = cycle("wedge", (a, c), (a, c), shear, dsigma, (sense, -sense))
+        m, n = whole.solution(zone.m + 1e-4, zone.n - 1e-4)
+        assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=1e-11)
+
+
 # ---------------------------------------------------------------------- regimes
 
 
