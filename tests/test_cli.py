@@ -60,6 +60,7 @@ def committed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Monk
     """A copy of the package `generated` in its place."""
     copy = tmp_path_factory.mktemp("copy") / "generated"
     shutil.copytree(GENERATED, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    (copy.parent / "pyproject.toml").touch()  # a clone, and no installed package
     monkeypatch.setattr(derive.pipeline, "GENERATED", copy)
     return copy
 

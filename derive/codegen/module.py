@@ -22,7 +22,7 @@ from derive.codegen.publish import FULL_STICK
 from derive.codegen.summed import SummedText, angles_text, definitions_text
 from derive.notation import text_of
 from derive.runtime import segments
-from derive.runtime.cycle import CYCLE
+from derive.runtime.cycle import CYCLE, EXPLAINING
 from derive.runtime.history.public import HISTORIES
 from derive.runtime.shared import SHARED
 from derive.sheet import FormulaSheet
@@ -61,7 +61,7 @@ def module_text(sheet: FormulaSheet, source: str) -> str:
     """
     sheet.demand_proven()
     solved = [f.name for f in CONTRACT if route_of(sheet, f) is Route.SOLVED]
-    bound = [*solved, *(function.__name__ for function in CYCLE)]
+    bound = [*solved, *(function.__name__ for function in (*CYCLE, *EXPLAINING))]
     histories = [function.__name__ for function in HISTORIES]
     names = [*(f.name for f in CONTRACT), *bound[len(solved) :], *histories, *_KINDS]
     code = "\n\n".join(_functions(sheet, source))

@@ -7,6 +7,7 @@ compiled, and the solvers loaded, when one of these is called for the first time
 
 import importlib
 import math
+import re
 import threading
 from collections.abc import Callable, Mapping
 from functools import cache, cached_property
@@ -124,8 +125,7 @@ class Body:
             lines += [f"{a.name} : {kind}{optional}", f"    {sentence(meanings[a.name])}"]
         text = cleandoc(function.__doc__ or "").replace("{arguments}", "\n".join(lines))
         if self.demands:
-            positive = "parameters are positive"
-            text = text.replace(positive, f"{positive}, {self.demands}")
+            text = re.sub(r"(parameters\s+are positive)", rf"\1, {self.demands}", text)
         example = words.EXAMPLES[name].format_map(self.example.words)
         if "\nNotes\n" not in text:
             text += f"\n\nNotes\n-----\n{_SHAPES}"

@@ -604,7 +604,10 @@ SOLVED = (contact, contact_at_tilt)
 """What a body has closed formulas of, or not."""
 
 CYCLE = (
-    *(stick_zone, why, tension_threshold, closing_tension, slip_zones, slip_error),
+    *(stick_zone, tension_threshold, closing_tension, slip_zones, slip_error),
     *(shear_change, shear, slip_range, march),
 )
 """What every body is bound to."""
+
+EXPLAINING = (why,)
+"""What tells of one cycle in words."""

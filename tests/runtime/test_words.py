@@ -8,7 +8,7 @@ import pytest
 
 from derive.library import library, load_geometry
 from generated.runtime.body import sentence
-from generated.runtime.cycle import CYCLE, SOLVED
+from generated.runtime.cycle import CYCLE, EXPLAINING, SOLVED
 from generated.runtime.history.public import HISTORIES
 from generated.runtime.words import EXAMPLES, MEANINGS
 from tests.runtime.test_body import bound
@@ -35,7 +35,7 @@ def test_docstrings_tell_of_every_argument(name: str) -> None:
 
 
 def test_there_is_an_example_and_a_meaning_of_everything() -> None:
-    functions = (*SOLVED, *CYCLE, *HISTORIES)
+    functions = (*SOLVED, *CYCLE, *EXPLAINING, *HISTORIES)
     assert EXAMPLES.keys() == {function.__name__ for function in functions}
     for function in functions:
         assert {*[*inspect.signature(function).parameters][1:]} <= MEANINGS.keys()
