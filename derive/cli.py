@@ -429,7 +429,13 @@ def check(
 @main.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--f", "friction", type=float, required=True, help="Coefficient of friction.")
-@click.option("--dQ", "dQ", type=float, metavar="N/M", help="Change of the shear load instead.")
+@click.option(
+    "--dQ",
+    "dQ",
+    type=float,
+    metavar="N/M",
+    help="Change of the shear load instead, from its lowest to its highest.",
+)
 @click.option("--dsigma", type=float, metavar="PA", help="Change of bulk tension with it.")
 @click.option("--unit", "units", multiple=True, metavar="NAME=UNIT", help="Unit of x or of p.")
 @click.option("--html", type=click.Path(path_type=Path), help="Write a page with pictures, too.")

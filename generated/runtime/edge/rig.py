@@ -68,7 +68,7 @@ class Rig(NamedTuple):
     """Loads of a rig, and what its edges have.  describe() tells it in words.
 
     P, M            at the end of the half-cycle that raises Q [N/m, N]
-    dQ, dsigma, dP, dM  what is there more than at its start [N/m, Pa, N/m, N]
+    dQ, dsigma, dP, dM  by how much more than at its start [N/m, Pa, N/m, N]
     parameters      of the body, the free one among them
     first, second   Contact at the start and at the end of the half-cycle
     edges           Edges of Edge: what both edges of the rig have
@@ -129,7 +129,7 @@ def match(
     Returns
     -------
     Rig
-        Its warning says whether the rig's loads can be.
+        Its warning says what is wrong with the rig's loads, if anything.
 
     Raises
     ------

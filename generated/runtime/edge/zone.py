@@ -130,8 +130,7 @@ def slip_zone(
     Raises
     ------
     ValueError
-        For an order that the coefficients do not allow, and for coefficients that say a thing
-        twice.
+        For an order that the coefficients do not allow, and for coefficients given twice.
 
     Notes
     -----
