@@ -325,7 +325,13 @@ def _unit(
     of = [*columns[what], *(columns.get("q", []) if what == "p" else [])]
     own = {_key(found[i]): found[i] for i in of if found.get(i)}
     if what in given:
-        own = {_key(given[what]): given[what]}
+        asked = _key(given[what])
+        if asked in known and any(known[key] != known[asked] for key in own.keys() & known.keys()):
+            said = (
+                f"the table gives {what} in {' and '.join(own.values())}, --unit in {given[what]}"
+            )
+            raise BadTable(shown, said, "leave --unit out, or mend the table")
+        own = {asked: given[what]}
     if not own:
         raise BadTable(
             shown,

@@ -302,3 +302,12 @@ def test_a_table_that_was_given_is_not_written_over(tmp_path: Path) -> None:
         assert result.exit_code == 2
         assert "is there already, and no table of results" in " ".join(result.output.split())
     assert path.read_text() == "mine\n"
+
+
+def test_a_unit_that_the_table_gives_otherwise_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text(HEAD + rows(X, P))
+    result = run(path, "--f", 0.5, "--unit", "p=Pa")
+    assert result.exit_code == 2
+    assert "the table gives p in MPa, --unit in Pa" in result.output
+    assert run(path, "--f", 0.5, "--unit", "p=MPa").exit_code == 0
