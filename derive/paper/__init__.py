@@ -29,6 +29,7 @@
     context      a body, symbols, an equation  the equation with its calls put in
     lines        a claims file               where its claims stand, and the file with one changed
     mistakes     a claims file               all that is wrong with it
+    geometry_file  a geometry file          g(x) as text, and units; nothing of it is executed
     userfile     a claims file in TOML       the claims in it
     andresen2020/                            claims files of the paper that the method is from
 

@@ -3,7 +3,7 @@
     title = "..."
     seconds = 30                      # that the verdict on a claim, then its mending, may take
     body = "hertz"                    # whose sheet's formulas may be called, load(a, c) say; or
-    # body = { g = "x**2/(2*R)", units = { R = "m" } }    one's own
+    # body = { g = "x**2/(2*R)", units = { R = "m" } }    one's own, or its file
 
     [variables]                       # drawn at random; all else is written in them
     l = "half-width"                  # positive
@@ -95,6 +95,7 @@ from derive.paper.formula import (
 )
 from derive.paper.formula import condition as read_condition
 from derive.paper.formula import formula as read_formula
+from derive.paper.geometry_file import profile_of
 from derive.paper.latex import Latex
 from derive.paper.lines import heads, line_of
 from derive.paper.mistakes import demand_none
@@ -270,10 +271,17 @@ class _File:
             except UserError as error:
                 why = f"{where}, body: {error.message}"
                 raise self._bad(why, "write another g, or its units") from error
+        if isinstance(given, str) and given.endswith(".py"):
+            try:
+                profile, units = profile_of(Path(self.name).parent / given)
+                return _own_body(profile, tuple(sorted(units.items())))
+            except UserError as error:
+                raise self._bad(f"{where}, body: {error.message}", "mend it, or write g") from error
         if not isinstance(given, str) or not is_in_library(given):
             known = ", ".join(library())
             why = f"{where}, body = {given!r} is not in the library"
-            raise self._bad(why, f"name one of {known}, or write {{ g = 'x**2/(2*R)' }}")
+            remedy = f"name one of {known}, a geometry file, or write {{ g = 'x**2/(2*R)' }}"
+            raise self._bad(why, remedy)
         return of_library(given)
 
     @contextmanager

@@ -63,6 +63,49 @@ def test_what_tends_where(tmp_path: Path, printed: str, more: str, verdict: str)
     assert told(tmp_path, printed, more)["verdict"] == verdict
 
 
+GEOMETRY = """
+from derive import Geometry, parameter, x
+open("executed", "w").close()
+half = parameter("half", "half the radius", unit="m")
+geometry = Geometry("own", g=x**2 / (4 * half))
+"""
+
+
+def test_a_geometry_file_is_a_body_and_is_not_executed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """g = x**2/(4 half) is a cylinder of radius 2 half: P = pi E* a**2/(4 R)."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own.py").write_text(GEOMETRY)
+    path = tmp_path / "claims.toml"
+    path.write_text(
+        'body = "own.py"\n[variables]\na = "half-width"\n[[claims]]\nlabel = "it"\n'
+        'printed = "load(a, a) = pi*E_star*a**2/(8*half)"\n'
+    )
+    done = CliRunner().invoke(main, ["check", str(path), "--format", "json"])
+    assert json.loads(done.stdout)[0]["verdict"] == "holds"
+    assert not (tmp_path / "executed").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("geometry = 3", "has not one `geometry = Geometry"),
+        ("(", "is no Python"),
+        (GEOMETRY.replace('"half"', '"b"'), "calls the parameter 'half' otherwise"),
+        (GEOMETRY.replace("x**2", "__import__('os').getcwd()"), "__import__"),
+    ],
+)
+def test_a_geometry_file_that_is_none(tmp_path: Path, text: str, why: str) -> None:
+    (tmp_path / "own.py").write_text(text)
+    (tmp_path / "claims.toml").write_text(
+        'body = "own.py"\n[[claims]]\nlabel = "it"\nprinted = "f = f"\n'
+    )
+    done = CliRunner().invoke(main, ["check", str(tmp_path / "claims.toml")])
+    assert done.exit_code == 2
+    assert why in done.output
+
+
 def test_a_limit_is_mended(tmp_path: Path) -> None:
     found = told(tmp_path, "p ~ 2*K*sqrt(a + x)", "as = 'a + x -> 0'")
     assert found["corrected"] == "p ~ K*sqrt(a + x)"
