@@ -724,3 +724,11 @@ def test_findings_as_a_page(here: Path) -> None:
     assert done.exit_code == 0
     assert "stick zone: fails: c = a*sqrt(1 - Q/(P*f))" in done.stdout
     assert "half-width" in (here / "page.html").read_text()
+
+
+def test_an_explanation_is_no_wider_than_its_words(here: Path) -> None:
+    example = str(ROOT / "examples" / "cattaneo_mindlin.toml")
+    printed = done("check", example, "--explain", "half-width")
+    words, _, table = printed.partition("numbers")
+    assert all(line == line.rstrip() for line in words.splitlines())
+    assert max(map(len, lines(table))) < 200
