@@ -23,7 +23,6 @@ import os
 import re
 import stat
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import asdict, dataclass
@@ -37,6 +36,7 @@ from warnings import catch_warnings, simplefilter
 from platformdirs import user_cache_dir
 
 from derive.body import Body
+from derive.files import write_whole
 from derive.proof.verdict import Verdict
 
 VARIABLE = "DERIVE_CACHE"
@@ -172,7 +172,7 @@ class Cache:
             return
         with suppress(OSError):
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-            _write(self.folder / f"{key}.json", _written(body, key))
+            write_whole(_written(body, key), self.folder / f"{key}.json", mode=0o600)
             self._forget_the_oldest()
 
     def _forget_the_oldest(self) -> None:
@@ -219,17 +219,6 @@ def _last_used(path: Path) -> float:
         return path.stat().st_mtime
     except OSError:  # another process has forgotten it
         return 0.0
-
-
-def _write(path: Path, content: bytes) -> None:
-    descriptor, name = tempfile.mkstemp(".tmp", f"{path.stem}.", path.parent)
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(content)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 def _written(body: Body, key: str) -> bytes:

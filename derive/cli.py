@@ -481,7 +481,8 @@ def edge(
         click.echo(f"Wrote {_shown(html.absolute())}")
     if table is not None:
         try:
-            write_whole(report.as_csv(found), table)
+            table.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(report.as_csv(found).encode(), table)
         except OSError as error:
             raise click.BadParameter(str(error), param_hint="--csv") from None
         click.echo(f"Wrote {_shown(table.absolute())}")

@@ -33,17 +33,16 @@ def bytes_of(path: Path, most: int) -> bytes:
     return found
 
 
-def write_whole(text: str, path: Path) -> None:
+def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:
     """Write a file in place of another; nobody sees half of it, and what fails leaves the old one.
 
     Raises OSError.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, name = tempfile.mkstemp(".tmp", f".{path.stem}-", path.parent)
+    descriptor, name = tempfile.mkstemp(".tmp", f"{path.stem}.", path.parent)
     try:
         with os.fdopen(descriptor, "wb") as file:
-            file.write(text.encode())
-        Path(name).chmod(0o644)
+            file.write(content)
+        Path(name).chmod(mode)
         Path(name).replace(path)
     finally:
         Path(name).unlink(missing_ok=True)

@@ -114,7 +114,8 @@ def code_of(sheet: FormulaSheet, language: str) -> str:
     _demand_names(geometry.name, language, map(str, held))
     functions = [_text(sheet, name, function, spoken) for name, function in closed.items()]
     first, last = spoken.file(geometry.name, list(closed))
-    lines = [*_comment(_heading(sheet, language, formulas), spoken), *first]
+    lacking = [name for name in formulas if name in sheet and name not in closed]
+    lines = [*_comment(_heading(sheet, language, lacking), spoken), *first]
     for text in functions:
         lines += ["", *_comment([text.words], spoken), *spoken.function(geometry.name, text)]
     return "\n".join([*lines, *last])
@@ -124,7 +125,7 @@ def _is_elementary(expr: Expr) -> bool:
     return all(isinstance(call, _ELEMENTARY) for call in expr.atoms(Function, Integral))
 
 
-def _heading(sheet: FormulaSheet, language: str, formulas: Iterable[str]) -> Iterator[str]:
+def _heading(sheet: FormulaSheet, language: str, lacking: list[str]) -> Iterator[str]:
     """What the file is, the units of the body's parameters, and which formulas it lacks."""
     yield sheet.title
     yield f"Closed formulas, printed by `derive show {sheet.geometry.name} --code {language}`."
@@ -134,7 +135,6 @@ def _heading(sheet: FormulaSheet, language: str, formulas: Iterable[str]) -> Ite
     )
     for q in sheet.geometry.parameters:
         yield f"{q.name}: {q.meaning} [{q.unit}]"
-    lacking = [n for n in formulas if n in sheet and not _is_elementary(sheet.flat(n))]
     if lacking:
         yield f"Integrals, which are not here: {', '.join(lacking)}."
 

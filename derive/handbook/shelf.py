@@ -24,7 +24,8 @@ def put_page(text: str, path: Path) -> None:
     if (path.exists() or path.is_symlink()) and not _is_ours(path):
         raise BadPage(str(path), "is there already, and no page made here")
     try:
-        write_whole(text, path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(text.encode(), path)
     except OSError as error:
         raise BadPage(str(path), f"cannot be written ({error.strerror})") from error
 

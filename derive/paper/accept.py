@@ -1,12 +1,11 @@
 """Readings that a person accepts, written into the claims file: all of them, or nothing."""
 
-import os
-import tempfile
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
 from derive.errors import BadClaimsFile
+from derive.files import write_whole
 from derive.paper.lines import with_lines
 from derive.paper.userfile import Reading, source
 
@@ -44,16 +43,7 @@ def _replace(path: Path, text: str) -> None:
     """The file with a new text, or as it was."""
     target = path.resolve()
     try:
-        mode = target.stat().st_mode & 0o777
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(text.encode("utf-8"))
-            Path(name).chmod(mode)
-            Path(name).replace(target)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
+        write_whole(text.encode(), target, mode=target.stat().st_mode & 0o777)
     except OSError as error:
         why = f"cannot be written ({error.strerror})"
         raise BadClaimsFile(str(path), why, _REMEDY) from error

@@ -6,7 +6,6 @@ A printed or a corrected equation is rendered from its expression and never type
 import json
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import mpmath
 from sympy import Expr, Symbol
@@ -91,33 +90,6 @@ def _changes(repair: Repair) -> str:
 
 def _tried(tried: Counter[str]) -> str:
     return ", ".join(f"{count} by {kind}" for kind, count in sorted(tried.items()))
-
-
-@dataclass(frozen=True)
-class Row:
-    """One line of the table."""
-
-    label: str
-    place: str
-    verdict: Verdict
-    expected: bool
-    equation: str
-    note: str
-
-
-def rows(findings: Iterable[Finding]) -> list[Row]:
-    """The table: what was found of every claim."""
-    return [
-        Row(
-            finding.claim.label,
-            finding.claim.place,
-            finding.verdict,
-            finding.as_expected,
-            printed(finding.claim),
-            finding.claim.units or corrected(finding) or finding.diagnosis or finding.judged.why,
-        )
-        for finding in findings
-    ]
 
 
 def summary(findings: Sequence[Finding]) -> str:

@@ -44,6 +44,8 @@ K_T_left, K_T_right = symbols("K_T_left K_T_right", real=True)
 kappa_left, kappa_right = symbols("kappa_left kappa_right", real=True)
 senses = kappa_left, kappa_right
 """Of slip: +1 forward, -1 backward."""
+D_left, D_right, rho, width = symbols("D_left D_right rho h", positive=True)
+"""Slip zones of order 1, K_N kappa at the right edge over that at the left, contact width."""
 
 
 def coefficients(side: str, order: int) -> tuple[Symbol, ...]:
@@ -115,7 +117,7 @@ def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
     >>> terms(1)
     ((K_T_left/(C_left_0*f*kappa_left),), (K_T_right/(C_right_0*f*kappa_right),))
     """
-    size, width = Symbol("epsilon", positive=True), Symbol("h", positive=True)
+    size = Symbol("epsilon", positive=True)
     unknown = [(Symbol(f"l_{k}"), Symbol(f"r_{k}")) for k in range(1, order + 1)]
     lefts, rights = ([pair[i] * size**k for k, pair in enumerate(unknown, 1)] for i in (0, 1))
     small = {d_left: sum(lefts), d_right: sum(rights)}
@@ -130,10 +132,6 @@ def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
         (found,) = solve(equations, pair, dict=True)
         known |= {symbol: value.subs(width, h).factor() for symbol, value in found.items()}
     return tuple(known[pair[0]] for pair in unknown), tuple(known[pair[1]] for pair in unknown)
-
-
-D_left, D_right, rho, width = symbols("D_left D_right rho h", positive=True)
-"""Slip zones of order 1, K_N kappa at the right edge over that at the left, contact width."""
 
 
 def ratios(side: str, order: int) -> tuple[Symbol, ...]:
