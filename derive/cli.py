@@ -620,13 +620,18 @@ def _console(stderr: bool = False, columns: str = "") -> Console:
     )
 
 
-def _print(what: RenderableType) -> None:
-    _console().print(what)
+def _print(what: RenderableType, columns: str = "") -> None:
+    """Print, without the blanks that fill a column up to its width."""
+    console = _console(columns=columns)
+    with console.capture() as printed:
+        console.print(what)
+    text = "\n".join(line.rstrip() for line in printed.get().split("\n"))
+    click.echo(text, nl=False, color=console.color_system is not None)
 
 
 def _print_table(what: RenderableType) -> None:
     """A table keeps to COLUMNS in a pipe, too; formulas and names of files are never broken."""
-    _console(columns=os.environ.get("COLUMNS", "")).print(what)
+    _print(what, os.environ.get("COLUMNS", ""))
 
 
 def _complain(what: str, message: str) -> None:

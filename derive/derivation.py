@@ -57,8 +57,8 @@ def derive_law(geometry: Geometry) -> FormulaSheet:
 def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaSheet:
     """The sheet with the closed forms of its integrals, if the rules give them in time.
 
-    They stand at the end of the sheet under names such as load_closed; its remark says what was
-    found.  A body whose formulas are already closed is returned unchanged.
+    Each stands below its integral under a name such as load_closed; the sheet's remark says what
+    was found.  A body whose formulas are already closed is returned unchanged.
 
     >>> from derive.library import load_geometry
     >>> sheet = with_closed_forms(derive_sheet(load_geometry("catenary")))

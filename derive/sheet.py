@@ -105,13 +105,16 @@ class FormulaSheet(Mapping[str, Formula]):
         return known
 
     def plus(self, formula: Formula) -> "FormulaSheet":
-        """The sheet with one more formula.
+        """The sheet with one more formula: a closed form right below its integral, else at the end.
 
         Raises DimensionMismatch if the formula does not have the dimension of its unit.
         """
         where = f"{formula.name} of {self.geometry.name!r}"
         check(formula.expr, formula.unit, where, self.dimensions)
-        return replace(self, formulas={**self.formulas, formula.name: formula})
+        entries = list(self.formulas.items())
+        place = list(self.formulas).index(formula.closes) + 1 if formula.closes else len(entries)
+        entries.insert(place, (formula.name, formula))
+        return replace(self, formulas=dict(entries))
 
     def demand_proven(self) -> "FormulaSheet":
         """The sheet itself.

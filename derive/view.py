@@ -142,7 +142,7 @@ def explained(finding: "Finding") -> Group:
     parts: list[RenderableType] = [Text(finding.claim.label, style="bold cyan")]
     for heading, lines in report.explanation(finding):
         parts.append(Text(heading, style="bold"))
-        parts += [Padding(Text(line), (0, 0, 0, 4), expand=False) for line in lines]
+        parts += [Padding(Text(line), (0, 0, 0, 4)) for line in lines]
     if rows := report.numbers(finding):
         table = Table("point", "left", "right", title="numbers", title_justify="left")
         for row in rows:

@@ -15,6 +15,8 @@ import nbformat
 from nbclient import NotebookClient
 from nbformat import NotebookNode
 
+from derive.files import write_whole
+
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parent
 
@@ -25,6 +27,9 @@ _METADATA = {
     "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
     "language_info": {"name": "python"},
 }
+_INLINE = "ignore:InlineBackend._figure_formats_changed:DeprecationWarning"
+"""What matplotlib-inline says of itself when it is told the format of pictures."""
+
 _WIDGET = "application/vnd.jupyter.widget-view+json"
 
 
@@ -41,6 +46,8 @@ def read(path: Path) -> NotebookNode:
 def run(path: Path) -> NotebookNode:
     """A notebook whose cells have all been run afresh, in order, in its own folder.
 
+    Its pictures have 200 dots an inch, and say at what size they are shown.
+
     Raises nbclient.exceptions.CellExecutionError for a cell that raises.
     """
     notebook = read(path)
@@ -49,7 +56,7 @@ def run(path: Path) -> NotebookNode:
             cell.outputs, cell.execution_count = [], None
     import_module("matplotlib.font_manager")  # its first import lists fonts, and says so at length
     client = NotebookClient(notebook, timeout=TIMEOUT, kernel_name="python3")
-    client.extra_arguments = ["--log-level=ERROR"]
+    client.extra_arguments = ["--log-level=ERROR", "--InlineBackend.figure_formats=retina"]
     client.resources = {"metadata": {"path": str(path.parent)}}
     with TemporaryDirectory() as folder:
         client.execute(env=_environment(folder))
@@ -62,7 +69,7 @@ def _environment(folder: str) -> dict[str, str]:
     threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     dropped = ("MPLBACKEND", "MATPLOTLIBRC", "PYTHONWARNINGS")
     kept = {name: value for name, value in os.environ.items() if name not in dropped}
-    return {**kept, **own, **threads, "PYTHONWARNINGS": "default"}
+    return {**kept, **own, **threads, "PYTHONWARNINGS": f"default,{_INLINE}"}
 
 
 def clean(notebook: NotebookNode) -> NotebookNode:
@@ -98,21 +105,20 @@ def _merged(outputs: list[NotebookNode]) -> Iterator[NotebookNode]:
 
 
 def _steady(output: NotebookNode) -> NotebookNode:
-    """An output without its widget's number, which differs each time."""
+    """An output without its widget's number, which differs each time; a picture keeps its size."""
     if "data" in output and _WIDGET in output.data:
         del output.data[_WIDGET]
         output.data["text/plain"] = "(sliders: run this notebook in Jupyter)"
     if "metadata" in output:
-        output.metadata = nbformat.from_dict({})
+        sizes = {k: of for k, of in output.metadata.items() if k.startswith("image/")}
+        output.metadata = nbformat.from_dict(sizes)
     return output
 
 
 def write(notebook: NotebookNode, path: Path) -> None:
     """Write a notebook whole, or not at all."""
     nbformat.validate(notebook)
-    beside = path.with_suffix(".tmp")
-    beside.write_text(nbformat.writes(notebook) + "\n", encoding="utf-8")
-    beside.replace(path)
+    write_whole(f"{nbformat.writes(notebook)}\n".encode(), path)
 
 
 # ------------------------------------------------------------------ what tests compare

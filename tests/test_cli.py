@@ -726,6 +726,11 @@ def test_findings_as_a_page(here: Path) -> None:
     assert "half-width" in (here / "page.html").read_text()
 
 
+@pytest.mark.parametrize("command", [("show", "hertz"), ("list",)])
+def test_no_line_ends_in_blanks(command: tuple[str, ...], here: Path) -> None:
+    assert not [line for line in done(*command).splitlines() if line != line.rstrip()]
+
+
 def test_an_explanation_is_no_wider_than_its_words(here: Path) -> None:
     example = str(ROOT / "examples" / "cattaneo_mindlin.toml")
     printed = done("check", example, "--explain", "half-width")

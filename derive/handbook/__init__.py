@@ -3,6 +3,7 @@
     module    in                                 out
     -------   --------------------------------   -----------------------------------------------
     mathml    LaTeX of the sheet                 MathML, which browsers draw by themselves
+    prose     words of the sheet                 HTML, its powers, roots and signs set
     picture   curves                             an SVG picture
     curves    a sheet, the text of its module    g(x), and the pressure of some contacts
     page      a sheet, its Body                  one page; the index of several

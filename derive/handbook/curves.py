@@ -1,6 +1,8 @@
 """What a page draws of a body: its profile, and the pressure of some of its contacts.
 
-The pressure is that of the generated module, which is imported as it was printed.
+Lengths are drawn in parts of the half-width a_0 under a load P that is central, pressures in parts
+of the mean pressure P/(2 a_0) there.  The pressure is that of the generated module, imported as it
+was printed.
 """
 
 from collections.abc import Iterator
@@ -13,13 +15,16 @@ from derive.body import Body
 from derive.codegen.function import example_of
 from derive.codegen.trial import imported
 from derive.compiled import compiled
-from derive.handbook.picture import Line, svg
+from derive.handbook.picture import Line, sketch, svg
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
 
 SAMPLES = 241
-CONTACTS = ((1.0, 0.0, "P"), (0.5, 0.0, "P/2"), (1.0, 0.25, "P, and a moment M = P a/4"))
+CONTACTS = ((1.0, 0.0, "P"), (0.5, 0.0, "P/2"), (1.0, 0.25, "P, and a moment M = P a₀/4"))
 """Load in parts of the first, moment in parts of load and half-width, and what is said of them."""
+
+SKETCHED = 1.5
+"""How far a sketch of a profile reaches, in half-widths."""
 
 
 class Pictures(NamedTuple):
@@ -33,29 +38,40 @@ class Pictures(NamedTuple):
 
 def pictures(sheet: FormulaSheet, body: Body) -> Pictures:
     """Drawn at the plain numbers of the module's own examples."""
-    point = example_of(sheet, sheet["load"].conditions)
-    own = {q.name: float(point[q.symbol]) for q in sheet.geometry.parameters}
-    half = float(max(point[a], point[c]))
-    law = {"E_star": float(point[E_star]), **own}
+    half, law = _drawn_at(sheet)
     with imported(body.name, body.text, body.stuck) as module:
         lines = tuple(_pressures(module, half, law))
     reach = 1.1 * max(max(line.x) for line in lines)
     values = ", ".join(f"{name} = {value:g}" for name, value in law.items())
     largest = max(float(np.median(line.y)) for line in lines)
     return Pictures(
-        svg("profile g(x)", "x", "g", [_profile(sheet, own, reach)]),
-        svg("contact pressure p(x)", "x", "p", lines, top=4 * largest),
+        svg("profile g(x)", "x/a₀", "g/a₀", [_profile(sheet, reach)]),
+        svg("contact pressure p(x)", "x/a₀", "2 a₀ p/P", lines, top=4 * largest),
         tuple(line.label for line in lines),
         values,
     )
 
 
-def _profile(sheet: FormulaSheet, own: dict[str, float], reach: float) -> Line:
+def profile(sheet: FormulaSheet) -> Markup:
+    """The profile alone, for an index."""
+    return sketch(f"profile of {sheet.geometry.name}", _profile(sheet, SKETCHED))
+
+
+def _drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:
+    """The half-width, and the modulus and the body's parameters, of the module's own examples."""
+    point = example_of(sheet, sheet["load"].conditions)
+    own = {q.name: float(point[q.symbol]) for q in sheet.geometry.parameters}
+    return float(max(point[a], point[c])), {"E_star": float(point[E_star]), **own}
+
+
+def _profile(sheet: FormulaSheet, reach: float) -> Line:
+    half, law = _drawn_at(sheet)
     places = np.linspace(-reach, reach, SAMPLES)
     names = [q.symbol for q in sheet.geometry.parameters]
     g = compiled([x, *names], sheet.geometry.g, modules="numpy")
     with np.errstate(all="ignore"):
-        values = np.broadcast_to(g(places, *(own[str(n)] for n in names)), places.shape)
+        values = g(half * places, *(law[str(n)] for n in names)) / half
+    values = np.broadcast_to(values, places.shape)
     there = np.isfinite(values)
     return Line("g", places[there].tolist(), values[there].tolist())
 
@@ -72,4 +88,5 @@ def _pressures(module: Any, half: float, law: dict[str, float]) -> Iterator[Line
         p = module.pressure(places, state.a, state.c, **law)
         p[[0, -1]] = 0.0
         there = np.isfinite(p)
-        yield Line(label, places[there].tolist(), p[there].tolist())
+        x_drawn, p_drawn = places[there] / half, 2 * half * p[there] / load
+        yield Line(label, x_drawn.tolist(), p_drawn.tolist())

@@ -13,8 +13,9 @@ from pygments.lexers import PythonLexer
 
 from derive.body import Body
 from derive.errors import NotProven
-from derive.handbook.curves import pictures
+from derive.handbook.curves import pictures, profile
 from derive.handbook.mathml import mathml
+from derive.handbook.prose import prose
 from derive.notation import latex_of
 from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet
@@ -43,6 +44,7 @@ class Entry(NamedTuple):
     name: str
     title: str
     profile: Markup
+    sketch: Markup
     closed: tuple[str, ...]
     numerical: tuple[str, ...]
     formulas: int
@@ -101,8 +103,15 @@ def index(entries: Sequence[Entry]) -> str:
 def entry(sheet: FormulaSheet, body: Body) -> Entry:
     """What the index says of a body."""
     geometry = sheet.geometry
-    profile = mathml(rf"g(x) = {latex_of(geometry.g)}")
-    return Entry(geometry.name, geometry.title, profile, body.closed, body.numerical, len(sheet))
+    return Entry(
+        geometry.name,
+        geometry.title,
+        mathml(rf"g(x) = {latex_of(geometry.g)}"),
+        profile(sheet),
+        body.closed,
+        body.numerical,
+        len(sheet),
+    )
 
 
 def _rows(sheet: FormulaSheet, proofs: Mapping[str, str]) -> Iterator[Row]:
@@ -142,10 +151,12 @@ def _style() -> Markup:
 
 @cache
 def _templates() -> jinja2.Environment:
-    return jinja2.Environment(
+    templates = jinja2.Environment(
         loader=jinja2.PackageLoader("derive.handbook"),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    templates.filters["prose"] = prose
+    return templates

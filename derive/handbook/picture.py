@@ -64,6 +64,20 @@ def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float =
     return Markup("".join(parts))
 
 
+def sketch(title: str, line: Line) -> Markup:
+    """One curve without axes, in a small box."""
+    low, high = min(line.y), max(line.y)
+    across, up = 160 / (line.x[-1] - line.x[0]), 56 / (high - low)
+    points = " ".join(
+        f"{4 + (x - line.x[0]) * across:.1f},{60 - (y - low) * up:.1f}"
+        for x, y in zip(line.x, line.y, strict=True)
+    )
+    return Markup(
+        f'<svg class="sketch" viewBox="0 0 168 64" role="img" aria-label="{escape(title)}">'
+        f'<title>{escape(title)}</title><polyline class="curve curve-0" points="{points}"/></svg>'
+    )
+
+
 def _below(high: float, line: Line) -> Iterator[list[tuple[float, float]]]:
     """The stretches of a curve that lie below a height, up to where they cross it.
 

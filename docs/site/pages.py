@@ -13,6 +13,7 @@ from importlib import import_module
 from pathlib import Path
 
 from derive.derivation import derive_sheet
+from derive.handbook.prose import prose
 from derive.library import load_geometry
 from derive.notation import latex_of
 from derive.proof.prove import prove_sheet
@@ -71,35 +72,28 @@ def theory() -> Iterator[str]:
         yield f"## {geometry.title.removesuffix('.')}\n"
         yield f"$$g(x) = {latex_of(geometry.g)}$$ ({name}-profile)\n"
         for parameter in geometry.parameters:
-            meaning = f"{parameter.meaning} [{parameter.unit}]"
+            meaning = f"{prose(parameter.meaning)} [{parameter.unit}]"
             yield f"- ${latex_of(parameter.symbol)}$: {meaning}"
         yield ""
         for symbol, expr in sheet.definitions.items():
             yield f"$$\n{latex_of(symbol)} = {latex_of(expr)}\n$$\n"
         for formula in sheet.values():
             label = f"{name}-{formula.name}".replace("_", "-")
-            yield f"### {_heading(formula.meaning)}\n"
+            yield f"### {_begun(prose(formula.meaning))}\n"
             yield f"$$\n{formula.left} = {latex_of(sheet.shown(formula.name))}\n$$ ({label})\n"
             yield f"`{formula.name}` [{formula.unit}], where `{formula.assumptions}`.\n"
             yield f"- Source: {_plain(formula.source)}."
-            proof = _plain(str(formula.proof))
-            yield f"- {proof[0].upper()}{proof[1:]}.\n"
+            yield f"- {_begun(_plain(str(formula.proof)))}.\n"
 
 
-POWERS = {"1/sqrt(s)": "$1/\\sqrt{s}$", "sqrt(s)": "$\\sqrt{s}$", "s**(3/2)": "$s^{3/2}$"}
-"""Powers of the distance from an edge, as meanings name them and as a heading shows them."""
-
-
-def _heading(meaning: str) -> str:
-    """A meaning as a heading; one that begins with a symbol, such as P'(c), keeps its case."""
-    for power, formula in POWERS.items():
-        meaning = meaning.replace(power, formula)
-    return meaning if meaning[1:2] == "'" else f"{meaning[0].upper()}{meaning[1:]}"
+def _begun(words: str) -> str:
+    """A sentence begins with a capital, unless with a symbol such as P'(c)."""
+    return f"{words[0].upper()}{words[1:]}" if words[1:2].isalpha() else words
 
 
 def _plain(text: str) -> str:
-    """Words with what Markdown would read as marks made plain."""
-    return re.sub(r"([*_$<>|\[\]])", r"\\\1", text)
+    """Words and their formulas, with what Markdown would read as marks made plain."""
+    return re.sub(r"([*_$|\[\]])", r"\\\1", prose(text))
 
 
 def reference() -> Iterator[str]:

@@ -34,7 +34,7 @@ NAMES = ("hertz", "flat_rounded", "hyperbola")
 """Closed both ways; with kinks; integrated."""
 
 VOID = {"meta", "link", "br", "img", "hr", "input"}
-OUTSIDE = re.compile(r"""(?:src|href)=["'](?!#|[\w-]+\.html)|url\(|@import|<script|<iframe""")
+OUTSIDE = re.compile(r"""(?:src|href)=["'](?!#|[\w-]+\.html)|url\(|@import|<script |<iframe""")
 
 
 STUCK = (Path(__file__).parents[3] / "generated" / "full_stick.py").read_text(encoding="utf-8")

@@ -1,0 +1,39 @@
+"""Words of a sheet as a page sets them: powers, roots, indices, Greek letters and signs."""
+
+import re
+from html import escape
+
+from markupsafe import Markup
+
+_GREEK = {"alpha": "α", "phi": "φ", "pi": "π", "nu": "ν", "sigma": "σ", "theta": "θ", "xi": "ξ"}
+
+_SET = (
+    (r"\*\*\(([^()]+)\)", r"<sup>\1</sup>"),
+    (r"(?:\*\*|\^)(\w+)", r"<sup>\1</sup>"),
+    (r"sqrt\((\w)\)", r"√\1"),
+    (r"sqrt(?=\()", "√"),
+    (r"\bdsigma\b", "Δσ"),
+    (r"\bdQ\b", "ΔQ"),
+    (rf"\b(d?)({'|'.join(_GREEK)})(?=\b|_)", lambda m: m[1] + _GREEK[m[2]]),
+    (r"\bint\b", "∫"),
+    (r"\b(\w)_(\w+)", lambda m: f"{m[1]}<sub>{m[2].replace('_', ', ')}</sub>"),
+    (r"\b(\w)''", r"\1″"),
+    (r"\b(\w)'(?=\()", r"\1′"),
+    (r"(?<=[ =(])-(?=[\w∫(√ ])", "−"),
+    ("&lt;=", "≤"),
+    ("&gt;=", "≥"),
+)
+
+
+def prose(text: str) -> Markup:
+    """Plain text with its formulas set in HTML.
+
+    >>> print(prose("coefficient of s**(3/2) at x = -a; M = -int p x dx, alpha <= K_N_left"))
+    coefficient of s<sup>3/2</sup> at x = −a; M = −∫ p x dx, α ≤ K<sub>N, left</sub>
+    >>> print(prose("P'(c), the contact law's slope; 1/E* = 2 (1 - nu^2)/E"))
+    P′(c), the contact law's slope; 1/E* = 2 (1 − ν<sup>2</sup>)/E
+    """
+    words = escape(text, quote=False)
+    for written, shown in _SET:
+        words = re.sub(written, shown, words)
+    return Markup(words)
