@@ -69,7 +69,7 @@ def theory() -> Iterator[str]:
     for name in BODIES:
         geometry = load_geometry(name)
         sheet = prove_sheet(derive_sheet(geometry)).demand_proven()
-        yield f"## {geometry.title.removesuffix('.')}\n"
+        yield f"## {prose(geometry.title.removesuffix('.'))}\n"
         yield f"$$g(x) = {latex_of(geometry.g)}$$ ({name}-profile)\n"
         for parameter in geometry.parameters:
             meaning = f"{prose(parameter.meaning)} [{parameter.unit}]"
