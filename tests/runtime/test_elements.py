@@ -8,11 +8,14 @@ import pytest
 from generated.runtime.history.elements import (
     COSINE,
     EVEN,
+    TERMS,
     add_full_stick,
+    expand,
     influence,
     inverse_of,
     mean_pressures,
     mesh,
+    pressure_at,
 )
 from generated.runtime.kernels import LOOP, kernel, opened
 
@@ -29,7 +32,20 @@ def _each_mean(law, given, own, out):
     law = opened(law)
     for i in range(given.shape[0]):
         a, c, load = given[i, 0], given[i, 1], given[i, 2]
-        mean_pressures(law, own[i], given[i, 3:].copy(), a, c, load, out[i])
+        series = np.empty(TERMS)
+        expand(law, own[i], a, c, series)
+        mean_pressures(law, own[i], series, given[i, 3:].copy(), a, c, load, out[i])
+
+
+@kernel(LOOP)
+def _each_pressure(law, given, own, out):
+    """given: a, c, then places; out: whether the pressure has a series there, then pressures."""
+    law = opened(law)
+    for i in range(given.shape[0]):
+        a, c, series = given[i, 0], given[i, 1], np.empty(TERMS)
+        out[i, 0] = expand(law, own[i], a, c, series)
+        for k in range(2, given.shape[1]):
+            out[i, k - 1] = pressure_at(law, own[i], series, given[i, k], a, c)
 
 
 # ---------------------------------------------------------------- mesh
@@ -95,6 +111,17 @@ def test_mean_pressures_carry_the_load_at_a_corner_too():
     assert np.sum(found * np.diff(ends)) == pytest.approx(0.7, rel=1e-14)
     outside = (ends[1:] <= -0.5) | (ends[:-1] >= 1.5)
     assert np.all(found[outside] == 0) and np.all(found[~outside] > 0)
+
+
+def test_pressure_of_a_series_and_beside_a_corner():
+    """A cylinder: sqrt(1 - x**2)/2; a wedge: arcosh(1/|x|)/pi, where no series converges."""
+    x = np.array([-1.5, -1.0, -0.999, -0.3, 0.2, 0.999999, 1.0, 1.1])
+    root = np.sqrt(np.maximum(1 - x**2, 0))
+    (found,) = solved(_each_pressure, hertz, [[1.0, 1.0, *x]], 9)
+    assert found[0] == 1 and found[1:] == pytest.approx(root / 2, rel=1e-9)
+    (found,) = solved(_each_pressure, wedge, [[1.0, 1.0, *x]], 9)
+    assert found[0] == 0
+    assert found[1:] == pytest.approx(np.arccosh(np.maximum(1 / abs(x), 1)) / np.pi, rel=1e-9)
 
 
 def full_stick(before, now, dQ, dsigma):

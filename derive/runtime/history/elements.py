@@ -178,20 +178,19 @@ def inverse_of(A: Any) -> Any:
 # ---------------------------------------------------------------- what acts on elements
 
 
-@kernel(results(2)(LAW, vector, real, real, vector))
-def _smooth(law: Any, own: Any, a: float, c: float, series: Any) -> Any:
-    """Chebyshev's series of the pressure over sqrt((a + x)(c - x)): its last terms and the largest.
-
-    It spares many pressures that are integrals; at a corner or kink it does not converge."""
-    count, tail, most = series.size, 0.0, 0.0
+@kernel(results(2)(LAW, vector, real, real, whole, vector))
+def _expanded(law: Any, own: Any, a: float, c: float, count: int, series: Any) -> Any:
+    """Chebyshev's series of the pressure over sqrt((a + x)(c - x)), in so many terms: the largest
+    of the last three and of all."""
+    tail, most = 0.0, 0.0
     values = np.empty(count)
     for j in range(count):
         angle = math.pi * (j + 0.5) / count
         s = (a + c) * math.cos(angle / 2) ** 2
         root = (a + c) / 2 * math.sin(angle)
         values[j] = law.pressure(s - a, a, c, own) / root
+    series[:] = 0.0
     for k in range(count):
-        series[k] = 0.0
         for j in range(count):
             turn = TERMS // count * k * (2 * j + 1) % (4 * TERMS)
             series[k] += values[j] * _COSINES[turn] * (2.0 / count)
@@ -201,25 +200,35 @@ def _smooth(law: Any, own: Any, a: float, c: float, series: Any) -> Any:
     return tail, most
 
 
-@kernel(real(vector, real, real, real))
-def _summed(series: Any, x: float, a: float, c: float) -> float:
-    """The pressure of such a series, by Clenshaw's rule."""
+@kernel(whole(LAW, vector, real, real, vector))
+def expand(law: Any, own: Any, a: float, c: float, series: Any) -> int:
+    """Find the series of the pressure; its first term is NaN where it does not converge, as at a
+    corner or kink.  It spares many pressures that are integrals."""
+    for count in (TERMS // 2, TERMS):
+        tail, most = _expanded(law, own, a, c, count, series)
+        if tail < AGREED * most:
+            return 1
+    series[0] = math.nan
+    return 0
+
+
+@kernel(real(LAW, vector, vector, real, real, real))
+def pressure_at(law: Any, own: Any, series: Any, x: float, a: float, c: float) -> float:
+    """The pressure: of the series, by Clenshaw's rule, where there is one."""
+    if math.isnan(series[0]) or not -a < x < c:
+        return law.pressure(x, a, c, own)  # type: ignore[no-any-return]
     t = (2 * x + a - c) / (a + c)
     u = v = 0.0
     for k in range(series.size - 1, 0, -1):
         u, v = 2 * t * u - v + series[k], u
-    return (t * u - v + series[0] / 2) * math.sqrt(max((a + x) * (c - x), 0.0))
+    return (t * u - v + series[0] / 2) * math.sqrt((a + x) * (c - x))
 
 
-@kernel(whole(LAW, vector, vector, real, real, real, vector))
-def mean_pressures(law: Any, own: Any, ends: Any, a: float, c: float, load: float, p: Any) -> int:
+@kernel(whole(LAW, vector, vector, vector, real, real, real, vector))
+def mean_pressures(
+    law: Any, own: Any, series: Any, ends: Any, a: float, c: float, load: float, p: Any
+) -> int:
     """Means of the pressure over the elements into p, made to carry the load."""
-    series = np.empty(TERMS // 2)
-    tail, most = _smooth(law, own, a, c, series)
-    if not tail < AGREED * most:
-        series = np.empty(TERMS)
-        tail, most = _smooth(law, own, a, c, series)
-    smooth = tail < AGREED * most
     total = 0.0
     for i in range(p.size):
         low, high = max(ends[i], -a), min(ends[i + 1], c)
@@ -237,8 +246,7 @@ def mean_pressures(law: Any, own: Any, ends: Any, a: float, c: float, load: floa
                 x = low + s if left else high - s
             else:
                 x, weight = low + size * (_INNER if k == 0 else 1 - _INNER), 0.5
-            at = _summed(series, x, a, c) if smooth else law.pressure(x, a, c, own)
-            p[i] += weight * at * size
+            p[i] += weight * pressure_at(law, own, series, x, a, c) * size
         total += p[i]
     for i in range(p.size):
         p[i] *= load / (total * (ends[i + 1] - ends[i])) if total > 0 else 0.0

@@ -32,13 +32,16 @@ def _touch(law: Any, own: Any, row: Any) -> int:
 
 
 @kernel(whole(LAW, vector, matrix, whole, real, vector))
-def _between(law: Any, own: Any, loads: Any, k: int, t: float, row: Any) -> int:
-    """The row a part t of the way from instant k - 1 to k."""
+def _between(law: Any, own: Any, ends: Any, k: int, t: float, row: Any) -> int:
+    """The row a part t of the way from instant k - 1 to k; `ends` are the rows of the instants."""
+    row[:] = ends[k]
+    if t == 1:
+        return 1 if row[A] + row[C] > 0 else 0
     for i in range(4):
-        row[i] = loads[i, k - 1] + t * (loads[i, k] - loads[i, k - 1])
-        if t == 1:
-            row[i] = loads[i, k]
-    row[INSTANT] = k if t == 1 else -1
+        row[i] = ends[k - 1, i] + t * (ends[k, i] - ends[k - 1, i])
+    row[INSTANT] = -1
+    if ends[k - 1, P] == ends[k, P] and ends[k - 1, M] == ends[k, M]:
+        return 1 if row[A] + row[C] > 0 else 0
     return _touch(law, own, row)
 
 
@@ -66,8 +69,7 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
     ends, parts = np.empty((instants, 7)), np.ones(instants, np.int64)
     count, widest = least + 1, 0.0
     for k in range(instants):
-        for i in range(4):
-            ends[k, i] = loads[i, k]
+        ends[k, :4], ends[k, INSTANT] = loads[:, k], k
         if _touch(law, own, ends[k]):
             widest = max(widest, ends[k, A] + ends[k, C])
     for k in range(instants):
@@ -95,7 +97,7 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
             for _ in range(50):
                 t = (start + high) / 2
                 if (
-                    _between(law, own, loads, k, t, rows[used])
+                    _between(law, own, ends, k, t, rows[used])
                     and rows[used, A] + rows[used, C] > SMALL * w
                     and rows[used, A] < ends[k, A] + widest
                     and rows[used, C] < ends[k, C] + widest
@@ -104,7 +106,7 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
                 else:
                     start = t
             start = high
-            _between(law, own, loads, k, start, rows[used])
+            _between(law, own, ends, k, start, rows[used])
             if not rows[used, A] + rows[used, C] < 2 * SMALL * w:
                 rows[used, Q] = math.nan
             used += 1
@@ -117,9 +119,9 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
             t = 1.0 if j > parts[k] else start + (1 - start) * part**power
             for turn in (min(turns[0], turns[1]), max(turns[0], turns[1])):
                 if last < turn < t:
-                    _between(law, own, loads, k, turn, rows[used])
+                    _between(law, own, ends, k, turn, rows[used])
                     used += 1
-            _between(law, own, loads, k, t, rows[used])
+            _between(law, own, ends, k, t, rows[used])
             used += 1
             last = t
     return rows[:used]

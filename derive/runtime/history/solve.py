@@ -15,7 +15,7 @@ import numpy as np
 
 from ..kernels import LOOP, kernel, matrix, opened, real, results, truth, vector, whole
 from ..shared import shared
-from .elements import influence, inverse_of
+from .elements import TERMS, influence, inverse_of
 from .path import INSTANT, A, C, path
 from .steps import (
     BOUND,
@@ -153,7 +153,7 @@ def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
     if not (known and f > 0):
         return found
     ends, A_, B, z, room, state = _laid(law, own, rows, count, fronts)
-    x, lost = (ends[1:] + ends[:-1]) / 2, False
+    x, series, lost = (ends[1:] + ends[:-1]) / 2, np.empty(TERMS), False
     work, regime, m, n, runs, off = 0.0, NONE, math.nan, math.nan, 0.0, 0.0
     for k in range(rows.shape[0]):
         row, last = rows[k], rows[max(k - 1, 0)]
@@ -162,7 +162,7 @@ def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
         if lost:
             regime = NONE if regime != UNSOLVED else UNSOLVED
         elif (k == 0 or _move(row, last)) and regime != UNSOLVED:
-            regime, more = step(law, own, f, ends, last, row, A_, B, z, state, room)
+            regime, more = step(law, own, series, f, ends, last, row, A_, B, z, state, room)
             work += more
             m, n, runs, off = math.nan, math.nan, 0.0, 0.0
             if regime == COMPUTED:
@@ -180,12 +180,12 @@ def followed(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
         told[2], told[3], told[4], told[6], told[7] = m, n, runs, work, off
         first = FEATURES + 2 * asked
         for i in range(asked):
-            told[FEATURES + i], slip = at_place(law, own, f, ends, x, state, row, places[i])
+            told[FEATURES + i], slip = at_place(law, own, series, f, ends, x, state, row, places[i])
             told[FEATURES + asked + i] = slip if work == work else math.nan
         for i in range(SAMPLES):
             u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
             place = -row[A] + u * (row[A] + row[C])
-            told[first + i], _ = at_place(law, own, f, ends, x, state, row, place)
+            told[first + i], _ = at_place(law, own, series, f, ends, x, state, row, place)
     return found
 
 
@@ -298,7 +298,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
             return found
     ends, A_, B, z, room, state = _laid(law, own, rows, count, fronts)
-    x = (ends[1:] + ends[:-1]) / 2
+    x, series = (ends[1:] + ends[:-1]) / 2, np.empty(TERMS)
     way, before, always = np.zeros(x.size), np.zeros(x.size), np.ones(x.size)
     low, high = np.zeros(x.size), np.zeros(x.size)
     work, drift = 0.0, math.inf
@@ -311,7 +311,7 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
             row, gone = rows[k], rows[max(k - 1, 0)]
             if not (k == 0 or _move(row, gone)):
                 continue
-            code, more = step(law, own, f, ends, gone, row, A_, B, z, state, room)
+            code, more = step(law, own, series, f, ends, gone, row, A_, B, z, state, room)
             if code != COMPUTED:
                 found[2] = code
                 return found
@@ -353,7 +353,9 @@ def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, 
             j = min(max(j if places[i] > x[j] else j - 1, 0), x.size - 2)
             t = min(max((places[i] - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
             found[ZONE + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
-        found[ZONE + asked + i], _ = at_place(law, own, f, ends, x, state, rows[-1], places[i])
+        found[ZONE + asked + i], _ = at_place(
+            law, own, series, f, ends, x, state, rows[-1], places[i]
+        )
     return found
 
 

@@ -11,7 +11,16 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, kernel, matrix, real, results, vector, whole
-from .elements import COSINE, EVEN, PLACE, add_full_stick, mean_pressures, mesh
+from .elements import (
+    COSINE,
+    EVEN,
+    PLACE,
+    add_full_stick,
+    expand,
+    mean_pressures,
+    mesh,
+    pressure_at,
+)
 from .nearest import nearest
 from .path import SIGMA, A, C, P, Q
 
@@ -128,9 +137,17 @@ def sticking(x: Any, state: Any, a: float, c: float) -> Any:
     return m, n, float(runs), float(slips)
 
 
-@kernel(results(2)(LAW, vector, real, vector, vector, matrix, vector, real))
+@kernel(results(2)(LAW, vector, vector, real, vector, vector, matrix, vector, real))
 def at_place(
-    law: Any, own: Any, f: float, ends: Any, x: Any, state: Any, row: Any, place: float
+    law: Any,
+    own: Any,
+    series: Any,
+    f: float,
+    ends: Any,
+    x: Any,
+    state: Any,
+    row: Any,
+    place: float,
 ) -> Any:
     """Shear and slip at a place; slip is NaN where the bodies never touch."""
     if math.isnan(place):
@@ -142,7 +159,7 @@ def at_place(
     t = (place - x[j]) / (x[j + 1] - x[j])
     t = min(max(t, 0.0), 1.0)
     slip = (1 - t) * state[SLIP, j] + t * state[SLIP, j + 1]
-    bound = f * law.pressure(place, row[A], row[C], own)
+    bound = f * pressure_at(law, own, series, place, row[A], row[C])
     if not bound > 0:
         return 0.0, slip
     if state[PLACES, i] != 0 and state[BOUND, i] > 0:
@@ -188,11 +205,14 @@ def _guessed(old: Any, state: Any, afresh: int) -> int:
 
 
 @kernel(
-    results(2)(LAW, vector, real, vector, vector, vector, matrix, matrix, vector, matrix, matrix)
+    results(2)(
+        LAW, vector, vector, real, vector, vector, vector, matrix, matrix, vector, matrix, matrix
+    )
 )
 def step(
     law: Any,
     own: Any,
+    series: Any,
     f: float,
     ends: Any,
     before: Any,
@@ -203,7 +223,10 @@ def step(
     state: Any,
     room: Any,
 ) -> Any:
-    """One row of the path on: the regime, and friction's work; NaN where slip is not known."""
+    """One row of the path on: the regime, and friction's work; NaN where slip is not known.
+
+    `series` is that of the pressure, kept until the contact changes.
+    """
     count = ends.size - 1
     w = ends[1:] - ends[:-1]
     if not now[A] + now[C] > 0:
@@ -212,7 +235,8 @@ def step(
     afresh = not before[A] + before[C] > 0
     old = state[BOUND].copy()
     if afresh or before[A] != now[A] or before[C] != now[C] or not old.any():
-        mean_pressures(law, own, ends, now[A], now[C], now[P], state[BOUND])
+        expand(law, own, now[A], now[C], series)
+        mean_pressures(law, own, series, ends, now[A], now[C], now[P], state[BOUND])
         state[BOUND] *= f
     if abs(now[Q]) >= f * now[P] * (1 - ROUNDING):
         sense = math.copysign(1.0, now[Q])
