@@ -18,7 +18,7 @@ import pytest
 from generated.runtime import kernels
 from generated.runtime.body import Asked, Body, Example, Parameter
 from generated.runtime.history import batch, public
-from generated.runtime.history.elements import influence, inverse_of
+from generated.runtime.history.elements import TERMS, influence, inverse_of
 from generated.runtime.history.path import INSTANT, path
 from generated.runtime.history.steps import mesh_for, step
 from generated.runtime.kernels import COMPILED, kernel, matrix, opened, real, vector, whole
@@ -487,12 +487,12 @@ def distances(law, own, f, loads, other, count):
             z[i] += B[i, j] * w[j]
     one, two = np.zeros((5, count)), np.zeros((5, count))
     room, space = np.zeros((count + 1, count)), np.zeros((count + 1, count))
-    found, since = np.zeros(rows.shape[0]), 0
+    found, since, series = np.zeros(rows.shape[0]), 0, np.empty(TERMS)
     for k in range(rows.shape[0]):
         since = k if rows[k, INSTANT] == 1 else since
         last = max(k - 1, 0)
-        step(law, own, f, ends, rows[last], rows[k], A, B, z, one, room)
-        step(law, own, f, ends, beside[last], beside[k], A, B, z, two, space)
+        step(law, own, series, f, ends, rows[last], rows[k], A, B, z, one, room)
+        step(law, own, series, f, ends, beside[last], beside[k], A, B, z, two, space)
         for i in range(count):
             for j in range(count):
                 apart = (one[0, i] - two[0, i]) * (one[0, j] - two[0, j])
@@ -578,16 +578,40 @@ def test_threads_give_the_same_as_one(varied, monkeypatch):
 
 
 def test_a_bar_is_for_a_person_at_a_terminal(monkeypatch):
-    tqdm = pytest.importorskip("tqdm")
+    pytest.importorskip("tqdm")
     monkeypatch.setattr(sys.stderr, "isatty", lambda: False)
-    plain = iter("abc")
-    assert batch._shown(plain, 3) is plain
+    assert batch._bar(3) is None
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    assert batch._shown(plain, 1) is plain
-    shown = batch._shown(plain, 3)
-    assert isinstance(shown, tqdm.tqdm) and list(shown) == ["a", "b", "c"]
+    assert batch._bar(3).total == 3
     monkeypatch.setitem(sys.modules, "tqdm", None)  # as if it were not installed
-    assert batch._shown(plain, 3) is plain
+    assert batch._bar(3) is None
+
+
+def test_the_bar_shows_one_long_history(monkeypatch):
+    """By parts of it: they rise from 0 to 1, and many of them are seen."""
+    bars = []
+
+    class Bar(list):
+        n = 0.0
+
+        def update(self, by):
+            self.n += by
+            self.append(self.n)
+
+        def close(self):
+            self.append(1.0)
+
+    def bar(count):
+        bars.append(Bar())
+        return bars[-1]
+
+    monkeypatch.setattr(batch, "_bar", bar)
+    monkeypatch.setattr(batch, "EVERY", 0.002)
+    P = np.tile([LOAD, 0.9 * LOAD], 100)
+    history(hertz, P, 0.0, 0.1 * P, 0.0)
+    exact, computed = bars
+    assert exact == [1.0]  # within the first look
+    assert len(computed) > 10 and computed[0] < 0.5 and np.all(np.diff(computed) >= -1e-12)
 
 
 SHORT = """
