@@ -1,4 +1,4 @@
-"""Readings that a person accepts, written into the claims file: all of them, or nothing."""
+"""Write the readings that a user accepts into the claims file: either all of them or none."""
 
 import tomllib
 from collections.abc import Sequence
@@ -9,14 +9,14 @@ from derive.files import write_whole
 from derive.paper.lines import with_lines
 from derive.paper.userfile import Reading, source
 
-_REMEDY = "write the lines understood = ... by hand"
+_REMEDY = "add the lines `understood = ...` by hand"
 
 
 def accept(path: Path, readings: Sequence[Reading]) -> None:
-    """Write what was understood of claims into their file.
+    """Write the accepted readings of claims into their file.
 
-    Raises BadClaimsFile, and leaves the file as it was, where the result would not be the same
-    file with these entries and no other change.
+    Raises BadClaimsFile and leaves the file unchanged if the new file would differ from the old
+    one by more than these entries.
     """
     text, data = source(path)
     wanted = {reading.number: reading.understood for reading in readings}
@@ -27,7 +27,7 @@ def accept(path: Path, readings: Sequence[Reading]) -> None:
         if "accepted" in claim:
             claim["accepted"] = True
     if new is None or not _is(new, data):
-        why = "is written in a way that the readings cannot be put into it"
+        why = "the layout of this file does not allow the readings to be inserted automatically"
         raise BadClaimsFile(str(path), why, _REMEDY)
     _replace(path, new)
 
@@ -40,10 +40,10 @@ def _is(text: str, data: dict[str, object]) -> bool:
 
 
 def _replace(path: Path, text: str) -> None:
-    """The file with a new text, or as it was."""
+    """Replace the text of the file, or leave the file unchanged if this fails."""
     target = path.resolve()
     try:
         write_whole(text.encode(), target, mode=target.stat().st_mode & 0o777)
     except OSError as error:
-        why = f"cannot be written ({error.strerror})"
+        why = f"the file cannot be written ({error.strerror})"
         raise BadClaimsFile(str(path), why, _REMEDY) from error

@@ -1,4 +1,4 @@
-r"""The displays of a LaTeX file, in their order, numbered as LaTeX numbers them."""
+r"""Find the displays of a LaTeX file, in order, and number them as LaTeX does."""
 
 import re
 from collections.abc import Iterator
@@ -9,9 +9,9 @@ from derive.errors import BadClaimsFile
 from derive.files import Unreadable, bytes_of
 
 _LARGEST = 5_000_000
-"""Bytes of a LaTeX file."""
+"""The largest size of a LaTeX file, in bytes."""
 _MOST = 500
-"""Displays of a file."""
+"""The largest number of displays in a file."""
 _ONE = ("equation", "multline", "displaymath", "math")
 _ROWS = ("align", "alignat", "flalign", "gather", "eqnarray")
 _START = re.compile(
@@ -30,21 +30,21 @@ _RELATION = re.compile(
     r"[^\s{(]\s*(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))\s*[^\s})]"
 )
 _LONGEST_LINE = 300
-"""Characters of a statement in the text."""
+"""The number of characters that a formula in the text must stay below."""
 _EXPANDED = 20_000
-"""Characters that a display may have once its macros are written out."""
+"""The largest number of characters in a display after its macros are expanded."""
 _PASSES = 10
-"""Macros inside each other that are written out."""
+"""The largest nesting depth of macros that are expanded."""
 
 
 @dataclass(frozen=True)
 class Display:
-    """One display, or of several rows those that go together.
+    """One display, or those rows of a display that belong together.
 
-    number  as printed, without parentheses; "" where it has none
-    labels  of \\label, in their order
-    line    of the file, from 1
-    latex   as it stands, comments left out and macros written out
+    number  the printed number without parentheses; empty if there is none
+    labels  the arguments of \\label, in order
+    line    the line of the file, counted from 1
+    latex   the source, without comments and with macros expanded
     """
 
     number: str
@@ -55,11 +55,11 @@ class Display:
 
 @dataclass(frozen=True)
 class Source:
-    """A LaTeX file as it is read.
+    """The content of a LaTeX file.
 
-    found         displays, and statements of the text where they are asked for
-    environments  how many displays there are
-    text          without comments
+    found         the displays, and the relations in the text if they were requested
+    environments  the number of displays
+    text          the source without comments
     """
 
     found: list[Display]
@@ -68,80 +68,85 @@ class Source:
 
 
 def displays(path: Path, inline: bool = False) -> Source:
-    """The displays of a file, and relations in its lines if asked; raises BadClaimsFile."""
+    """Return the displays of a file and, if `inline` is true, the relations in its text.
+
+    Raises BadClaimsFile.
+    """
     text = _without_comments(_text(path))
     start = max(text.find(r"\begin{document}"), 0)
     macros = _macros(text[:start])
-    found, environments, between, done = list[Display](), 0, list[tuple[int, int]](), start
-    for body, kind, at, numbers, outer in _bodies(str(path), text, start):
+    collected, environments, gaps, text_start = list[Display](), 0, list[tuple[int, int]](), start
+    for body, kind, offset_of_body, numbers, span in _bodies(str(path), text, start):
         environments += 1
         if environments > _MOST:
-            raise BadClaimsFile(str(path), f"has more than {_MOST} displays", "split it")
-        between.append((done, outer[0]))
-        done = outer[1]
+            why = f"the file has more than {_MOST} displays"
+            raise BadClaimsFile(str(path), why, "split it into smaller files")
+        gaps.append((text_start, span[0]))
+        text_start = span[1]
         for offset, latex, number in _groups(body, kind, numbers):
             labels = tuple(each[1] for each in _LABEL.finditer(latex))
-            line = text.count("\n", 0, at + offset) + 1
-            found.append(Display(number, labels, line, _expanded(latex, macros).strip()))
+            line = text.count("\n", 0, offset_of_body + offset) + 1
+            collected.append(Display(number, labels, line, _expanded(latex, macros).strip()))
     if inline:
-        for one, other in [*between, (done, len(text))]:
-            for each in _INLINE.finditer(text, one, other):
+        for start_of_text, end_of_text in [*gaps, (text_start, len(text))]:
+            for each in _INLINE.finditer(text, start_of_text, end_of_text):
                 latex = each[1] or each[2]
                 if _RELATION.search(latex) and len(latex) < _LONGEST_LINE:
                     line = text.count("\n", 0, each.start()) + 1
-                    found.append(Display("", (), line, _expanded(latex, macros).strip()))
-        found = sorted(found, key=lambda each: each.line)[:_MOST]
-    return Source(found, environments, text)
+                    collected.append(Display("", (), line, _expanded(latex, macros).strip()))
+        collected = sorted(collected, key=lambda each: each.line)[:_MOST]
+    return Source(collected, environments, text)
 
 
 def _text(path: Path) -> str:
     try:
         return bytes_of(path, _LARGEST).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
-        raise BadClaimsFile(str(path), "is no text in UTF-8", "convert it") from error
+        why = "the file is not UTF-8 text"
+        raise BadClaimsFile(str(path), why, "convert it to UTF-8") from error
     except Unreadable as error:
         raise BadClaimsFile(str(path), str(error), "give a LaTeX file") from error
 
 
 def _without_comments(text: str) -> str:
-    """The text with comments left out, each line where it was."""
+    """Remove comments and keep every line break."""
     return re.sub(r"(?<!\\)((?:\\\\)*)%[^\n]*", r"\1", text)
 
 
 def _macros(text: str) -> dict[str, tuple[int, str]]:
-    """Macros with how many arguments they take, and what they are written out as."""
-    found = {}
+    """Return the number of arguments and the replacement text of every macro."""
+    macros = {}
     for each in _MACRO.finditer(text):
         end = _closed(text, each.end())
         body = text[each.end() + 1 : end - 1]
         if "DeclareMathOperator" in each[0]:
             body = rf"\operatorname{{{body}}}"
-        found[each[1] or each[3]] = (int(each[2] or 0), body)
-    return found
+        macros[each[1] or each[3]] = (int(each[2] or 0), body)
+    return macros
 
 
 def _closed(text: str, at: int) -> int:
-    """Where the group in braces, or the one token, that starts at a place ends."""
+    """Return the end of the braced group or the single token that starts at `at`."""
     if text[at : at + 1] != "{":
-        found = re.match(r"\\[A-Za-z]+|.", text[at:], re.DOTALL)
-        return at + (found.end() if found else 0)
+        match = re.match(r"\\[A-Za-z]+|.", text[at:], re.DOTALL)
+        return at + (match.end() if match else 0)
     depth = 0
-    for found in re.finditer(r"(?<!\\)[{}]", text[at:]):
-        depth += 1 if found[0] == "{" else -1
+    for match in re.finditer(r"(?<!\\)[{}]", text[at:]):
+        depth += 1 if match[0] == "{" else -1
         if depth == 0:
-            return at + found.end()
+            return at + match.end()
     return len(text)
 
 
 def _expanded(latex: str, macros: dict[str, tuple[int, str]]) -> str:
-    """Macros written out, as far as the display does not become too long."""
+    """Expand macros, as long as the display does not become too long."""
     for _ in range(_PASSES):
-        made, place = list[str](), 0
-        for found in re.finditer(r"\\[A-Za-z]+", latex):
-            if found.start() < place or found[0] not in macros:
+        parts, position = list[str](), 0
+        for match in re.finditer(r"\\[A-Za-z]+", latex):
+            if match.start() < position or match[0] not in macros:
                 continue
-            count, body = macros[found[0]]
-            end = found.end()
+            count, body = macros[match[0]]
+            end = match.end()
             for n in range(1, count + 1):
                 start = end + len(latex[end:]) - len(latex[end:].lstrip())
                 end = _closed(latex, start)
@@ -149,25 +154,25 @@ def _expanded(latex: str, macros: dict[str, tuple[int, str]]) -> str:
                 inner = given[1:-1] if given[:1] == "{" else given
                 body = body.replace(f"#{n}", inner)
             after = " " if not count and latex[end : end + 1].isalpha() else ""
-            made += [latex[place : found.start()], body, after]
-            place = end
-        if not made:
+            parts += [latex[position : match.start()], body, after]
+            position = end
+        if not parts:
             break
-        made.append(latex[place:])
-        if sum(map(len, made)) > _EXPANDED:
+        parts.append(latex[position:])
+        if sum(map(len, parts)) > _EXPANDED:
             break
-        latex = "".join(made)
+        latex = "".join(parts)
     return latex
 
 
 class _Numbers:
-    """The counter of equations."""
+    """The equation counter."""
 
     def __init__(self) -> None:
         self.count, self.letter, self.inside = 0, 0, False
 
     def next(self) -> str:
-        """The next number, 3 or, in subequations, 3a."""
+        """Return the next number, such as 3 or, inside subequations, 3a."""
         if self.inside:
             self.letter += 1
             return f"{self.count}{chr(ord('a') + (self.letter - 1) % 26)}"
@@ -178,48 +183,49 @@ class _Numbers:
 def _bodies(
     name: str, text: str, start: int
 ) -> Iterator[tuple[str, str, int, _Numbers, tuple[int, int]]]:
-    """What stands in each display, its kind, where, the counter, and where all of it stands."""
-    numbers, place = _Numbers(), start
-    while found := _START.search(text, place):
-        place = found.end()
-        if found[1] == "subequations":
+    """Yield the body, kind and start of each display, the counter, and the whole span."""
+    numbers, position = _Numbers(), start
+    while opening := _START.search(text, position):
+        position = opening.end()
+        if opening[1] == "subequations":
             numbers.count, numbers.letter, numbers.inside = numbers.count + 1, 0, True
             continue
-        if found[2]:
+        if opening[2]:
             numbers.inside = False
             continue
-        kind = found[1] or "*"
-        close = rf"\end{{{kind}}}" if found[1] else (r"\]" if found[3] else "$$")
-        end = text.find(close, place)
+        kind = opening[1] or "*"
+        close = rf"\end{{{kind}}}" if opening[1] else (r"\]" if opening[3] else "$$")
+        end = text.find(close, position)
         if end < 0:
-            line = text.count("\n", 0, found.start()) + 1
-            raise BadClaimsFile(f"{name}:{line}", f"{found[0]} is not closed", f"add {close}")
-        if kind.startswith("alignat") and (columns := re.match(r"\s*\{\d+\}", text[place:end])):
-            place += columns.end()
-        yield text[place:end], kind, place, numbers, (found.start(), end + len(close))
-        place = end + len(close)
+            line = text.count("\n", 0, opening.start()) + 1
+            why = f"{opening[0]} is not closed"
+            raise BadClaimsFile(f"{name}:{line}", why, f"add {close}")
+        if kind.startswith("alignat") and (columns := re.match(r"\s*\{\d+\}", text[position:end])):
+            position += columns.end()
+        yield text[position:end], kind, position, numbers, (opening.start(), end + len(close))
+        position = end + len(close)
 
 
 def _groups(body: str, kind: str, numbers: _Numbers) -> Iterator[tuple[int, str, str]]:
-    """Rows that go together, each with where it begins and its number, 18 or 18, 19."""
+    """Yield the rows that belong together, as start, body and numbers, such as "18, 19"."""
     starred = kind.endswith("*")
     if kind.rstrip("*") not in _ROWS:
         yield 0, body, _number(body, starred, numbers)
         return
-    begin, told = 0, list[str]()
+    begin, row_numbers = 0, list[str]()
     rows = list(_rows(body))
     for n, (start, end) in enumerate(rows):
         if n and _begins(body[start:end]):
-            yield begin, body[begin:start].removesuffix(r"\\"), ", ".join(filter(None, told))
-            begin, told = start, []
+            yield begin, body[begin:start].removesuffix(r"\\"), ", ".join(filter(None, row_numbers))
+            begin, row_numbers = start, []
         if body[start:end].strip():
-            told.append(_number(body[start:end], starred, numbers))
+            row_numbers.append(_number(body[start:end], starred, numbers))
     if body[begin:].strip():
-        yield begin, body[begin:], ", ".join(filter(None, told))
+        yield begin, body[begin:], ", ".join(filter(None, row_numbers))
 
 
 def _begins(row: str) -> bool:
-    """Whether a row has a left side of its own and does not go on with the row before."""
+    """Whether a row has its own left side and does not continue the row before it."""
     plain = re.sub(r"&|\\[,;:! ]|\s", " ", row).strip()
     if re.match(r"=|<|>|\+|-|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z])", plain):
         return False
@@ -227,15 +233,15 @@ def _begins(row: str) -> bool:
 
 
 def _rows(body: str) -> Iterator[tuple[int, int]]:
-    """Where the rows are, those of inner environments left whole."""
+    """Yield the spans of the rows; inner environments are not split."""
     start, depth = 0, 0
-    for found in re.finditer(r"\\begin(?![A-Za-z])|\\end(?![A-Za-z])|\\\\", body):
-        if found[0] == r"\\":
+    for match in re.finditer(r"\\begin(?![A-Za-z])|\\end(?![A-Za-z])|\\\\", body):
+        if match[0] == r"\\":
             if depth == 0:
-                yield start, found.end()
-                start = found.end()
+                yield start, match.end()
+                start = match.end()
         else:
-            depth += 1 if found[0] == r"\begin" else -1
+            depth += 1 if match[0] == r"\begin" else -1
     if body[start:].strip():
         yield start, len(body)
 

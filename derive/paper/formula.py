@@ -1,14 +1,16 @@
-"""Reads an equation or a condition that a user typed; nothing of it is executed.
+"""Read an equation or a condition that a user typed, without executing any of it.
 
-The grammar is that of g(x), derive.writing.grammar: numbers, names, + - * / **, functions, pairs of
-a Piecewise, conditions.  Names are those that the claims file declares.  Beyond the functions of
-g(x) there are elliptic integrals of the parameter m = k**2, gamma_function, the formulas of the
-body's sheet, which stay calls until they are put in, and
+The grammar is that of g(x) in derive.writing.grammar: numbers, names, + - * / **, functions, pairs
+of a Piecewise, and conditions.  The names must be declared in the claims file.  In addition to the
+functions of g(x), the following are available: elliptic integrals of the parameter m = k**2,
+gamma_function, the formulas on the body's formula sheet, which remain calls until they are
+substituted, and
 
     integral(f, s, low, high)     pv(f, s, low, high)     sum(f, k, low, high)
     diff(f, x)    diff(f, x, 2)   limit(f, x, end)
 
-whose variable, if nobody has declared it, is known inside alone.  `oo` may be an end of these.
+The variable of an integral, a sum or a limit need not be declared; it is then known only inside
+that call.  Their ends may be `oo`.
 """
 
 import operator
@@ -48,7 +50,7 @@ from derive.writing.vocabulary import Function as Known
 
 _DEEPEST = 40
 _MOST_TERMS = 200
-"""Terms of a sum that is written out."""
+"""The largest number of terms in a finite sum."""
 
 _FUNCTIONS = {
     **FUNCTIONS,
@@ -64,25 +66,25 @@ _BOUND = {
     "diff": Known("", 3, 2),
     "limit": Known("", 3, 3),
 }
-"""Functions with a variable of their own, their second argument."""
+"""Functions that act along a variable, which is their second argument."""
 _OWN = frozenset(("integral", "pv", "sum", "limit"))
-"""Those whose variable need not be declared."""
+"""Functions of `_BOUND` whose variable need not be declared."""
 
 _ROUNDED_FROM = 3
-"""Digits from which on a decimal number is taken for a rounded one, if it is not right as it is."""
+"""A decimal number with at least this many digits may be a rounded one."""
 FROM_POLE = "_from_pole"
-"""How the variable of a folded principal value is called; its upper end must be above zero."""
+"""Suffix of the variable of a folded principal value, whose upper end must be positive."""
 _RELATION = re.compile(r"<=|>=|==|=|<|>|~|[(),]")
-_MEANT = {"==": "="}
+_ALIASES = {"==": "="}
 
 
 @dataclass(frozen=True)
 class Names:
-    """What a formula may hold.
+    """The names that a formula may hold.
 
-    where    for messages: the file and the claim
-    symbols  a symbol, or an expression, for every name
-    calls    names of the formulas of a sheet, with how many arguments each takes
+    where    the file and the claim, for error messages
+    symbols  the symbol or expression for every name
+    calls    the names of the formulas on a sheet, each with its number of arguments
     """
 
     where: str
@@ -97,46 +99,48 @@ class Names:
 
 
 class UnknownName(BadFormula):
-    """A formula that holds a name of which nothing is known yet."""
+    """A formula that holds an unknown name."""
 
 
 class NoPole(BadFormula):
-    """A principal value whose integrand has not one pole that can be seen."""
+    """A principal value whose integrand does not have exactly one recognisable pole."""
 
 
 def equation(text: str, names: Names, rough: bool = False) -> tuple[Expr, Relation, Expr]:
-    """Both sides, and what stands between them; raises BadFormula.
+    """Return the left side, the relation and the right side; raises BadFormula.
 
-    rough: whether ~ may stand there.
+    rough: whether the relation may be ~.
     """
-    found, depth = list[re.Match[str]](), 0
+    relations, depth = list[re.Match[str]](), 0
     for each in _RELATION.finditer(text):
         depth += (each[0] == "(") - (each[0] == ")")
         if depth == 0 and each[0] not in "(),":
-            found.append(each)
-    if len(found) != 1:
-        column = found[1].start() if found else len(text)
-        why = "there are two relations here" if found else "there is no relation here"
-        raise BadFormula(names.where, text, column, why, "write left = right, once")
-    start, end = found[0].span()
-    if found[0].group() == "~" and not rough:
-        why = "~ says nothing that could be wrong unless it is said where"
-        remedy = "add as = 'x -> 0' to the claim, or write the leading terms with ="
+            relations.append(each)
+    if len(relations) != 1:
+        column = relations[1].start() if relations else len(text)
+        why = "there are two relations here" if relations else "there is no relation here"
+        raise BadFormula(names.where, text, column, why, "write exactly one, as in left = right")
+    start, end = relations[0].span()
+    if relations[0].group() == "~" and not rough:
+        why = "~ cannot be checked without a limit"
+        remedy = (
+            "add as = 'x -> 0' to the claim, or equate the leading terms with ="
+        )
         raise BadFormula(names.where, text, start, why, remedy)
-    relation = Relation(_MEANT.get(found[0].group(), found[0].group()))
+    relation = Relation(_ALIASES.get(relations[0].group(), relations[0].group()))
     left = formula(text[:start], names)
     return left, relation, formula(" " * end + text[end:], names)
 
 
 def unknown(text: str, names: Names) -> list[str]:
-    """All names of a text of which nothing is known."""
-    found = set[str]()
+    """Return all unknown names in a text."""
+    names_found = set[str]()
     for part in re.split(r"<=|>=|==|=|~", text):
         try:
-            found |= _open_names(_tree(part, names), names)
+            names_found |= _open_names(_tree(part, names), names)
         except BadText:
             continue
-    return sorted(found)
+    return sorted(names_found)
 
 
 def _open_names(tree: Node, names: Names) -> set[str]:
@@ -150,20 +154,20 @@ def _open_names(tree: Node, names: Names) -> set[str]:
 
 
 def formula(text: str, names: Names) -> Expr:
-    """The expression that `text` is; raises BadFormula."""
+    """Read `text` as an expression; raises BadFormula."""
     return _read(text, names, lambda reader, tree: reader.value(tree))
 
 
 def condition(text: str, names: Names) -> Boolean:
-    """The condition that `text` is, such as 0 < b and b < w; raises BadFormula."""
+    """Read `text`, such as 0 < b and b < w, as a condition; raises BadFormula."""
     return _read(text, names, lambda reader, tree: reader.condition(tree))
 
 
 def approach(text: str, names: Names) -> tuple[Expr, Expr]:
-    """What goes where, of "c - x -> 0"; raises BadFormula."""
+    """Read a limit such as "c - x -> 0" as an expression and its end; raises BadFormula."""
     parts = text.split("->")
     if len(parts) != 2:
-        raise BadFormula(names.where, text, 0, "this is no limit", "write x -> 0")
+        raise BadFormula(names.where, text, 0, "this is not a limit", "write one such as x -> 0")
     first = formula(parts[0], names)
     end = parts[1].strip()
     if end in ("oo", "-oo"):
@@ -175,18 +179,19 @@ def _tree(text: str, names: Names) -> Node:
     return parse(text, names.words)
 
 
-def _read(text: str, names: Names, meant: Callable[["_Reader", Node], Any]) -> Any:
+def _read(text: str, names: Names, convert: Callable[["_Reader", Node], Any]) -> Any:
     if len(text) > LONGEST:
-        why = f"the formula has {len(text)} characters, {LONGEST} are the most"
-        raise BadFormula(names.where, text[:LONGEST], LONGEST, why, "name parts of it as symbols")
+        why = f"the formula has {len(text)} characters, and at most {LONGEST} are read"
+        remedy = "define parts of it as symbols"
+        raise BadFormula(names.where, text[:LONGEST], LONGEST, why, remedy)
     try:
-        return meant(_Reader(text, names), _tree(text, names))
+        return convert(_Reader(text, names), _tree(text, names))
     except BadText as error:
         raise BadFormula(names.where, text, error.column, error.why, error.remedy) from error
 
 
 class _Reader(Meaning):
-    """The values and conditions of one text of a claims file."""
+    """Read values and conditions in one text of a claims file."""
 
     def __init__(self, text: str, names: Names) -> None:
         super().__init__(text, names.symbols)
@@ -195,15 +200,16 @@ class _Reader(Meaning):
         self.names = names
 
     def named(self, node: Name) -> Expr:
-        """What a name stands for; raises UnknownName."""
+        """Return the expression for a name; raises UnknownName."""
         if node.name not in self.symbols:
             known = ", ".join(sorted(self.names.symbols))
-            why, remedy = f"nothing says what {node.name} is", f"known are {known}"
+            why = f"the claims file does not define {node.name}"
+            remedy = f"define it, or use one of the known names {known}"
             raise UnknownName(self.names.where, self.text, node.column, why, remedy)
         return self.symbols[node.name]
 
     def call(self, node: Call) -> Expr:
-        """The value of a function, or the call of a formula of the sheet as it stands."""
+        """Return the value of a function; a formula of the sheet remains a call."""
         name = node.function
         if name in _BOUND:
             return self._bound(node)
@@ -215,7 +221,7 @@ class _Reader(Meaning):
     def _bound(self, node: Call) -> Expr:
         over, along, *ends = node.arguments
         if not isinstance(along, Name):
-            why = "the second argument is no variable"
+            why = "the second argument is not a variable"
             raise self.refusal(node.column, why, f"write {node.function}(f, s, ...)")
         limits = [self._end(end, node.function) for end in ends]
         before = dict(self.symbols)
@@ -227,12 +233,12 @@ class _Reader(Meaning):
         inside = self.value(over)
         self.symbols = before
         if not isinstance(variable, Symbol):
-            why = "the second argument is no variable"
+            why = "the second argument is not a variable"
             raise self.refusal(node.column, why, f"write {node.function}(f, s, ...)")
         return self._made(node, inside, variable, limits)
 
     def _end(self, node: Node, function: str) -> Expr:
-        """An end of an integral, a sum or a limit, which may be infinite."""
+        """Return an end of an integral, a sum or a limit, which may be infinite."""
         if isinstance(node, Name) and node.name == "oo" and function != "diff":
             return oo
         return self.value(node)
@@ -251,14 +257,14 @@ class _Reader(Meaning):
                 return Limit(inside, variable, *limits)
         times = limits[0] if limits else S.One
         if not (times.is_Integer and 0 < times < 5):
-            why = "this is no number of derivatives"
-            raise self.refusal(node.column, why, "write a whole number up to 4")
+            why = "the order of this derivative is not allowed"
+            raise self.refusal(node.column, why, "write a whole number from 1 to 4")
         return Derivative(inside, (variable, times))
 
     def _sum(self, node: Call, inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
         if not low.is_Integer or not (high.is_Integer or high == oo):
-            why = "the ends of this sum are no whole numbers"
-            raise self.refusal(node.column, why, "write numbers, or oo for the upper one")
+            why = "the ends of this sum are not whole numbers"
+            raise self.refusal(node.column, why, "write whole numbers, or oo for the upper end")
         if high == oo:
             count = Symbol(along.name, integer=True)
             done = Sum(inside.xreplace({along: count}), (count, low, high)).doit()
@@ -267,7 +273,8 @@ class _Reader(Meaning):
                 raise self.refusal(node.column, why, "write its value, or finitely many terms")
             return done
         if high - low >= _MOST_TERMS:
-            raise self.refusal(node.column, "this sum is too long", f"at most {_MOST_TERMS} terms")
+            why = f"this sum has more than {_MOST_TERMS} terms"
+            raise self.refusal(node.column, why, "write a shorter sum or its closed form")
         total: Expr = S.Zero
         for n in range(int(low), int(high) + 1):
             term = inside.xreplace({along: S(n)})
@@ -276,13 +283,13 @@ class _Reader(Meaning):
 
 
 class PrincipalValue(SymPyFunction):
-    """A principal value of an integrand along a symbol, between two ends; `proper` computes it."""
+    """The principal value of an integral along a symbol between two ends; see `proper`."""
 
     nargs = 4
 
 
 class ToInfinity(SymPyFunction):
-    """An integral of an integrand along a symbol, from an end to infinity."""
+    """An integral along a symbol from a lower end to infinity."""
 
     nargs = 3
 
@@ -291,7 +298,7 @@ IMPROPER = (PrincipalValue, ToInfinity)
 
 
 def proper(expr: Any) -> Any:
-    """An expression with integrals that have no pole and finite ends; raises NoPole."""
+    """Rewrite all integrals without poles and with finite ends; raises NoPole."""
     return expr.replace(lambda n: isinstance(n, IMPROPER), _proper)
 
 
@@ -304,32 +311,33 @@ def _proper(node: Expr) -> Expr:
 
 
 def _folded(inside: Expr, along: Symbol, low: Expr, high: Expr) -> Expr:
-    """A principal value: the integrand folded about its one pole, and what is left over."""
+    """Write a principal value as the integrand folded about its pole, plus the remainder."""
     poles = set[Expr]()
     for factor in Mul.make_args(denom(together(inside))):
         if factor.is_polynomial(along) and factor.has(along) and degree(factor, along) == 1:
             poles |= set(solve(factor, along))
     if len(poles) != 1:
-        why = "the pole of a principal value is not seen"
+        why = "the integrand does not have exactly one recognisable pole"
         text = str(inside)
-        raise NoPole("a principal value", text, 0, why, "write one factor s - x below, no other")
+        remedy = "write its denominator with one factor such as s - x"
+        raise NoPole("a principal value", text, 0, why, remedy)
     (pole,) = poles
-    away = Symbol(along.name + FROM_POLE, real=True)
+    distance = Symbol(along.name + FROM_POLE, real=True)
     reach = Min(pole - low, high - pole)  # the nearer end
-    both = inside.subs(along, pole + away) + inside.subs(along, pole - away)
-    around = Integral(together(both), (away, 0, reach))
+    both = inside.subs(along, pole + distance) + inside.subs(along, pole - distance)
+    around = Integral(together(both), (distance, 0, reach))
     left = Integral(inside, (along, low, pole - reach))
     return around + left + Integral(inside, (along, pole + reach, high))
 
 
 def rounded_in(text: str) -> list[re.Match[str]]:
-    """Decimal numbers of so many digits that they may be rounded."""
-    found = re.finditer(r"(?<![\w.])\d*\.\d+(?![\w.])", text)
-    return [n for n in found if len(n[0].replace(".", "").lstrip("0")) >= _ROUNDED_FROM]
+    """Find the decimal numbers that have enough digits to be rounded values."""
+    decimals = re.finditer(r"(?<![\w.])\d*\.\d+(?![\w.])", text)
+    return [n for n in decimals if len(n[0].replace(".", "").lstrip("0")) >= _ROUNDED_FROM]
 
 
 def may_be_rounded(text: str) -> bool:
-    """Whether a formula may be right to the digits printed alone."""
+    """Whether a formula holds a number that may be rounded."""
     return bool(rounded_in(text))
 
 

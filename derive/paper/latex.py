@@ -1,12 +1,13 @@
-r"""Reads an equation given as LaTeX, if it can be read in one way only.
+r"""Read an equation given as LaTeX, provided that it can be read in only one way.
 
-LaTeX is no formula: `f(x)` may be a call or a product, and a parser that must not fail guesses.
-So the text is first cut into symbols that the claims file declares, numbers, and a few commands;
-everything else is refused where it stands.  A declared symbol is never a function.  A product
-without a sign gets one, except where it may stand below a slash; braces that do not print hold one
-factor at most; where the argument of a function, a sum or an integral ends must be plain from the
-print.  What comes out is text for derive.paper.formula, term by term in the order of the print, so
-that a person can hold one against the other; the claims file must accept it.
+LaTeX is ambiguous as a formula: `f(x)` may be a call or a product, and a parser that never fails
+has to guess.  Therefore the text is first split into the symbols that the claims file declares,
+numbers, and a few commands; anything else is refused, with its position.  A declared symbol is
+never a function.  An implied product gets a multiplication sign, unless it could be part of a
+denominator after a slash.  Invisible braces may hold at most one factor.  The end of the argument
+of a function, of a sum or of an integral must be clear from what is printed.  The result is text
+for derive.paper.formula, term by term in the printed order, so that a user can compare the two.
+The claims file must accept this text.
 """
 
 import re
@@ -19,9 +20,9 @@ from derive.errors import BadFormula
 from derive.paper.claim import Relation
 
 _LONGEST = 2000
-"""Characters that an equation may have."""
+"""The largest number of characters in an equation."""
 _DEEPEST = 60
-"""Groups inside each other."""
+"""The largest nesting depth of groups."""
 
 _TOKEN = re.compile(
     r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|[A-Za-z]"
@@ -58,10 +59,10 @@ _COMMANDS = frozenset(
 ) | {r"\dd", "_", ",", r"\to", r"\rightarrow", r"\infty"}
 _CLOSING = {"(": ")", "{": "}", "[": "]", _CASES: _ENDCASES}
 _ENDS = frozenset(("+", "-", ")", "}", "]", "|", ",", r"\dd", _ENDCASES, *_WORDS))
-"""What may follow the argument of a function."""
+"""Tokens that may follow the argument of a function."""
 _OPERATORS = {"*": "*", "/": "/", r"\cdot": "*", r"\times": "*"}
 _AFTER_BRACKETS = frozenset((*_OPERATORS, *_FUNCTIONS, *_FRACTIONS, r"\sqrt"))
-"""What may, too, where parentheses show the end of the argument."""
+"""Further tokens that may follow an argument whose end is shown by brackets or bars."""
 _PLAIN = frozenset("-+*/(){}^|[]")
 _RELATIONS = {
     "=": "=",
@@ -80,9 +81,9 @@ _SUM, _PRODUCT, _POWER, _ATOM = range(4)
 
 @dataclass(frozen=True)
 class _Piece:
-    """A declared symbol, a number, or a token of LaTeX, with its column.
+    """A declared symbol, a number, or a LaTeX token, with its column.
 
-    size: of how many tokens it is made; TeX takes one where there are no braces.
+    size: the number of tokens that it consists of; without braces, TeX takes only one.
     """
 
     text: str
@@ -102,23 +103,23 @@ class _Piece:
 
 @dataclass(frozen=True)
 class _Code:
-    """A piece of text, and how closely what is in it is bound together."""
+    """A piece of text and its precedence level."""
 
     text: str
     level: int
 
     def at(self, level: int) -> str:
-        """The text for a place that binds as closely as `level`."""
+        """Return the text for use at precedence `level`, in parentheses if they are needed."""
         return self.text if self.level >= level else f"({self.text})"
 
 
 @dataclass(frozen=True)
 class Latex:
-    """A LaTeX equation of one claim.
+    """The LaTeX equation of one claim.
 
-    where      for messages
-    text       as it stands in the source
-    spellings  LaTeX of a symbol -> its name in the claims file
+    where      the location of the claim, for error messages
+    text       the equation as in the source
+    spellings  the LaTeX of each symbol -> its name in the claims file
     """
 
     where: str
@@ -126,28 +127,28 @@ class Latex:
     spellings: Mapping[str, str]
 
     def understood(self) -> str:
-        """The equation as text; raises BadFormula where it cannot be read in one way only."""
+        """Return the equation as text; raise BadFormula if there is not exactly one reading."""
         sides, between = self._sides()
         if len(between) != 1:
             column = between[1].column if between else len(self.text)
             why = "there are two relations here" if between else "there is no relation here"
-            raise self.refusal(column, why, "give one equation, with one relation")
+            raise self.refusal(column, why, "write one equation with exactly one relation")
         return f"{sides[0]} {Relation(_RELATIONS[between[0].text])} {sides[1]}"
 
     def condition(self) -> str:
-        """A chain of relations as text, such as -a < x < c; raises BadFormula."""
+        """Return a chain of relations, such as -a < x < c, as text; raises BadFormula."""
         sides, between = self._sides()
         if not between:
-            raise self.refusal(0, "this is no condition", "write it as text")
+            raise self.refusal(0, "this is not a condition", "write the condition as text")
         signs = [_RELATIONS[each.text] for each in between]
         return sides[0] + "".join(f" {s} {side}" for s, side in zip(signs, sides[1:], strict=True))
 
     def approach(self) -> str:
-        r"""What goes where, as c - x -> 0 for c-x \to 0; raises BadFormula."""
+        r"""Return a limit as text, such as c - x -> 0 for c-x \to 0; raises BadFormula."""
         pieces = self._pieces()
         at = [n for n, piece in enumerate(pieces) if piece.text in (r"\to", r"\rightarrow")]
         if len(at) != 1:
-            raise self.refusal(0, "this is no limit", "write it as text")
+            raise self.refusal(0, "this is not a limit", "write it as text, such as x -> 0")
         sides = (pieces[: at[0]], pieces[at[0] + 1 :])
         return " -> ".join(self.side(part, len(self.text)).text for part in sides)
 
@@ -160,50 +161,54 @@ class Latex:
 
     def _pieces(self) -> list[_Piece]:
         if len(self.text) > _LONGEST:
-            raise self.refusal(_LONGEST, "the equation is too long", f"stay below {_LONGEST}")
+            why = f"the equation has {len(self.text)} characters, and at most {_LONGEST} are read"
+            raise self.refusal(_LONGEST, why, "split the equation, or shorten it with new symbols")
         return self._braced(self._marked())
 
     def side(self, pieces: list[_Piece], end: int, depth: int = 0) -> _Code:
-        """One side, or what stands in a group, as text."""
+        """Return one side of the equation, or the content of a group, as text."""
         if depth > _DEEPEST:
-            raise self.refusal(end, "this is nested too deep", "write it plainer")
+            raise self.refusal(end, "the groups are nested too deeply", "use fewer brackets")
         return _Side(self, pieces, end, depth).whole()
 
     def _marked(self) -> list[_Piece]:
-        """The tokens, every declared symbol and number as one."""
+        """Return the tokens, with every declared symbol and number as one piece."""
         pieces = [
-            _Piece(found.group(), found.start())
-            for found in _TOKEN.finditer(self.text)
-            if not found.group().isspace() and found.group() not in _SPACES
+            _Piece(match.group(), match.start())
+            for match in _TOKEN.finditer(self.text)
+            if not match.group().isspace() and match.group() not in _SPACES
         ]
-        marked, place = [], 0
+        marked, position = [], 0
         integrates = any(piece.text in _INTEGRALS for piece in pieces)
-        while place < len(pieces):
-            if integrates and pieces[place].text == r"\dd":
-                marked.append(pieces[place])
-                place += 1
+        while position < len(pieces):
+            if integrates and pieces[position].text == r"\dd":
+                marked.append(pieces[position])
+                position += 1
                 continue
-            length, name = self._longest(pieces, place)
+            length, name = self._longest(pieces, position)
             if length:
-                marked.append(_Piece(f"={name}", pieces[place].column, length))
-                place += length
+                marked.append(_Piece(f"={name}", pieces[position].column, length))
+                position += length
                 continue
-            marked.append(self._known(pieces[place]))
-            place += 1
+            marked.append(self._known(pieces[position]))
+            position += 1
         return marked
 
-    def _longest(self, pieces: list[_Piece], place: int) -> tuple[int, str]:
-        """The longest declared symbol that starts here."""
+    def _longest(self, pieces: list[_Piece], position: int) -> tuple[int, str]:
+        """Find the longest declared symbol that starts here; return its length and name."""
         best = (0, "")
         for spelling, name in self._cut:
             length = len(spelling)
-            if length > best[0] and [p.text for p in pieces[place : place + length]] == spelling:
+            if (
+                length > best[0]
+                and [p.text for p in pieces[position : position + length]] == spelling
+            ):
                 best = (length, name)
         return best
 
     @cached_property
     def _cut(self) -> list[tuple[list[str], str]]:
-        """The tokens of every spelling."""
+        """The tokens and the name of every spelling."""
         return [
             ([t for t in _TOKEN.findall(spelling) if not t.isspace() and t not in _SPACES], name)
             for spelling, name in self.spellings.items()
@@ -217,84 +222,85 @@ class Latex:
             return _Piece("=pi" if text == r"\pi" else "=oo", piece.column)
         if text in _COMMANDS or text in _PLAIN or text in _RELATIONS:
             return _Piece(text, piece.column)
-        why = f"{text} is no declared symbol and no command that is known here"
+        why = f"{text} is neither a declared symbol nor a supported command"
         remedy = "declare it under [latex], or write the claim as text"
         raise self.refusal(piece.column, why, remedy)
 
     def _braced(self, pieces: list[_Piece]) -> list[_Piece]:
-        r"""The pieces with braces about what \frac and \sqrt take where there are none."""
-        made, place = list[_Piece](), 0
-        while place < len(pieces):
-            head = pieces[place]
-            made.append(head)
-            place += 1
+        r"""Add the braces that are missing around the arguments of \frac and \sqrt."""
+        braced, position = list[_Piece](), 0
+        while position < len(pieces):
+            head = pieces[position]
+            braced.append(head)
+            position += 1
             if head.text in _FRACTIONS:
-                place = self._arguments(pieces, place, made)
-            elif head.text == r"\sqrt" and place < len(pieces) and _is_one(pieces[place]):
-                made += _in_braces(pieces[place])
-                place += 1
-        return made
+                position = self._arguments(pieces, position, braced)
+            elif head.text == r"\sqrt" and position < len(pieces) and _is_one(pieces[position]):
+                braced += _in_braces(pieces[position])
+                position += 1
+        return braced
 
-    def _arguments(self, pieces: list[_Piece], place: int, made: list[_Piece]) -> int:
-        """Both arguments of a fraction put to what is made, and where they end."""
+    def _arguments(self, pieces: list[_Piece], position: int, braced: list[_Piece]) -> int:
+        """Append both arguments of a fraction to `made`, and return where they end."""
         wanted = 2
-        while wanted and place < len(pieces):
-            piece = pieces[place]
+        while wanted and position < len(pieces):
+            piece = pieces[position]
             if piece.text == "{":
-                end = self.group(pieces, place)
-                made += [piece, *self._braced(pieces[place + 1 : end - 1]), pieces[end - 1]]
-                place, wanted = end, wanted - 1
+                end = self.group(pieces, position)
+                braced += [piece, *self._braced(pieces[position + 1 : end - 1]), pieces[end - 1]]
+                position, wanted = end, wanted - 1
                 continue
             digits = piece.text[1:]
             if not _is_one(piece) and not (piece.is_number and wanted == len(digits) == 2):
-                why = "what this fraction is of is unclear"
-                raise self.refusal(piece.column, why, "put both of its parts into braces")
+                why = "the numerator and denominator of this fraction are unclear"
+                raise self.refusal(piece.column, why, "put each of them in braces")
             for part in digits if piece.is_number else [digits]:
-                made += _in_braces(_Piece(f"={part}", piece.column))
+                braced += _in_braces(_Piece(f"={part}", piece.column))
                 wanted -= 1
-            place += 1
-        return place
+            position += 1
+        return position
 
     def group(self, pieces: list[_Piece], start: int) -> int:
-        """Where the symbol, or the group in brackets, that starts here ends."""
+        """Return the end of the symbol or bracketed group that starts at `start`."""
         opened = pieces[start].text
         if opened not in _CLOSING:
             return start + 1
         depth = 0
-        for place in range(start, len(pieces)):
-            depth += pieces[place].text == opened
-            depth -= pieces[place].text == _CLOSING[opened]
+        for position in range(start, len(pieces)):
+            depth += pieces[position].text == opened
+            depth -= pieces[position].text == _CLOSING[opened]
             if depth == 0:
-                return place + 1
-        raise self.refusal(pieces[start].column, "this is not closed", f"add {_CLOSING[opened]}")
+                return position + 1
+        why = f"this {opened} is not closed"
+        raise self.refusal(pieces[start].column, why, f"add {_CLOSING[opened]}")
 
     def _demand_plain(self, pieces: list[_Piece]) -> None:
-        """No power, root or product that looks unlike what it says."""
+        """Refuse powers, roots and products whose appearance is misleading."""
         ends = _Piece("", len(self.text))
-        for place, piece in enumerate(pieces):
-            after = pieces[place + 1] if place + 1 < len(pieces) else ends
+        for position, piece in enumerate(pieces):
+            after = pieces[position + 1] if position + 1 < len(pieces) else ends
             if piece.text == "^":
-                self._demand_exponent(pieces, place + 1, after)
+                self._demand_exponent(pieces, position + 1, after)
             if piece.text == r"\sqrt" and after.text not in ("{", "[") and not _is_one(after):
-                raise self.refusal(after.column, "where this root ends is unclear", "use braces")
+                raise self.refusal(after.column, "the end of this root is unclear", "use braces")
             if piece.is_number and after.is_number and after.text != "=oo":
-                why = "two numbers stand side by side"
+                why = "there are two numbers with no operator between them"
                 raise self.refusal(after.column, why, "put \\cdot between them")
-            if piece.is_number and _is_number_over_number(pieces[place + 1 :]):
-                why = "a number before a fraction of numbers may be a sum, as in 3 1/2"
+            if piece.is_number and _is_number_over_number(pieces[position + 1 :]):
+                why = "a number before a numerical fraction may mean a sum, as in 3 1/2"
                 raise self.refusal(after.column, why, "put \\cdot or + between them")
 
-    def _demand_exponent(self, pieces: list[_Piece], place: int, after: _Piece) -> None:
+    def _demand_exponent(self, pieces: list[_Piece], position: int, after: _Piece) -> None:
         if after.text != "{" and not _is_one(after):
-            why = "TeX takes one character as the exponent where there are no braces"
-            raise self.refusal(after.column, why, "put the exponent into braces")
-        end = self.group(pieces, place)
+            why = "without braces, TeX takes only one character as the exponent"
+            raise self.refusal(after.column, why, "put the exponent in braces")
+        end = self.group(pieces, position)
         if end < len(pieces) and pieces[end].text == "^":
-            why = "a power of a power without braces"
-            raise self.refusal(pieces[end].column, why, "put one of them into braces")
+            why = "a power of a power needs braces"
+            raise self.refusal(pieces[end].column, why, "put one of the powers in braces")
 
     def refusal(self, column: int, why: str, remedy: str) -> BadFormula:
-        """The error for what stands at a column."""
+        """Return the error for the text at a column."""
         return BadFormula(self.where, self.text, column, why, remedy)
 
 
@@ -303,85 +309,85 @@ class _Side:
 
     def __init__(self, latex: Latex, pieces: list[_Piece], end: int, depth: int) -> None:
         self.latex, self.pieces, self.end, self.depth = latex, pieces, end, depth
-        self.place = 0
+        self.position = 0
 
     def whole(self) -> _Code:
-        """All of it."""
+        """Read all pieces."""
         made = self._sum()
-        if self.place < len(self.pieces):
+        if self.position < len(self.pieces):
             self._unread()
         return made
 
     @property
     def here(self) -> _Piece:
-        """The piece that is read next."""
-        if self.place < len(self.pieces):
-            return self.pieces[self.place]
+        """The next piece to be read."""
+        if self.position < len(self.pieces):
+            return self.pieces[self.position]
         return _Piece("", self.end)
 
     def _inner(self, pieces: list[_Piece], end: int) -> _Code:
         return self.latex.side(pieces, end, self.depth + 1)
 
     def _group(self) -> list[_Piece]:
-        """What stands in the group here, or the one piece; the place moves behind it."""
-        start = self.place
+        """Read the content of the group that starts here, or one piece, and move past it."""
+        start = self.position
         if start == len(self.pieces):
             self._unread()
-        self.place = self.latex.group(self.pieces, start)
-        found = self.pieces[start : self.place]
-        return found[1:-1] if found[0].text in _CLOSING else found
+        self.position = self.latex.group(self.pieces, start)
+        pieces = self.pieces[start : self.position]
+        return pieces[1:-1] if pieces[0].text in _CLOSING else pieces
 
     def _grouped(self) -> _Code:
-        """The same as text."""
+        """Read the group that starts here, or one piece, as text."""
         inner = self._group()
-        return self._inner(inner, self.pieces[self.place - 1].column)
+        return self._inner(inner, self.pieces[self.position - 1].column)
 
     def _sum(self) -> _Code:
         text, level = "", _PRODUCT
         if self.here.text in ("+", "-"):
             text, level = self.here.text.strip("+"), _SUM
-            self.place += 1
+            self.position += 1
         term = self._product()
         text, level = text + term.at(_PRODUCT), min(level, term.level)
         if self.here.text not in ("+", "-"):
             return _Code(text, _SUM if text[0] == "-" else term.level)
         while self.here.text in ("+", "-"):
             sign = self.here.text
-            self.place += 1
+            self.position += 1
             text += f" {sign} {self._product().at(_PRODUCT)}"
         return _Code(text, _SUM)
 
     def _product(self) -> _Code:
-        made, below = self._factor(), False
+        product, after_slash = self._factor(), False
         while True:
             head = self.here
             operator = _OPERATORS.get(head.text, "")
             if operator:
-                self.place += 1
-                below = below or operator == "/"
+                self.position += 1
+                after_slash = after_slash or operator == "/"
             elif not self._starts_factor():
-                return made
-            elif below:
-                why = "whether this stands below the slash is unclear"
-                self._refuse(why, "write \\frac, or parentheses")
+                return product
+            elif after_slash:
+                why = "it is unclear whether this belongs to the denominator"
+                self._refuse(why, "write \\frac, or use parentheses")
             factor = self._factor()
             operator = operator or "*"
             least = _POWER if operator == "/" else _PRODUCT
-            made = _Code(f"{made.at(_PRODUCT)}{operator}{factor.at(least)}", _PRODUCT)
+            product = _Code(f"{product.at(_PRODUCT)}{operator}{factor.at(least)}", _PRODUCT)
 
     def _starts_factor(self) -> bool:
         text = self.here.text
         if text == "|":
-            return any(piece.text == "|" for piece in self.pieces[self.place + 1 :])
+            return any(piece.text == "|" for piece in self.pieces[self.position + 1 :])
         starts = (*_CLOSING, r"\sqrt", *_FRACTIONS, *_FUNCTIONS, *_BIG)
         return self.here.is_mark or text in starts
 
     def _factor(self) -> _Code:
-        """A factor with its power."""
+        """Read a factor with its power."""
         base = self._base()
         if self.here.text != "^":
             return base
-        self.place += 1
+        self.position += 1
         exponent = self._grouped()
         return _Code(f"{base.at(_ATOM)}**{exponent.at(_ATOM)}", _POWER)
 
@@ -389,12 +395,12 @@ class _Side:
         head = self.here
         if not self._starts_factor():
             if head.text == "|":
-                raise self.latex.refusal(head.column, "this is not closed", "add |")
+                raise self.latex.refusal(head.column, "this | is not closed", "add |")
             if head.text in ("_", r"\dd"):
-                self._refuse(f"{head.text} cannot stand here", "leave it out")
+                self._refuse(f"{head.text} is not allowed here", "remove it")
             self._unread()
         if head.is_mark:
-            self.place += 1
+            self.position += 1
             return _Code(head.text[1:], _ATOM)
         if head.text in _FUNCTIONS:
             return self._application()
@@ -404,39 +410,38 @@ class _Side:
         return self._grouped()
 
     def _in_braces(self) -> _Code:
-        """Braces, which do not print: one factor stands in them."""
+        """Read braces, which are not printed and may therefore hold only one factor."""
         column = self.here.column
         inner = self._group()
-        side = _Side(self.latex, inner, self.pieces[self.place - 1].column, self.depth + 1)
+        side = _Side(self.latex, inner, self.pieces[self.position - 1].column, self.depth + 1)
         if self.depth > _DEEPEST:
-            self._refuse("this is nested too deep", "write it plainer")
+            self._refuse("the groups are nested too deeply", "use fewer brackets")
         starts = bool(inner) and (side._starts_factor() or inner[0].text == "|")
         made = side._factor() if starts else None
-        if made is None or side.place != len(inner):
-            raise self.latex.refusal(
-                column, "braces do not print, and here they would matter", "use parentheses"
-            )
+        if made is None or side.position != len(inner):
+            why = "these braces group terms but are not printed"
+            raise self.latex.refusal(column, why, "use parentheses")
         return made
 
     def _modulus(self) -> _Code:
-        start, depth = self.place, 0
-        for place in range(start + 1, len(self.pieces)):
-            text = self.pieces[place].text
+        start, depth = self.position, 0
+        for position in range(start + 1, len(self.pieces)):
+            text = self.pieces[position].text
             depth += (text in _CLOSING) - (text in _CLOSING.values())
             if depth == 0 and text == "|":
-                self.place = place + 1
-                inner = self._inner(self.pieces[start + 1 : place], self.pieces[place].column)
+                self.position = position + 1
+                inner = self._inner(self.pieces[start + 1 : position], self.pieces[position].column)
                 return _Code(f"abs({inner.text})", _ATOM)
-        raise self.latex.refusal(self.pieces[start].column, "this is not closed", "add |")
+        raise self.latex.refusal(self.pieces[start].column, "this | is not closed", "add |")
 
     def _fraction(self) -> _Code:
-        self.place += 1
+        self.position += 1
         over = self._grouped()
         under = self._grouped()
         return _Code(f"{over.at(_PRODUCT)}/{under.at(_POWER)}", _PRODUCT)
 
     def _root(self) -> _Code:
-        self.place += 1
+        self.position += 1
         degree = self._grouped() if self.here.text == "[" else None
         inner = self._grouped()
         if degree is None:
@@ -444,42 +449,42 @@ class _Side:
         return _Code(f"{inner.at(_ATOM)}**(1/{degree.at(_POWER)})", _POWER)
 
     def _application(self) -> _Code:
-        """A function with its argument."""
+        """Read a function with its argument."""
         head = self.here
         power, name = "", _FUNCTIONS[head.text]
         if head.text in _INVERSES and self._is_inverse():
             name = _INVERSES[head.text]
-            self.place += 6
+            self.position += 6
         else:
-            self.place += 1
+            self.position += 1
             power = self._power_of_function()
-        if self.place == len(self.pieces):
-            raise self.latex.refusal(self.end, f"{head.text} has no argument", "write it")
+        if self.position == len(self.pieces):
+            raise self.latex.refusal(self.end, f"{head.text} has no argument", "add one")
         inner = self._argument(head)
         over, _, name = name.rpartition("/")
         call = f"{name}({inner}){power}"
         return _Code(f"1/{call}", _PRODUCT) if over else _Code(call, _POWER if power else _ATOM)
 
     def _is_inverse(self) -> bool:
-        after = [piece.text for piece in self.pieces[self.place + 1 : self.place + 6]]
+        after = [piece.text for piece in self.pieces[self.position + 1 : self.position + 6]]
         return after == ["^", "{", "-", "=1", "}"]
 
     def _power_of_function(self) -> str:
-        """The power of a function that stands before its argument: a whole number from 2 on."""
+        """Read the power between a function and its argument: an integer of at least 2."""
         if self.here.text != "^":
             return ""
         column = self.here.column
-        self.place += 1
+        self.position += 1
         inner = self._group()
         digits = inner[0].text[1:] if len(inner) == 1 else ""
         if not digits.isdigit() or int(digits) < 2:
-            why = "this power of a function may mean its inverse"
+            why = "this power of a function may mean its inverse function"
             raise self.latex.refusal(column, why, "write \\arcsin, or a fraction")
         return f"**{digits}"
 
     def _argument(self, head: _Piece) -> str:
-        """The argument of a function; raises BadFormula where its end is unclear."""
-        first, start = self.here, self.place
+        """Read the argument of a function; raise BadFormula if its end is unclear."""
+        first, start = self.here, self.position
         if first.text in _FRACTIONS:
             text = self._fraction().text
         elif first.text == r"\sqrt":
@@ -489,43 +494,43 @@ class _Side:
         elif first.text in ("(", "{", "[") or first.is_mark:
             inner = self._group()
             if first.text == "{" and any(piece.text in ("+", "-") for piece in inner):
-                why = "braces do not print, so that this sum is not seen to be the argument"
+                why = "braces are not printed, so the print does not show the end of the argument"
                 raise self.latex.refusal(first.column, why, "use parentheses")
             if not inner:
-                raise self.latex.refusal(head.column, f"{head.text} has no argument", "write it")
+                raise self.latex.refusal(head.column, f"{head.text} has no argument", "add one")
             parts, _ = _divided(inner, {",": ","} if head.text in _OF_SEVERAL else {})
-            end = self.pieces[self.place - 1].column
+            end = self.pieces[self.position - 1].column
             text = ", ".join(self._inner(part, end).text for part in parts)
         else:
-            raise self.latex.refusal(
-                first.column, "this is no argument of a function", "add ( and )"
-            )
+            why = "this cannot be the argument of a function"
+            raise self.latex.refusal(first.column, why, "put the argument in parentheses")
         shown = self.pieces[start].text in ("(", "|", "[")
         allowed = _ENDS | _AFTER_BRACKETS if shown else _ENDS
         if self.here.text and self.here.text not in allowed:
-            why = "where the argument of the function ends is unclear"
-            remedy = "put the function and its argument into parentheses, as in (\\sin(a)) b"
+            why = "the end of the function's argument is unclear"
+            remedy = "put the function and its argument in parentheses, as in (\\sin(a)) b"
             self._refuse(why, remedy)
         return text
 
     def _limits(self) -> dict[str, list[_Piece]]:
-        """What stands below and above a big operator."""
-        found = dict[str, list[_Piece]]()
-        while self.here.text in ("_", "^") and self.here.text not in found:
+        """Read the lower and upper limits of an integral, a sum or a limit."""
+        limits = dict[str, list[_Piece]]()
+        while self.here.text in ("_", "^") and self.here.text not in limits:
             sign = self.here.text
-            self.place += 1
-            found[sign] = self._group()
-        return found
+            self.position += 1
+            limits[sign] = self._group()
+        return limits
 
     def _integral(self) -> _Code:
-        r"""An integral, up to its differential, which is written \dd s."""
+        r"""Read an integral up to its differential, which is written \dd s."""
         head = self.here
-        self.place += 1
+        self.position += 1
         limits = self._limits()
         if len(limits) != 2 or not all(limits.values()):
-            raise self.latex.refusal(head.column, "this integral has not both limits", "write them")
+            why = "this integral lacks a limit"
+            raise self.latex.refusal(head.column, why, "write both limits, as in \\int_{a}^{b}")
         low, high = (self._inner(limits[sign], head.column).text for sign in "_^")
-        start, depth, inner = self.place, 0, 1
+        start, depth, inner = self.position, 0, 1
         for end in range(start, len(self.pieces)):
             text = self.pieces[end].text
             depth += (text in _CLOSING) - (text in _CLOSING.values())
@@ -539,48 +544,51 @@ class _Side:
                     break
                 column = self.pieces[end].column
                 inside = self._inner(self.pieces[start:end], column).text if end > start else "1"
-                self.place = end + 2
+                self.position = end + 2
                 name = _INTEGRALS[head.text]
                 return _Code(f"{name}({inside}, {along.text[1:]}, {low}, {high})", _ATOM)
-        why = "where this integral ends is unclear"
-        raise self.latex.refusal(head.column, why, "end it by its differential, as \\mathrm{d}s")
+        why = "the end of this integral is unclear"
+        raise self.latex.refusal(head.column, why, "end it with a differential, as \\mathrm{d}s")
 
     def _all_sum(self) -> _Code:
-        r"""\sum_{k=1}^{n} with the product that follows."""
+        r"""Read \sum_{k=1}^{n} with the product that follows."""
         head = self.here
-        self.place += 1
+        self.position += 1
         limits = self._limits()
         below = limits.get("_", [])
         if len(limits) != 2 or len(below) < 3 or not below[0].is_mark or below[1].text != "=":
-            why = "this sum has not both limits"
-            raise self.latex.refusal(head.column, why, "write \\sum_{k=1}^{n}")
+            why = "this sum lacks a limit"
+            raise self.latex.refusal(head.column, why, "write both limits, as in \\sum_{k=1}^{n}")
         low = self._inner(below[2:], head.column).text
         high = self._inner(limits["^"], head.column).text
         along, inside = below[0].text, self._product().text
-        if self.here.text in ("+", "-") and any(p.text == along for p in self.pieces[self.place :]):
-            self._refuse("whether this belongs to the sum is unclear", "use parentheses")
+        if self.here.text in ("+", "-") and any(
+            p.text == along for p in self.pieces[self.position :]
+        ):
+            self._refuse("it is unclear whether this belongs to the sum", "use parentheses")
         return _Code(f"sum({inside}, {along[1:]}, {low}, {high})", _ATOM)
 
     def _limit(self) -> _Code:
-        r"""\lim_{x \to a} with the product that follows."""
+        r"""Read \lim_{x \to a} with the product that follows."""
         head = self.here
-        self.place += 1
+        self.position += 1
         below = self._limits().get("_", [])
         if len(below) < 3 or not below[0].is_mark or below[1].text not in (r"\to", r"\rightarrow"):
-            raise self.latex.refusal(head.column, "this is no limit", "write \\lim_{x \\to a}")
+            why = "this limit is incomplete"
+            raise self.latex.refusal(head.column, why, "write it as \\lim_{x \\to a}")
         end = self._inner(below[2:], head.column).text
         inside = self._product().text
         if self.here.text in ("+", "-"):
-            self._refuse("whether this belongs to the limit is unclear", "use parentheses")
+            self._refuse("it is unclear whether this belongs to the limit", "use parentheses")
         return _Code(f"limit({inside}, {below[0].text[1:]}, {end})", _ATOM)
 
     def _cases(self) -> _Code:
-        r"""\begin{cases}: a value and a condition in each row."""
+        r"""Read \begin{cases}, which has a value and a condition in each row."""
         column = self.here.column
         rows, _ = _divided(self._group(), (r"\caserow",))
         pairs = [self._row(row, column) for row in rows if row]
         if not pairs:
-            raise self.latex.refusal(column, "this has no cases", "write them")
+            raise self.latex.refusal(column, "there are no cases here", "add at least one")
         return _Code(f"Piecewise({', '.join(pairs)})", _ATOM)
 
     def _row(self, row: list[_Piece], column: int) -> str:
@@ -593,14 +601,15 @@ class _Side:
         row = row[:-1] if row and row[-1].text == "," else row
         rest = [piece for piece in rest if piece.text not in (r"\casecol", r"\whereword")]
         value = self._inner(row, column).text
-        listed, _ = _divided(rest, (",", r"\andword"))
-        told = " and ".join(self._condition(part, column) for part in listed if part)
-        return f"({value}, {told or 'True'})"
+        parts, _ = _divided(rest, (",", r"\andword"))
+        conditions = " and ".join(self._condition(part, column) for part in parts if part)
+        return f"({value}, {conditions or 'True'})"
 
     def _condition(self, pieces: list[_Piece], column: int) -> str:
         sides, between = _divided(pieces, _RELATIONS)
         if not between:
-            raise self.latex.refusal(pieces[0].column, "this is no condition", "write x < a")
+            why = "this is not a condition"
+            raise self.latex.refusal(pieces[0].column, why, "write a relation, such as x < a")
         texts = [self._inner(side, column).text for side in sides]
         pairs = zip(between, texts[1:], strict=True)
         return texts[0] + "".join(f" {_RELATIONS[sign.text]} {text}" for sign, text in pairs)
@@ -630,7 +639,7 @@ _NOTHING = _Piece("", 0)
 
 
 def _divided(pieces: list[_Piece], at: object) -> tuple[list[list[_Piece]], list[_Piece]]:
-    """The pieces cut where one of these stands outside all groups, and what they are cut at."""
+    """Split the pieces at separators outside all groups; return the parts and the separators."""
     parts, between, depth = [list[_Piece]()], list[_Piece](), 0
     for piece in pieces:
         depth += (piece.text in _CLOSING) - (piece.text in _CLOSING.values())
@@ -647,7 +656,7 @@ def _in_braces(piece: _Piece) -> list[_Piece]:
 
 
 def _is_number_over_number(pieces: list[_Piece]) -> bool:
-    """Whether a fraction stands first, of two plain numbers; its braces are written already."""
+    """Whether the pieces start with a fraction of two numbers, with all braces in place."""
     if not pieces or pieces[0].text not in _FRACTIONS or len(pieces) < 7:
         return False
     return all(
@@ -657,5 +666,5 @@ def _is_number_over_number(pieces: list[_Piece]) -> bool:
 
 
 def _is_one(piece: _Piece) -> bool:
-    """Whether TeX takes it as a whole where there are no braces."""
+    """Whether TeX takes the piece as a whole if there are no braces."""
     return piece.is_mark and piece.size == 1

@@ -1,7 +1,7 @@
-"""Findings as one page of HTML, to be sent to a colleague or a journal, or printed.
+"""Render findings as one HTML page that can be printed or sent to a colleague or a journal.
 
-The page holds all that it needs.  LaTeX is typeset as MathML where latex2mathml is installed; what
-comes of it is taken only if it is plain MathML, as a paper's text could hold anything.
+The page is self-contained.  If latex2mathml is installed, LaTeX is typeset as MathML.  Its output
+is used only if it is plain MathML, because the text of a paper could contain anything.
 """
 
 import re
@@ -40,24 +40,24 @@ _FOR_THE_EYE = re.compile(
     r"\\(?:label|tag\*?)\s*\{[^{}]*\}|\\(?:nonumber|notag|displaystyle)(?![A-Za-z])"
 )
 _SAMPLES = 41
-"""Points of a curve."""
+"""Number of intervals into which the range of a curve is divided."""
 
 
 def as_html(paper: Paper, findings: Sequence[Finding]) -> str:
-    """The page: a summary, then every claim with its reasons."""
+    """Return the page: a summary, then every claim with its evidence."""
     title = escape(paper.title)
     rows = "".join(
         f'<tr><td><a href="#c{n}">{escape(each.claim.label)}</a></td>'
         f"<td>{escape(each.claim.place)}</td>{_verdict(each, 'td')}</tr>\n"
         for n, each in enumerate(findings)
     )
-    told = "".join(f"<li>{escape(line)}</li>" for line in signs(paper, findings))
+    sign_items = "".join(f"<li>{escape(line)}</li>" for line in signs(paper, findings))
     return (
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
         f"<style>{_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
         f"<p>{escape(summary(findings))}.</p>\n"
         f"<table><tr><th>claim</th><th>place</th><th>verdict</th></tr>\n{rows}</table>\n"
-        + (f"<h2>Signs, section by section</h2><ul>{told}</ul>\n" if told else "")
+        + (f"<h2>Signs, section by section</h2><ul>{sign_items}</ul>\n" if sign_items else "")
         + "".join(_section(n, each) for n, each in enumerate(findings))
         + "</body></html>\n"
     )
@@ -71,12 +71,17 @@ def _verdict(finding: Finding, tag: str) -> str:
 
 def _section(number: int, finding: Finding) -> str:
     claim, repair = finding.claim, finding.repair
-    told = corrected(finding)
+    corrected_text = corrected(finding)
     entries = [
         ("printed", _typeset(claim.latex) if claim.latex else ""),
         ("understood" if claim.latex else "printed", _code(printed(claim))),
         ("units", escape(claim.units)),
-        ("corrected", _typeset(as_displayed(repair)) + _code(told) if repair and told else ""),
+        (
+            "corrected",
+            _typeset(as_displayed(repair)) + _code(corrected_text)
+            if repair and corrected_text
+            else "",
+        ),
         ("differs by", escape(finding.diagnosis)),
         ("evidence", escape(evidence(finding))),
         ("consequence", escape(finding.claim.consequence)),
@@ -95,26 +100,26 @@ def _code(text: str) -> str:
 
 
 def _typeset(latex: str) -> str:
-    """LaTeX as MathML, or as it stands where that is not to be had."""
+    """Return LaTeX as MathML, or as code if it cannot be typeset."""
     plain = " ".join(_FOR_THE_EYE.sub(" ", latex).split())
     if find_spec("latex2mathml") is not None:
         from latex2mathml.converter import convert
 
-        ready = plain.replace(r"\mbox", r"\text").replace(r"\nicefrac", r"\frac")
-        if r"\begin" not in ready:
-            ready = ready.replace("&", " ").replace(r"\\", r"\qquad ")
+        prepared = plain.replace(r"\mbox", r"\text").replace(r"\nicefrac", r"\frac")
+        if r"\begin" not in prepared:
+            prepared = prepared.replace("&", " ").replace(r"\\", r"\qquad ")
         try:
-            made = str(convert(ready, display="block"))
-            tree = ElementTree.fromstring(made)
-        except Exception:  # whatever a paper holds, its text is shown
+            mathml = str(convert(prepared, display="block"))
+            tree = ElementTree.fromstring(mathml)
+        except Exception:  # fall back to the source text, whatever the paper contains
             return _code(plain)
         if all(_is_plain(each) for each in tree.iter()):
-            return made
+            return mathml
     return _code(plain)
 
 
 def _is_plain(element: ElementTree.Element) -> bool:
-    """Whether an element is MathML that neither runs nor fetches anything."""
+    """Whether an element is MathML that neither runs scripts nor loads resources."""
     safe = all(not name.startswith("on") and "href" not in name for name in element.attrib)
     return safe and isinstance(element.tag, str) and _TAGS.fullmatch(element.tag) is not None
 
@@ -123,7 +128,7 @@ def _is_plain(element: ElementTree.Element) -> bool:
 
 
 def _curves(finding: Finding) -> str:
-    """Both sides along one variable, where the claim fails and they are quick to compute."""
+    """Plot both sides along one variable, if the claim fails and holds no integral."""
     claim, pairs = finding.claim, finding.judged.pairs
     if finding.verdict != Verdict.FAILS or not pairs or has_integral(claim):
         return ""
@@ -138,38 +143,41 @@ def _curves(finding: Finding) -> str:
 
 
 def _line(finding: Finding, side: Expr, symbol: Symbol, point: Point) -> list[tuple[float, float]]:
-    """Real values of a side along a variable, from half of where it was looked at to twice."""
+    """Return the real values of one side along one variable.
+
+    The variable runs over its range, or from half to twice its value at `point`.
+    """
     span = finding.claim.ranges.get(symbol)
     low, high = (float(point[symbol]) * part for part in (0.5, 2))
     if span is not None and not span.powers:
         low, high = span.low, span.high
-    found = []
+    values = []
     for n in range(1, _SAMPLES):
-        place = {**point, symbol: mpmath.mpf(low + (high - low) * n / _SAMPLES)}
+        at = {**point, symbol: mpmath.mpf(low + (high - low) * n / _SAMPLES)}
         try:
-            value = evaluated(side, place)
+            value = evaluated(side, at)
         except Undecided:
             continue
-        if mpmath.im(value) == 0 and mpmath.isfinite(value) and is_allowed(finding.claim, place):
-            found.append((float(place[symbol]), float(mpmath.re(value))))
-    return found
+        if mpmath.im(value) == 0 and mpmath.isfinite(value) and is_allowed(finding.claim, at):
+            values.append((float(at[symbol]), float(mpmath.re(value))))
+    return values
 
 
 def _picture(name: str, lines: list[list[tuple[float, float]]]) -> str:
-    """Two curves in a frame, the left side full and the right one dashed."""
-    every = [place for line in lines for place in line]
-    (left, right), (low, high) = ((min(v), max(v)) for v in zip(*every, strict=True))
+    """Draw two curves in a frame, the left side solid and the right side dashed."""
+    vertices = [vertex for line in lines for vertex in line]
+    (left, right), (low, high) = ((min(v), max(v)) for v in zip(*vertices, strict=True))
     wide, tall = (right - left) or 1.0, (high - low) or 1.0
     drawn = ""
     for line, dash in zip(lines, ("", ' stroke-dasharray="6 4"'), strict=True):
-        places = " ".join(
+        polyline = " ".join(
             f"{20 + 360 * (x - left) / wide:.1f},{190 - 170 * (y - low) / tall:.1f}"
             for x, y in line
         )
-        drawn += f'<polyline fill="none" stroke="#333" points="{places}"{dash}/>'
+        drawn += f'<polyline fill="none" stroke="#333" points="{polyline}"{dash}/>'
     words = f"{escape(name)} from {left:.3g} to {right:.3g}; values from {low:.3g} to {high:.3g}"
     return (
         f'<svg viewBox="0 0 400 220"><rect x="20" y="20" width="360" height="170" fill="none" '
-        f'stroke="#bbb"/>{drawn}<text x="20" y="212" font-size="12">{words}; left side full, '
+        f'stroke="#bbb"/>{drawn}<text x="20" y="212" font-size="12">{words}; left side solid, '
         f"right side dashed</text></svg>"
     )

@@ -1,6 +1,6 @@
-"""Findings as rows, JSON, Markdown and LaTeX; the errata, and the explanation of one claim.
+"""Report findings as table rows, JSON, Markdown or LaTeX, list the errata, and explain one claim.
 
-A printed or a corrected equation is rendered from its expression and never typed.
+Printed and corrected equations are always rendered from their expressions.
 """
 
 import json
@@ -18,7 +18,7 @@ _SIGNS = {"<=": r"\le", ">=": r"\ge", "~": r"\sim"}
 
 
 def printed(claim: Claim) -> str:
-    """The printed equation as text; empty for a claim without one."""
+    """Return the printed equation as text, or an empty string if the claim has none."""
     return claim.source if claim.unchecked else claim.source or _text(claim, claim.relation)
 
 
@@ -27,18 +27,21 @@ def _text(equation: Claim | Repair, relation: Relation) -> str:
 
 
 def latex_of_equation(equation: Claim | Repair, relation: Relation) -> str:
-    """An equation, or one that is proposed for it, in LaTeX."""
+    """Return a printed or a corrected equation with the given relation, in LaTeX."""
     sign = _SIGNS.get(relation, relation)
     return rf"{_of(equation.left)} {sign} {_of(equation.right)}"
 
 
 def _of(expr: Expr) -> str:
-    """`expr` in LaTeX, Delta_Q as a difference and g_prime with its prime."""
+    """Return `expr` in LaTeX, with Delta_Q as a difference and g_prime with a prime."""
     return latex_of(expr.xreplace({s: Symbol(_spelled(s.name)) for s in expr.free_symbols}))
 
 
 def _spelled(name: str) -> str:
-    """Braces keep SymPy from spelling a name its own way; a call of a formula stays one."""
+    """Spell a name in LaTeX.
+
+    Braces prevent SymPy from changing the spelling.  A call of a formula is kept as a call.
+    """
     if "(" in name:
         return rf"\mathtt{{{_plain(name)}}}"
     stem, _, rest = name.partition("_")
@@ -50,18 +53,18 @@ def _spelled(name: str) -> str:
 
 
 def as_displayed(equation: Claim | Repair) -> str:
-    """An equation in LaTeX."""
+    """Return a printed or a corrected equation with its own relation, in LaTeX."""
     return latex_of_equation(equation, equation.relation)
 
 
 def corrected(finding: Finding) -> str | None:
-    """The corrected equation as text, if one was found."""
+    """Return the corrected equation as text, or None if none was found."""
     repair = finding.repair
     return _text(repair, repair.relation) if repair else None
 
 
 def evidence(finding: Finding) -> str:
-    """What the verdict rests on, in one paragraph."""
+    """Return the evidence for the verdict, in one paragraph."""
     claim = finding.claim
     units = [f"its units do not fit: {claim.units}"] if claim.units else []
     if claim.unchecked:
@@ -77,7 +80,7 @@ def evidence(finding: Finding) -> str:
     if finding.diagnosis:
         parts.append(finding.diagnosis)
     if finding.tried:
-        parts.append(f"tried: {_tried(finding.tried)}")
+        parts.append(f"corrections tried: {_tried(finding.tried)}")
     if finding.stopped:
         parts.append(f"the search for a correction: {finding.stopped}")
     return "; ".join(parts)
@@ -89,30 +92,33 @@ def _changes(repair: Repair) -> str:
 
 
 def _tried(tried: Counter[str]) -> str:
-    return ", ".join(f"{count} by {kind}" for kind, count in sorted(tried.items()))
+    return ", ".join(f"{count} of kind {kind}" for kind, count in sorted(tried.items()))
 
 
 def summary(findings: Sequence[Finding]) -> str:
-    """How many claims have which verdict."""
-    counted = Counter(finding.verdict for finding in findings)
-    told = ", ".join(f"{counted[verdict]} {verdict}" for verdict in Verdict if counted[verdict])
-    return f"{len(findings)} claims: {told}"
+    """Return the number of claims for each verdict, in words."""
+    totals = Counter(finding.verdict for finding in findings)
+    counts = ", ".join(f"{totals[verdict]} {verdict}" for verdict in Verdict if totals[verdict])
+    return f"{len(findings)} claims: {counts}"
 
 
 def unexpected(findings: Iterable[Finding]) -> list[Finding]:
-    """Verdicts that differ from those that were recorded, or errors nobody has seen yet."""
+    """Return the findings whose verdicts differ from the expected ones.
+
+    Without an expected verdict, a finding is unexpected if the claim does not hold.
+    """
     return [finding for finding in findings if not finding.as_expected]
 
 
 def errata(findings: Iterable[Finding]) -> list[Finding]:
-    """Claims that do not hold as they are printed."""
+    """Return the findings for claims that are not true as printed."""
     wrong = (Verdict.CONVENTION, Verdict.FAILS)
     return [finding for finding in findings if finding.verdict in wrong]
 
 
 def remarks(findings: Iterable[Finding]) -> list[tuple[Finding, str]]:
-    """What is to be said of a claim that is not true as printed, or not checked, in one line."""
-    told = []
+    """Return one line for each claim that is not true as printed, is unchecked, or mixes units."""
+    lines = []
     for finding in findings:
         parts = [f"its units do not fit, {finding.claim.units}"] if finding.claim.units else []
         if finding.verdict == Verdict.UNCHECKED:
@@ -122,8 +128,8 @@ def remarks(findings: Iterable[Finding]) -> list[tuple[Finding, str]]:
         elif finding.verdict == Verdict.FAILS:
             parts.append(corrected(finding) or finding.diagnosis or "no correction was found")
         if parts:
-            told.append((finding, "; ".join(parts)))
-    return told
+            lines.append((finding, "; ".join(parts)))
+    return lines
 
 
 _SENSES = {
@@ -135,24 +141,24 @@ _SENSES = {
 
 
 def signs(paper: Paper, findings: Iterable[Finding]) -> list[str]:
-    """For each quantity: the places that agree, those that turn it round, those that do neither."""
-    found = {finding.claim.label: finding for finding in findings}
+    """List the places in the paper that give a quantity one sign, the opposite one or neither."""
+    by_label = {finding.claim.label: finding for finding in findings}
     lines = []
     for quantity, labels in paper.signs.items():
         senses: dict[str, list[str]] = {}
         for label in labels:
-            if label in found:
-                sense = _SENSES.get(found[label].verdict, "unchecked")
-                senses.setdefault(sense, []).append(found[label].claim.place)
+            if label in by_label:
+                sense = _SENSES.get(by_label[label].verdict, "unchecked")
+                senses.setdefault(sense, []).append(by_label[label].claim.place)
         if senses:
-            told = "; ".join(f"{sense} in {', '.join(p)}" for sense, p in senses.items())
-            lines.append(f"{quantity}: {told}")
+            by_sense = "; ".join(f"{sense} in {', '.join(p)}" for sense, p in senses.items())
+            lines.append(f"{quantity}: {by_sense}")
     return lines
 
 
 def as_json(findings: Iterable[Finding]) -> str:
-    """A list of objects, one a claim."""
-    told = [
+    """Return the findings as a JSON list with one object for each claim."""
+    objects = [
         {
             "label": finding.claim.label,
             "place": finding.claim.place,
@@ -170,23 +176,23 @@ def as_json(findings: Iterable[Finding]) -> str:
         }
         for finding in findings
     ]
-    return json.dumps(told, indent=2, ensure_ascii=False)
+    return json.dumps(objects, indent=2, ensure_ascii=False)
 
 
 # ------------------------------------------------------------------ documents
 
 
 def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
-    """A table of all verdicts, the signs section by section, and the errata."""
+    """Return a table of all verdicts, the signs section by section, and the errata, in Markdown."""
     lines = [f"# {paper.title}", "", summary(findings) + ".", ""]
     lines += ["| claim | place | says | verdict |", "| --- | --- | --- | --- |"]
     for finding in findings:
         claim = finding.claim
         cells = (f"`{claim.label}`", claim.place, claim.says, str(finding.verdict))
         lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
-    if told_signs := signs(paper, findings):
+    if sign_lines := signs(paper, findings):
         lines += ["", "## Signs, section by section", ""]
-        lines += [f"- {line}" for line in told_signs]
+        lines += [f"- {line}" for line in sign_lines]
     unchecked = [finding for finding in findings if finding.verdict == Verdict.UNCHECKED]
     if open_claims := [f"{each.claim.label}: {each.judged.why}" for each in unchecked]:
         lines += ["", "## Not checked", "", *(f"- {line}" for line in open_claims)]
@@ -200,8 +206,8 @@ def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
                 f"- corrected: ${latex_of_equation(finding.repair, finding.repair.relation)}$"
             )
         lines.append(f"- evidence: {evidence(finding)}")
-        if told := finding.claim.consequence:
-            lines.append(f"- consequence: {told}")
+        if consequence := finding.claim.consequence:
+            lines.append(f"- consequence: {consequence}")
         lines.append("")
     return "\n".join(lines)
 
@@ -226,13 +232,13 @@ _ESCAPED = {
 
 
 def _plain(text: str) -> str:
-    """Text for LaTeX."""
+    """Escape text for LaTeX."""
     without = text.replace("\\", r"\textbackslash ")
     return "".join(_ESCAPED.get(character, character) for character in without)
 
 
 def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
-    """A document: a long table of all verdicts, the signs section by section, and the errata."""
+    """Return a LaTeX document with all verdicts, the signs section by section, and the errata."""
     lines = [
         r"\documentclass{article}",
         r"\usepackage{amsmath,longtable}",
@@ -246,9 +252,9 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
         claim = finding.claim
         lines.append(rf"{_plain(claim.place)} & {_plain(claim.says)} & {finding.verdict} \\")
     lines.append(r"\end{longtable}")
-    if told_signs := signs(paper, findings):
+    if sign_lines := signs(paper, findings):
         lines.append(r"\section*{Signs, section by section}")
-        lines += [rf"\noindent {_plain(line)}\par" for line in told_signs]
+        lines += [rf"\noindent {_plain(line)}\par" for line in sign_lines]
     lines.append(r"\section*{Errata}")
     for finding in errata(findings):
         lines += [rf"\subsection*{{{_plain(finding.claim.place)}: {_plain(finding.claim.says)}}}"]
@@ -256,8 +262,8 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
         if finding.repair:
             lines += ["Corrected:", *_display(finding.repair, finding.repair.relation)]
         lines.append(rf"Evidence: {_plain(evidence(finding))}.")
-        if told := finding.claim.consequence:
-            lines.append(rf"\par Consequence: {_plain(told)}.")
+        if consequence := finding.claim.consequence:
+            lines.append(rf"\par Consequence: {_plain(consequence)}.")
     return "\n".join([*lines, r"\end{document}", ""])
 
 
@@ -271,16 +277,16 @@ def _display(equation: Claim | Repair, relation: Relation) -> list[str]:
     return [r"\begin{equation*}", latex_of_equation(equation, relation), r"\end{equation*}"]
 
 
-# ------------------------------------------------------------------ for a reader who doubts
+# ------------------------------------------------------------------ explanation of one claim
 
 _SHOWN = 6
-"""Points that an explanation shows."""
+"""The number of points that an explanation shows."""
 
 
 def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
-    """Headings and lines: what was compared, by which steps, and the numbers."""
+    """Return headings with their lines: what was compared, how, and with which result."""
     claim = finding.claim
-    told = [
+    entries = [
         ("says", [claim.says, claim.place]),
         ("printed", [printed(claim) or "no equation"]),
         ("compared with", [claim.against] if claim.against else []),
@@ -291,18 +297,18 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
         ("corrected", _correction(finding)),
         ("consequence", [finding.claim.consequence]),
     ]
-    return [(heading, lines) for heading, lines in told if any(lines)]
+    return [(heading, lines) for heading, lines in entries if any(lines)]
 
 
 def _held(claim: Claim) -> list[Symbol]:
-    """The symbols of a claim's equation that stand for something else."""
+    """Return the symbols of a claim's equation that the claims file gives a meaning."""
     sides = (*claim.sides(claim.left, claim.right), claim.left, claim.right)
     held = set().union(*(side.free_symbols for side in sides))
     return [symbol for symbol in claim.meaning if symbol in held]
 
 
 def numbers(finding: Finding) -> list[tuple[str, str, str]]:
-    """The first points, and both sides there."""
+    """Return the first points and the values of both sides there."""
     return [
         (
             ", ".join(f"{s} = {mpmath.nstr(v, 6)}" for s, v in pair.point.items()),
@@ -322,12 +328,12 @@ def _convention(finding: Finding) -> list[str]:
 
 
 def _correction(finding: Finding) -> list[str]:
-    told = [f"tried: {_tried(finding.tried)}"] if finding.tried else []
+    tried = [f"corrections tried: {_tried(finding.tried)}"] if finding.tried else []
     if finding.stopped:
-        return [f"the search for one: {finding.stopped}"]
+        return [f"the search for a correction: {finding.stopped}"]
     if finding.repair is None:
-        said = [finding.diagnosis] if finding.diagnosis else []
-        return [*said, *told, "none of these is true"] if told else said
+        diagnosis = [finding.diagnosis] if finding.diagnosis else []
+        return [*diagnosis, *tried, "none of them is true"] if tried else diagnosis
     repair = finding.repair
     equation = _text(repair, repair.relation)
-    return [equation, _changes(repair), f"{repair.judged.verdict}: {repair.judged.why}", *told]
+    return [equation, _changes(repair), f"{repair.judged.verdict}: {repair.judged.why}", *tried]

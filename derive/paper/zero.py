@@ -1,8 +1,9 @@
-"""Whether an expression vanishes identically, by exact steps alone.
+"""Decide by exact steps alone whether an expression vanishes identically.
 
-Each step keeps the value, so a zero at its end is a proof, and another number a disproof; anything
-else says nothing.  What has no derivative vanishes where it does so at one place, if it is shown to
-be continuous between there and everywhere else.  What is too long is left alone.
+No step changes the value.  A result of zero is therefore a proof, and any other number is a
+disproof; every other result is inconclusive.  An expression whose derivative is zero vanishes
+everywhere if it vanishes at one point, provided that it is shown to be continuous over its whole
+range.  Expressions that are too long are not examined.
 """
 
 from collections.abc import Callable, Mapping
@@ -33,17 +34,17 @@ from derive.paper.domain import is_continuous
 from derive.writing.limits import terms
 
 _LONGEST = 400
-"""Operations up to which an expression is worked on."""
+"""The largest number of operations in an expression that is examined."""
 _MOST_TERMS = 50_000
-"""Terms that it may have when it is multiplied out, by a bound known before that is done."""
+"""The largest number of terms after expansion, by a bound computed before the expansion."""
 _SHORT = 90
-"""Operations up to which SymPy's own search for a simpler form is tried."""
+"""The largest number of operations for which `simplify` and `trigsimp` are tried."""
 
 
 def vanishes(expr: Expr, ranges: Mapping[Symbol, Range]) -> str:
-    """How `expr` was shown to vanish; empty if it was not.
+    """Return how `expr` was shown to vanish, or an empty string if it was not.
 
-    ranges: every variable with where it may be.
+    ranges: the range of every variable.
     """
     if _is_too_long(expr):
         return ""
@@ -52,11 +53,11 @@ def vanishes(expr: Expr, ranges: Mapping[Symbol, Range]) -> str:
     if not is_continuous(expr, ranges):
         return ""
     for variable, span in ranges.items():
-        place = span.place
+        value = span.place
         if expr.has(variable) and _is_zero(diff(_plain(expr), variable)):
-            held_at = expr.subs(variable, place)
+            held_at = expr.subs(variable, value)
             if _is_zero(held_at):
-                return f"the difference does not change with {variable}, and is zero at {place}"
+                return f"the difference does not depend on {variable} and is zero at {value}"
             expr = held_at
     return ""
 
@@ -68,7 +69,7 @@ def vanishes_at(expr: Expr, point: Mapping[Symbol, Rational]) -> bool:
 
 
 def constant(expr: Expr) -> Expr | None:
-    """The number other than zero that `expr` is shown to be; None if it is not."""
+    """Return the nonzero number that `expr` is shown to equal, or None."""
     if _is_too_long(expr):
         return None
     left = _reduced(expr)
@@ -80,7 +81,7 @@ def _is_too_long(expr: Expr) -> bool:
 
 
 def _plain(expr: Expr) -> Expr:
-    """log f for log|f|: the derivative of both is f'/f where f is not zero."""
+    """Replace log|f| by log f; both have the derivative f'/f where f is not zero."""
     return expr.replace(
         lambda n: isinstance(n, log) and isinstance(n.args[0], Abs),
         lambda n: log(n.args[0].args[0]),
@@ -92,7 +93,7 @@ def _is_zero(expr: Expr) -> bool:
 
 
 def _reduced(expr: Expr) -> Expr:
-    """What is left of `expr` after all steps, or once it is a rational number."""
+    """Apply all steps to `expr`, and stop early if it becomes a rational number."""
     for step in _STEPS:
         if expr.is_Rational:
             return expr
@@ -103,7 +104,7 @@ def _reduced(expr: Expr) -> Expr:
 
 
 def _angles(expr: Expr) -> Expr:
-    """Sums inside functions opened, then functions of sums of angles."""
+    """Expand the arguments of functions, then the functions of sums of angles."""
     return expand_trig(
         expr.replace(
             lambda n: n.is_Function and not n.is_Piecewise, lambda n: n.func(*map(expand, n.args))
@@ -112,7 +113,7 @@ def _angles(expr: Expr) -> Expr:
 
 
 def _roots(expr: Expr) -> Expr:
-    """Every radicand as one factored quotient."""
+    """Write every radicand as one factored quotient."""
     return expr.replace(
         lambda n: isinstance(n, Pow) and n.exp.is_Rational and n.exp.q == 2,
         lambda n: powdenest(factor(cancel(together(n.base))) ** n.exp, force=False),
@@ -120,7 +121,7 @@ def _roots(expr: Expr) -> Expr:
 
 
 def _functions(expr: Expr) -> Expr:
-    """Every argument of a function as one quotient, so that equal ones look equal."""
+    """Write every function argument as one quotient, so that equal arguments look equal."""
     return expr.replace(
         lambda n: n.is_Function and not n.is_Piecewise,
         lambda n: n.func(*(factor(cancel(together(radsimp(_roots(arg))))) for arg in n.args)),
