@@ -1,7 +1,7 @@
-"""How a function of float64 serves everything that broadcasts.
+"""Evaluation of a function of float64 for all arguments that broadcast.
 
-A formula's temporaries are as large as its argument.  Long arrays are cut into blocks, whose
-temporaries stay in the processor's cache.
+The temporaries of a formula are as large as its argument.  Long arrays are cut into blocks, so that
+the temporaries of one block stay in the processor's cache.
 """
 
 import math
@@ -18,34 +18,35 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 Numbers = dict[str, Any]
 
 BLOCK = 16_384
-"""Elements evaluated at once."""
+"""Number of elements evaluated at once."""
 
 _FLOAT64 = np.dtype(np.float64)
 _OWN = (np.ndarray, np.generic)
 
 
 def elementwise(function: Function) -> Function:
-    """Let a formula of float64 take numbers and arrays of any real type, and long arrays in blocks.
+    """Let a formula for float64 take numbers and arrays of any real type, long arrays in blocks.
 
-    Keyword-only arguments are material and geometry: NaN unless positive and finite.  Dask arrays
-    stay lazy.  Arrays of other libraries that follow NumPy's protocols are computed by these.  No
-    floating-point warning leaves the call: what does not exist is NaN.
+    Keyword-only arguments are constants of the material and the geometry: they become NaN unless
+    positive and finite.  Dask arrays stay lazy.  Arrays of other libraries that follow NumPy's
+    protocols are computed by those libraries.  No call raises a floating-point warning: a result
+    that does not exist is NaN.
 
-    The function raises TypeError for what is no real number, ValueError for shapes that do not
-    broadcast.
+    The decorated function raises TypeError for an argument that is not a real number, and
+    ValueError for shapes that do not broadcast.
     """
-    called = signature(function)
-    positive = {n for n, p in called.parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
-    names = tuple(n for n in called.parameters if n not in positive)
-    defaults = {n: p.default for n, p in called.parameters.items() if p.default is not p.empty}
-    kind = called.return_annotation if hasattr(called.return_annotation, "_fields") else None
+    expected = signature(function)
+    positive = {n for n, p in expected.parameters.items() if p.kind is Parameter.KEYWORD_ONLY}
+    names = tuple(n for n in expected.parameters if n not in positive)
+    defaults = {n: p.default for n, p in expected.parameters.items() if p.default is not p.empty}
+    kind = expected.return_annotation if hasattr(expected.return_annotation, "_fields") else None
 
     @wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
         given = defaults | dict(zip(names, args, strict=False)) | kwargs
-        if len(args) + len(kwargs) > len(given) or len(given) != len(called.parameters):
-            called.bind(*args, **kwargs)  # raises, in Python's words
-        numbers = {name: real(given[name], name) for name in called.parameters}
+        if len(args) + len(kwargs) > len(given) or len(given) != len(expected.parameters):
+            expected.bind(*args, **kwargs)  # raises Python's own error
+        numbers = {name: real(given[name], name) for name in expected.parameters}
         for name in positive:
             numbers[name] = positive_or_nan(numbers[name])
         if any_lazy(numbers.values()):
@@ -57,29 +58,29 @@ def elementwise(function: Function) -> Function:
 
 
 def evaluated(function: Callable[..., Any], numbers: Numbers, kind: Any, block: int) -> Any:
-    """A function of float64 at all elements of what broadcasts, `block` of them at a time.
+    """Evaluate a function of float64 on broadcast arguments, `block` elements at a time.
 
-    kind: the named tuple that it returns, None for an array.
+    kind: the named tuple that the function returns, or None for an array.
     """
     count = 1 if kind is None else len(kind._fields)
     with np.errstate(all="ignore"):
         if set(map(type, numbers.values())) == {np.float64}:
             result = function(**numbers)
-            found = [np.float64(v) for v in (result if count > 1 else (result,))]
-            return found[0] if kind is None else kind(*found)
+            values = [np.float64(v) for v in (result if count > 1 else (result,))]
+            return values[0] if kind is None else kind(*values)
         shape = shape_of(numbers)
         if any(map(is_foreign, numbers.values())):
             return function(**numbers)
         if math.prod(shape) > block:
-            found = _in_blocks(function, numbers, count, block)
+            values = _in_blocks(function, numbers, count, block)
         else:
             result = function(**numbers)
-            found = [_shaped(v, shape) for v in (result if count > 1 else (result,))]
-    return found[0] if kind is None else kind(*found)
+            values = [_shaped(v, shape) for v in (result if count > 1 else (result,))]
+    return values[0] if kind is None else kind(*values)
 
 
 def _shaped(value: Any, shape: tuple[int, ...]) -> Any:
-    """A result in the shape of the arguments."""
+    """A result broadcast to the shape of the arguments."""
     return value if np.shape(value) == shape else np.broadcast_to(value, shape).copy()
 
 
@@ -104,9 +105,9 @@ def _in_blocks(function: Callable[..., Any], numbers: Numbers, count: int, block
 
 
 def shape_of(numbers: Mapping[str, Any]) -> tuple[int, ...]:
-    """The shape to which all broadcast; a length that Dask does not know yet agrees with all.
+    """The common shape of the arguments; a length that Dask does not know yet agrees with any.
 
-    Raises ValueError with their names and shapes if there is none.
+    Raises ValueError with the names and shapes of the arguments if there is no common shape.
     """
     shapes = {value.shape for value in numbers.values()}
     if len(shapes) == 1:
@@ -114,33 +115,33 @@ def shape_of(numbers: Mapping[str, Any]) -> tuple[int, ...]:
     try:
         return np.broadcast_shapes(*(tuple(1 if n != n else n for n in shape) for shape in shapes))
     except ValueError:
-        told = ", ".join(f"{name} {v.shape}" for name, v in numbers.items() if v.ndim)
+        listed = ", ".join(f"{name} {v.shape}" for name, v in numbers.items() if v.ndim)
         raise ValueError(
-            f"the arguments must broadcast to one shape; their shapes are {told}"
+            f"the arguments must broadcast to one shape; their shapes are {listed}"
         ) from None
 
 
 def positive_or_nan(value: Any) -> Any:
-    """A constant of the material or the geometry, NaN unless it is positive and finite."""
+    """A constant of the material or the geometry; NaN unless it is positive and finite."""
     if type(value) is np.float64:
         return value if 0 < value < np.inf else np.float64(np.nan)
     if is_lazy(value):
-        return value  # each chunk is tested when it is there
+        return value  # each chunk is tested when it is computed
     return np.where((value > 0) & (value < np.inf), value, np.nan)
 
 
 def is_foreign(value: Any) -> bool:
-    """Whether it is an array of another library that follows NumPy's protocols."""
+    """Whether the value is an array of another library that follows NumPy's protocols."""
     return not isinstance(value, _OWN) and hasattr(value, "__array_function__")
 
 
 def real(value: Any, label: str) -> Any:
-    """A real number as np.float64, anything else as an array of float64; masked elements are NaN.
+    """A real number as np.float64, anything else as a float64 array with NaN for masked elements.
 
-    A Dask array is left as it is: each chunk becomes float64 when it is there.  So is a long array
-    of another real type: each block does.
+    A Dask array is returned as it is: each chunk is converted to float64 when it is computed.  A
+    long array of another real type is also returned as it is: each block is converted.
 
-    Raises TypeError for what is no real number.
+    Raises TypeError for anything that is not a real number.
     """
     if type(value) is float or type(value) is np.float64:
         return np.float64(value)
@@ -157,6 +158,8 @@ def real(value: Any, label: str) -> Any:
         with np.errstate(all="ignore"):
             numbers = array.astype(np.float64)
     except (AttributeError, TypeError, ValueError):
-        found = f"{type(value).__name__} {value!r:.60}"
-        raise TypeError(f"{label} must be a real number or an array of such; got {found}") from None
+        shown = f"{type(value).__name__} {value!r:.60}"
+        raise TypeError(
+            f"{label} must be a real number or an array of real numbers; got {shown}"
+        ) from None
     return numbers if foreign else np.asarray(np.ma.filled(numbers, np.nan))[()]

@@ -1,7 +1,7 @@
-"""One body as the runtime knows it: its law, its parameters, and its functions of a whole cycle.
+"""One body as the runtime sees it: its law, its parameters, and its functions of a whole cycle.
 
-A generated module makes one `Body` and binds the functions of cycle.py to it.  Its formulas are
-compiled, and the solvers loaded, when one of these is called for the first time.
+A generated module creates one `Body` and binds the functions of cycle.py to it.  The body's
+formulas are compiled, and the solvers loaded, when one of these functions is first called.
 """
 
 import importlib
@@ -22,11 +22,11 @@ from .chunks import any_lazy, is_lazy, over_chunks
 _SHAPES = "Arguments broadcast; results are float64 of the broadcast shape."
 
 CASES = 65_536
-"""Cases that are solved in one piece."""
+"""Number of cases that are solved in one piece."""
 
 
 class Parameter(NamedTuple):
-    """A parameter of a body: its name, what it means, its unit."""
+    """A parameter of a body: its name, its meaning, its unit."""
 
     name: str
     meaning: str
@@ -34,7 +34,7 @@ class Parameter(NamedTuple):
 
 
 class Example(NamedTuple):
-    """A contact in plain numbers, for E* = 1: what the docstrings' examples are made of.
+    """A contact in plain numbers, for E* = 1, from which the examples in docstrings are made.
 
     law      E* and the parameters, as a call has them
     edges    a and c
@@ -49,25 +49,25 @@ class Example(NamedTuple):
 
     @property
     def words(self) -> dict[str, str]:
-        """What stands in the examples, by name; f = 1/2, so that dQ/(2 f) is dQ."""
+        """The texts that fill the examples, by name; f = 1/2, so that dQ/(2 f) is dQ."""
         load, moment, tilt = self.carried
         dQ, h = float(f"{load / 8:.2g}"), sum(self.edges)
         numbers = dict(load=load, moment=moment, alpha=tilt, reduced=load - dQ)
         numbers |= dict(threshold=8 * dQ / (math.pi * h))
-        found = {name: f"{value:.6g}" for name, value in numbers.items()}
+        texts = {name: f"{value:.6g}" for name, value in numbers.items()}
         slip = [f"{2 * dQ / (math.pi * math.sqrt(h) * k):.6g}" for k in self.K_N]
         edges = ", ".join(map(repr, self.edges))
-        return found | dict(law=self.law, edges=edges, dQ=repr(dQ), slip=str(slip))
+        return texts | dict(law=self.law, edges=edges, dQ=repr(dQ), slip=str(slip))
 
 
 class Body:
-    """A body: functions of one contact for E* = 1, written for numbers, and what belongs to them.
+    """A body: functions of one contact for E* = 1, written for numbers, with their parameters.
 
     functions   pressure, state, slope, series and breaks, as `kernels.Law` describes them
     origin      the file that g(x) came from
-    example     what the examples of its functions are made of
-    parameters  of the geometry, in the order in which those functions find them
-    demands     what its parameters must meet besides being positive, in words
+    example     the contact from which the examples in docstrings are made
+    parameters  of the geometry, in the order in which those functions receive them
+    demands     conditions on the parameters besides being positive, in words
     """
 
     def __init__(
@@ -86,13 +86,13 @@ class Body:
 
     @cached_property
     def law(self) -> Any:
-        """The body's functions, compiled, as the kernels take them."""
+        """The body's compiled functions, in the form that the kernels take."""
         kernels = importlib.import_module(".kernels", __package__)
         with self._lock:
             return kernels.handed(kernels.Law(**self.functions))
 
     def bound(self, function: Callable[..., Any]) -> Callable[..., Any]:
-        """A function of cycle.py for this body, the body's parameters keyword-only arguments."""
+        """A function of cycle.py for this body; the body's parameters become keyword-only."""
 
         def call(*args: Any, **kwargs: Any) -> Any:
             if not self._names <= kwargs.keys():
@@ -107,12 +107,12 @@ class Body:
         arguments = [*others, *own, *optional]
         call.__signature__ = signature(function).replace(parameters=arguments)  # type: ignore[attr-defined]
         call.__name__ = call.__qualname__ = function.__name__
-        call.__module__ = self.functions["state"].__module__  # by which Dask's workers find it
+        call.__module__ = self.functions["state"].__module__  # where Dask's workers find it
         call.__doc__ = self._described(function, arguments)
         return call
 
     def _described(self, function: Callable[..., Any], arguments: list[Argument]) -> str:
-        """The function's docstring with its arguments, and an example in the body's numbers."""
+        """The function's docstring with its arguments and an example in the body's numbers."""
         words = importlib.import_module(".words", __package__)
         name = function.__name__
         meanings = {p.name: f"{p.meaning} [{p.unit}]" for p in self.parameters}
@@ -132,7 +132,7 @@ class Body:
 
 
 def sentence(words: str) -> str:
-    """A few words with a capital, unless a name comes first, and a full stop.
+    """A phrase with a full stop, and a capital letter unless it begins with a name.
 
     >>> sentence("normal load"), sentence("dQ falls"), sentence("E*, say")
     ('Normal load.', 'dQ falls.', 'E*, say.')
@@ -160,12 +160,12 @@ class Asked(NamedTuple):
         by_modulus: bool = False,
         options: Mapping[str, Any] | None = None,
     ) -> Any:
-        """What a loop kernel finds at all cases of what broadcasts.
+        """Run a loop kernel on all cases of the broadcast arguments.
 
-        loop: the kernel by its module and name.
+        loop: the kernel, by its module and name.
         constants: E_star, and f where it is needed.
-        row: names of what the kernel is handed of each case; the options follow.
-        over_modulus: names of what is handed over divided by E*.
+        row: names of the values that the kernel takes for each case; the options follow them.
+        over_modulus: names of the values that are divided by E* before the kernel is called.
         by_modulus: whether the results are multiplied by E*.
         """
         options = options or {}
@@ -195,31 +195,31 @@ class Asked(NamedTuple):
                 out,
             )
             factor = part["E_star"] if by_modulus else 1.0
-            found = [out[:, i].reshape(shape) * factor for i in range(count)]
-            return found if count > 1 else found[0]
+            columns = [out[:, i].reshape(shape) * factor for i in range(count)]
+            return columns if count > 1 else columns[0]
 
         return evaluated(rows, numbers, kind, CASES)
 
 
 def numbers_of(given: Mapping[str, Any], constants: Mapping[str, Any]) -> Numbers:
-    """Everything as float64, constants NaN unless positive and finite.
+    """All values as float64; constants become NaN unless positive and finite.
 
-    Raises TypeError for what is no real number, and for arrays of other libraries than NumPy and
-    Dask.
+    Raises TypeError for anything that is not a real number, and for arrays of libraries other than
+    NumPy and Dask.
     """
     numbers = {name: real(value, name) for name, value in given.items()}
     numbers |= {name: positive_or_nan(real(value, name)) for name, value in constants.items()}
     for name, value in numbers.items():
         if is_foreign(value) and not is_lazy(value):
             raise TypeError(
-                "what is solved or integrated takes NumPy and Dask arrays alone, explicit formulas "
-                f"others, too; {name} is a {type(value).__module__}.{type(value).__name__}"
+                "functions that solve or integrate accept only NumPy and Dask arrays, and "
+                f"{name} is a {type(value).__module__}.{type(value).__name__}: convert it to NumPy"
             )
     return numbers
 
 
 def with_options(call: Callable[..., Any], options: Mapping[str, Any]) -> Callable[..., Any]:
-    """The function with its options; it keeps its name, by which Dask calls its tasks."""
+    """The function with its options; it keeps its name, which Dask uses to name its tasks."""
 
     def chosen(**given: Any) -> Any:
         return call(**given, **options)
@@ -230,6 +230,6 @@ def with_options(call: Callable[..., Any], options: Mapping[str, Any]) -> Callab
 
 @cache
 def kernel_of(loop: str) -> Any:
-    """A kernel, from its module in this package and its name: "inverse.each_contact"."""
+    """A kernel by its module in this package and its name, such as "inverse.each_contact"."""
     module, _, name = loop.rpartition(".")
     return getattr(importlib.import_module(f".{module}", __package__), name)

@@ -1,6 +1,6 @@
-"""Dask arrays, chunk by chunk: the functions for NumPy arrays, for arrays that are not there yet.
+"""Dask arrays, chunk by chunk: apply the functions for NumPy arrays to arrays not yet computed.
 
-Nothing of Dask is imported; whoever hands over such an array has loaded it.
+Nothing is imported from Dask; a caller that passes such an array has already loaded it.
 """
 
 import sys
@@ -16,39 +16,40 @@ Array = Any
 
 
 def is_lazy(value: Any) -> bool:
-    """Whether it is a Dask array."""
+    """Whether the value is a Dask array."""
     dask = sys.modules.get("dask.array")
     return dask is not None and isinstance(value, dask.Array)
 
 
 def any_lazy(values: Iterable[Any]) -> bool:
-    """Whether any of them is a Dask array."""
+    """Whether any of the values is a Dask array."""
     return "dask.array" in sys.modules and any(map(is_lazy, values))
 
 
 def demand_array(value: Any, label: str) -> None:
-    """Raises TypeError for what is lazy, and no Dask array: it would be computed as a whole."""
+    """Raise TypeError for a lazy value other than a Dask array: it would be computed as a whole."""
     graph = getattr(value, "__dask_graph__", None)
     if graph is not None and not is_lazy(value) and graph() is not None:
         raise TypeError(
-            f"{label} is lazy, but no Dask array; got {type(value).__name__}: give the array in "
-            "it, .data of xarray, .to_dask_array(lengths=True) of a data frame, or "
-            "dask.array.from_delayed of a task"
+            f"{label} is lazy but not a Dask array; got {type(value).__name__}: pass the Dask "
+            "array in it, from .data of an xarray object, .to_dask_array(lengths=True) of a data "
+            "frame, or dask.array.from_delayed of a task"
         )
 
 
 def over_chunks(
     function: Callable[..., Any], given: Mapping[str, Any], in_time: bool = False
 ) -> Any:
-    """What `function` makes of arguments some of which are lazy: lazy, and of the same kind.
+    """Apply `function` to arguments of which some are lazy; the result is lazy in the same way.
 
     given: numbers and arrays that broadcast, by name; "first.a" is the field a of `first`.
-    in_time: whether the last axis is time, and must lie in one chunk.
+    in_time: whether the last axis is time and must therefore lie in one chunk.
 
-    Chunks are unified as for Dask's own functions.  All fields of a chunk's result are one task.
-    What `function` makes of no elements tells the kinds of its results, and what it refuses.
+    Chunks are unified as in Dask's own functions.  All fields of a chunk's result are one task.
+    A call of `function` with empty arrays determines the types of the results, and raises the
+    errors of invalid arguments at once.
 
-    Raises ValueError for time in several chunks.
+    Raises ValueError if time lies in several chunks.
     """
     names = tuple(given)
     instants = _instants(given) if in_time else 0
@@ -58,7 +59,7 @@ def over_chunks(
     axes = _axes(max(_ndim(v) for v in given.values()))
     pairs = [x for v in given.values() for x in (v, _axes(_ndim(v)) if _is_array(v) else None)]
     name, many = function.__name__, isinstance(sample, tuple)
-    made = blockwise(
+    chunked = blockwise(
         _on_chunk,
         axes,
         *pairs,
@@ -68,17 +69,17 @@ def over_chunks(
         meta=sample[0] if many else sample,
     )
     if not many:
-        return made
+        return chunked
     return type(sample)(
         *(
-            blockwise(itemgetter(i), axes, made, axes, token=f"{name}-{field}", meta=sample[i])
+            blockwise(itemgetter(i), axes, chunked, axes, token=f"{name}-{field}", meta=sample[i])
             for i, field in enumerate(sample._fields)
         )
     )
 
 
 def _on_chunk(*values: Array, function: Callable[..., Any], names: tuple[str, ...]) -> Any:
-    """The result for one chunk; what was a Contact is one again."""
+    """The result for one chunk; the fields of a Contact are put together again."""
     given: dict[str, Any] = {}
     for name, value in zip(names, values, strict=True):
         owner, _, field = name.partition(".")
@@ -90,7 +91,7 @@ def _on_chunk(*values: Array, function: Callable[..., Any], names: tuple[str, ..
 
 
 def _is_array(value: Any) -> bool:
-    """Whether it has chunks, or is to be cut into such."""
+    """Whether the value has chunks, or is to be cut into chunks."""
     return is_lazy(value) or _ndim(value) > 0
 
 
@@ -99,12 +100,12 @@ def _ndim(value: Any) -> int:
 
 
 def _axes(ndim: int) -> tuple[int, ...]:
-    """Axes by their number from the last one, as arrays broadcast."""
+    """Axes numbered from the last one, in the way arrays broadcast."""
     return tuple(reversed(range(ndim)))
 
 
 def _empty(value: Any, instants: int) -> Any:
-    """An array of no elements in its place; time is kept, unless there are no instants."""
+    """An empty array in place of the value; the length of time is kept, unless `instants` is 0."""
     if not _is_array(value):
         return value
     shape = [0] * value.ndim
@@ -114,16 +115,16 @@ def _empty(value: Any, instants: int) -> Any:
 
 
 def _instants(given: Mapping[str, Any]) -> int:
-    """How many instants there are; two if that is not known yet.
+    """The number of instants; two if it is not known yet.
 
-    Raises ValueError if they lie in several chunks.
+    Raises ValueError if the instants lie in several chunks.
     """
     lengths = [2]
     for name, value in given.items():
         if is_lazy(value) and any(n > 1 for n in value.numblocks[-1:]):
             raise ValueError(
                 f"the last axis of {name} is time and must lie in one chunk; its chunks are "
-                f"{value.chunks[-1]}: give {name}.rechunk({{-1: -1}})"
+                f"{value.chunks[-1]}: pass {name}.rechunk({{-1: -1}})"
             )
         if _ndim(value):
             lengths += [n for n in value.shape[-1:] if n == n]

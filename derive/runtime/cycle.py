@@ -1,7 +1,7 @@
-"""Functions of a body that are solved for: contacts from loads, stick zones, slip, shear, a march.
+"""Functions of a body that are solved numerically: contacts, stick zones, slip, shear, a march.
 
-What a person gives follows the `Asked`, which knows the body; `Body.bound` makes the public
-function of it and completes its docstring.  The kernels are loaded when they are first needed.
+The first argument of each function here is an `Asked`, which knows the body; `Body.bound` turns the
+function into the public one and completes its docstring.  The kernels are loaded on first use.
 """
 
 import math
@@ -20,15 +20,15 @@ _LOADS = ("dQ", "dsigma")
 
 
 def _edges_of(contact: Any, label: str) -> dict[str, Any]:
-    """The edges of a Contact by their names in messages.
+    """The edges of a Contact, by their names in messages.
 
-    Raises TypeError for what is no Contact.
+    Raises TypeError for anything that is not a Contact.
     """
     try:
         return {f"{label}.a": contact.a, f"{label}.c": contact.c}
     except AttributeError:
         raise TypeError(
-            f"{label} must be a Contact, as contact(...) gives it; got {contact!r:.60}"
+            f"{label} must be a Contact, as returned by contact(...); got {contact!r:.60}"
         ) from None
 
 
@@ -37,18 +37,18 @@ def _between(first: Any, second: Any, **others: Any) -> dict[str, Any]:
 
 
 def _demand_order(order: Any, least: int, most: int) -> None:
-    """Raises TypeError for what is no whole number, ValueError for an order that there is not."""
+    """Raise TypeError unless the order is a whole number, ValueError unless it is in the range."""
     if isinstance(order, bool) or not isinstance(order, int | np.integer):
         raise TypeError(f"order must be a whole number; got {order!r:.60}")
     if not least <= order <= most:
-        raise ValueError(f"order must be {least} to {most}; got {order}")
+        raise ValueError(f"order must be from {least} to {most}; got {order}")
 
 
-# ---------------------------------------------------------------- what a contact carries
+# ---------------------------------------------------------------- state of a contact
 
 
 class _State(NamedTuple):
-    """What a contact carries."""
+    """Load, moment, tilt and edge coefficients of a contact."""
 
     load: Array
     moment: Array
@@ -58,7 +58,7 @@ class _State(NamedTuple):
 
 
 class _Series(NamedTuple):
-    """Slip zones, and the errors estimated of them."""
+    """Slip zones and their estimated errors."""
 
     left: Array
     right: Array
@@ -67,9 +67,9 @@ class _Series(NamedTuple):
 
 
 def integrated(asked: Asked, a: Array, c: Array, *, E_star: Array = 1.0, x: Array = None) -> Any:
-    """What a contact carries by quadrature: the one function of a body that was called.
+    """A quantity of a contact by quadrature: the one whose function of the body was called.
 
-    The module says in its docstring which integral that is.
+    The generated module shows the integral in its docstring.
     """
     name = asked.call.__name__
     place = {"x": x} if name == "pressure" else {}
@@ -78,12 +78,12 @@ def integrated(asked: Asked, a: Array, c: Array, *, E_star: Array = 1.0, x: Arra
     loop, kind = {"pressure": ("pressure", None), "L_N": ("series", _Series)}.get(
         name, ("state", _State)
     )
-    found = asked.solved(
+    result = asked.solved(
         f"forward.each_{loop}", given, constants, tuple(given), kind, by_modulus=name != "tilt"
     )
     if name in ("K_N", "L_N"):
-        return found if isinstance(found, Edges) else Edges(found.left, found.right)
-    return getattr(found, name, found)
+        return result if isinstance(result, Edges) else Edges(result.left, result.right)
+    return getattr(result, name, result)
 
 
 # ---------------------------------------------------------------- contacts from loads
@@ -103,8 +103,8 @@ def contact(asked: Asked, P: Array, M: Array = 0.0, *, E_star: Array) -> Contact
     -------
     Contact
         a [m], c [m], alpha [rad].  NaN unless P > 0, E_star > 0, the body's own parameters
-        are positive and there is a contact.  The derivatives follow from K_N: a contact
-        grows by flat punches.
+        are positive and a contact exists.  Derivatives follow from K_N: when an edge moves, the
+        pressure changes by that of a flat punch.
     """
     given, loads = {"P": P, "M": M}, ("P", "M")
     return asked.solved(
@@ -125,8 +125,8 @@ def contact_at_tilt(asked: Asked, P: Array, alpha: Array = 0.0, *, E_star: Array
     -------
     Contact
         a [m], c [m], alpha as given.  NaN unless P > 0, E_star > 0, the body's own
-        parameters are positive and there is a contact.  The derivatives follow from K_N: a
-        contact grows by flat punches.
+        parameters are positive and a contact exists.  Derivatives follow from K_N: when an edge
+        moves, the pressure changes by that of a flat punch.
     """
     return asked.solved(
         "inverse.each_contact_at_tilt",
@@ -152,7 +152,7 @@ def stick_zone(
     E_star: Array,
     mixed: bool = False,
 ) -> StickZone:
-    """What sticks all through a steady cycle, [-m, n], and how the cycle slips.
+    """The zone [-m, n] that sticks throughout a steady cycle, and how the cycle slips.
 
         moderate tension: load(m, n) = (P1 + P2)/2 - dQ/(2 f),
             tilt(m, n) = (alpha1 + alpha2)/2 - dsigma/(4 f E*)
@@ -167,14 +167,14 @@ def stick_zone(
     Returns
     -------
     StickZone
-        m [m], n [m], regime as a code of Regime.  NaN unless the regime is MODERATE, LARGE
-        or FULL_STICK; where slip reverses within a half-cycle, MIXED, they are given if the
-        normal loads are constant and forward slip overtakes it in the end, or if `mixed`
-        asks for them, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding. steady_cycle
-        answers every cycle, with an estimate of its error where that is computed.
+        m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
+        MODERATE, LARGE or FULL_STICK, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+        Where slip reverses within a half-cycle (MIXED), they are given under constant normal
+        loads if forward slip finally overtakes the reversed slip, or if `mixed` is True.
+        steady_cycle answers every cycle, and estimates the error of what it computes.
     """
     if not isinstance(mixed, bool | np.bool_):
-        raise TypeError(f"mixed must be True or False, for all cycles; got {mixed!r:.60}")
+        raise TypeError(f"mixed must be True or False, one value for all; got {mixed!r:.60}")
     zone: StickZone = asked.solved(
         f"slip.{'mixed' if mixed else 'zone'}.each_stick_zone",
         _between(first, second, dQ=dQ, dsigma=dsigma),
@@ -206,12 +206,12 @@ def why(
     Returns
     -------
     str
-        All that is wrong with the numbers where the regime is NONE.
+        The meaning of the regime; where it is NONE, everything that is wrong with the numbers.
 
     Raises
     ------
     ValueError
-        For arrays.
+        If an argument is an array.
 
     Notes
     -----
@@ -219,7 +219,10 @@ def why(
     """
     zone = stick_zone(asked, first, second, dQ, dsigma, f=f, E_star=E_star)
     if np.ndim(zone.regime):
-        raise ValueError(f"why takes one cycle, in numbers; got arrays of {np.shape(zone.regime)}")
+        raise ValueError(
+            "why takes one cycle, with numbers as arguments; got arrays of shape "
+            f"{np.shape(zone.regime)}"
+        )
     return reason(
         Regime(int(zone.regime)),
         {"f": f, "E_star": E_star, **asked.own},
@@ -232,7 +235,7 @@ def why(
 def tension_threshold(
     asked: Asked, first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array
 ) -> Threshold:
-    """Changes of bulk tension between which tension is moderate, so that its solution is exact.
+    """Changes of bulk tension between which tension is moderate and the moderate solution exact.
 
         constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
 
@@ -243,7 +246,7 @@ def tension_threshold(
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN unless there is such a range, and where dQ < 0 or dQ >=
+        lower [Pa], upper [Pa].  NaN unless such a range exists, and where dQ < 0 or dQ >=
         f (P1 + P2), which is sliding.
     """
     return _tensions(asked, "tension_threshold", first, second, dQ, f, E_star)
@@ -256,7 +259,7 @@ def closing_tension(
 
         upper: load(m, c) = (P1 + P2)/2 - dQ/(2 f),
             dsigma = 4 f E* ((alpha1 + alpha2)/2 - tilt(m, c)), c that of the smaller contact
-        lower: the same with a kept
+        lower: the same with load(a, n) and tilt(a, n), a that of the smaller contact
 
     Parameters
     ----------
@@ -265,8 +268,8 @@ def closing_tension(
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa]. slip reverses before it closes, see tension_threshold.  NaN
-        unless the reduced load is positive, and where dQ < 0 or dQ >= f (P1 + P2), which is
+        lower [Pa], upper [Pa].  Slip reverses before the zone closes; see tension_threshold.
+        NaN unless the reduced load is positive, and where dQ < 0 or dQ >= f (P1 + P2), which is
         sliding.
     """
     return _tensions(asked, "closing_tension", first, second, dQ, f, E_star)
@@ -275,7 +278,7 @@ def closing_tension(
 def _tensions(
     asked: Asked, name: str, first: Any, second: Any, dQ: Array, f: Array, E_star: Array
 ) -> Threshold:
-    found: Threshold = asked.solved(
+    result: Threshold = asked.solved(
         f"slip.threshold.each_{name}",
         _between(first, second, dQ=dQ),
         {"f": f, "E_star": E_star},
@@ -284,7 +287,7 @@ def _tensions(
         over_modulus=("dQ",),
         by_modulus=True,
     )
-    return found
+    return result
 
 
 # ---------------------------------------------------------------- slip zones by series
@@ -303,11 +306,12 @@ def slip_zones(
     dc: Array = 0.0,
     order: int = 1,
 ) -> Edges:
-    """Slip zones by series in their length.
+    """Lengths of the slip zones, by series in these lengths.
 
         order 1: d = |K_T|/(f K_N) + da/2, and dc/2 at the right edge
-        orders 2 and 3: the conditions of stick_zone for the pressure's first two or three terms
-            at each edge of both contacts, cut behind that power of d, solved as they stand
+        orders 2 and 3: the conditions of stick_zone with the first two or three terms of the
+            pressure at each edge of both contacts, truncated after that power of d and then solved
+            without further approximation
 
     Parameters
     ----------
@@ -316,8 +320,8 @@ def slip_zones(
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless slip reaches in at both edges and leaves some
-        stick, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks, and
+        where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 3)
@@ -337,7 +341,7 @@ def slip_error(
     dc: Array = 0.0,
     order: int = 1,
 ) -> Edges:
-    """By how much one more term would change the slip zones: an estimate of the series' error.
+    """Estimated error of the series for the slip zones: their change with one more term.
 
         |d(order + 1) - d(order)|
 
@@ -360,7 +364,7 @@ def _series(
     asked: Asked, given: dict[str, Any], f: Array, E_star: Array, order: int, first: int
 ) -> Edges:
     """Slip zones (first = 0) or their errors (first = 2)."""
-    found = asked.solved(
+    result = asked.solved(
         "slip.series.each_slip_zones",
         given,
         {"f": f, "E_star": E_star},
@@ -369,7 +373,7 @@ def _series(
         over_modulus=_LOADS,
         options={"order": order},
     )
-    return found if isinstance(found, Edges) else Edges(*found[first : first + 2])
+    return result if isinstance(result, Edges) else Edges(*result[first : first + 2])
 
 
 # ---------------------------------------------------------------- shear and slip
@@ -400,10 +404,10 @@ def shear_change(
     Returns
     -------
     dq : ndarray
-        [Pa]; with `second`, dQ and dsigma as they are part of the way, dq until then, if
-        the regime of the whole half-cycle is MODERATE or LARGE. NaN unless the stick zone
-        is known without `mixed`, in full stick between two contacts, and where dQ < 0 or dQ
-        >= f (P1 + P2), which is sliding.
+        [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
+        to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
+        NaN unless the stick zone is known without `mixed`, in full stick between two different
+        contacts, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
     """
     return _at_places(asked, "shear_change", x, first, second, dQ, dsigma, f, E_star)
 
@@ -419,7 +423,7 @@ def slip_range(
     f: Array,
     E_star: Array,
 ) -> Array:
-    """How far the surfaces slip at x over the half-cycle; zero where they stick.
+    """Slip range of the surfaces at x over the half-cycle; zero where they stick.
 
         (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4
         moderate tension and constant loads: 2 f times the gap beside the patch [-m, n]
@@ -448,7 +452,7 @@ def _at_places(
     f: Array,
     E_star: Array,
 ) -> Array:
-    """The stick zone is solved for once a cycle, however many places are asked for."""
+    """Shear change or slip range; the stick zone is solved once per cycle for all positions x."""
     given = _between(first, second, dQ=dQ, dsigma=dsigma)
     constants = {"f": f, "E_star": E_star}
     lazy = any_lazy([x, *given.values(), *constants.values(), *asked.own.values()])
@@ -464,7 +468,7 @@ def _at_places(
 
 
 def _zone(asked: Asked, label: str, *cycle: Any) -> dict[str, Any]:
-    """The stick zone of a cycle by the names of its fields, each with a label behind it."""
+    """The stick zone of a cycle, by the names of its fields with a label appended to each."""
     *loads, f, E_star = cycle
     zone = stick_zone(asked, *loads, f=f, E_star=E_star)
     return {f"{field}{label}": value for field, value in zone._asdict().items()}
@@ -484,11 +488,11 @@ def shear(
 ) -> Array:
     """Shear traction at x in a cycle at constant normal loads; zero outside the contact.
 
-        q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq as by shear_change
-        first the shear load rises from nothing to Q and the tension to sigma, in proportion;
-            since then they have fallen by dQ and dsigma, in proportion again: by nothing at the
-            upper end of a cycle, by all of the half-cycle's change at the lower end, from which
-            q rises by shear_change
+        q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq from shear_change
+        first the shear load rises from zero to Q and the tension to sigma, in proportion; then
+            they fall by dQ and dsigma, again in proportion: by zero at the upper end of a cycle,
+            and by the full change of the half-cycle at the lower end, from which q rises again by
+            shear_change
 
     Parameters
     ----------
@@ -497,11 +501,13 @@ def shear(
     Returns
     -------
     q : ndarray
-        [Pa]; where it sticks, the mean of both ends is what the first rise has locked in.
-        NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma) are both MODERATE or
-        both LARGE, it slips back only where it slipped and drives none of that on, and dQ
-        <= 2 Q; so reverse all signs, those of q too, where the lower end has the larger
-        shear load.  NaN, too, where Q < 0 or dQ < 0, and where Q >= f P, which is sliding.
+        [Pa]; in the stick zone, the mean of q at both ends of the cycle is the traction that
+        the first rise locked in.  NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma)
+        are both MODERATE or both LARGE, or the latter is FULL_STICK.  Also NaN unless reverse
+        slip is confined to points that slipped during the rise and drives none of them further
+        in the same sense, and dQ <= 2 Q.  If the shear load is larger in magnitude at the lower
+        end, reverse all signs, including that of q.  Also NaN where Q < 0 or dQ < 0, and where
+        Q >= f P, which is sliding.
     """
     given = {"x": x, **_edges_of(contact, "contact"), "Q": Q, "sigma": sigma}
     given |= {"dQ": dQ, "dsigma": dsigma}
@@ -535,11 +541,11 @@ def march(
     E_star: Array,
     order: int = 0,
 ) -> March:
-    """A steady cycle instant by instant: contact, stick zone, and which way the edges slip.
+    """A steady cycle instant by instant: contact, stick zone, and sense of slip at the edges.
 
-        since the loads last turned, at the least or the greatest Q, slip has grown as in a
-            half-cycle that ends now: by stick_zone, or by slip_zones if an order is given; where
-            the whole half-cycle is MIXED it has not, and only its end may be known
+        since the last reversal of the loads, at the least or the greatest Q, slip has grown as in
+            a half-cycle that ends now: by stick_zone, or by slip_zones if an order is given; this
+            does not hold if the whole half-cycle is MIXED, where only its end may be known
 
     Parameters
     ----------
@@ -548,16 +554,16 @@ def march(
     Returns
     -------
     March
-        a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  A
-        whole cycle is NaN, and its regime says why: OUT_OF_PHASE unless all loads are as
-        far on their way between both states at every instant, to 1e-6 of their change;
-        NOT_CLOSED unless the last instant leads back to the first; SLIDING where |Q| >= f P
-        at any instant; NONE where a contact does not exist.  For cycles out of phase
-        steady_cycle, for what is no cycle history.
+        a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
+        instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
+        loads are not in proportion at every instant, to 1e-6 of their change), NOT_CLOSED (the
+        last instant does not lead back to the first), SLIDING (|Q| >= f P at some instant) or
+        NONE (a contact does not exist).  Use steady_cycle for cycles out of phase, and history
+        for load histories that are not cycles.
 
     Notes
     -----
-    Arguments broadcast; the instants of a cycle lie along the last axis.  Of a Dask array, that
+    Arguments broadcast; the instants of a cycle lie along the last axis.  In a Dask array, that
     axis must be one chunk.
     """
     _demand_order(order, 0, 3)
@@ -569,7 +575,7 @@ def march(
         return over_chunks(with_options(asked.call, {"order": order}), numbers, in_time=True)
     if not shape or shape[-1] < 2:
         raise ValueError(
-            f"a cycle has two instants or more, along the last axis; got shape {shape}"
+            f"a cycle needs at least two instants along the last axis; got shape {shape}"
         )
     *cycles, instants = shape
     with np.errstate(all="ignore"):
@@ -582,31 +588,33 @@ def march(
     out = np.empty((count, 7 * instants))
     with np.errstate(all="ignore"):
         kernel_of("slip.march.each_march")(asked.body.law, given, own, out)
-    found = out.reshape(*cycles, instants, 7)
-    values = [found[..., i].reshape(shape) for i in range(4)]
-    senses = [found[..., i].astype(np.int64).reshape(shape) for i in range(4, 7)]
+    fields = out.reshape(*cycles, instants, 7)
+    values = [fields[..., i].reshape(shape) for i in range(4)]
+    senses = [fields[..., i].astype(np.int64).reshape(shape) for i in range(4, 7)]
     return March(*values, *senses)
 
 
 def _constant(value: Any, cycles: list[int], instants: int) -> Any:
-    """One value a cycle of a constant, as a column.
+    """The values of a constant, one per cycle, as a column.
 
-    Raises ValueError where it changes in time.
+    Raises ValueError if the constant changes in time.
     """
     held = np.broadcast_to(value, (*cycles, instants)).reshape(math.prod(cycles), instants)
     if np.any((held != held[:, :1]) & ~np.isnan(held)):
-        raise ValueError("f, E_star and the body's parameters must not change along the last axis")
+        raise ValueError(
+            "f, E_star and the body's parameters must not change along the last axis, which is time"
+        )
     return held[:, :1]
 
 
 SOLVED = (contact, contact_at_tilt)
-"""What a body has closed formulas of, or not."""
+"""Functions that are bound to a body unless it has closed formulas for them."""
 
 CYCLE = (
     *(stick_zone, tension_threshold, closing_tension, slip_zones, slip_error),
     *(shear_change, shear, slip_range, march),
 )
-"""What every body is bound to."""
+"""Functions that are bound to every body."""
 
 EXPLAINING = (why,)
-"""What tells of one cycle in words."""
+"""Functions that explain one cycle in words."""

@@ -1,4 +1,4 @@
-"""Small functions that printed formulas call besides NumPy's own."""
+"""Small functions that printed formulas call in addition to NumPy's own."""
 
 import numpy as np
 
@@ -6,16 +6,17 @@ from .shared import shared
 from .types import Array
 
 TINY = 1e-150
-"""What stands for a distance of zero where a quotient must stay finite."""
+"""Substitute for a distance of zero where a quotient must stay finite."""
 
 LEAST, MOST = 1e-75, 1e75
-"""The shortest and the longest length, in metres, whose products stay well inside float64."""
+"""The shortest and the longest length, in metres, whose products stay well within float64."""
 
 
 def where(condition: Array, first: Array, second: Array) -> Array:
     """`first` where the condition holds, else `second`; both may be numbers.
 
-    Kernels have it between numbers from kernels.py: numba's own np.where makes arrays of them.
+    Kernels use a version for single numbers, defined in kernels.py: numba's own np.where would
+    return arrays.
 
     >>> float(where(1 < 2, 3.0, 4.0))
     3.0
@@ -26,9 +27,9 @@ def where(condition: Array, first: Array, second: Array) -> Array:
 
 @shared
 def kink_logarithm(left: Array, right: Array, offset: Array, least: float = 0.0) -> Array:
-    """log(1 + (sqrt(left right) + min(left, right))/d); zero where one of both is negative.
+    """log(1 + (sqrt(left right) + min(left, right))/d); zero where left or right is negative.
 
-    d is the distance |offset| from the kink, `least` at least.
+    d is the distance |offset| from the kink, but not less than `least`.
 
     >>> float(kink_logarithm(1.0, 1.0, 2.0))  # log 2
     0.6931471805599453

@@ -1,4 +1,4 @@
-"""What contacts carry, case by case, where no closed formula is evaluated."""
+"""State, pressure and series of contacts, case by case, for bodies without closed formulas."""
 
 import math
 from typing import Any
@@ -8,7 +8,7 @@ from .kernels import LOOP, kernel, opened
 
 @kernel(LOOP)
 def each_state(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Load, moment, tilt and K_N of the contacts a, c; NaN where one leaves the body."""
+    """Load, moment, tilt and K_N of the contacts a, c; NaN where a contact exceeds the body."""
     law = opened(law)
     for i in range(given.shape[0]):
         load, moment, tilt, left, right = law.state(given[i, 0], given[i, 1], own[i])
@@ -20,7 +20,7 @@ def each_state(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(LOOP)
 def each_pressure(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Pressures at x, of contacts a, c."""
+    """Pressure at x in the contacts a, c."""
     law = opened(law)
     for i in range(given.shape[0]):
         out[i, 0] = law.pressure(given[i, 0], given[i, 1], given[i, 2], own[i])
@@ -28,7 +28,7 @@ def each_pressure(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(LOOP)
 def each_series(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Coefficients of s**(3/2) and of s**(5/2) of the contacts a, c."""
+    """Coefficients of s**(3/2) and of s**(5/2) for the contacts a, c."""
     law = opened(law)
     for i in range(given.shape[0]):
         left, right, third_left, third_right = law.series(given[i, 0], given[i, 1], own[i])

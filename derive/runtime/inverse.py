@@ -1,20 +1,21 @@
-"""From loads to the contact.
+"""The contact under given loads.
 
-Every contact of every convex body grows by flat punches.  For E* = 1, with mid = (c - a)/2,
+When an edge of the contact of any convex body moves, the pressure changes by that of a flat punch.
+For E* = 1, with mid = (c - a)/2,
 
     dP = (pi sqrt(h)/4) (K_left da + K_right dc),
     dM = -(pi sqrt(h)/4) (K_left (mid - h/4) da + K_right (mid + h/4) dc),
     d alpha = (K_left da - K_right dc)/sqrt(h).
 
-So Newton's method needs no other derivatives than K_N, and three facts hold: the load grows with
-both edges; its centre, -M/P, moves right with c and left with a; the tilt grows with a and falls
-with c.
+Newton's method therefore needs no derivatives other than K_N.  Three facts follow: the load grows
+with both edges; its centre, -M/P, moves to the right with c and to the left with a; the tilt grows
+with a and falls with c.
 
-A point that lies in the contact is its `place`: the centre of the load where the moment is given,
-else where the tilted body is level.  Newton's steps are taken in the logarithms of the edges'
-distances from the last kink before them, or from the place.  Where they lead astray, one root
-inside the other is bracketed: to every left edge belongs one right edge that meets the second
-condition, and on the contacts so found the load grows with the left edge.
+`place` is a point that is known to lie in the contact: the centre of the load if the moment is
+given, otherwise the point where the tilted body is level.  Newton's steps are taken in the
+logarithms of the distances of the edges from the last kink inside them, or from the place.  Where
+they do not converge, one root search is nested in another: each left edge has one right edge that
+meets the second condition, and along these contacts the load grows with the left edge.
 """
 
 import math
@@ -26,48 +27,49 @@ from .elementary import LEAST, MOST
 from .kernels import LAW, LOOP, kernel, opened, real, record, results, truth, vector
 
 STEPS = 100
-"""Most steps of Newton's method, and of a search."""
+"""Largest number of steps of Newton's method, and of a search."""
 
 NEAR = 1.0
-"""A load whose logarithm is off by less is met by Newton's steps, any other by scaling;"""
+"""Newton's method starts once the logarithm of the load is off by less than this."""
 
 NARROWED = 0.1
-"""or where the logarithm of the width is known to this: a kink is passed there."""
+"""It also starts once the logarithm of the width is known to this: the load may jump at a kink."""
 
 LONGEST = 4.0
-"""Longest of Newton's steps in the logarithm of a distance."""
+"""Longest step of Newton's method in the logarithm of a distance."""
 
 SMALLEST = 1e-9
-"""A step below this part of the distance is the last: its square is below rounding."""
+"""A step below this fraction of the distance is the last: its square is below rounding."""
 
 FINEST = 2.0**-10
-"""Where a smaller part of a step leads no nearer, Newton's method has lost its way."""
+"""Newton's method has failed if even this fraction of a step does not reduce the error."""
 
 CLOSEST = 1e-9
-"""Closer than this part of the distance to a body's end, no edge is sought."""
+"""An edge is not sought closer to an end of the body than this fraction of the distance."""
 
 EXACT = 1e-13
-"""A contact that is off by less, but for the rounding of its edges, is found;"""
+"""A contact is accepted at once if its error, apart from rounding, is below this."""
 
 ACCEPTED = 1e-9
-"""one that is off by more, when every way to it has been tried, is none."""
+"""A contact is rejected if its error is above this after all methods have been tried."""
 
 ROUGHEST = 1e-4
-"""Where the rounding of the edges moves the load by more, no contact is given."""
+"""No contact is returned if rounding of its edges changes the load by more than this fraction."""
 
 UNSURE = 1e-2
-"""Nor is one where the rounding of a tilt moves an edge by more, in parts of the width."""
+"""No contact is returned if rounding of its place or tilt moves an edge by more than this fraction of
+the width."""
 
 EPS = 2.0**-52
 
 
 class Goal(NamedTuple):
-    """What is asked of a contact, for E* = 1.
+    """The target of the search for a contact, for E* = 1.
 
-    load     to be carried
-    place    in the contact; the load's centre unless the tilt is held
-    tilt     of the body if it is held
-    held     whether the tilt is held
+    load     load to be carried
+    place    a point in the contact: the centre of the load unless the tilt is prescribed
+    tilt     tilt of the body if it is prescribed
+    held     whether the tilt is prescribed
     """
 
     load: float
@@ -77,12 +79,12 @@ class Goal(NamedTuple):
 
 
 class Search(NamedTuple):
-    """For the root of an increasing function of y, the logarithm of a distance.
+    """A search for the root of an increasing function of y, the logarithm of a distance.
 
-    low, high  between which it lies
-    top        the function at `high`; infinite where it has not been found, or the body ends
+    low, high  bounds of the root
+    top        the function at `high`; infinite if it is not known, or if the body ends there
     guess      where the search began
-    y, step    where to look next, and how far that is from the last place; 0 at the root
+    y, step    the next point, and its distance from the last one; step is 0 at the root
     """
 
     low: float
@@ -102,7 +104,7 @@ SEARCH: Any = record(Search, real, real, real, real, real, real)
 
 @kernel(SEARCH(real, real, real, real))
 def _begun(start: float, far: float, top: float, guess: float) -> Search:
-    """A search among the distances from a start, up to `far` where the function is `top`."""
+    """A search among the distances from `start`, up to `far`, where the function equals `top`."""
     low = math.log(max(EPS * abs(start), LEAST))
     high = max(math.log(min(far, MOST)), low)
     y = min(max(math.log(max(guess, LEAST)), low), high)
@@ -111,10 +113,13 @@ def _begun(start: float, far: float, top: float, guess: float) -> Search:
 
 @kernel(SEARCH(SEARCH, real, real))
 def _next(search: Any, value: float, rate: float) -> Search:
-    """The search when the function's value at y, and its rate with y if known, are found.
+    """The search after the function has been evaluated at y.
 
-    Newton's step is taken where it stays between and at most halves the last one.  Else the next
-    one doubles the way from the guess, but is half of what is left at most.
+    value, rate: the function and its rate with y; rate is 0 if it is not known.
+
+    Newton's step is taken if it stays between the bounds and is at most half of the last step.
+    Otherwise the next step doubles the distance from the guess, but goes at most half of the way
+    to the bound.
     """
     low, high, top, guess, y, step = search
     if value < 0:
@@ -131,52 +136,53 @@ def _next(search: Any, value: float, rate: float) -> Search:
     return Search(low, high, top, guess, y + by, 0.0 if done else abs(by))
 
 
-# ---------------------------------------------------------------- one contact against the goal
+# ---------------------------------------------------------------- one contact and its target
 
 
 @kernel(truth(results(5)))
-def _carries(now: Any) -> bool:
-    """Whether a state is that of a contact within the body's ends."""
+def _is_contact(now: Any) -> bool:
+    """Whether a state is that of a contact within the ends of the body."""
     load, _, _, left, right = now
     return 0 < load < math.inf and 0 < left < math.inf and 0 < right < math.inf
 
 
 @kernel(results(2)(GOAL, real, real, results(5)))
-def _short(goal: Any, a: float, c: float, now: Any) -> Any:
-    """How far a contact is from the goal.
+def _residuals(goal: Any, a: float, c: float, now: Any) -> Any:
+    """How far a contact is from its target.
 
-    The logarithm by which its load is short; and how far the second condition is from being met,
-    in parts of h/4 or comparable with a change of the load's logarithm.
+    The first value is the logarithm of the target load over the load.  The second value is the
+    residual of the second condition, relative to h/4 or comparable with a change of the load's
+    logarithm.
     """
     load, moment, tilt, _, _ = now
     h = a + c
     arm = goal.place + moment / load
-    off = (goal.tilt - tilt) * h / load if goal.held else 4 * arm / h
-    return math.log(goal.load / load), off
+    residual = (goal.tilt - tilt) * h / load if goal.held else 4 * arm / h
+    return math.log(goal.load / load), residual
 
 
 @kernel(results(2)(GOAL, real, real, results(5)))
 def _step(goal: Any, a: float, c: float, now: Any) -> Any:
-    """Newton's step of a and c."""
+    """Newton's step for a and c."""
     load, moment, _, left, right = now
     h, mid = a + c, (c - a) / 2
-    short, off = _short(goal, a, c, now)
+    shortfall, residual = _residuals(goal, a, c, now)
     force = 4 * load / (math.pi * math.sqrt(h))
-    both = force * short  # K_left da + K_right dc
+    both = force * shortfall  # K_left da + K_right dc
     if goal.held:
-        odd = -force * math.pi / 4 * off  # K_right dc - K_left da
+        odd = -force * math.pi / 4 * residual  # K_right dc - K_left da
     else:
-        odd = force * off - 4 * both * (mid + moment / load) / h
+        odd = force * residual - 4 * both * (mid + moment / load) / h
     return (both - odd) / 2 / left, (both + odd) / 2 / right
 
 
 @kernel(real(GOAL, real, real, results(5)))
-def _miss(goal: Any, a: float, c: float, now: Any) -> float:
-    """How far a contact is from the goal, in one number."""
-    if not _carries(now):
+def _error(goal: Any, a: float, c: float, now: Any) -> float:
+    """The distance of a contact from its target as one number."""
+    if not _is_contact(now):
         return math.inf
-    short, off = _short(goal, a, c, now)
-    return math.hypot(short, off)
+    shortfall, residual = _residuals(goal, a, c, now)
+    return math.hypot(shortfall, residual)
 
 
 # ---------------------------------------------------------------- Newton's method
@@ -184,9 +190,9 @@ def _miss(goal: Any, a: float, c: float, now: Any) -> float:
 
 @kernel(real(LAW, vector, vector, GOAL))
 def _width(law: Any, own: Any, breaks: Any, goal: Any) -> float:
-    """Width of a contact with its middle at the place and nearly the load; NaN where none has it.
+    """Width of a contact centred at the place with nearly the target load; NaN if there is none.
 
-    It starts from the curvature at the place, but not far beyond the nearest break.
+    The search starts from the curvature at the place, but not far beyond the nearest break.
     """
     curvature = law.slope(goal.place, own)[1]
     h = nearest = math.inf
@@ -201,7 +207,7 @@ def _width(law: Any, own: Any, breaks: Any, goal: Any) -> float:
         now = law.state(h / 2 - goal.place, h / 2 + goal.place, own)
         load, _, _, left, right = now
         over, rate = (math.inf if load == math.inf else -1.0), 0.0
-        if _carries(now):
+        if _is_contact(now):
             over = math.log(load / goal.load)
             rate = math.pi * math.sqrt(h) / 8 * h * (left + right) / load
             if abs(over) < NEAR:
@@ -213,10 +219,10 @@ def _width(law: Any, own: Any, breaks: Any, goal: Any) -> float:
 
 
 @kernel(real(real, real, vector, real))
-def _behind(edge: float, inner: float, breaks: Any, side: float) -> float:
-    """The last break before an edge, or the point inside where none lies between.
+def _last_break(edge: float, inner: float, breaks: Any, side: float) -> float:
+    """The last break inside an edge, or the point `inner` if no break lies between them.
 
-    Counted outward: c with side 1, a with side -1.
+    Positions are counted outward: c with side 1, a with side -1.
     """
     last = inner
     for at in breaks:
@@ -227,22 +233,22 @@ def _behind(edge: float, inner: float, breaks: Any, side: float) -> float:
 
 @kernel(real(real, real, real))
 def _moved(edge: float, start: float, by: float) -> float:
-    """The edge after a step, taken in the logarithm of its distance from `start`."""
+    """The edge after a step that is taken in the logarithm of its distance from `start`."""
     distance = edge - start
     return edge + distance * math.expm1(min(max(by / distance, -LONGEST), LONGEST))
 
 
 @kernel(results(2)(LAW, vector, vector, GOAL, real, real))
 def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> Any:
-    """The contact by Newton's method; the nearest that it came to it."""
+    """The contact by Newton's method, or the closest one that the method reached."""
     now = law.state(a, c, own)
-    miss = _miss(goal, a, c, now)
+    miss = _error(goal, a, c, now)
     for _ in range(STEPS):
         if miss == math.inf:
             break
         by_a, by_c = _step(goal, a, c, now)
-        from_a = _behind(a, -goal.place, breaks, -1.0)
-        from_c = _behind(c, goal.place, breaks, 1.0)
+        from_a = _last_break(a, -goal.place, breaks, -1.0)
+        from_c = _last_break(c, goal.place, breaks, 1.0)
         if not (a > from_a and c > from_c):
             break
         length = max(abs(by_a) / (a - from_a), abs(by_c) / (c - from_c))
@@ -251,12 +257,12 @@ def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> A
             return a + by_a, c + by_c
         part, better = 1.0, False
         while part > FINEST and not better:
-            # from the last breaks; or from the place, so that an edge may pass a break inward
+            # first from the last breaks, then from the place, so that an edge can pass a break
             for starts in ((from_a, from_c), (-goal.place, goal.place)):
                 next_a = _moved(a, starts[0], part * by_a)
                 next_c = _moved(c, starts[1], part * by_c)
                 after = law.state(next_a, next_c, own)
-                missed = _miss(goal, next_a, next_c, after)
+                missed = _error(goal, next_a, next_c, after)
                 if missed < miss:
                     a, c, now, miss, better = next_a, next_c, after, missed, True
                     break
@@ -270,13 +276,13 @@ def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> A
 
 
 @kernel(results(2)(LAW, vector, GOAL, real, real))
-def _turned(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
-    """What grows with c and is zero where the second condition is met; and its rate with c."""
+def _second_condition(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
+    """A function that grows with c and is zero where the second condition is met; its rate."""
     now = law.state(a, c, own)
     load, moment, tilt, _, right = now
     if load == math.inf:
         return math.inf, 0.0
-    if not _carries(now):
+    if not _is_contact(now):
         return -1.0, 0.0
     h = a + c
     if goal.held:
@@ -287,15 +293,15 @@ def _turned(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
 
 
 @kernel(results(2)(LAW, vector, GOAL, real, real))
-def _loaded(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
-    """The logarithm of the load over what is asked; its rate with a while c meets the condition."""
+def _load_condition(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
+    """The logarithm of load over target load; its rate with a, the second condition being met."""
     if c == math.inf:
         return -1.0, 0.0
     now = law.state(a, c, own)
     load, _, _, left, _ = now
     if c != c or load == math.inf:
         return math.inf, 0.0
-    if not _carries(now):
+    if not _is_contact(now):
         return -1.0, 0.0
     h = a + c
     rate = math.pi * math.sqrt(h) / 2 * left / load
@@ -307,14 +313,14 @@ def _loaded(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
 
 @kernel(real(LAW, vector, vector, GOAL, real, real))
 def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float, guess: float) -> float:
-    """The right edge that meets the second condition with a left one; sought from a guess.
+    """The right edge that meets the second condition for a given left edge, starting from a guess.
 
-    Infinity where no contact with this left edge carries anything, NaN where none meets it.
+    Infinite if no contact with this left edge carries any load, NaN if none meets the condition.
     """
     start, end, top = goal.place, math.inf, math.inf
     for at in breaks:
         if start < at < end:
-            value, _ = _turned(law, own, goal, a, at)
+            value, _ = _second_condition(law, own, goal, a, at)
             if value < 0:
                 start = at
             else:
@@ -323,25 +329,25 @@ def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float, guess: flo
     search = _begun(start, end - start, top, guess - start)
     for _ in range(STEPS):
         far = math.exp(search.y)
-        value, rate = _turned(law, own, goal, a, start + far)
+        value, rate = _second_condition(law, own, goal, a, start + far)
         search = _next(search, value, rate * far)
         if search.step == 0:
             break
     if search.top < math.inf:
         return start + math.exp(search.y)
     now = law.state(a, start + math.exp(search.high), own)
-    return math.nan if now[0] == math.inf or _carries(now) else math.inf
+    return math.nan if now[0] == math.inf or _is_contact(now) else math.inf
 
 
 @kernel(results(2)(LAW, vector, vector, GOAL, real))
 def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
-    """The contact by one root inside the other; NaN where there is none."""
+    """The contact by two nested root searches; NaN if there is none."""
     start, end, top, c = -goal.place, math.inf, math.inf, math.nan
     for i in range(breaks.size):
         at = -breaks[breaks.size - 1 - i]
         if start < at < end:
             c = _right_edge(law, own, breaks, goal, at, c)
-            value, _ = _loaded(law, own, goal, at, c)
+            value, _ = _load_condition(law, own, goal, at, c)
             if value < 0:
                 start = at
             else:
@@ -350,7 +356,7 @@ def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
     for _ in range(STEPS):
         far = math.exp(search.y)
         c = _right_edge(law, own, breaks, goal, start + far, c)
-        value, rate = _loaded(law, own, goal, start + far, c)
+        value, rate = _load_condition(law, own, goal, start + far, c)
         search = _next(search, value, rate * far)
         if search.step == 0:
             break
@@ -362,13 +368,13 @@ def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
 
 @kernel(real(LAW, vector, real))
 def level(law: Any, own: Any, alpha: float) -> float:
-    """Where the tilted body is level, g'(x) + alpha = 0; NaN where it is nowhere so.
+    """The point where the tilted body is level, g'(x) + alpha = 0; NaN if there is none.
 
-    At a corner if the tilt lies between its slopes; in the middle of a flat.
+    It is a corner if the tilt lies between the slopes there, and the middle of a flat.
     """
     if not abs(alpha) < math.inf:
         return math.nan
-    before, beyond = -math.inf, math.inf  # slopes downward left of the one, upward from the other
+    before, beyond = -math.inf, math.inf  # the body falls left of `before`, rises from `beyond` on
     for at in law.breaks(own):
         if law.slope(np.nextafter(at, -math.inf), own)[0] + alpha <= 0:
             before = at
@@ -384,7 +390,7 @@ def level(law: Any, own: Any, alpha: float) -> float:
             before = 0.0
         else:
             beyond = 0.0
-    # the distance from one end of the interval is sought, to the right or to the left
+    # search for the distance from one end of the interval, to the right or to the left
     side, start, end = (1.0, before, beyond) if before > -math.inf else (-1.0, beyond, before)
     far = side * (end - start)
     guess = min(far / 2, abs(start) if start != 0 else 1.0)
@@ -398,54 +404,54 @@ def level(law: Any, own: Any, alpha: float) -> float:
     return start + side * math.exp(search.y) if search.top < math.inf else math.nan
 
 
-# ---------------------------------------------------------------- together
+# ---------------------------------------------------------------- the whole solution
 
 
 @kernel(results(2)(LAW, vector, GOAL, real, real))
-def _judged(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
-    """How far a contact is from the goal, rounding left out; and its tilt, NaN where it is unsure.
+def _checked(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
+    """The error of a contact apart from rounding, and its tilt, NaN if that is not determined.
 
-    Rounding of the edges moves the load, that of the place or the tilt asked moves the edges.
+    Rounding of the edges changes the load; rounding of the given place or tilt moves the edges.
     """
     now = law.state(a, c, own)
     h = a + c
-    if not (LEAST < h < MOST and _carries(now)):
+    if not (LEAST < h < MOST and _is_contact(now)):
         return math.inf, math.nan
     load, _, tilt, left, right = now
-    short, off = _short(goal, a, c, now)
-    if not (abs(short) < math.inf and abs(off) < math.inf):
+    shortfall, residual = _residuals(goal, a, c, now)
+    if not (abs(shortfall) < math.inf and abs(residual) < math.inf):
         return math.inf, math.nan
     edges = math.pi / 4 * EPS * math.sqrt(h) * (left * abs(a) + right * abs(c)) / load
     given = EPS * (abs(goal.tilt) * h / load if goal.held else abs(goal.place) / h)
-    rest = max(abs(short) - 16 * edges, (abs(off) - 16 * (edges + given)) / 16, 0.0)
+    error = max(abs(shortfall) - 16 * edges, (abs(residual) - 16 * (edges + given)) / 16, 0.0)
     if edges > ROUGHEST or given > UNSURE:
         tilt = math.nan
-    return rest, tilt
+    return error, tilt
 
 
 @kernel(results(3)(LAW, vector, GOAL))
 def _solved(law: Any, own: Any, goal: Any) -> Any:
-    """The contact and its tilt; NaN where there is none."""
+    """The contact and its tilt; NaN if there is none."""
     if not (0 < goal.load < math.inf and abs(goal.place) < MOST):
         return math.nan, math.nan, math.nan
     breaks = law.breaks(own)
     h = _width(law, own, breaks, goal)
     a, c = _newton(law, own, breaks, goal, h / 2 - goal.place, h / 2 + goal.place)
-    rest, tilt = _judged(law, own, goal, a, c)
-    if rest > EXACT:
+    error, tilt = _checked(law, own, goal, a, c)
+    if error > EXACT:
         other_a, other_c = _nested(law, own, breaks, goal, goal.load)
         other_a, other_c = _newton(law, own, breaks, goal, other_a, other_c)
-        less, turned = _judged(law, own, goal, other_a, other_c)
-        if less < rest:
-            a, c, rest, tilt = other_a, other_c, less, turned
-    if not rest < ACCEPTED or tilt != tilt:
+        other_error, other_tilt = _checked(law, own, goal, other_a, other_c)
+        if other_error < error:
+            a, c, error, tilt = other_a, other_c, other_error, other_tilt
+    if not error < ACCEPTED or tilt != tilt:
         return math.nan, math.nan, math.nan
     return a, c, tilt
 
 
 @kernel(results(3)(LAW, vector, real, real))
 def contact(law: Any, own: Any, P: float, M: float) -> Any:
-    """The edges a, c and the tilt under a load and a moment; NaN where there is no contact."""
+    """The edges a, c and the tilt under a load and a moment; NaN if there is no contact."""
     if not 0 < P < math.inf:
         return math.nan, math.nan, math.nan
     return _solved(law, own, Goal(P, -M / P, 0.0, False))
@@ -453,7 +459,7 @@ def contact(law: Any, own: Any, P: float, M: float) -> Any:
 
 @kernel(results(2)(LAW, vector, real, real))
 def contact_at_tilt(law: Any, own: Any, P: float, alpha: float) -> Any:
-    """The edges a, c under a load at a tilt; NaN where there is no contact."""
+    """The edges a, c under a load at a given tilt; NaN if there is no contact."""
     a, c, _ = _solved(law, own, Goal(P, level(law, own, alpha), alpha, True))
     return a, c
 
@@ -468,7 +474,7 @@ def each_contact(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(LOOP)
 def each_contact_at_tilt(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Edges a, c under loads P at tilts, and the tilts of those that there are."""
+    """Edges a, c under loads P at given tilts, and the tilt, NaN where there is no contact."""
     law = opened(law)
     for i in range(given.shape[0]):
         alpha = given[i, 1]

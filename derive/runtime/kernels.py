@@ -1,11 +1,12 @@
-"""What numba is asked for, and what happens without it.
+"""Compilation of the kernels by numba, and their use without it.
 
-A kernel solves one case, in plain Python with `math`.  Here it is compiled, and kept on disk beside
-its source.  Where numba is missing, or NUMBA_DISABLE_JIT is set, the same text runs as Python.
+A kernel solves one case, in plain Python with `math`.  This module compiles it and keeps the result
+on disk beside its source.  Where numba is missing, or NUMBA_DISABLE_JIT is set, the source runs as
+Python.
 
-A body reaches the kernels as a `Law`, some functions of fixed signature; so the kernels are
-compiled once for all bodies.  From Python a law is handed over as the addresses of its functions,
-and `opened` inside, since numba takes ten microseconds to unwrap each function itself.
+A body reaches the kernels as a `Law`, a few functions of fixed signature, so that the kernels are
+compiled once for all bodies.  Python passes a law as the addresses of its functions, and the kernel
+restores it with `opened`, because numba takes ten microseconds to unwrap each function itself.
 """
 
 import sys
@@ -29,21 +30,21 @@ else:
     COMPILED = not numba.config.DISABLE_JIT
 
 PATIENCE = 0.7
-"""Seconds that a kernel may take until a person is told; one from disk takes a hundredth."""
+"""Seconds before the user is told of a compilation; loading from disk takes a hundredth of that."""
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 
 class Law(NamedTuple):
-    """What the kernels need of a body, all for E* = 1; `own` holds its parameters in their order.
+    """The functions of a body that the kernels need, all for E* = 1; `own` holds its parameters.
 
-    pressure  (x, a, c, own) -> p; zero outside the contact, infinite at a corner alone
+    pressure  (x, a, c, own) -> p; zero outside the contact, infinite only at a corner
     state     (a, c, own) -> load, moment, tilt, K_N at the left and the right edge; NaN where
-              [-a, c] is no contact
-    slope     (x, own) -> g'(x), g''(x); at a break of the piece on its right
+              [-a, c] is not a contact
+    slope     (x, own) -> g'(x), g''(x); at a break those of the piece on its right
     series    (a, c, own) -> coefficients of s**(3/2) at the left and the right edge, and of
-              s**(5/2); the latter NaN where nothing gives them
-    breaks    (own) -> places where the curve changes its formula, from left to right
+              s**(5/2); the latter are NaN where they are not available
+    breaks    (own) -> points where the formula of the curve changes, from left to right
     """
 
     pressure: Any
@@ -53,11 +54,11 @@ class Law(NamedTuple):
     breaks: Any
 
 
-def _forget_what_is_stale() -> None:
+def _remove_stale_kernels() -> None:
     """Remove compiled kernels that are older than any source of the runtime.
 
-    numba looks at the file of a kernel alone, and would keep what it has compiled into it from
-    others that have changed since.
+    numba only checks the file of the kernel itself.  It would keep compiled code that includes
+    functions from other files, even after those files have changed.
     """
     home = Path(__file__).parent
     newest = max(path.stat().st_mtime for path in home.rglob("*.py"))
@@ -73,7 +74,7 @@ if COMPILED:
     from numba.core import cgutils
     from numba.extending import intrinsic, overload, register_jitable
 
-    _forget_what_is_stale()
+    _remove_stale_kernels()
     real: Any = types.float64
     whole: Any = types.int64
     truth: Any = types.boolean
@@ -92,7 +93,7 @@ if COMPILED:
     function = types.FunctionType
 
     def results(count: int) -> Any:
-        """The type of so many numbers."""
+        """The type of a tuple of `count` real numbers."""
         return types.UniTuple(real, count)
 
     def record(kind: Any, *fields: Any) -> Any:
@@ -107,7 +108,7 @@ if COMPILED:
         """Compile a function for one signature, and keep it on disk."""
         while SHARED:
             register_jitable(SHARED.pop())
-        # what Python calls takes addresses, numbers and arrays: no wrapper for the others
+        # Python only calls kernels of addresses, numbers and arrays: the others need no wrapper
         inside = any(isinstance(t, types.BaseNamedTuple) for t in signature.args)
         compiled = numba.njit(
             signature,
@@ -119,7 +120,7 @@ if COMPILED:
         )
 
         def made(function: Kernel) -> Kernel:
-            timer = Timer(PATIENCE, _tell)
+            timer = Timer(PATIENCE, _announce)
             timer.start()
             try:
                 return compiled(function)
@@ -130,19 +131,19 @@ if COMPILED:
 
     @overload(where)
     def _where(condition, first, second):  # type: ignore[no-untyped-def]
-        """Between two numbers."""
+        """`where` for two numbers."""
         return lambda condition, first, second: first if condition else second
 
     @cache
-    def _tell() -> None:
-        """Say, once, what a person at a terminal is waiting for."""
+    def _announce() -> None:
+        """Inform a user at a terminal once that compilation takes some time."""
         if not sys.stderr.isatty():
             return
-        text = "compiling the solvers, once for this installation: some twenty seconds ..."
+        text = "compiling the solvers, once per installation: about twenty seconds ..."
         print(text, file=sys.stderr, flush=True)
 
-    def _holding(signature: Any, context: Any, builder: Any, address: Any) -> Any:
-        """A function as a value, from where its code is."""
+    def _function_value(signature: Any, context: Any, builder: Any, address: Any) -> Any:
+        """A function as a value, from the address of its code."""
         made = cgutils.create_struct_proxy(function(signature))(context, builder)
         made.jit_addr = made.c_addr = address
         return made._getvalue()
@@ -154,14 +155,14 @@ if COMPILED:
         def at(_: Any, address: Any) -> Any:
             def code(context: Any, builder: Any, _: Any, given: Any) -> Any:
                 pointer = builder.inttoptr(given[0], cgutils.voidptr_t)
-                return _holding(signature, context, builder, pointer)
+                return _function_value(signature, context, builder, pointer)
 
             return function(signature)(address), code
 
         return at
 
     def value_of(signature: Any) -> Any:
-        """Turn a kernel into a value.  What uses numba's own such values is not kept on disk."""
+        """Turn a kernel into a value.  Code with numba's own function values is not kept on disk."""
 
         @intrinsic  # type: ignore[untyped-decorator]
         def value(_: Any, given: Any) -> Any:
@@ -170,7 +171,7 @@ if COMPILED:
                 context.active_code_library.add_linking_library(compiled.library)
                 found = context.declare_function(builder.module, compiled.fndesc)
                 pointer = builder.bitcast(found, cgutils.voidptr_t)
-                return _holding(signature, context, builder, pointer)
+                return _function_value(signature, context, builder, pointer)
 
             return function(signature)(given), code
 
@@ -190,7 +191,7 @@ if COMPILED:
         )
 
     def handed(law: Law) -> Any:
-        """A law as Python hands it to a kernel; compiled, where it is not yet."""
+        """A law in the form in which Python passes it to a kernel; compiled if necessary."""
         found = []
         for function, signature in zip(law, SIGNATURES, strict=True):
             known = hasattr(function, "get_compile_result")
@@ -202,7 +203,7 @@ if COMPILED:
 else:
 
     class _Type:
-        """What stands for every type and signature without numba."""
+        """Substitute for every type and signature without numba."""
 
         def __call__(self, *_: Any) -> Any:
             return self
@@ -212,11 +213,11 @@ else:
     SIGNATURES = Law(real, real, real, real, real)
 
     def results(count: int) -> Any:
-        """The same for so many numbers."""
+        """Substitute for the type of a tuple of numbers."""
         return real
 
     def record(kind: Any, *fields: Any) -> Any:
-        """The same for a named tuple."""
+        """Substitute for the type of a named tuple."""
         return real
 
     def value_of(signature: Any) -> Any:

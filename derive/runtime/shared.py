@@ -1,7 +1,8 @@
-"""Functions that serve arrays as they stand, and kernels once numba compiles them.
+"""Functions that take arrays in NumPy and that kernels can call once numba compiles them.
 
-A formula's text is NumPy.  Called from Python it takes numbers and arrays; called from a kernel the
-same text is compiled for numbers.  Nothing here imports numba, which takes a third of a second.
+A formula is written in NumPy.  Called from Python it takes numbers and arrays; called from a kernel
+the same source is compiled for numbers.  This module does not import numba, because that takes a
+third of a second.
 """
 
 from collections.abc import Callable
@@ -12,17 +13,17 @@ from typing import Any, TypeVar
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 SHARED: list[Callable[..., Any]] = []
-"""Functions that kernels may call, until numba is told of them."""
+"""Functions that kernels may call, until they are registered with numba."""
 
 
 def shared(function: Function) -> Function:
-    """Let kernels call a function whose text is NumPy or `math`."""
+    """Let kernels call a function that is written with NumPy or `math`."""
     SHARED.append(function)
     return function
 
 
 def by_position(function: Callable[..., Any]) -> Callable[..., Any]:
-    """The same code with keyword-only arguments taken by position, as numba asks."""
+    """The same code with keyword-only arguments taken by position, as numba requires."""
     function = unwrap(function)
     code = function.__code__
     count = code.co_argcount + code.co_kwonlyargcount

@@ -1,14 +1,14 @@
-"""What the generated functions return: named tuples of arrays, fields in a fixed order."""
+"""Named tuples of arrays that the generated functions return, with fields in a fixed order."""
 
 from enum import IntEnum
 from typing import Any, NamedTuple, TypeAlias
 
 Array: TypeAlias = Any
-"""A scalar or an array of any kind that broadcasts; float64 comes out."""
+"""A scalar or an array of any type that broadcasts; results are float64."""
 
 
 class Contact(NamedTuple):
-    """The contact [-a, c] and its tilt."""
+    """The contact [-a, c] and the tilt alpha of the body."""
 
     a: Array
     c: Array
@@ -25,19 +25,20 @@ class Edges(NamedTuple):
 class Regime(IntEnum):
     """How a cycle slips.
 
-    NONE        there is no such cycle, or one of its numbers is none: `why` says which
+    NONE        there is no such cycle, or one of its numbers is invalid: `why` gives the reason
     MODERATE    forward slip at both edges: m and n are exact
     LARGE       slip of opposite signs at the edges: m and n are exact
-    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, but exact
-                for constant loads where forward slip overtakes it in the end, or where
-                stick_zone is asked to solve these cycles, too
+    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, except at
+                constant normal loads where forward slip finally overtakes the reversed slip, or
+                where `mixed=True` makes stick_zone solve the cycle
     SLIDING     nothing sticks: m and n are NaN
-    FULL_STICK  nothing slips: m and n are those of the smaller contact
-    UNSOLVED    the iteration did not end, or the phases of a mixed cycle were not found: NaN
-    OUT_OF_PHASE  loads of a march that are not in proportion at every instant: NaN at all of them
-    NOT_CLOSED  instants of a march that are no cycle: NaN at all of them
+    FULL_STICK  nothing slips: m and n are the edges of the smaller contact
+    UNSOLVED    the iteration did not converge, the tilts do not determine the edges, or the phases
+                of a mixed cycle were not found: m and n are NaN
+    OUT_OF_PHASE  the loads of a march are not in proportion at every instant: NaN at all instants
+    NOT_CLOSED  the instants of a march do not form a closed cycle: NaN at all instants
     COMPUTED    solved on elements, with an estimate of the error
-    NO_STICK    every place slips some time in a cycle, which does not slide: m and n are NaN
+    NO_STICK    every point slips at some time in a cycle that does not slide: m and n are NaN
     """
 
     NONE = 0
@@ -54,7 +55,7 @@ class Regime(IntEnum):
 
 
 class StickZone(NamedTuple):
-    """What sticks all the time, [-m, n], and a code of Regime."""
+    """The zone [-m, n] that sticks throughout the cycle, and a code of Regime."""
 
     m: Array
     n: Array
@@ -62,7 +63,7 @@ class StickZone(NamedTuple):
 
 
 class Threshold(NamedTuple):
-    """Changes of bulk tension between which tension is moderate."""
+    """Lower and upper limit of the change of bulk tension between which tension is moderate."""
 
     lower: Array
     upper: Array
@@ -72,9 +73,9 @@ class March(NamedTuple):
     """A cycle instant by instant.
 
     a, c         the contact [-a, c]
-    m, n         what has not slipped since the loads last turned, [-m, n]
-    left, right  sense of slip at either edge: +1 forward, -1 in reverse, 0 none, or none known
-    regime       a code of Regime; by the signs of K_T where m and n are those of a series
+    m, n         the zone [-m, n] that has not slipped since the last reversal of the loads
+    left, right  sense of slip at each edge: +1 forward, -1 reverse, 0 none or not known
+    regime       a code of Regime; where a series gives m and n, it follows from the signs of K_T
     """
 
     a: Array
@@ -90,17 +91,18 @@ class History(NamedTuple):
     """A load history instant by instant.
 
     a, c       the contact [-a, c]
-    m, n       the ends of all that sticks, [-m, n], in the motion that led here, at a rest, too;
-               NaN where nothing does
-    intervals  how many stick intervals there are
+    m, n       the ends of all that sticks, [-m, n], during the motion that led to this instant,
+               also while the loads rest; NaN where nothing sticks
+    intervals  the number of stick intervals
     regime     a code of Regime: COMPUTED, or MODERATE where all is exact; FULL_STICK, SLIDING,
                NONE, UNSOLVED
-    q, slip    shear and forward slip so far at x, an axis more; None without x
-    work       friction's, so far
-    error      estimated: of the ends in parts of the width, of shear in its mean over f P/(a + c);
-               0 where all is exact
-    work_error estimated, of work; its difference between two instants is that of the work between
-               them
+    q, slip    shear traction and accumulated forward slip at x, with one more axis than the other
+               fields; None without x
+    work       work dissipated by friction up to this instant
+    error      estimated error of the ends relative to the contact width, and mean error of the
+               shear traction relative to f P/(a + c); 0 where all is exact
+    work_error estimated error of work; its difference between two instants is the estimated error
+               of the work done between them
     """
 
     a: Array
@@ -117,17 +119,17 @@ class History(NamedTuple):
 
 
 class SteadyCycle(NamedTuple):
-    """What a cycle settles to.
+    """The steady cycle that a repeated load history settles to.
 
     m, n        the permanent stick zone [-m, n]
-    regime      a code of Regime: an exact one of stick_zone's, COMPUTED, NO_STICK, SLIDING, ...
-    slip_range  how far slip goes to and fro in a cycle at x; None without x
-    q           shear at x at the first instant; None without x
-    work        friction's in a cycle
-    rounds      how often the cycle was repeated
-    drift       change of slip from the last round but one to the last, over the most slip
-    error       estimated, of m and n alone, in parts of the width; 0 where they are exact
-    work_error  estimated, of work, which is computed always
+    regime      a code of Regime: an exact one as from stick_zone, COMPUTED, NO_STICK, SLIDING, ...
+    slip_range  the slip range in a cycle at x; None without x
+    q           shear traction at x at the first instant; None without x
+    work        work dissipated by friction in one cycle
+    rounds      how many times the cycle was repeated
+    drift       change of slip between the last two rounds, relative to the largest slip
+    error       estimated error of m and n alone, relative to the contact width; 0 if they are exact
+    work_error  estimated error of work, which is always computed numerically
     """
 
     m: Array

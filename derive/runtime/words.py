@@ -1,4 +1,4 @@
-"""Words and examples of the functions in cycle.py: what their docstrings say of one body."""
+"""Words and examples for the docstrings of the functions in cycle.py when bound to one body."""
 
 MEANINGS = {
     "P": "normal load per unit depth [N/m]",
@@ -7,41 +7,41 @@ MEANINGS = {
     "a": "left edge of the contact at x = -a [m]",
     "alpha": "tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]",
     "c": "right edge of the contact at x = c [m]",
-    "contact": "Contact under normal loads that stay",
+    "contact": "Contact under the constant normal loads",
     "dQ": "change of the shear load over the half-cycle that raises it [N/m]",
-    "da": "how much further the left edge reaches than at the other end of the half-cycle [m]",
-    "dc": "how much further the right edge reaches [m]",
+    "da": "how much further out the left edge is than at the other end of the half-cycle [m]",
+    "dc": "how much further out the right edge is than at the other end [m]",
     "dsigma": "change of the differential bulk tension over the same half-cycle [Pa]",
     "f": "coefficient of friction [-]",
     "first": "Contact at the start of the half-cycle that raises the shear load",
-    "mixed": "whether to solve cycles in which slip reverses, too, to 1e-7 of the width",
+    "mixed": "whether to solve cycles in which slip reverses as well, to 1e-7 of the contact width",
     "order": "order of the series: 1, 2 or 3",
-    "second": "Contact at its end; the same for constant normal loads",
+    "second": "Contact at the end of that half-cycle; equal to first for constant normal loads",
     "sigma": "differential bulk tension at every instant [Pa]",
-    "tol": "error aimed at: of the contact's width for ends, of f P for shear",
+    "tol": "target error, relative to the contact width for ends and to f P/(a + c) for shear",
     "x": "position along the interface, right positive [m]",
     "E_star": "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]",
 }
-"""What each argument is."""
+"""Meaning of each argument."""
 
 TYPES = {
     **dict.fromkeys(("contact", "first", "second"), "Contact"),
     **{"mixed": "bool", "order": "int", "tol": "float"},
 }
-"""What is no array of numbers."""
+"""Types of the arguments that are not arrays of numbers."""
 
 OTHERWISE = {
     "shear": {
-        "Q": "shear load that is reached first [N/m]",
-        "sigma": "differential bulk tension that comes with it [Pa]",
-        "dQ": "what the shear load has fallen by since then [N/m]",
-        "dsigma": "what the tension has fallen by since then [Pa]",
+        "Q": "shear load reached in the first loading [N/m]",
+        "sigma": "differential bulk tension reached together with Q [Pa]",
+        "dQ": "decrease of the shear load since then [N/m]",
+        "dsigma": "decrease of the tension since then [Pa]",
     },
-    "history": {"x": "places at which shear and slip are told, none unless given [m]"},
-    "steady_cycle": {"x": "places at which shear and slip are told, none unless given [m]"},
+    "history": {"x": "positions at which to return shear and slip; none unless given [m]"},
+    "steady_cycle": {"x": "positions at which to return shear and slip; none unless given [m]"},
     "march": {"order": "order of the series; 0 for the exact conditions"},
 }
-"""What it is in one function alone."""
+"""Meanings that differ in a single function."""
 
 _HERE = """\
 >>> law = dict({law})
@@ -100,8 +100,8 @@ True""",
 0.0""",
     "history": f"""\
 {_LAW}>>> P, M = (of({{edges}}, **law) for of in (load, moment))
->>> told = history(P, M, np.array([0.0, 1.0, -1.0]) * {{dQ}} / 2, 0.0, f=0.5, **law)
->>> [Regime(code).name for code in told.regime]
+>>> states = history(P, M, np.array([0.0, 1.0, -1.0]) * {{dQ}} / 2, 0.0, f=0.5, **law)
+>>> [Regime(code).name for code in states.regime]
 ['FULL_STICK', 'MODERATE', 'MODERATE']""",
     "steady_cycle": f"""\
 {_LAW}>>> P, M = (of({{edges}}, **law) for of in (load, moment))
@@ -115,4 +115,4 @@ True""",
 >>> cycle.left.tolist()
 [1, 1, -1, -1]""",
 }
-"""An example of each function; a body fills in its numbers."""
+"""An example of each function; each body fills in its numbers."""

@@ -65,7 +65,7 @@ def test_processes_give_what_numpy_gives(client: Client, name: str) -> None:
         np.testing.assert_allclose(value, known, rtol=1e-12, atol=1e-15)
 
 
-COMPILING = "compiling the solvers, once for this installation: some twenty seconds ...\n"
+COMPILING = "compiling the solvers, once per installation: about twenty seconds ...\n"
 """What a worker says that comes first."""
 
 

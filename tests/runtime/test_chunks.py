@@ -182,7 +182,7 @@ def wrong(kind: Any) -> Any:
         *(
             (
                 TypeError,
-                "a must be a real number or an array of such; got Array dask.array",
+                "a must be a real number or an array of real numbers; got Array dask.array",
                 lambda of=of: wedge.load(wrong(of), 1.0, **LAW),
             )
             for of in (complex, object, "U3", bool, "M8[s]")
@@ -199,7 +199,7 @@ def wrong(kind: Any) -> Any:
         ),
         (
             ValueError,
-            "order must be 1 to 3; got 7",
+            "order must be from 1 to 3; got 7",
             lambda: wedge.slip_zones(ONES, 1.0, 0.1, 0.0, f=F, order=7, **LAW),
         ),
         (
@@ -214,7 +214,7 @@ def wrong(kind: Any) -> Any:
         ),
         (
             TypeError,
-            "P is lazy, but no Dask array",
+            "P is lazy but not a Dask array",
             lambda: wedge.contact(delayed(len)([]), **LAW),
         ),
         (
