@@ -268,7 +268,7 @@ def test_a_limit_is_a_time_that_can_pass(command: str, seconds: str) -> None:
     result = run(command, "catenary", "--limit", seconds)
     assert result.exit_code == 2
     (message,) = lines(result.stderr)
-    assert message.startswith(f"Error: --limit {float(seconds):g}: ")
+    assert message.startswith(f"Error: --limit {float(seconds):g} ")
     assert "such as --limit 20" in message
 
 
@@ -374,7 +374,7 @@ def test_the_committed_package_is_as_generated() -> None:
     """The whole path once more, in an interpreter of its own."""
     ended = real("generate", "--check", cwd=ROOT)
     assert ended.returncode == 0, ended.stdout + ended.stderr
-    assert "is as generated" in ended.stdout
+    assert "is up to date" in ended.stdout
 
 
 LONELY = """
@@ -477,7 +477,7 @@ class TestGenerate:
         (here / "link").symlink_to(here / "there")
         result = run("generate", "hertz", "--out", out)
         assert result.exit_code == 2
-        assert "'link', a link to nothing" in result.stderr
+        assert "'link', which is a broken link" in result.stderr
         assert len(lines(result.stderr)) == 1
         assert not (here / "there").exists()
 
@@ -487,7 +487,7 @@ class TestCheck:
     """`derive generate --check`."""
 
     def test_it_passes_on_what_was_generated(self, committed: Path) -> None:
-        assert "is as generated" in done("generate", "--check")
+        assert "is up to date" in done("generate", "--check")
 
     @pytest.mark.parametrize(
         ("name", "text"),
@@ -555,7 +555,7 @@ def test_a_check_never_opens_what_was_kept(monkeypatch: pytest.MonkeyPatch) -> N
         raise AssertionError("the cache was read")
 
     monkeypatch.setattr(derive.cache.Cache, "get", refuse)
-    assert "is as generated" in done("generate", "--check")
+    assert "is up to date" in done("generate", "--check")
 
 
 def test_the_table_says_what_was_built_when() -> None:
@@ -646,8 +646,8 @@ def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) ->
     assert [now["completed"] for now in told] == [6, 6, 6, 9, 15, 18]
     assert [now["description"] for now in told][1:4] == [
         "b: reading g(x)",
-        "c: reading g(x), 1 more at work",
-        "b: proving, 1 more at work",
+        "c: reading g(x), 1 more in progress",
+        "b: proving, 1 more in progress",
     ]
 
 

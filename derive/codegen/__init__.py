@@ -1,23 +1,23 @@
-"""From proven formulas to NumPy, and in closed form to other languages.
+"""Turns proven formulas into NumPy code, and closed formulas into code for other languages.
 
-plan      which way each function takes: formula, sum over parts, quadrature, solved
-program   named steps, then outputs: what a function computes, before it is text
-rewrite   rules that keep digits in floating point; the result is compared with its source
+plan      chooses how each function is evaluated: formula, sum over parts, quadrature or solver
+program   the steps and outputs of a function, before they are printed as text
+rewrite   rules that avoid loss of digits in floating point; results are compared with the source
 parts     formulas of kinked polynomial bodies as sums over the parts of a contact
 printer   SymPy -> NumPy source
-contract  which functions a module has
+contract  the functions that every module has
 function  the text of one function that has a formula
-summed    the same for a sum over parts, and of what all such functions hold
+summed    the text of one function that is a sum over parts, and of the steps these functions share
 third     the third coefficient of the pressure next to the edges
-law       the text of what the solvers need of a body
-cuts      where a body without closed formulas is cut for quadrature
-integrals what such a body evaluates, as its docstrings print it
-curve     the text of such a body: its curve, and the functions that are integrated over it
-module    the one template of a generated module
+law       the text of the body's functions that the solvers call
+cuts      the points at which a body without closed formulas is cut for quadrature
+integrals the integrals that are evaluated for such a body, as its docstrings print them
+curve     the text of such a body: its curve and the functions that integrate over it
+module    the template of a generated module
 languages the closed formulas in C, Fortran, JavaScript, Julia or MATLAB
-mark      what every generated file begins with
-trial     runs the module as it was printed, and compares
-publish   compares a whole package with what is on disk, or replaces it
+mark      the first line of every generated file
+trial     runs the printed module and compares its results with the sheet
+publish   compares a whole package with the one on disk, or replaces it
 
-What generated modules need besides NumPy is derive/runtime/, copied beside them.
+Besides NumPy, generated modules need only derive/runtime/, which is copied beside them.
 """

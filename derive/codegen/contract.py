@@ -1,4 +1,4 @@
-"""Which functions a generated module has, and from which formulas of the sheet each is made.
+"""The functions of a generated module, and the formulas of the sheet that each is made from.
 
 This table is the contract with users: names, argument order and meanings are fixed.
 """
@@ -16,12 +16,13 @@ from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, x
 class Function:
     """One function of the contract.
 
-    fields      the fields of its result and the formula each comes from; one field without a name
-                for a plain array; a field that returns an argument names its symbol
-    kind        the named tuple that it returns, "" for a plain array
-    material    whether it takes E_star
-    geometric   whether it takes the geometry's own parameters
-    friction    whether it takes f
+    fields      the fields of the result, each with the name of its formula.  A plain array is a
+                single field with an empty name.  A field that returns an argument has the symbol
+                of the argument in place of the name of a formula.
+    kind        the named tuple that the function returns, or "" for a plain array
+    material    whether the function takes E_star
+    geometric   whether the function takes the parameters of the geometry
+    friction    whether the function takes f
     """
 
     name: str
@@ -36,7 +37,7 @@ class Function:
 
     @property
     def formulas(self) -> tuple[str, ...]:
-        """Names of the formulas that it is made of."""
+        """Names of the formulas that the function is made from."""
         return tuple(source for _, source in self.fields if isinstance(source, str))
 
     def available(self, sheet: FormulaSheet) -> bool:
@@ -44,19 +45,22 @@ class Function:
         return all(name in sheet for name in self.formulas)
 
     def keywords(self, sheet: FormulaSheet) -> tuple[Symbol, ...]:
-        """Its keyword-only arguments: friction, material, geometry."""
+        """The keyword-only arguments: friction, material, geometry."""
         own = tuple(q.symbol for q in sheet.geometry.parameters) if self.geometric else ()
         return ((f,) if self.friction else ()) + ((E_star,) if self.material else ()) + own
 
     def outputs(self, sheet: FormulaSheet) -> dict[str, Expr]:
-        """Expression of every field."""
+        """The expression of every field."""
         return {
             field: sheet[source].expr if isinstance(source, str) else source
             for field, source in self.fields
         }
 
     def conditions(self, sheet: FormulaSheet) -> tuple[Boolean, ...]:
-        """Assumptions under which the state exists; outside the contact the pressure is zero."""
+        """The assumptions under which the state exists.
+
+        Conditions on x are left out, because the pressure outside the contact is zero.
+        """
         held = dict.fromkeys(
             condition
             for name in self.formulas
@@ -118,23 +122,25 @@ CONTRACT: tuple[Function, ...] = (
     _edges(
         "K_N", (a, c), "Coefficients of sqrt(s) in the pressure at a distance s from the edges."
     ),
-    _edges("L_N", (a, c), "Coefficients of s**(3/2) in the pressure next to the edges."),
+    _edges(
+        "L_N", (a, c), "Coefficients of s**(3/2) in the pressure at a distance s from the edges."
+    ),
     _edges(
         "K_T",
         (a, c, dQ, dsigma),
-        "Coefficients of 1/sqrt(s) in the change of shear of a fully stuck contact, signed.",
+        "Coefficients of 1/sqrt(s) in the full-stick shear change at a distance s from the edges.",
         bare=True,
     ),
     _edges(
         "L_T",
         (a, c, dQ, dsigma),
-        "Coefficients of sqrt(s) in the change of shear of a fully stuck contact, signed.",
+        "Coefficients of sqrt(s) in the full-stick shear change at a distance s from the edges.",
         bare=True,
     ),
     _edges(
         "stick_margin",
         (a, c, dP, dM, dQ, dsigma),
-        "Friction left at the edges as all loads begin to change: no slip starts where it is >= 0.",
+        "Margin against slip at each edge as the loads begin to change; no slip starts if >= 0.",
         bare=True,
         friction=True,
     ),

@@ -1,8 +1,11 @@
-"""A body whose integrals have no closed form: its curve, piece by piece, and functions of it.
+"""Prints a body whose integrals have no closed form: its curve and the functions that use it.
 
 In:  a proven FormulaSheet.
-Out: the text of `_curve`, which gives g', g'' and t g''' beside each break, of the law that
-     integrates it, and of the functions that do.  The method is runtime/pieces.py.
+Out: the text of `_curve`, which returns g', g'' and t g''' at a distance t from each break; the
+     text of the law that integrates the curve; and the text of the functions that call the law.
+     The method of integration is in runtime/pieces.py.
+
+A break is a point at which one piece of the curve ends and the next begins.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -44,22 +47,22 @@ _t = Symbol("t", positive=True)
 
 
 class IntegratedText(FunctionText):
-    """The text of one function that is integrated."""
+    """The text of one function that is evaluated by quadrature."""
 
     def _made(self) -> Program:
         return Program({})
 
     def _demand_equal(self) -> None:
-        """Nothing is rewritten; the module is tried as a whole."""
+        """Compare nothing: no formula is rewritten, and the trial of the module tests the rest."""
 
     @property
     def _equations(self) -> Iterator[str]:
-        """What is evaluated; the closed formula that some bodies have stands on the sheet."""
+        """The integrals that are evaluated; a closed formula, if there is one, is on the sheet."""
         yield from Integrals(self.sheet).lines(self.function.formulas)
 
     @property
     def _origin(self) -> str:
-        return f"Derived from {self.source}; evaluated by quadrature."
+        return f"Derived from {self.source} and evaluated by quadrature."
 
     @property
     def _decorators(self) -> Iterator[str]:
@@ -75,10 +78,10 @@ class IntegratedText(FunctionText):
 
 
 class CurveText(LawText):
-    """The text of the law of a body that is integrated, be it for L_N alone."""
+    """The text of the law of a body for which at least one function, such as L_N, is integrated."""
 
     def _formulas(self, own: str) -> Iterator[str]:
-        """The curve, and what is integrated over it; the rest by the formulas above."""
+        """The curve and the functions that integrate over it; the others call formulas."""
         summed = carried_by(self.sheet) is Route.PARTS
         if summed:
             yield from self._carried(own)
@@ -86,23 +89,24 @@ class CurveText(LawText):
         places, pieces = cuts_of(slope)
         printer = NumPyPrinter()
         yield "@kernel(BESIDE_BREAK)"
-        yield from function_head("_curve", "piece, side, t", "g', g'' and t g''' beside a break.")
+        words = "g', g'' and t g''' at the distance t from a break."
+        yield from function_head("_curve", "piece, side, t", words)
         yield from self._unpacked([*self._demands(), *_branches(pieces)])
         yield "    return np.nan, np.nan, np.nan"
         steps = {kink.position: kink.step for kink in slope.kinks}
         jumps = [printer.doprint(steps.get(place, S.Zero)) for place in places]
         for name, words, values in (
-            ("_breaks", "Where the curve is cut.", map(printer.doprint, places)),
-            ("_corners", "By how much g' rises there.", jumps),
+            ("_breaks", "Points at which the curve is cut.", map(printer.doprint, places)),
+            ("_corners", "The jump of g' at each of these points.", jumps),
         ):
             yield "@kernel(BREAKS)"
             yield from function_head(name, "", words)
             array = f"np.array([{', '.join(map(as_float, values))}])"
             yield from self._unpacked([f"    return {array}"])
         for name, arguments, words in (
-            ("pressure", "x, a, c", "The pressure at x for E* = 1."),
+            ("pressure", "x, a, c", "Pressure at x for E* = 1."),
             ("state", "a, c", "Load, moment, tilt and K_N for E* = 1."),
-            ("slope", "x", "g'(x) and g''(x); infinite beyond the body's ends."),
+            ("slope", "x", "g'(x) and g''(x); infinite beyond the ends of the body."),
             ("series", "a, c", "L_N for E* = 1."),
         ):
             if summed and name in ("pressure", "state"):
@@ -115,13 +119,16 @@ class CurveText(LawText):
             yield f"    return pieces.{name}(curve, {arguments}, own)"
 
     def _demands(self) -> Iterator[str]:
-        """What the parameters must meet besides being positive: without it there is no curve."""
+        """Code that returns NaN unless the parameters meet the conditions of the body.
+
+        These are the conditions other than that the parameters are positive.
+        """
         for demand in self.sheet.geometry.slope.demands:
             yield f"    if not ({NumPyPrinter().doprint(demand)}):"
             yield "        return np.nan, np.nan, np.nan"
 
     def _ends(self) -> Iterator[str]:
-        """What is beyond the ends of a body whose curve has such."""
+        """Code for points beyond the ends of the body, if its curve has ends."""
         ends = zip(
             self.sheet.geometry.slope.domain, ("<=", ">="), ("-np.inf", "np.inf"), strict=True
         )
@@ -140,7 +147,7 @@ class CurveText(LawText):
 
 
 def _branches(pieces: Sequence[Piece]) -> Iterator[str]:
-    """The curve beside each end of each piece."""
+    """Code for the curve next to each end of each piece."""
     for i, piece in enumerate(pieces):
         for sense, place in ((1, piece.lower), (-1, piece.upper)):
             if place.is_finite:
@@ -149,7 +156,7 @@ def _branches(pieces: Sequence[Piece]) -> Iterator[str]:
 
 
 def _branch(piece: Piece, place: Expr, sense: int) -> Iterator[str]:
-    """g', g'' and t g''' at t beside a break."""
+    """Code that returns g', g'' and t g''' at the distance t from a break."""
 
     def rates(expr: Expr) -> list[Expr]:
         return [sense * _rate(term) for term in Add.make_args(expr)]
@@ -171,9 +178,9 @@ def _branch(piece: Piece, place: Expr, sense: int) -> Iterator[str]:
 
 
 def _place(place: Expr, slope: Expr) -> tuple[Expr, dict[Symbol, Expr]]:
-    """A break as it enters the formulas: by a name where it holds a root.
+    """A break as it enters the formulas: a symbol if its position contains a root.
 
-    Roots of several parameters would keep the search for short forms busy for minutes.
+    With roots of several parameters, the search for short forms would take minutes.
 
     >>> from sympy import symbols
     >>> b, R = symbols("b R", positive=True)
@@ -192,17 +199,17 @@ def _place(place: Expr, slope: Expr) -> tuple[Expr, dict[Symbol, Expr]]:
 
 
 class _tanh(Function):
-    """A hyperbolic tangent whose rate is no difference."""
+    """A hyperbolic tangent whose derivative is not written as a difference."""
 
     nargs = 1
 
     def fdiff(self, _: int = 1) -> Expr:
-        """1/cosh(z)**2, not 1 - tanh(z)**2, whose digits are lost far from zero."""
+        """1/cosh(z)**2, because 1 - tanh(z)**2 loses digits far from zero."""
         return cosh(self.args[0]) ** -2
 
 
 def _rate(expr: Expr) -> Expr:
-    """The derivative.
+    """The derivative with respect to t.
 
     >>> from sympy import tanh
     >>> _rate(tanh(2 * _t))
@@ -212,13 +219,15 @@ def _rate(expr: Expr) -> Expr:
 
 
 def _named(stem: str, beside: list[Expr]) -> Iterator[Symbol]:
-    """Symbols by number, with names that none has beside them."""
+    """Numbered symbols whose names do not occur in the expressions `beside`."""
     taken = [Symbol(symbol.name) for symbol in Tuple(*beside).free_symbols]
     return iter(numbered_symbols(stem, exclude=taken))
 
 
 def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
-    """Several half powers of t or of one step by its root, which is a step of its own.
+    """Half powers of t, or of a step, in terms of one square root, which becomes a step.
+
+    A root that occurs in only one power is left as it is.
 
     >>> from sympy import Rational, symbols
     >>> s, y = symbols("s y", positive=True)
@@ -243,16 +252,16 @@ def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
 
 
 def _positive_form(curvature: Expr) -> Expr:
-    """A form of g'' without a difference, if there is one."""
+    """A form of g'' without subtraction, if factoring gives one."""
     return factor(simplify(curvature))
 
 
 def _shortest(
     form: Callable[[Expr], Expr], terms: Sequence[Expr], is_positive: bool = False
 ) -> Expr:
-    """A form of a sum, whole or term by term, whichever is shorter.
+    """The sum of the terms after `form`: applied as a whole or term by term, whichever is shorter.
 
-    is_positive: term by term only if none of them is known to be subtracted.
+    is_positive: allow the sum term by term only if no term is known to be negative or zero
 
     >>> _shortest(simplify, [1 / (1 + _t), 1 / (2 + _t)])
     1/(t + 2) + 1/(t + 1)
@@ -264,7 +273,10 @@ def _shortest(
 
 
 def _joined(expr: Expr) -> Expr:
-    """t^k/t^2 as t^(k - 2), k a parameter or pi: apart, both are 0 at a t that its power may reach.
+    """Join powers of t: t^k/t^2 becomes t^(k - 2), where k is a parameter or pi.
+
+    Written separately, both powers may underflow to 0 at a small t, although their quotient does
+    not.
 
     >>> from sympy import cosh, Symbol
     >>> k = Symbol("k", positive=True)
@@ -282,5 +294,5 @@ def _joined(expr: Expr) -> Expr:
 
 
 def _is_uneven(exponent: Expr) -> bool:
-    """Whether a power is no whole one and no half one, or may be none: k, pi, 7/3."""
+    """Whether an exponent is not known to be a multiple of one half, such as k, pi or 7/3."""
     return not (2 * exponent).is_integer

@@ -1,11 +1,12 @@
-"""Closed formulas whose powers cancel, and where a body is cut for quadrature.
+"""Finds closed formulas whose powers cancel, and the points at which a body is cut for quadrature.
 
-In:  a body's Slope.
-Out: whether its formulas hold powers that cancel; the places where a body that is integrated is
-     cut, so that each of its pieces is written about its own root.
+In:  the Slope of a body.
+Out: whether its formulas contain powers that cancel; the points at which a body is cut for
+     quadrature, so that each piece is written about its own root.
 
-The formulas are written about the origin.  Close to a root of g'' or to a kink that lies elsewhere,
-powers of its place cancel: in (x - b)**3, a contact of width h loses the factor (b/h)**3.
+The formulas are written about the origin.  Close to a root of g'', or to a kink, that lies away
+from the origin, powers of its position cancel: with (x - b)**3, a contact of width h loses
+accuracy by the factor (b/h)**3.
 """
 
 from functools import lru_cache
@@ -28,14 +29,14 @@ from derive.profile import Slope, breaks_of, lies_in
 from derive.symbols import x
 
 HARMLESS = 1
-"""A g' of this degree loses no more than the rounding of the edges does anyway."""
+"""Highest degree of g' at which cancellation costs no more than the rounding of the edges."""
 
 _r = Symbol("x", positive=True)
 """A distance from the origin."""
 
 
 def cancels(slope: Slope) -> bool:
-    """Whether powers may cancel somewhere in the closed formulas.
+    """Whether powers may cancel in the closed formulas.
 
     >>> from sympy import symbols
     >>> from derive.profile import read_slope
@@ -49,7 +50,7 @@ def cancels(slope: Slope) -> bool:
 
 
 def _parts(slope: Slope) -> tuple[Expr, ...]:
-    """What the formulas are made of: one polynomial, and one more at each kink."""
+    """The polynomials that make up the formulas: the base, and the jump at each kink."""
     return (slope.base, *(kink.jump for kink in slope.kinks))
 
 
@@ -58,7 +59,7 @@ def _degree(polynomial: Expr) -> int:
 
 
 def _adds_up(piece: Piece) -> bool:
-    """Whether the terms of g'' have one sign, on either side of the origin that the piece has."""
+    """Whether no term of g'' is negative on any side of the origin where the piece is unbounded."""
     sides = [sense for sense, end in ((1, piece.upper), (-1, piece.lower)) if end in (oo, -oo)]
     terms = [expand(piece.curvature.subs(x, sense * _r)) for sense in sides]
     return all(t.is_nonnegative for whole in terms for t in Add.make_args(whole))
@@ -66,7 +67,7 @@ def _adds_up(piece: Piece) -> bool:
 
 @lru_cache(maxsize=16)
 def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
-    """Where quadrature cuts the body, and the pieces between.
+    """The points at which quadrature cuts the body, and the pieces between them.
 
     >>> from sympy import symbols
     >>> from derive.profile import read_slope
@@ -86,9 +87,10 @@ def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
 
 
 def _at_origin(piece: Piece, slope: Slope) -> list[Piece]:
-    """Two pieces of one that is level, or not curved, at the origin inside it; else that piece.
+    """The piece, cut at the origin if the origin is inside it and g' or g'' is zero there.
 
-    Small contacts lie there, and at a distance from another place g' is a small difference.
+    Small contacts lie at such an origin.  Written about any other point, g' would be a small
+    difference of large terms there.
     """
     origin = Integer(0)
     if piece.straight or not lies_in(origin, piece, slope.domain):
@@ -100,10 +102,10 @@ def _at_origin(piece: Piece, slope: Slope) -> list[Piece]:
 
 
 def _level_places(piece: Piece) -> list[Expr]:
-    """Where g'' is level or closest to it inside a piece, as far as their order is known.
+    """Points inside a piece at which a factor of g'' is zero or smallest, in order of position.
 
-    Of its linear and quadratic factors; roots of others are no numbers that code could be written
-    about.
+    Only linear and quadratic factors are considered, because the roots of other factors have no
+    simple expression.  Points whose order is not known are left out.
     """
     found: list[Expr] = []
     _, factors = factor_list(piece.curvature, x)
@@ -123,7 +125,7 @@ def _level_places(piece: Piece) -> list[Expr]:
 
 
 def _follows(first: Expr, second: Expr) -> bool:
-    """Whether the second place is known to lie beyond the first."""
+    """Whether the second point is known to lie to the right of the first."""
     if first == -oo or second == oo:
         return True
     if first == oo or second == -oo:

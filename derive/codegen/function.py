@@ -1,7 +1,7 @@
-"""The text of one generated function: signature, docstring with its equations and proofs, code.
+"""Prints one generated function: its signature, its docstring with equations and proofs, its code.
 
 In:  a proven FormulaSheet and a Function of the contract.
-Out: Python source, not formatted yet.
+Out: Python source, not yet formatted.
 """
 
 import textwrap
@@ -11,7 +11,7 @@ from itertools import product
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr, Gt, Lt, Min, S, Symbol
+from sympy import And, Expr, Gt, Lt, Min, Or, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
@@ -21,7 +21,7 @@ from derive.codegen.rewrite import prove_equal, stable_program
 from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
-from derive.proof.verdict import Proof
+from derive.proof.verdict import Proof, Verdict
 from derive.runtime.body import sentence
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
@@ -30,11 +30,11 @@ from derive.units import Dimension, dimension_of, parse_unit
 LINE = 100
 
 _width = Symbol("h")
-"""Contact width by its name, where code is checked for it."""
+"""The contact width as a plain name, used in the conditions that the code checks."""
 
 
 def inside_quotes(text: str) -> str:
-    """`text` as it stands between triple quotes, which it cannot close."""
+    """`text` escaped so that it can be placed between triple quotes without closing them."""
     return text.replace("\\", "\\\\").replace('"""', r"\"\"\"")
 
 
@@ -106,7 +106,7 @@ class FunctionText:
     def _code(self) -> Iterator[str]:
         arguments = self.function.arguments
         if x in arguments and _is_drawn_in(self.sheet):
-            yield "    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]"
+            yield "    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]"
         printer = printer_of(self.program, {x} if x in arguments else {*arguments})
         yield from self._steps(printer)
         yield from self._ending({n: printer.doprint(e) for n, e in self.program.outputs.items()})
@@ -115,7 +115,7 @@ class FunctionText:
         yield from step_lines(self.sheet, self.program, printer)
 
     def _ending(self, values: dict[str, str]) -> Iterator[str]:
-        """The results by their names, where the state exists, and NaN elsewhere."""
+        """Code that names the results and returns them, with NaN where no such state exists."""
         names = {}
         for field, source in self.function.fields:
             symbol = self.sheet[source].symbol if isinstance(source, str) else source
@@ -123,12 +123,15 @@ class FunctionText:
             if values[field] != names[field]:
                 yield f"    {names[field]} = {values[field]}"
         yield from self._existing()
-        found = ", ".join(f"where(exists, {name}, np.nan)" for name in names.values())
+        results = ", ".join(f"where(exists, {name}, np.nan)" for name in names.values())
         kind = self.function.kind
-        yield f"    return {kind}({found})" if kind else f"    return {found}"
+        yield f"    return {kind}({results})" if kind else f"    return {results}"
 
     def _existing(self) -> Iterator[str]:
-        """Whether the state exists; a contact that is returned is held to what one given is."""
+        """Code that checks whether the state exists.
+
+        A contact that is returned must meet the same conditions as a contact that is passed in.
+        """
         if "h" not in (str(step.symbol) for step in self.program.steps):
             yield "    h = a + c  # contact width [m]"
         contact = self.sheet["tilt"].conditions if self.function.kind == "Contact" else ()
@@ -137,7 +140,10 @@ class FunctionText:
 
     @property
     def _further_checks(self) -> Iterator[str]:
-        """Where zero is taken for 0/0, as beside a corner at an edge, x itself must be a number."""
+        """A check that x is not NaN, for functions in which `fmax` replaces 0/0 by zero.
+
+        That replacement, made at a corner at an edge, would also replace the NaN of x.
+        """
         corners = (k for k in self.sheet.frame.kinks if k.clipped and k.kink.is_corner)
         if self.function.name == "pressure" and any(corners):
             yield "x == x"
@@ -164,20 +170,20 @@ class FunctionText:
 
     @property
     def _given(self) -> dict[str, str]:
-        """What the arguments mean, both edges at once, and all that is material or geometry."""
-        found = {}
+        """The meanings of the arguments, with one entry for both edges and one for all keywords."""
+        meanings = {}
         quantities = self.sheet.geometry.quantities
         for symbol in self.function.arguments:
             q = quantities[str(symbol)]
             if symbol == a:
-                found["a, c"] = f"Edges of the contact at x = -a and x = c [{q.unit}]."
+                meanings["a, c"] = f"Edges of the contact at x = -a and x = c [{q.unit}]."
             elif symbol != c:
-                found[q.name] = sentence(f"{q.meaning} [{q.unit}]")
+                meanings[q.name] = sentence(f"{q.meaning} [{q.unit}]")
         if self.keywords:
             law = [quantities[str(symbol)] for symbol in self.keywords]
-            meanings = "; ".join(f"{q.meaning} [{q.unit}]" for q in law)
-            found[", ".join(q.name for q in law)] = sentence(meanings)
-        return found
+            listed = "; ".join(f"{q.meaning} [{q.unit}]" for q in law)
+            meanings[", ".join(q.name for q in law)] = sentence(listed)
+        return meanings
 
     @property
     def _equations(self) -> Iterator[str]:
@@ -193,7 +199,7 @@ class FunctionText:
 
     @property
     def _returns(self) -> tuple[str, str]:
-        """What comes out, and of which units."""
+        """The type of the result, and its fields with their units."""
         fields = []
         for field, source in self.function.fields:
             if isinstance(source, str):
@@ -207,20 +213,24 @@ class FunctionText:
 
     @property
     def _existence(self) -> str:
-        needed = map(str, _without_constants(self.conditions))
-        return f"NaN unless {' and '.join(needed)}."
+        needed = _without_constants(self.conditions)
+        inner = len(needed) > 1
+        return f"NaN unless {' and '.join(_in_words(each, inner) for each in needed)}."
 
     @property
     def _proofs(self) -> str:
-        """How each formula was proven, those of one proof together, and where it came from."""
-        told: dict[Proof, list[str]] = {}
+        """How each formula was proven, and its source; formulas with the same proof are joined."""
+        symbols: dict[Proof, list[str]] = {}
         digits: dict[Proof, int] = {}
         for formula in (self.sheet[name] for name in self.function.formulas):
             assert formula.proof is not None
             kind = replace(formula.proof, digits=0)
-            told.setdefault(kind, []).append(str(formula.symbol))
+            symbols.setdefault(kind, []).append(str(formula.symbol))
             digits[kind] = min(formula.proof.digits, digits.get(kind, formula.proof.digits))
-        proofs = (f"{' and '.join(s)} {replace(k, digits=digits[k])}." for k, s in told.items())
+        proofs = (
+            f"{' and '.join(proven)}: {_proof_in_words(replace(kind, digits=digits[kind]))}"
+            for kind, proven in symbols.items()
+        )
         return f"{'  '.join(proofs)}  {self._origin}"
 
     @property
@@ -246,6 +256,35 @@ class FunctionText:
             yield repr(shown[0])
 
 
+def _in_words(condition: Boolean, inner: bool = False) -> str:
+    """A condition with `and` and `or` for its operators.
+
+    inner: put a condition of several parts in parentheses
+
+    >>> _in_words((a > 1) | (c > 1), inner=True)
+    '(a > 1 or c > 1)'
+    """
+    if not isinstance(condition, And | Or):
+        return str(condition)
+    operator = " and " if isinstance(condition, And) else " or "
+    text = operator.join(_in_words(part, inner=True) for part in sorted(condition.args, key=str))
+    return f"({text})" if inner else text
+
+
+def _proof_in_words(proof: Proof) -> str:
+    """The kind of a proof, the digits to which both sides agree, and the routes.
+
+    >>> _proof_in_words(Proof(Verdict.NUMERICAL, "int p dx by quadrature", 24, 36))
+    'checked numerically, with agreement to 36 digits at 24 points.  Route: int p dx by quadrature.'
+    """
+    kinds = ["proven symbolically"] if proof.verdict is Verdict.PROVED else []
+    if proof.points or not kinds:
+        kinds.append("checked numerically")
+    digits = f", with agreement to {proof.digits} digits at {proof.points} points"
+    routes = "Routes" if "; " in proof.route else "Route"
+    return f"{' and '.join(kinds)}{digits if proof.points else ''}.  {routes}: {proof.route}."
+
+
 def _section(name: str) -> list[str]:
     return [name, "-" * len(name)]
 
@@ -255,7 +294,10 @@ def _indented(text: str) -> list[str]:
 
 
 def printer_of(program: Program, arguments: set[Symbol]) -> NumPyPrinter:
-    """A printer that knows what varies along an array: the arguments, and what holds them."""
+    """A printer that knows which symbols vary along an array.
+
+    These are the arguments and the steps that depend on them.
+    """
     varying = {*arguments}
     for step in program.steps:
         if step.expr.free_symbols & varying:
@@ -266,53 +308,56 @@ def printer_of(program: Program, arguments: set[Symbol]) -> NumPyPrinter:
 def step_lines(
     sheet: FormulaSheet, program: Program, printer: NumPyPrinter, given: int = 0
 ) -> Iterator[str]:
-    """The code of a program's steps, each with its meaning and unit.
+    """The code of the steps of a program, each with its meaning and unit.
 
-    given: how many of the first are there already.
+    given: the number of steps at the beginning that are already defined, and are not printed
     """
     known: dict[Symbol, Dimension] = {**sheet.dimensions, TINY: parse_unit("m")}
     for number, step in enumerate(program.steps):
-        found = dimension_of(step.expr, known) or Dimension()
-        known[step.symbol] = found
-        unit = "-" if str(found) == "1" else str(found)
+        dimension = dimension_of(step.expr, known) or Dimension()
+        known[step.symbol] = dimension
+        unit = "-" if str(dimension) == "1" else str(dimension)
         note = f"  # {step.meaning} [{unit}]" if step.meaning else ""
         if number >= given:
             yield from _noted(f"    {step.symbol} = {printer.doprint(step.expr)}", note)
 
 
 def _is_drawn_in(sheet: FormulaSheet) -> bool:
-    """Whether x is drawn in to the nearest edge, as it stands outside roots and logarithms, too."""
+    """Whether x must be clipped to the contact: it also occurs outside roots and logarithms."""
     return bool(sheet["pressure"].expr.xreplace({w: S.One}).has(x))
 
 
 def local(sheet: FormulaSheet, name: str) -> str:
-    """The name of a local variable, which gives way to a parameter of the same name."""
+    """The name of a local variable, extended by underscores if a parameter has the same name."""
     while name in {q.name for q in sheet.geometry.parameters}:
         name += "_"
     return name
 
 
 def checks_of(conditions: Iterable[Boolean]) -> list[str]:
-    """The conditions that code checks; `elementwise` checks the constants.
+    """The conditions that the code checks; `elementwise` checks the constants.
 
-    Lengths end where their products would leave float64.
+    Lengths are limited so that their products stay within the range of float64.
     """
-    held = _without_constants(conditions)
-    if {a > 0, c > 0} <= {*held}:  # both edges against LEAST at once: one operation less on arrays
-        held = [cond for cond in held if cond not in (a > 0, c > 0)] + [Min(a, c) > LEAST]
-    least = [Gt(_width, LEAST) if cond == (h > 0) else cond for cond in held]
+    checked = _without_constants(conditions)
+    if {a > 0, c > 0} <= {*checked}:  # one comparison for both edges saves an array operation
+        checked = [cond for cond in checked if cond not in (a > 0, c > 0)] + [Min(a, c) > LEAST]
+    least = [Gt(_width, LEAST) if cond == (h > 0) else cond for cond in checked]
     return [NumPyPrinter().doprint(cond) for cond in (*least, Lt(_width, MOST))]
 
 
 def _without_constants(conditions: Iterable[Boolean]) -> list[Boolean]:
-    """The conditions that are not of one constant alone; a > 0 and c > 0 say that h > 0."""
-    held = [cond for cond in dict.fromkeys(conditions) if not _is_of_a_constant(cond)]
-    spanning = {a > 0, c > 0} <= {*held}
-    return [cond for cond in held if not (spanning and cond == (h > 0))]
+    """The conditions other than that a constant is positive.
+
+    h > 0 is left out if a > 0 and c > 0 are among the conditions, because they imply it.
+    """
+    needed = [cond for cond in dict.fromkeys(conditions) if not _is_of_a_constant(cond)]
+    spanning = {a > 0, c > 0} <= {*needed}
+    return [cond for cond in needed if not (spanning and cond == (h > 0))]
 
 
 def _is_of_a_constant(condition: Boolean) -> bool:
-    """Whether a condition says that a constant is positive."""
+    """Whether the condition is that a constant is positive."""
     if not isinstance(condition, Gt):
         return False
     symbol, least = condition.args
@@ -320,7 +365,7 @@ def _is_of_a_constant(condition: Boolean) -> bool:
 
 
 def _noted(line: str, note: str) -> Iterator[str]:
-    """A line with its note behind it, or above it where it would be too long."""
+    """A line followed by its note, or preceded by it if the line would be too long."""
     if len(line + note) <= LINE:
         yield line + note
     else:
@@ -333,22 +378,23 @@ def _number(value: mpf) -> str:
 
 
 def _off_all_kinks(sheet: FormulaSheet, point: Point) -> bool:
-    """Whether no kink lies at x or at an edge, where some formulas have no value."""
-    places = [numeric(kink.position)(point) for kink in sheet.geometry.slope.kinks]
-    return not {*places} & {point[x], -point[a], point[c]}
+    """Whether no kink is at x or at an edge, where some formulas have no value."""
+    kinks = [numeric(kink.position)(point) for kink in sheet.geometry.slope.kinks]
+    return not {*kinks} & {point[x], -point[a], point[c]}
 
 
 _SIZES = (1, 2, 4, 8, mpf("0.5"), mpf("0.25"), mpf("0.125"))
-_PLACES = tuple(map(mpf, ("0.5", "0.375", "-0.25", "0.75", "0.1875")))
-"""Sizes of the contact, and places in it, that an example may have."""
+"""Values of c that are tried for an example."""
 
+_PLACES = tuple(map(mpf, ("0.5", "0.375", "-0.25", "0.75", "0.1875")))
+"""Values of x that are tried for an example."""
 
 _LONGER = mpf("1.5")
-"""The left arm of an example, in its sizes; the right one is a size long."""
+"""The ratio a/c of an example."""
 
 
 def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
-    """Plain numbers that meet the function's assumptions, for its docstring."""
+    """Simple numbers that meet the assumptions of a function, for its docstring."""
     needed = tuple(conditions)
     given = [_plain_parameters(sheet, lengths) for lengths in (1, 2)]
     tried = [(plain, place, size) for plain, place, size in product(given, _PLACES, _SIZES)]
@@ -371,11 +417,14 @@ def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
         }
         if holds(needed, point) and _off_all_kinks(sheet, point):
             return point
-    raise NotProven(f"no example found for {sheet.geometry.name!r}")
+    raise NotProven(
+        f"{sheet.geometry.name!r}: none of the numbers that were tried for an example meets the "
+        "conditions of the body"
+    )
 
 
 def _within(sheet: FormulaSheet, plain: Point) -> list[mpf]:
-    """Sizes at which the longer arm ends between the outermost kink and the body's end."""
+    """Sizes at which the left edge lies between the outermost kink and the end of the body."""
     ends = [abs(numeric(end)(plain)) for end in sheet.geometry.slope.domain]
     kinks = [abs(numeric(kink.position)(plain)) for kink in sheet.geometry.slope.kinks]
     start, end = max(kinks, default=mpf(0)), min(ends)
@@ -387,18 +436,21 @@ def _within(sheet: FormulaSheet, plain: Point) -> list[mpf]:
 
 
 def _middle_tilt(sheet: FormulaSheet, plain: Point) -> mpf:
-    """The tilt in the middle of those at which a body closes; zero if they have no end."""
+    """The middle of the range of tilts at which the body can touch; zero if it is unbounded."""
     low, high = (numeric(limit)(plain) for limit in sheet.geometry.slope.limits)
     return -(low + high) / 2 if mpmath.isfinite(high - low) else mpf(0)
 
 
 def _plain_parameters(sheet: FormulaSheet, lengths: int) -> Point:
-    """Parameters above what is demanded of them: lengths one or more apart, slopes an eighth."""
-    slope, found = sheet.geometry.slope, {}
+    """Values of the parameters: 1/8 for slopes, powers of `lengths` for others.
+
+    A typical value of the body takes precedence, and the lower bound of a parameter is added.
+    """
+    slope, values = sheet.geometry.slope, {}
     for number, q in enumerate(sheet.geometry.parameters):
         plain = mpf("0.125") if q.unit == "rad" else mpf(lengths) ** number
         value = slope.typical.get(q.symbol)
-        found[q.symbol] = (mpf(value.p) / value.q if value else plain) + mpf(
+        values[q.symbol] = (mpf(value.p) / value.q if value else plain) + mpf(
             slope.least.get(q.symbol, 0)
         )
-    return found
+    return values

@@ -1,11 +1,10 @@
-"""What a body that is integrated evaluates, as its docstrings print it.
+"""The integrals that are evaluated for a body without closed formulas, for its docstrings.
 
-In:  a FormulaSheet, and the name of one of its formulas.
-Out: the integral over g'' that derive/runtime/pieces.py evaluates for it, and what the functions
-     in that integral stand for.
+In:  a FormulaSheet and the name of one of its formulas.
+Out: the integral over g'' that derive/runtime/pieces.py evaluates for the formula, and the
+     definitions of the functions in that integral.
 
-Where g'' jumps as a corner does, the integral has a term of its own: the jump of g' in place of
-g'' dxi.
+Each corner, where g' jumps, adds a term in which the jump of g' takes the place of g'' dxi.
 """
 
 from collections.abc import Callable, Iterator
@@ -44,8 +43,8 @@ to_left, to_right = Function("r_left"), Function("r_right")
 FinitePart = Function("FinitePart")
 
 _IN_WORDS = (
-    "FinitePart: of the integral that ends at a distance d from the edge, without its term in "
-    "1/sqrt(d), as d goes to 0; by parts next to the edge"
+    "FinitePart: the limit of the integral that ends at a distance d from the edge, without its "
+    "term in 1/sqrt(d), as d goes to 0; next to the edge it is integrated by parts"
 )
 
 
@@ -56,7 +55,7 @@ class Integrals:
     sheet: FormulaSheet
 
     def formula(self, name: str) -> Expr:
-        """What is evaluated for a formula of the sheet.
+        """The expression that is evaluated for a formula of the sheet.
 
         >>> from derive.derivation import derive_sheet
         >>> from derive.library import load_geometry
@@ -79,7 +78,7 @@ class Integrals:
         return E_star / (6 * pi * h ** Rational(3, 2)) * finite
 
     def _pressed(self, weight: Callable[[Expr], Expr], of: Callable[[Expr], Expr] = S) -> Expr:
-        """int g'' weight dxi, and what the corners add."""
+        """int g'' weight dxi, plus the terms of the corners."""
         curved = of(Integral(curvature(xi) * weight(xi), (xi, -a, c)))
         return curved + sum((k.step * weight(k.position) for k in self._corners), S.Zero)
 
@@ -89,7 +88,7 @@ class Integrals:
 
     @cached_property
     def definitions(self) -> dict[Expr, Expr]:
-        """What the functions stand for; zero at a corner outside the contact."""
+        """The definitions of the functions; they are zero at a corner outside the contact."""
         left, right = a + xi, c - xi
         ratios = (right / left, left / right)
         least = Min((a + x) * right, left * (c - x))
@@ -112,26 +111,26 @@ class Integrals:
         return Piecewise(*branches, (_short(of(last)), True))
 
     def lines(self, names: tuple[str, ...]) -> Iterator[str]:
-        """Formulas as they are printed, and what they hold."""
-        found = {self.sheet[name].symbol: self.formula(name) for name in names}
+        """The formulas as they are printed, and the definitions of the functions in them."""
+        formulas = {self.sheet[name].symbol: self.formula(name) for name in names}
         if "moment" in names:
-            found[P] = self.formula("load")
-        own = Function(local(self.sheet, "w"))  # a parameter may have the theory's name
+            formulas[P] = self.formula("load")
+        own = Function(local(self.sheet, "w"))  # a parameter may be named w
 
         def text(expr: Expr) -> str:
             return text_of(expr.replace(w, own))
 
-        for symbol, expr in found.items():
+        for symbol, expr in formulas.items():
             yield f"{symbol} = {text(expr)}"
-        held = {node.func for expr in found.values() for node in expr.atoms(Function)}
+        used = {node.func for expr in formulas.values() for node in expr.atoms(Function)}
         for called, definition in self.definitions.items():
-            if called.func in held:
+            if called.func in used:
                 yield f"{text(called)} = {text(definition)}"
-        if FinitePart in held:
+        if FinitePart in used:
             yield _IN_WORDS
 
 
 def _short(expr: Expr) -> Expr:
-    """At xi, factored where that is not longer."""
+    """The expression at xi, factored unless that makes it longer."""
     simple = simplify(expr)
     return min(factor(simple), simple, key=lambda form: form.count_ops()).subs(x, xi)

@@ -1,12 +1,12 @@
-"""A body's closed formulas as functions of another language.
+"""Prints the closed formulas of a body as functions of another language.
 
 In:  a FormulaSheet.
 Out: source text in C, Fortran, JavaScript, Julia or MATLAB.
 
-Each closed formula of a generated module is a function of numbers here, with the symbols that the
-sheet defines as its steps; it returns NaN where its conditions do not hold.  What is printed is the
-formula as derived: it is not rewritten for floating point as in the generated module, and loses
-digits where its terms cancel, as next to a kink.
+Each closed formula of a generated module becomes a function of scalars, whose steps are the symbols
+that the sheet defines.  It returns NaN if its conditions are not met.  The formula is printed as
+derived.  Unlike the formulas of the generated module it is not rewritten for floating point, so it
+loses digits where its terms cancel, for example next to a kink.
 """
 
 import textwrap
@@ -55,12 +55,12 @@ _ELEMENTARY = (
 )
 
 _VALUE = "value"
-"""What a function calls its result, where it has to name it."""
+"""The name of a result, in languages in which a function must name it."""
 
 
 @dataclass(frozen=True)
 class Text:
-    """One function, each part of it in its language."""
+    """One function, with each part printed in its language."""
 
     name: str
     arguments: list[str]
@@ -74,10 +74,12 @@ class Text:
 class Language:
     """How a language writes expressions and functions.
 
-    comment    what begins a line of comment
-    function   the lines of one function of a body
-    file       first and last lines of a body's file, from its name and its functions' names
-    keywords   names that an argument cannot have
+    comment       the characters that begin a comment line
+    function      yields the lines of one function of a body
+    file          returns the first and the last lines of a file, from the name of the body and the
+                  names of its functions
+    keywords      names that an argument cannot have
+    ignores_case  whether names that differ only in case are the same
     """
 
     printer: CodePrinter
@@ -89,7 +91,7 @@ class Language:
 
 
 class _Fortran(FCodePrinter):
-    """Numbers beside others are real ones: Fortran's max and min take one kind alone."""
+    """Prints whole numbers in max and min as reals, because their arguments must have one type."""
 
     def _print_Max(self, expr: Expr) -> str:
         return self._of_reals("max", expr)
@@ -105,13 +107,13 @@ class _Fortran(FCodePrinter):
 def code_of(sheet: FormulaSheet, language: str) -> str:
     """The closed formulas of a sheet in one of LANGUAGES.
 
-    Raises NoSuchName if the language has no room for one of the body's names.
+    Raises NoSuchName if the language cannot use one of the names of the body.
     """
     spoken, geometry = LANGUAGES[language], sheet.geometry
     formulas = {name: function for function in CONTRACT for name in function.formulas}
     closed = {n: f for n, f in formulas.items() if n in sheet and _is_elementary(sheet.flat(n))}
-    held = {s for f in closed.values() for s in (*f.arguments, *f.keywords(sheet))}
-    _demand_names(geometry.name, language, map(str, held))
+    symbols = {s for f in closed.values() for s in (*f.arguments, *f.keywords(sheet))}
+    _demand_names(geometry.name, language, map(str, symbols))
     functions = [_text(sheet, name, function, spoken) for name, function in closed.items()]
     first, last = spoken.file(geometry.name, list(closed))
     lacking = [name for name in formulas if name in sheet and name not in closed]
@@ -126,21 +128,21 @@ def _is_elementary(expr: Expr) -> bool:
 
 
 def _heading(sheet: FormulaSheet, language: str, lacking: list[str]) -> Iterator[str]:
-    """What the file is, the units of the body's parameters, and which formulas it lacks."""
+    """The description of the file, the units of the parameters, and the formulas left out."""
     yield sheet.title
     yield f"Closed formulas, printed by `derive show {sheet.geometry.name} --code {language}`."
     yield (
-        "They stand as derived, lose digits where terms cancel, as next to a kink, and are NaN "
-        "where their conditions do not hold."
+        "The formulas are printed as derived: they lose digits where terms cancel, for example "
+        "next to a kink.  They return NaN if their conditions are not met."
     )
     for q in sheet.geometry.parameters:
         yield f"{q.name}: {q.meaning} [{q.unit}]"
     if lacking:
-        yield f"Integrals, which are not here: {', '.join(lacking)}."
+        yield f"Not included, because they are integrals: {', '.join(lacking)}."
 
 
 def _text(sheet: FormulaSheet, name: str, function: contract.Function, language: Language) -> Text:
-    """One formula as a function: the symbols of the sheet that it holds become steps."""
+    """One formula as a function; the symbols of the sheet that occur in it become steps."""
     formula, print_ = sheet[name], _printing(language)
     symbols = (*function.arguments, *function.keywords(sheet))
     steps = [Step(s, expr, "") for s, expr in sheet.defined_in(name).items()]
@@ -150,7 +152,7 @@ def _text(sheet: FormulaSheet, name: str, function: contract.Function, language:
     if x in symbols:
         inside = Step(Symbol("x_in", real=True), Max(-a, Min(x, c)), "")
         program = program.mapped(lambda expr: expr.xreplace({x: inside.symbol})).with_steps(inside)
-        condition = And(condition, Eq(x, Symbol(x.name)))  # a maximum passes over NaN in C
+        condition = And(condition, Eq(x, Symbol(x.name)))  # in C, a maximum ignores NaN
         words += "; zero outside the contact"
     program = program.ordered().renamed([*map(str, symbols), _VALUE])
     return Text(
@@ -178,11 +180,17 @@ def _demand_names(body: str, language: str, names: Iterable[str]) -> None:
     spoken, given = LANGUAGES[language], sorted({body, *names})
     for name in given:
         if name in (*spoken.keywords, _VALUE):
-            raise NoSuchName(body, language, name, "is a word of the language")
+            raise NoSuchName(body, language, name, "is reserved in code of that language")
     seen: dict[str, str] = {}
     for name in given if spoken.ignores_case else ():
         if seen.setdefault(name.lower(), name) != name:
-            raise NoSuchName(body, language, name, f"is {seen[name.lower()]} there")
+            raise NoSuchName(
+                body,
+                language,
+                name,
+                f"is the same name as {seen[name.lower()]!r}, because upper and lower case are not "
+                "distinguished",
+            )
 
 
 def _comment(paragraphs: Iterable[str], language: Language) -> Iterator[str]:
@@ -264,7 +272,7 @@ def _julia_file(body: str, names: list[str]) -> tuple[list[str], list[str]]:
 
 
 def _matlab_file(body: str, names: list[str]) -> tuple[list[str], list[str]]:
-    """MATLAB sees a file's first function alone: it hands out the others."""
+    """MATLAB can call only the first function of a file, so this one returns the others."""
     handles = [f"    functions.{name} = @{name};" for name in names]
     return [f"function functions = {body}()", *handles, "end"], []
 

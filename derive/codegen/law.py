@@ -1,4 +1,4 @@
-"""What a generated module gives the kernels: the body's functions for numbers, and the body.
+"""Prints the law of a body: the scalar functions that a generated module passes to the kernels.
 
 In:  a proven FormulaSheet.
 Out: the text of `_pressure`, `_state`, `_slope`, `_series` and `_breaks`, and of `_BODY`.
@@ -19,14 +19,14 @@ from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
 
 NAMES = ("pressure", "state", "slope", "series", "breaks")
-"""What a law consists of, in the order of runtime/kernels.py."""
+"""The functions of a law, in the order of runtime/kernels.py."""
 
 _OF_SEVERAL = ("_state", "_slope", "_series", "_curve")
 """Functions that return several numbers."""
 
 
 class LawText:
-    """The text of one body's law."""
+    """The text of the law of one body."""
 
     def __init__(self, sheet: FormulaSheet, source: str) -> None:
         self.sheet, self.source = sheet, source
@@ -34,22 +34,22 @@ class LawText:
 
     @property
     def text(self) -> str:
-        """All of it."""
+        """The whole text."""
         own = ", ".join(f"own[{i}]" for i in range(len(self.names)))
         return "\n".join([*self._formulas(own), *self._slope(), *self._breaks(), *self._body()])
 
     def _formulas(self, own: str) -> Iterator[str]:
-        """Pressure, state and series by the formulas above, compiled for numbers."""
+        """Code for pressure, state and series, which calls the public functions with scalars."""
         yield from self._carried(own, "L_N")
         yield from self._series()
 
     def _carried(self, own: str, *more: str) -> Iterator[str]:
-        """Pressure and state, and what else takes its arguments by position."""
+        """Code for pressure and state, and for the functions `more` with positional arguments."""
         yield "_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)"
         edges = ("K_N", *more)
         names = ", ".join(["_p", *(f"_{name}" for name in edges)])
         yield f"{names} = {', '.join(f'by_position({name})' for name in ('pressure', *edges))}"
-        yield from function_head("_pressure", "x, a, c", "The pressure at x for E* = 1.")
+        yield from function_head("_pressure", "x, a, c", "Pressure at x for E* = 1.")
         yield f"    return _p(x, a, c, 1.0, {own})"
         yield from function_head("_state", "a, c", "Load, moment, tilt and K_N for E* = 1.")
         yield f"    left, right = _K_N(a, c, 1.0, {own})"
@@ -77,13 +77,13 @@ class LawText:
         )
 
     def _unpacked(self, text: Iterable[str]) -> Iterator[str]:
-        """The parameters that some text holds, by their names; then the text."""
+        """The lines of a text, preceded by a line that assigns the parameters that it uses."""
         lines = list(text)
         words = set(re.findall(r"\w+", " ".join(lines)))
-        held = [(name, f"own[{i}]") for i, name in enumerate(self.names) if name in words]
-        if held:
-            names, places = zip(*held, strict=True)
-            yield f"    {', '.join(names)} = {', '.join(places)}"
+        used = [(name, f"own[{i}]") for i, name in enumerate(self.names) if name in words]
+        if used:
+            names, values = zip(*used, strict=True)
+            yield f"    {', '.join(names)} = {', '.join(values)}"
         yield from lines
 
     def _slope(self) -> Iterator[str]:
@@ -99,7 +99,7 @@ class LawText:
 
     def _breaks(self) -> Iterator[str]:
         places = [kink.position for kink in self.sheet.frame.slope.kinks]
-        yield from function_head("_breaks", "", "Where the curve changes its formula.")
+        yield from function_head("_breaks", "", "Points at which the formula of the curve changes.")
         printed = ", ".join(as_float(NumPyPrinter().doprint(place)) for place in places)
         array = f"np.array([{printed}])" if places else "np.empty(0)"
         yield from self._unpacked([f"    return {array}"])
@@ -117,12 +117,12 @@ class LawText:
 
 
 def _shorter(polynomial: Expr) -> Expr:
-    """By factors, as (x - b)/R, or by terms, as x/R + x**3/L**3."""
+    """A polynomial as factors, such as (x - b)/R, or as terms, such as x/R + x**3/L**3."""
     return min(factor(polynomial), expand(polynomial), key=count_ops)
 
 
 def function_head(name: str, arguments: str, words: str) -> Iterator[str]:
-    """The first lines of a function of numbers."""
+    """The first lines of a function of scalars."""
     given = f"{arguments}, own" if arguments else "own"
     typed = ", ".join(f"{argument}: Array" for argument in given.split(", "))
     result = "tuple[Array, ...]" if name in _OF_SEVERAL else "Array"
@@ -131,7 +131,7 @@ def function_head(name: str, arguments: str, words: str) -> Iterator[str]:
 
 
 def example_values(sheet: FormulaSheet) -> tuple[object, ...]:
-    """A contact in plain numbers for the docstrings, as runtime/body.py has it."""
+    """The arguments of `Example` in runtime/body.py: a contact in simple numbers."""
     point: Point = example_of(sheet, sheet["load"].conditions)
     names = ("load", "moment", "tilt", "K_N_left", "K_N_right")
     *carried, left, right = (float(numeric(sheet.flat(name))(point)) for name in names)
@@ -141,5 +141,5 @@ def example_values(sheet: FormulaSheet) -> tuple[object, ...]:
 
 
 def as_float(printed: str) -> str:
-    """Whole numbers as numbers of float64, which numba asks for."""
+    """A printed number as a float: numba needs `1.0` instead of `1`."""
     return f"{printed}.0" if printed.isdigit() else printed

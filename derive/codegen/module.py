@@ -1,8 +1,8 @@
-"""The one template of a generated module.
+"""The template of a generated module.
 
 In:  a proven FormulaSheet.
-Out: the text of a module: one function of the contract after the other, then what the solvers need
-     of the body, then the functions of a cycle, bound to it.
+Out: the text of a module: first the functions of the contract, then the functions of the body that
+     the solvers call, then the functions of a cycle, bound to the body.
 """
 
 import ast
@@ -31,7 +31,7 @@ _KINDS = (
     *("Contact", "Edges", "History", "March", "Regime"),
     *("SteadyCycle", "StickZone", "Threshold"),
 )
-"""Types of results, which a module offers beside its functions."""
+"""Types of results, which a module exports along with its functions."""
 
 _HELPERS = {
     "arrays": ("elementwise",),
@@ -45,7 +45,7 @@ _HELPERS = {
     "shared": ("by_position", "shared"),
     "types": ("Array", *_KINDS),
 }
-"""What the modules of runtime/ offer to a body's."""
+"""The names that a module can import, by their module in runtime/."""
 
 _TEXTS = {
     Route.FORMULA: FunctionText,
@@ -55,9 +55,9 @@ _TEXTS = {
 
 
 def module_text(sheet: FormulaSheet, source: str) -> str:
-    """The module of one body; `source` names the file that g(x) came from.
+    """The text of the module of one body; `source` names the file that defines g(x).
 
-    Raises NotProven if any formula of the sheet, or any rewritten form, is not proven.
+    Raises NotProven if any formula of the sheet, or any rewritten form of one, is not proven.
     """
     sheet.demand_proven()
     solved = [f.name for f in CONTRACT if route_of(sheet, f) is Route.SOLVED]
@@ -92,7 +92,7 @@ from .runtime import {"cycle, pieces" if "pieces." in code else "cycle"}
 
 
 def _heading(sheet: FormulaSheet, source: str) -> str:
-    """The module's docstring: the body, its profile, what several of its formulas hold."""
+    """The docstring of the module: the body, its profile, and the symbols of its formulas."""
     origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
     paragraphs = [textwrap.fill(sheet.geometry.title, LINE - 4)]
     paragraphs.append(textwrap.fill(origin, LINE, subsequent_indent=" " * 4))
@@ -102,18 +102,19 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
             textwrap.fill(line, LINE, initial_indent=" " * 4, subsequent_indent=" " * 8)
             for line in definitions_text(sheet)
         ]
-        paragraphs.append("\n".join(["In the formulas below", *lines]))
+        paragraphs.append("\n".join(["The formulas below use these definitions:", *lines]))
     return "\n\n".join(paragraphs)
 
 
 SHAPES = (
-    "Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and "
-    "geometry are positive and lengths are between 1e-75 and 1e75 m."
+    "Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN "
+    "unless the constants of material and geometry are positive and lengths are between 1e-75 and "
+    "1e75 m."
 )
 
 
 def _offered(names: list[str]) -> str:
-    """`__all__`, in lines that type checkers read."""
+    """`__all__`, built up in a form that type checkers understand."""
     lines: list[list[str]] = [[]]
     for name in sorted(names, key=_order):
         if len(str([*lines[-1], name])) > LINE - len("__all__ += "):
@@ -124,11 +125,11 @@ def _offered(names: list[str]) -> str:
 
 
 def full_stick_text(sheet: FormulaSheet) -> str:
-    """The module of the functions that hold no parameter of a body; any body's sheet gives it."""
+    """The module of the functions without parameters of a body; any sheet gives the same text."""
     made = (f for f in CONTRACT if not f.geometric)
     code = "\n\n".join(FunctionText(sheet, f, "derive/theory/stick.py").text for f in made)
     return formatted(f'''{MARK}
-"""Full stick: how shear changes next to the edges of a contact that does not slip.
+"""Full stick: the change of shear traction next to the edges of a contact that does not slip.
 
 {textwrap.fill(SHAPES, LINE)}
 """
@@ -143,7 +144,7 @@ import numpy as np
 
 
 def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
-    """The text of every function that has a formula, and of the body's law."""
+    """The text of every function that has a formula, and of the law of the body."""
     carried = carried_by(sheet)
     if carried is Route.PARTS and (angles := angles_text(sheet)):
         yield angles
@@ -157,23 +158,23 @@ def _functions(sheet: FormulaSheet, source: str) -> Iterator[str]:
 
 
 def _imports(code: str, always: tuple[str, ...] = ()) -> str:
-    """What the code needs of the modules of runtime/."""
+    """The imports from runtime/ that the code needs."""
     lines = []
     used = {node.id for node in ast.walk(ast.parse(code)) if isinstance(node, ast.Name)}
     for module, names in _HELPERS.items():
-        held = sorted({*names} & {*always, *used}, key=_order)
-        if held:
-            lines.append(f"from .runtime.{module} import {', '.join(held)}")
+        needed = sorted({*names} & {*always, *used}, key=_order)
+        if needed:
+            lines.append(f"from .runtime.{module} import {', '.join(needed)}")
     return "\n".join(lines)
 
 
 def _order(name: str) -> tuple[bool, bool, str]:
-    """K_N before Contact before load: as the linter sorts `__all__`."""
+    """The sort key of the linter for `__all__`: K_N before Contact before load."""
     return not name.isupper(), name.islower(), name
 
 
 def formatted(text: str) -> str:
-    """`text` in the project's format, whatever configuration lies around."""
+    """`text` in the format of the project, regardless of any configuration file."""
     command = [find_ruff_bin(), "format", "--isolated", f"--line-length={LINE}", "-"]
     done = subprocess.run(
         command, input=text, text=True, encoding="utf-8", capture_output=True, check=True

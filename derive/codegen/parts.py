@@ -1,8 +1,8 @@
-"""Functions of a body that is a polynomial on each piece, as sums over the parts of a contact.
+"""Functions of a piecewise polynomial body as sums over the parts of a contact.
 
-In:  a FormulaSheet, and which of its formulas a function returns.
-Out: the Program of that function, compared with the sheet's formulas before it is used; the steps
-     that all these programs begin with.
+In:  a FormulaSheet and the names of the formulas that a function returns.
+Out: the Program of that function, compared with the formulas of the sheet before it is used; the
+     steps with which all these programs begin.
 """
 
 from collections.abc import Mapping
@@ -22,15 +22,15 @@ from derive.theory.frame import Frame
 from derive.theory.segments import Parts, definitions_of
 
 THIRD = {"left": "third_left", "right": "third_right"}
-"""The fields of a program that gives the coefficients of s**(5/2) in the pressure."""
+"""The fields of the program for the coefficients of s**(5/2) in the pressure."""
 
 
 def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
-    """The program of a function; it begins with the steps that all have in common.
+    """The program of a function; it begins with the steps that all functions have in common.
 
-    fields: by the field's name that of a formula of the sheet; or THIRD.
+    fields: the name of a formula of the sheet for the name of each field, or THIRD
 
-    Raises NotProven if it is not what the sheet says.
+    Raises NotProven if the program does not agree with the sheet.
 
     >>> from derive.derivation import derive_sheet
     >>> from derive.library import load_geometry
@@ -49,14 +49,14 @@ def parts_program(sheet: FormulaSheet, fields: Mapping[str, str]) -> Program:
 
 
 def common_steps(sheet: FormulaSheet) -> tuple[Step, ...]:
-    """The steps that every function holds, if they are more than the contact's width."""
+    """The steps that all functions have in common, unless that is only the contact width."""
     first, *others = (program.steps for program in _programs(sheet.frame, _taken(sheet)))
     common = tuple(step for step in first if all(step in steps for steps in others))
     return common if len(common) > 1 else ()
 
 
 def functions_called(sheet: FormulaSheet) -> dict[Expr, Expr]:
-    """The functions that any of the programs calls, and what they are."""
+    """The functions that the programs call, with their definitions."""
     programs = _programs(sheet.frame, _taken(sheet))
     return definitions_of(
         expr
@@ -67,7 +67,7 @@ def functions_called(sheet: FormulaSheet) -> dict[Expr, Expr]:
 
 @lru_cache(maxsize=2)
 def _programs(frame: Frame, taken: tuple[str, ...]) -> tuple[Program, ...]:
-    """Those of all functions of the contract."""
+    """The programs of all functions of the contract that are sums over parts."""
     parts = Parts(frame)
     made = (f.formulas for f in CONTRACT if f.formulas[0] in parts.formulas)
     return tuple(_program(parts, {name: name for name in names}, taken) for names in made)
@@ -81,12 +81,12 @@ def _program(parts: Parts, fields: Mapping[str, str], taken: tuple[str, ...]) ->
 
 
 def _taken(sheet: FormulaSheet) -> tuple[str, ...]:
-    """Names that no step may bear."""
+    """Names that no step may have."""
     return tuple(q.name for q in sheet.geometry.parameters)
 
 
 def _derived(sheet: FormulaSheet, name: str) -> Expr:
-    """A formula by the sheet's own derivation, the frame's symbols written out."""
+    """A formula as derived by the sheet, with the symbols of the frame written out."""
     if name in THIRD.values():
         edge = Edge[name.removeprefix("third_").upper()]
         return sheet.frame.flat(pressure_series(sheet.frame, edge, 3)[2])

@@ -1,14 +1,16 @@
-"""Which way each function of a body takes, decided here and nowhere else.
+"""Chooses how each function of a body is evaluated; no other module decides this.
 
 In:  a FormulaSheet.
 Out: a Route for each function of the contract.
 
-    FORMULA     the closed formula, rewritten for floating point
-    PARTS       the closed formula as a sum over the parts of the curve, in terms of one sign: where
-                a contact can leave a kink, its plain form would lose digits
-    QUADRATURE  one quadrature of g'', in integrands of one sign: no closed formula, or one whose
-                powers cancel; and L_N where g'' is no constant on some part
-    SOLVED      Newton's method on load and moment, or on load and tilt
+    FORMULA     The closed formula, rewritten for floating point.
+    PARTS       The closed formula as a sum over the parts of the curve, with terms of one sign.
+                It is used where a contact can move off a kink, because the plain formula would
+                lose digits there.
+    QUADRATURE  One quadrature over g'', with an integrand of one sign.  It is used where there is
+                no closed formula, or one whose powers cancel.  It is also used for L_N where g'' is
+                not constant on some part.
+    SOLVED      Newton's method on load and moment, or on load and tilt.
 """
 
 from enum import Enum
@@ -21,7 +23,7 @@ from derive.theory.segments import Parts, has_parts
 
 
 class Route(Enum):
-    """A way to a function's values."""
+    """A way to evaluate a function."""
 
     FORMULA = "formula"
     PARTS = "parts"
@@ -30,7 +32,7 @@ class Route(Enum):
 
 
 def route_of(sheet: FormulaSheet, function: Function) -> Route:
-    """The way that one function takes."""
+    """How one function is evaluated."""
     if P in function.arguments:
         return Route.FORMULA if function.available(sheet) else Route.SOLVED
     if not function.geometric:
@@ -42,7 +44,7 @@ def route_of(sheet: FormulaSheet, function: Function) -> Route:
 
 
 def carried_by(sheet: FormulaSheet) -> Route:
-    """The way to what a contact carries: load, moment, tilt, pressure and edge coefficients."""
+    """How load, moment, tilt, pressure and the coefficients of the edges are evaluated."""
     if has_parts(sheet.frame):
         return Route.PARTS
     slope = sheet.geometry.slope

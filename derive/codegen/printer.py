@@ -1,9 +1,11 @@
-"""SymPy -> NumPy source.  What the printer does not know it refuses; it never guesses a name.
+"""Prints SymPy expressions as NumPy source; an expression that it does not know is refused.
 
-Three things it does beyond spelling: half powers in a product are gathered under one root (those
-in an UnevaluatedExpr are kept apart); factors that do not vary along the array are multiplied
-first, so that an array is passed over once; and a number that SymPy keeps exact is rounded once, as
-a whole.
+The printer also makes three changes:
+
+* Half powers in a product are collected under one root, except those in an UnevaluatedExpr.
+* Factors that do not vary along the array are multiplied first, so that the array is traversed
+  only once.
+* A number that SymPy keeps exact is rounded once, as a whole.
 """
 
 import ast
@@ -41,7 +43,7 @@ _MUL = PRECEDENCE["Mul"]
 
 
 class CannotPrint(Exception):
-    """An expression for which no NumPy code is known; a fault of the generator, not of the user."""
+    """No NumPy code is known for an expression: a fault of the generator, not of the user."""
 
 
 _FUNCTIONS = {
@@ -74,7 +76,7 @@ _NOT_EXACT = (Float, UnevaluatedExpr, S.ImaginaryUnit, S.NaN, oo, -oo, S.Complex
 _LARGEST_WHOLE = 2**53
 
 _DIGITS = 40
-"""Of a number before it is rounded to float64."""
+"""Digits to which a number is evaluated before it is rounded to float64."""
 
 
 _KNOWN = (
@@ -96,11 +98,13 @@ class NumPyPrinter(StrPrinter):
         name = type(expr).__name__
         unknown = isinstance(expr, Function) and name not in (*_FUNCTIONS, *_NAMED)
         if unknown or not isinstance(expr, _KNOWN) or isinstance(expr, Float):
-            raise CannotPrint(f"no NumPy code is known for {type(expr).__name__}: {expr}")
+            raise CannotPrint(
+                f"no NumPy code is known for {type(expr).__name__}, which occurs in {expr}"
+            )
         return str(super()._print(expr, **kwargs))
 
     def parenthesize(self, item: Basic, level: int, strict: bool = False) -> str:
-        """Like SymPy's, but a root is a call and needs no parentheses."""
+        """Parenthesize as SymPy does, except that a root is a call and needs no parentheses."""
         if isinstance(item, UnevaluatedExpr):
             inner = self._print(item)
             bare = _is_call(inner) or precedence_traditional(item.args[0]) > level
@@ -115,7 +119,7 @@ class NumPyPrinter(StrPrinter):
     def _print_Function(self, expr: Expr) -> str:
         name = type(expr).__name__
         if name not in _FUNCTIONS:
-            raise CannotPrint(f"no NumPy function is known for {name}: {expr}")
+            raise CannotPrint(f"no NumPy function is known for {name}, which occurs in {expr}")
         return f"{_FUNCTIONS[name]}({', '.join(map(self._print, expr.args))})"
 
     def _print_fmax(self, expr: Expr) -> str:
@@ -136,10 +140,10 @@ class NumPyPrinter(StrPrinter):
         return "-np.inf"
 
     def _print_Add(self, expr: Add, order: object = None) -> str:
-        """Positive terms first: phi - alpha, not -alpha + phi."""
+        """Print positive terms first: phi - alpha, not -alpha + phi."""
         terms = sorted(expr.as_ordered_terms(), key=lambda t: t.could_extract_minus_sign())
         first = terms[0]
-        below = first.could_extract_minus_sign()  # all are
+        below = first.could_extract_minus_sign()  # if so, all terms are negative
         text = self._print(first) if below else self.parenthesize(first, PRECEDENCE["Add"])
         for term in terms[1:]:
             negative = term.could_extract_minus_sign()
@@ -185,7 +189,7 @@ class NumPyPrinter(StrPrinter):
         return self._print(expr.args[0])
 
     def _print_Integer(self, expr: Basic) -> str:
-        """Whole numbers that no integer of 64 bits holds as numbers of float64."""
+        """Print whole numbers of 2**53 and more as float64."""
         return str(expr) if abs(expr) < _LARGEST_WHOLE else repr(float(expr))
 
     def _print_Rational(self, expr: Rational) -> str:
@@ -207,7 +211,7 @@ class NumPyPrinter(StrPrinter):
     def _print_Piecewise(self, expr: Expr) -> str:
         *cases, (last, always) = expr.args
         if always is not S.true:
-            raise CannotPrint(f"a Piecewise without a last resort: {expr}")
+            raise CannotPrint(f"the last condition of a Piecewise must be True: {expr}")
         text = self._print(last)
         for value, condition in reversed(cases):
             text = f"where({self._print(condition)}, {self._print(value)}, {text})"
@@ -225,9 +229,9 @@ class NumPyPrinter(StrPrinter):
 
 
 def _is_rounded(expr: Basic) -> bool:
-    """Whether an expression is a number that is rounded as a whole: E, exp(-7/10), pi - 2.
+    """Whether an expression is a number that is rounded as a whole, such as E or pi - 2.
 
-    A quotient of whole numbers, and the root of one, NumPy computes without an error of its own.
+    Quotients of whole numbers and their roots are excluded: NumPy rounds each of them only once.
     """
     if not isinstance(expr, NumberSymbol | Add | Pow | Function) or not expr.is_number:
         return False
@@ -237,18 +241,18 @@ def _is_rounded(expr: Basic) -> bool:
 
 
 def _nearest(number: Expr) -> float:
-    """The number of float64 that is nearest to an exact one.
+    """The float64 nearest to an exact number.
 
-    Raises CannotPrint where float64 has none.
+    Raises CannotPrint if that is zero or not finite.
     """
     value = number.evalf(_DIGITS, maxn=10 * _DIGITS)
     if not value.is_Float or not isfinite(float(value)) or float(value) == 0:
-        raise CannotPrint(f"float64 has no number near {number}")
+        raise CannotPrint(f"{number} has no finite, nonzero value in float64")
     return float(value)
 
 
 def _is_call(text: str) -> bool:
-    """Whether the text is one call or name, so that it needs no parentheses."""
+    """Whether the text is a single call or name, which needs no parentheses."""
     try:
         return isinstance(ast.parse(text, mode="eval").body, ast.Call | ast.Name)
     except SyntaxError:
@@ -256,7 +260,7 @@ def _is_call(text: str) -> bool:
 
 
 def _product(name: str, power: int) -> str:
-    """A whole power by squares, which NumPy computes many times faster than others."""
+    """A whole power written with squares, which NumPy computes many times faster."""
     if power <= 2:
         return f"{name}**{power}"
     if power % 2:
@@ -269,7 +273,7 @@ def _ordered(expr: Basic) -> list[Basic]:
 
 
 def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:
-    """Numerator and denominator, rationals taken apart, half powers under one root each."""
+    """Numerator and denominator; rationals are split, and half powers are collected in one root."""
     top: list[Expr] = []
     bottom: list[Expr] = []
     roots: tuple[list[Expr], list[Expr]] = ([], [])
@@ -298,9 +302,10 @@ def _is_root(factor: Expr) -> bool:
 
 
 def _is_below(exponent: Expr) -> bool:
-    """Whether a power stands under the line: by the sign of its exponent, or by how it is written.
+    """Whether a power belongs in the denominator.
 
-    1 - pi is negative, and is not written so.
+    The sign of its exponent decides, or its written form if the sign is not known: 1 - pi is
+    negative although it is not written with a leading minus sign.
     """
     if exponent.is_negative is None:
         return bool(exponent.could_extract_minus_sign())
@@ -313,5 +318,5 @@ def _is_odd_half(exponent: Expr) -> bool:
 
 
 def _root(inside: Expr) -> Expr:
-    """sqrt(inside), which SymPy would take apart again."""
+    """sqrt(inside), not evaluated, because SymPy would split it again."""
     return Pow(inside, S.Half, evaluate=False)

@@ -1,4 +1,4 @@
-"""What a generated function computes, before it is text: named steps, then its outputs."""
+"""The steps and outputs of a generated function, before they are printed as text."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -9,7 +9,10 @@ from derive.theory.segments import as_it_is, written_out
 
 
 class Kept(UnevaluatedExpr):
-    """An expression that SymPy neither opens nor reorders; as real and as positive as it is."""
+    """An expression that SymPy neither expands nor reorders.
+
+    It is known to be real or positive if the expression inside is.
+    """
 
     def _eval_is_extended_real(self) -> bool | None:
         return self.args[0].is_extended_real
@@ -19,7 +22,7 @@ class Kept(UnevaluatedExpr):
 
 
 TINY = Symbol("TINY", positive=True)
-"""The smallest positive number of float64, as a distance."""
+"""The smallest positive float64, as a distance."""
 
 
 LEAST, MOST = Symbol("LEAST", positive=True), Symbol("MOST", positive=True)
@@ -27,28 +30,28 @@ LEAST, MOST = Symbol("LEAST", positive=True), Symbol("MOST", positive=True)
 
 
 class fmax(Function):
-    """The larger of two; unlike Max the other one where one of them is not a number."""
+    """The larger of two numbers; unlike Max, it ignores an argument that is NaN."""
 
     nargs = 2
     of_one_dimension = True
-    """Its arguments and its value."""
+    """The arguments and the value have the same dimension."""
 
 
 class expm1(Function):
-    """exp(z) - 1, which keeps the digits of a small z."""
+    """exp(z) - 1, without loss of digits for small z."""
 
     nargs = 1
 
 
 class log1p(Function):
-    """log(1 + z), which keeps the digits of a small z."""
+    """log(1 + z), without loss of digits for small z."""
 
     nargs = 1
 
 
 @dataclass(frozen=True)
 class Step:
-    """symbol = expr, with a few words for the reader."""
+    """symbol = expr, with a short description for the reader."""
 
     symbol: Symbol
     expr: Expr
@@ -57,7 +60,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Program:
-    """Steps in the order of evaluation, and one expression per output."""
+    """The steps in the order of evaluation, and one expression for each output."""
 
     outputs: Mapping[str, Expr]
     steps: tuple[Step, ...] = ()
@@ -71,7 +74,7 @@ class Program:
         )
 
     def with_steps(self, *steps: Step) -> "Program":
-        """The program with more steps; every expression equal to one of them refers to it."""
+        """The program with more steps, which replace their expressions wherever these occur."""
         program = self
         for step in steps:
             program = program.mapped(lambda expr, s=step: expr.xreplace({s.expr: s.symbol}))  # type: ignore[misc]
@@ -79,7 +82,7 @@ class Program:
         return program
 
     def ordered(self) -> "Program":
-        """Only the steps that some output needs, each after those it needs itself."""
+        """The program with only the steps that its outputs need, each after those it depends on."""
         by_symbol = {s.symbol: s for s in self.steps}
         done: dict[Symbol, Step] = {}
 
@@ -94,10 +97,10 @@ class Program:
         return replace(self, steps=tuple(done.values()))
 
     def renamed(self, taken: Iterable[str]) -> "Program":
-        """The program with a name of its own for every step, none of them among `taken`."""
+        """The program with a unique name for every step, none of them among `taken`."""
         steps = {s.symbol for s in self.steps}
-        held = set().union(*(e.free_symbols for e in (*self.outputs.values(), *self._right)))
-        used = {*taken, *(symbol.name for symbol in held - steps)}
+        symbols = set().union(*(e.free_symbols for e in (*self.outputs.values(), *self._right)))
+        used = {*taken, *(symbol.name for symbol in symbols - steps)}
         table = {}
         for step in self.steps:
             name = step.symbol.name
@@ -115,19 +118,19 @@ class Program:
         return [step.expr for step in self.steps]
 
     def flat(self) -> dict[str, Expr]:
-        """The outputs with every step written in, as mathematics."""
+        """The outputs with every step substituted, written as by `in_mathematics`."""
         plain = self.in_mathematics()
         table = {s.symbol: as_it_is(s.expr) for s in plain.steps}
 
         def written_in(expr: Expr) -> Expr:
-            while held := expr.free_symbols & table.keys():
-                expr = expr.xreplace({symbol: table[symbol] for symbol in held})
+            while steps := expr.free_symbols & table.keys():
+                expr = expr.xreplace({symbol: table[symbol] for symbol in steps})
             return expr
 
         return {name: written_in(expr) for name, expr in plain.outputs.items()}
 
     def in_mathematics(self) -> "Program":
-        """The program in functions of mathematics alone."""
+        """The program in mathematical functions only, without those for floating point."""
 
         def plain(expr: Expr) -> Expr:
             expr = expr.xreplace({TINY: Rational(1, 2**1074)})

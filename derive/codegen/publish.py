@@ -1,7 +1,7 @@
-"""A generated package as a whole: its files, compared with a directory or put in its place.
+"""Compares the files of a generated package with a directory, or replaces the directory.
 
-In:  texts of modules.
-Out: a list of differences, or the directory replaced whole or not at all.
+In:  the texts of the modules.
+Out: a list of differences, or the replaced directory.  It is replaced completely or not at all.
 """
 
 import ast
@@ -18,20 +18,22 @@ from derive.exchange import put_in_place
 from derive.runtime import edge
 
 _RUNTIME = Path(__file__).parent.parent / "runtime"
-_TITLE = '"""Contact laws as NumPy functions, one module a body; every formula is proven."""\n'
+_TITLE = (
+    '"""Contact laws as NumPy functions, one module for each body; every formula is proven."""\n'
+)
 
 _LISTED = "__all__"
-"""Names the modules of a package; another that lies beside them is its user's own."""
+"""The list of the modules of a package; a module that is not in it belongs to the user."""
 
 _COMPILED = "__pycache__"
-"""Where Python, and numba, keep what they compiled; they make it again if it is gone."""
+"""The folder of compiled files; Python and numba write it again if it is missing."""
 
 FULL_STICK = "full_stick"
-"""The module of what belongs to no body."""
+"""The module of the functions that do not depend on a body."""
 
 _EDGE = "\n".join(
     (
-        '"""The edge of a contact without its geometry: slip zones from coefficients."""\n',
+        '"""Slip zones at the edge of a contact from its coefficients, without its geometry."""\n',
         "from .runtime.edge import (",
         *(f"    {name}," for name in edge.__all__),
         ")\n",
@@ -40,23 +42,23 @@ _EDGE = "\n".join(
         "]\n",
     )
 )
-"""The module that publishes what the runtime knows of an edge alone."""
+"""The module that exports the functions of the runtime for the edge of a contact."""
 
 _FOLDERS = {_RUNTIME.name, *(path.name for path in _RUNTIME.rglob("*") if path.is_dir())} - {
     _COMPILED
 }
-"""Names of the folders that a package has."""
+"""Names of the folders of a package."""
 
 _SUFFIXES = (".pyc", ".nbi", ".nbc")
-"""Endings of what lies there; anything else would be lost with it."""
+"""Suffixes of compiled files; a package with any other file in that folder is not replaced."""
 
 Files = Mapping[str, str]
-"""Name of each file of a package, and its text."""
+"""The text of each file of a package, by its name."""
 
 
 @dataclass(frozen=True)
 class Difference:
-    """One file that is not as it would be generated."""
+    """One file that differs from its generated version."""
 
     name: str
     what: str
@@ -64,12 +66,12 @@ class Difference:
 
     @property
     def lines(self) -> list[str]:
-        """The diff line by line."""
+        """The lines of the diff."""
         return self.diff.splitlines()
 
 
 def package_files(modules: Files) -> dict[str, str]:
-    """All files of a package that holds `modules`, texts by module name, and the runtime."""
+    """All files of a package of `modules`, given as texts by module name, and the runtime."""
     names = sorted({*modules, "edge"})
     listed = "\n".join([f"{_LISTED} = [", *(f'    "{name}",' for name in names), "]"])
     files = {"__init__.py": f"{MARK}\n{_TITLE}\n{listed}\n", "py.typed": ""}
@@ -82,22 +84,22 @@ def package_files(modules: Files) -> dict[str, str]:
 
 
 def modules_in(folder: Path) -> dict[str, str]:
-    """Texts of the modules of bodies that a generated package holds, by name."""
+    """The texts of the modules of bodies in a generated package, by name."""
     paths = [p for p in sorted(folder.glob("[!_]*.py")) if p.name != "edge.py"]
     return {p.stem: p.read_text(encoding="utf-8") for p in paths}
 
 
 def differences(files: Files, folder: Path) -> list[Difference]:
-    """What in `folder` is not as in `files`: the list of names first, then every byte."""
-    held = {p.relative_to(folder).as_posix(): p for p in _entries(folder)}
-    found = [Difference(name, "missing") for name in files if name not in held]
-    found += [Difference(name, "not generated") for name in held if name not in files]
-    for name, path in held.items():
+    """The differences between `folder` and `files`, in the names and in the content."""
+    on_disk = {p.relative_to(folder).as_posix(): p for p in _entries(folder)}
+    differing = [Difference(name, "missing") for name in files if name not in on_disk]
+    differing += [Difference(name, "not generated") for name in on_disk if name not in files]
+    for name, path in on_disk.items():
         if name in files and not path.is_file():
-            found.append(Difference(name, "no file"))
+            differing.append(Difference(name, "not a file"))
         elif name in files and path.read_bytes() != files[name].encode():
-            found.append(Difference(name, "changed", _diff(name, path, files[name])))
-    return sorted(found, key=lambda difference: difference.name)
+            differing.append(Difference(name, "changed", _diff(name, path, files[name])))
+    return sorted(differing, key=lambda difference: difference.name)
 
 
 def _diff(name: str, path: Path, wanted: str) -> str:
@@ -112,16 +114,16 @@ def _diff(name: str, path: Path, wanted: str) -> str:
 
 
 def publish(files: Files, folder: Path) -> None:
-    """Put a package in place of `folder`, whole or not at all.
+    """Replace `folder` by a package, completely or not at all.
 
-    Raises BadOutput where `folder` holds anything that was not generated, or can't be written.
+    Raises BadOutput if `folder` contains a file that was not generated, or cannot be written.
     """
     demand_replaceable(folder)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     except OSError as error:
-        raise BadOutput(str(folder), f"can't be written ({error.strerror})") from error
+        raise BadOutput(str(folder), f"cannot be written ({error.strerror})") from error
     fresh, old = workshop / "fresh", workshop / "old"
     try:
         fresh.mkdir()
@@ -130,7 +132,7 @@ def publish(files: Files, folder: Path) -> None:
             (fresh / name).write_bytes(text.encode())
         put_in_place(fresh, folder, old)
     except OSError as error:
-        why = f"can't be replaced ({error.strerror}){_put_back(old, folder)}"
+        why = f"cannot be replaced ({error.strerror}){_put_back(old, folder)}"
         raise BadOutput(str(folder), why) from error
     except BaseException:
         _put_back(old, folder)
@@ -141,47 +143,50 @@ def publish(files: Files, folder: Path) -> None:
 
 
 def _put_back(old: Path, folder: Path) -> str:
-    """The old package in its place again; in words where it lies if even that fails."""
+    """Move the old package back to `folder`; if that fails too, return a note of where it is."""
     if old.exists() and not folder.exists():
         try:
             old.replace(folder)
         except OSError:
-            return f", the old package lies in {old}"
+            return f", and the old package is now in {old}"
     return ""
 
 
 def resolved(folder: Path) -> Path:
-    """The directory that a path leads to, through links to directories that are there.
+    """The directory to which a path leads, with all links resolved.
 
-    Raises BadOutput for a link that leads nowhere: what it names would be made wherever that is;
-    and for what can't be a path.
+    Raises BadOutput for a broken link, because the package would be created at its target, and for
+    a path that cannot exist.
     """
     try:
         for link in (folder, *folder.parents):
             if link.is_symlink() and not link.exists():
-                raise BadOutput(str(folder), f"leads through {link.name!r}, a link to nothing")
+                raise BadOutput(str(folder), f"leads through {link.name!r}, which is a broken link")
         return folder.resolve()
-    except OSError as error:  # such as a name that is too long
-        raise BadOutput(str(folder), f"can't be reached ({error.strerror})") from error
+    except OSError as error:  # for example, the name is too long
+        raise BadOutput(str(folder), f"cannot be reached ({error.strerror})") from error
 
 
 def demand_replaceable(folder: Path) -> None:
-    """Raise BadOutput unless `folder` is absent, empty, or a package made here."""
+    """Raise BadOutput unless `folder` does not exist, is empty, or is a generated package."""
     if not folder.exists() and not folder.is_symlink():
         return
     if folder.is_symlink() or not folder.is_dir():
-        raise BadOutput(str(folder), "is no directory")
+        raise BadOutput(str(folder), "is not a directory")
     listed = _modules_listed(folder / "__init__.py")
     for path in _entries(folder):
         if not _is_ours(path) or (path.parent == folder and listed and path.stem not in listed):
             name = path.relative_to(folder).as_posix()
-            raise BadOutput(str(folder), f"holds {name!r}, which was not generated")
+            raise BadOutput(str(folder), f"contains {name!r}, which was not generated")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
-        raise BadOutput(str(folder), "is where this command runs")
+        raise BadOutput(str(folder), "is the current directory or contains it")
 
 
 def _modules_listed(init: Path) -> set[str]:
-    """Names of what was generated into a folder; none where it is not told, as long ago."""
+    """Names of the files that were generated into a folder; empty if they are not listed.
+
+    Early versions did not list them.
+    """
     try:
         tree = ast.parse(init.read_bytes())
         lists = [n.value for n in tree.body if isinstance(n, ast.Assign)]
@@ -192,18 +197,18 @@ def _modules_listed(init: Path) -> set[str]:
 
 
 def _entries(folder: Path) -> list[Path]:
-    """What a folder and those in it hold, but for what was compiled."""
-    found: list[Path] = []
+    """All entries of a folder and of the folders of a package in it, except compiled files."""
+    entries: list[Path] = []
     for path in sorted(folder.iterdir()) if folder.is_dir() else []:
         if path.is_symlink() or not path.is_dir():
-            found.append(path)
+            entries.append(path)
         elif path.name == _COMPILED:
-            found += [p for p in sorted(path.iterdir()) if not _is_compiled(p)]
+            entries += [p for p in sorted(path.iterdir()) if not _is_compiled(p)]
         elif path.name in _FOLDERS:
-            found += _entries(path) or [path]
+            entries += _entries(path) or [path]
         else:
-            found.append(path)
-    return found
+            entries.append(path)
+    return entries
 
 
 def _is_compiled(path: Path) -> bool:

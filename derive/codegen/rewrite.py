@@ -1,9 +1,10 @@
-r"""Formulas in forms that keep their digits in floating point.
+r"""Rewrites formulas into forms that do not lose digits in floating point.
 
-In:  the outputs of one function, with the sheet's symbols.
-Out: a Program in stable forms, compared with its source at 30 digits before it is used.
+In:  the outputs of one function, in the symbols of the sheet.
+Out: a Program in stable forms, which is compared with its source to 30 digits before it is used.
 
-Each rule is one function with the identity it uses in its docstring; none knows any geometry.
+Each rule is one function, whose docstring states the identity that it uses.  No rule depends on a
+particular geometry.
 """
 
 from collections.abc import Iterable
@@ -69,8 +70,8 @@ _quotient = Dummy("quotient", nonnegative=True)
 def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point) -> Program:
     """The outputs in stable forms.
 
-    `example` is any point of their assumptions; a rule that needs the sign of an argument takes it
-    there.
+    `example` is any point that meets their assumptions.  A rule that needs the sign of an argument
+    evaluates the argument at this point.
     """
     program = Program(outputs, tuple(_frame_steps(sheet)))
     program = angles_about_the_right_angle(program, sheet)
@@ -90,17 +91,17 @@ def stable_program(sheet: FormulaSheet, outputs: dict[str, Expr], example: Point
 
 
 def prove_equal(program: Program, source: dict[str, Expr], points: Iterable[Point]) -> Proof:
-    """The program against the formulas that it was made from."""
+    """Compare the program numerically with the formulas that it was made from."""
     plain = program.in_mathematics()
     steps = [(step.symbol, step.expr) for step in plain.steps]
-    found = {name: numeric_by_steps(steps, expr) for name, expr in plain.outputs.items()}
+    values = {name: numeric_by_steps(steps, expr) for name, expr in plain.outputs.items()}
     with mpmath.workdps(WORKING):
         return numerical_proof(
             "rewritten for floating point",
             (
                 Comparison(value(point), numeric(source[name])(point), named(point))
                 for point in points
-                for name, value in found.items()
+                for name, value in values.items()
             ),
         )
 
@@ -121,13 +122,14 @@ def _frame_steps(sheet: FormulaSheet) -> list[Step]:
 
 
 def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Program:
-    """Three identities, with theta_j = 2 atan2(sqrt u, sqrt v) and u v = w_j**2.
+    """Apply three identities, with theta_j = 2 atan2(sqrt u, sqrt v) and u v = w_j**2.
 
         q (pi/2 - theta_j)     -> q atan2(v - u, 2 w_j)
         q (pi/2 - atan2(y, x)) -> q atan2(x, y) for y > 0
         q (pi - theta_j)       -> q theta_j of the other side
 
-    A tilt near zero is a difference of angles near pi/2; the difference of u and v is exact.
+    A tilt near zero is a small difference of angles near pi/2.  The difference of u and v, in
+    contrast, is exact.
     """
     kinks = {k.theta: k for k in sheet.frame.kinks}
 
@@ -150,9 +152,9 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
 def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
     """A pi + B theta -> A theta' + (A + B) theta where A + B is simpler than B.
 
-    theta' = pi - theta, of a kink the angle of the other side, and atan2(y, -x) of theta =
-    atan2(y, x) with y > 0.  With A = R_2 and B = R_1 - R_2 both
-    terms are positive, where pi R_2 and (R_1 - R_2) theta are not.
+    Here theta' = pi - theta.  For the angle of a kink, this is the angle of the other side; for
+    theta = atan2(y, x) with y > 0, it is atan2(y, -x).  With A = R_2 and B = R_1 - R_2, both new
+    terms are positive, whereas (R_1 - R_2) theta can be negative.
     """
     kinks = {k.theta: k for k in sheet.frame.kinks}
     of_kinks = {symbol for k in sheet.frame.kinks for symbol in (k.theta, k.w, k.L)}
@@ -186,7 +188,7 @@ def _complement(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:
 
 
 def _other_side(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:
-    """pi - angle, by what it lacks."""
+    """pi - angle, as an angle of its own instead of a difference."""
     if isinstance(angle, atan2):
         y, along = angle.args
         return atan2(y, -along)
@@ -201,12 +203,12 @@ def _opposite(k: KinkFrame) -> Expr:
 def tangents_from_both_ends(program: Program, example: Point) -> Program:
     """F tan z and F/tan z from t, the tangent of the smaller of z and pi/2 - z.
 
-    Near pi/2 the rest pi/2 - z is the exact small difference, and z is not.  Where z and its rest
-    change places with the sign of alpha, the smaller is z at |alpha|.  What a body has of tangents
-    of its own, of parameters, stays.
+    Near pi/2, the complement pi/2 - z is an exact small difference, but z is not.  Where z and its
+    complement are exchanged as alpha changes sign, the smaller one is z at |alpha|.  Tangents of
+    parameters alone are not changed.
     """
-    found = {t for v in program.outputs.values() for t in v.atoms(tan) if t.has(alpha)}
-    tangents = sorted(found, key=str)
+    of_tilt = {t for v in program.outputs.values() for t in v.atoms(tan) if t.has(alpha)}
+    tangents = sorted(of_tilt, key=str)
     if len(tangents) != 1:
         return program
     (tangent,) = tangents
@@ -228,12 +230,12 @@ def tangents_from_both_ends(program: Program, example: Point) -> Program:
         lean, smaller = _rest - _angle, Min(_angle, _rest)
         steps += [
             Step(_angle, _shares_taken_off(angle), "half the angle of the corner"),
-            Step(_rest, _shares_taken_off(rest), "what it lacks of a right angle"),
+            Step(_rest, _shares_taken_off(rest), "its difference from a right angle"),
         ]
     steps += [
         Step(_t, tan(smaller), ""),
-        Step(_near, _scale * _t, "from the corner to the nearer edge"),
-        Step(_far, _scale / _t, "to the farther edge"),
+        Step(_near, _scale * _t, "distance from the corner to the nearer edge"),
+        Step(_far, _scale / _t, "distance from the corner to the farther edge"),
     ]
     outputs = {
         n: plain + (_on_side(-power * lean, steps) if power else 0)
@@ -243,29 +245,31 @@ def tangents_from_both_ends(program: Program, example: Point) -> Program:
 
 
 def _power_of_tangent(expr: Expr) -> tuple[Expr, int, Expr]:
-    """(F, n, rest) of F t**n + rest, n = 1 or -1; n = 0 where t is not held so."""
+    """(F, n, rest) of F t**n + rest, with n = 1 or -1; n = 0 for an expression of another form."""
     terms = Add.make_args(expand(expr))
-    held = [term for term in terms if term.has(_t)]
+    with_t = [term for term in terms if term.has(_t)]
     for power in (1, -1):
-        if len(held) == 1 and not (times := cancel(held[0] / _t**power)).has(_t):
+        if len(with_t) == 1 and not (times := cancel(with_t[0] / _t**power)).has(_t):
             return times, power, Add(*(term for term in terms if not term.has(_t)))
     return S.One, 0, expr
 
 
 def _on_side(lean: Expr, steps: list[Step]) -> Expr:
-    """`far` where `lean` is positive, `near` where it is negative, without a branch.
+    """`far` where `lean` is positive and `near` where it is negative, without a branch.
 
-    near <= far, and they are equal where `lean` is zero.
+    near <= far, and the two are equal where `lean` is zero.
     """
     if all(step.symbol != _leaning for step in steps):
-        steps.append(Step(_leaning, sign(lean) * _far, "the farther edge, with the side's sign"))
+        steps.append(
+            Step(_leaning, sign(lean) * _far, "the farther edge, with the sign of its side")
+        )
         return Max(_near, _leaning)
     same = next(step.expr for step in steps if step.symbol == _leaning) == sign(lean) * _far
     return Max(_near, _leaning if same else -_leaning)
 
 
 def _shares_taken_off(product: Expr) -> Expr:
-    """k (p - q)/p -> k - k q/p while q is small against p: one rounding less."""
+    """k (p - q)/p -> k - k q/p while q is small compared with p, which saves one rounding."""
     product = _signs_inside(product)
     for total in (f for f in Mul.make_args(product) if isinstance(f, Add)):
         outer = product / total
@@ -296,12 +300,14 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
     """(1/2) log |(sqrt u + sqrt v)/(sqrt u - sqrt v)| -> (1/2) log1p(z),
     z = 2 (min(u, v) + sqrt(u v))/|u - v|.
 
-    u - v = h (x - x_j), a product of exact differences; u and v are divided by h.  At an edge z
-    vanishes instead of a logarithm of one; outside u v has no root, and z is taken as zero.
+    u - v = h (x - x_j) is a product of exact differences; u and v are divided by h.  At an edge, z
+    is exactly zero, and so is the logarithm.  Outside the contact, u v has no real root, and z is
+    set to zero.
 
-    At x = x_j the pressure of a corner is infinite, where the contact spans it, else zero: fmax
-    takes the zero instead of 0/0.  Where the jump vanishes at the kink so does its product with
-    L_j, if only L_j is finite: the distance is at least TINY.
+    At x = x_j, the pressure of a corner is infinite if the contact spans the corner, and zero if it
+    does not; in the second case fmax returns the zero instead of 0/0.  At a kink where the jump
+    vanishes, its product with L_j also vanishes as long as L_j is finite.  L_j is kept finite by a
+    distance of at least TINY.
     """
     symbols = {k.L: k for k in sheet.frame.kinks}
     steps: list[Step] = []
@@ -320,8 +326,8 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
             logarithm = fmax(logarithm, S.Zero)
         twice = Dummy(f"logarithm_{number}", nonnegative=True)
         steps += [
-            Step(left, at_left, "vanishes at the left edge"),
-            Step(right, at_right, "vanishes at the right edge"),
+            Step(left, at_left, "zero at the left edge"),
+            Step(right, at_right, "zero at the right edge"),
             Step(twice, logarithm, f"twice the {step.meaning}"),
         ]
         halves[step.symbol] = twice / 2
@@ -332,18 +338,19 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
 def conjugate_roots(program: Program) -> Program:
     """r + A and r - A of one root r = sqrt(A**2 + B**2), the smaller from their product B**2.
 
-    far = r + |A|, near = B**2/far.  The root is B or |A|, whichever is larger, times sqrt(1 + q**2)
-    of their quotient: it does not overflow, and either end of the scale costs no digit.
+    far = r + |A| and near = B**2/far.  The root is the larger of B and |A| times sqrt(1 + q**2),
+    where q is the quotient of the smaller and the larger.  It does not overflow and loses no digits
+    when one of the two is much larger than the other.
     """
-    found = {name: _conjugate(expr) for name, expr in program.outputs.items()}
-    legs = {(pair.leg, pair.other) for pair in found.values() if pair}
+    pairs = {name: _conjugate(expr) for name, expr in program.outputs.items()}
+    legs = {(pair.leg, pair.other) for pair in pairs.values() if pair}
     if len(legs) != 1:
         return program
     ((leg, other),) = legs
     steps = [
         Step(_base, other, "half-width without the moment"),
         Step(_lean, leg, ""),
-        Step(_reach, Abs(_lean), "how far the moment moves it"),
+        Step(_reach, Abs(_lean), "distance by which the moment shifts the contact"),
         Step(_longer, Max(_base, _reach), ""),
         Step(_quotient, Min(_base, _reach) / _longer, ""),
         Step(_root, _longer * sqrt(1 + _quotient**2), ""),
@@ -351,7 +358,7 @@ def conjugate_roots(program: Program) -> Program:
         Step(_near, _base * Kept(_over(_far, other)), "the nearer edge"),
     ]
     outputs = {
-        name: pair.rest + _on_side(pair.sign * _lean, steps) if (pair := found[name]) else expr
+        name: pair.rest + _on_side(pair.sign * _lean, steps) if (pair := pairs[name]) else expr
         for name, expr in program.outputs.items()
     }
     program = replace(program, outputs=outputs).mapped(
@@ -361,7 +368,7 @@ def conjugate_roots(program: Program) -> Program:
 
 
 def _quotients_to(other: Expr, expr: Expr) -> Expr:
-    """atan(y/B) with B as the step that it is."""
+    """atan(y/B), with B replaced by its step."""
     return expr.replace(
         lambda n: isinstance(n, atan) and (n.args[0] * other).count_ops() < n.args[0].count_ops(),
         lambda n: atan(n.args[0] * other / _base),
@@ -370,7 +377,7 @@ def _quotients_to(other: Expr, expr: Expr) -> Expr:
 
 @dataclass(frozen=True)
 class _Conjugate:
-    """rest + sign A + sqrt(A**2 + B**2), A = leg of either sign, B = other > 0."""
+    """rest + sign A + sqrt(A**2 + B**2), with A = leg of either sign and B = other > 0."""
 
     leg: Expr
     other: Expr
@@ -393,7 +400,7 @@ def _conjugate(expr: Expr) -> _Conjugate | None:
 
 
 def _over(divisor: Expr, quotient: Expr) -> Expr:
-    """(p/q)/divisor as p/(divisor q): its roundings are none of those that p/q has."""
+    """(p/q)/divisor as p/(divisor q), without the rounding error of p/q."""
     above, below = fraction(quotient)
     for f in Mul.make_args(below):
         divisor = Kept(divisor * f)
@@ -401,12 +408,12 @@ def _over(divisor: Expr, quotient: Expr) -> Expr:
 
 
 def lengths_of_one_sign(program: Program, sheet: FormulaSheet) -> Program:
-    """sqrt(a c)/a -> sqrt(c/a), or c/sqrt(a c), where all contacts have a > 0 and c > 0."""
+    """sqrt(a c)/a -> sqrt(c/a) or c/sqrt(a c), where all contacts have a > 0 and c > 0."""
     conditions = set(sheet["load"].conditions)
     known = {s: Symbol(str(s), positive=True) for s in (a, c) if (s > 0) in conditions}
     if len(known) < 2 or x in set().union(*(v.free_symbols for v in program.flat().values())):
         return program
-    if len(program.outputs) > 1:  # one root serves them all, from w_j/(a + x_j) = (c - x_j)/w_j
+    if len(program.outputs) > 1:  # w_j/(a + x_j) = (c - x_j)/w_j: all outputs share one root
         over = {k.w: k.left * k.right / k.w for k in sheet.frame.kinks}
         roots = {k.w: k.root for k in sheet.frame.kinks}
         return program.mapped(
@@ -421,7 +428,7 @@ def lengths_of_one_sign(program: Program, sheet: FormulaSheet) -> Program:
 
 
 def sums_term_by_term(program: Program) -> Program:
-    """c (p a + q c)/(a h) -> sum of p' c/a and q' c/h where all terms are positive and fewer."""
+    """c (p a + q c)/(a h) -> p' c/a + q' c/h if all terms are positive and the sum is shorter."""
     return replace(program, outputs={n: _term_by_term(v) for n, v in program.outputs.items()})
 
 
@@ -439,18 +446,18 @@ def _term_by_term(product: Expr) -> Expr:
 
 
 def roots_under_the_edges(program: Program) -> Program:
-    """sqrt((a + x)(c - x)) -> the same, zero outside the contact."""
+    """sqrt((a + x)(c - x)) -> sqrt(max(0, (a + x)(c - x))), which is zero outside the contact."""
     if not any(expr.has(x) for expr in program.outputs.values()):
         return program
     program = program.mapped(lambda expr: expr.subs(w, _w))
     return program.with_steps(Step(_w, sqrt(Max(0, (a + x) * (c - x))), "root at x"))
 
 
-# ------------------------------------------------------------------ once for all outputs
+# ------------------------------------------------------------------ terms shared by the outputs
 
 
 def half_width_once(program: Program) -> Program:
-    """a = half - mid, c = half + mid: their common term is half the width."""
+    """a = half - mid and c = half + mid: compute the common term, half the width, once."""
     if not {"a", "c"} <= program.outputs.keys():
         return program
     left, right = ({*Add.make_args(program.outputs[edge])} for edge in ("a", "c"))
@@ -466,7 +473,7 @@ def half_width_once(program: Program) -> Program:
 
 
 def common_factor_once(program: Program) -> Program:
-    """left = F u and right = F v: F once, unless that would split a root."""
+    """left = F u and right = F v: compute F once, unless that would split a root."""
     products = {n: v for n, v in program.outputs.items() if isinstance(v, Mul)}
     if len(products) < 2:
         return program
@@ -477,8 +484,8 @@ def common_factor_once(program: Program) -> Program:
     if common == 1 or common.is_Symbol or (above == 1 and below.is_Symbol):
         return program
     symbol, once = (_root, below) if above == 1 else (_scale, common)
-    held = symbol if above != 1 else 1 / symbol
-    outputs = {n: v / common * held if n in products else v for n, v in program.outputs.items()}
+    shared = symbol if above != 1 else 1 / symbol
+    outputs = {n: v / common * shared if n in products else v for n, v in program.outputs.items()}
     return replace(program, outputs=outputs, steps=(*program.steps, Step(symbol, once, "")))
 
 
@@ -487,7 +494,7 @@ def _roots(expr: Expr) -> set[Expr]:
 
 
 def _common_factor(products: list[Expr]) -> Expr:
-    """What all products hold, to the smallest power."""
+    """The common factor of all products, with the smallest power of each base."""
     first, *others = products
     if all(other == first for other in others):
         return first

@@ -1,8 +1,9 @@
-"""The text of functions that are sums over the parts of a contact: what is printed is what runs.
+"""Prints functions that are sums over the parts of a contact; their docstrings match their code.
 
 In:  a proven FormulaSheet and a Function of the contract.
-Out: Python source, not formatted yet: one function, or `_angles`, which gives what all of them
-     hold; and the lines that define this in the module's docstring.
+Out: Python source, not yet formatted: one function, or `_angles`, which computes the steps that
+     these functions share; and the lines that define the shared steps in the docstring of the
+     module.
 """
 
 from collections.abc import Iterator
@@ -17,7 +18,7 @@ from derive.symbols import a, c
 
 NAME = "_angles"
 
-_WORDS = "What all formulas hold, as defined above, and whether there is such a contact."
+_WORDS = "The shared symbols that are defined above, and whether such a contact exists."
 
 
 class SummedText(FunctionText):
@@ -27,7 +28,7 @@ class SummedText(FunctionText):
         return parts_program(self.sheet, {field: str(name) for field, name in self.function.fields})
 
     def _demand_equal(self) -> None:
-        """Compared when it was made."""
+        """Compare nothing: `parts_program` has already compared the program with the sheet."""
 
     def _steps(self, printer: NumPyPrinter) -> Iterator[str]:
         yield from summed_steps(self.sheet, self.program, printer, "exists")
@@ -47,13 +48,13 @@ class SummedText(FunctionText):
 
     @property
     def _origin(self) -> str:
-        return "Symbols and source: see the module's docstring."
+        return "For the symbols and the source, see the docstring of the module."
 
 
 def summed_steps(
     sheet: FormulaSheet, program: Program, printer: NumPyPrinter, exists: str = "_"
 ) -> Iterator[str]:
-    """The code of a program's steps; what all functions hold comes from `_angles`."""
+    """The code of the steps of a program; the steps that all functions share call `_angles`."""
     common = common_steps(sheet)
     if common:
         names = ", ".join(str(step.symbol) for step in common)
@@ -62,7 +63,7 @@ def summed_steps(
 
 
 def angles_text(sheet: FormulaSheet) -> str:
-    """`_angles` of a body; nothing where its functions have nothing in common."""
+    """The function `_angles` of a body; empty if its functions share no steps."""
     common = common_steps(sheet)
     if not common:
         return ""
@@ -83,7 +84,7 @@ def angles_text(sheet: FormulaSheet) -> str:
 
 
 def definitions_text(sheet: FormulaSheet) -> Iterator[str]:
-    """What all formulas hold, and the functions that they call, line by line."""
+    """The lines that define the shared symbols and the functions that the formulas call."""
     for step in common_steps(sheet):
         yield f"{step.symbol} = {text_of(step.expr)}"
     for call, definition in functions_called(sheet).items():
@@ -91,8 +92,8 @@ def definitions_text(sheet: FormulaSheet) -> Iterator[str]:
 
 
 def _arguments(sheet: FormulaSheet) -> list[str]:
-    """Of `_angles`."""
+    """The arguments of `_angles`."""
     exprs = [*(step.expr for step in common_steps(sheet)), *sheet["tilt"].conditions]
-    held = set().union(*(expr.free_symbols for expr in exprs))
+    needed = set().union(*(expr.free_symbols for expr in exprs))
     given = (a, c, *(q.symbol for q in sheet.geometry.parameters))
-    return [str(symbol) for symbol in given if symbol in held]
+    return [str(symbol) for symbol in given if symbol in needed]

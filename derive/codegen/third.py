@@ -1,7 +1,8 @@
-"""The third coefficient of the pressure next to the edges, of s**(5/2).
+"""The third coefficient of the pressure next to the edges, that of s**(5/2).
 
 In:  a proven FormulaSheet.
-Out: the Program that gives it for E* = 1, for series of the slip zones to order 3.
+Out: the Program for this coefficient with E* = 1, which the series of the slip zones need at
+     order 3.
 """
 
 from sympy import Expr, S
@@ -19,9 +20,9 @@ from derive.theory.slip import pressure_next
 
 
 def third_program(sheet: FormulaSheet) -> Program:
-    """The coefficients at both edges: the pressure expanded once more, or a sum over parts.
+    """The program for the coefficients at both edges, by expansion or as a sum over parts.
 
-    Raises NotProven if the expanded pressure is not what L_N and K_N say.
+    Raises NotProven if the expanded pressure does not agree with L_N and K_N.
     """
     summed = carried_by(sheet) is Route.PARTS
     program = parts_program(sheet, THIRD) if summed else _expanded(sheet)
@@ -29,7 +30,7 @@ def third_program(sheet: FormulaSheet) -> Program:
 
 
 def _expanded(sheet: FormulaSheet) -> Program:
-    """Compared with the other route: how L_N changes as the edge alone moves."""
+    """The program from the expanded pressure, compared with `_from_motion`."""
     series = {edge.name.lower(): pressure_series(sheet.frame, edge, 3)[2] for edge in Edge}
     program = stable_program(sheet, series, {})
     proof = prove_equal(program, _from_motion(sheet), contacts(sheet))
@@ -39,8 +40,9 @@ def _expanded(sheet: FormulaSheet) -> Program:
 
 
 def _from_motion(sheet: FormulaSheet) -> dict[str, Expr]:
-    found = {}
+    """The coefficients by an independent route: the change of L_N as one edge moves."""
+    coefficients = {}
     for side, edge in (("left", a), ("right", c)):
         K, L = (sheet.frame.flat(sheet[f"{name}_{side}"].expr) for name in ("K_N", "L_N"))
-        found[side] = sheet.frame.flat(pressure_next(L.diff(edge), 1, K))
-    return found
+        coefficients[side] = sheet.frame.flat(pressure_next(L.diff(edge), 1, K))
+    return coefficients

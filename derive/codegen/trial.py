@@ -1,10 +1,10 @@
-"""The module as it was printed, run and compared: the last proof before anything is written.
+"""Runs the printed module and compares its results with the sheet, before anything is written.
 
-In:  a proven FormulaSheet, and the text of its module.
-Out: nothing; NotProven if any function's result is not what the sheet says.
+In:  a proven FormulaSheet and the text of its module.
+Out: nothing; raises NotProven if the result of any function does not agree with the sheet.
 
-The proofs end at expressions.  Here the text itself is imported, in a package of its own, and every
-function is called at the contacts of the proof, scalar by scalar and as arrays.
+The proofs cover expressions only.  Here the text itself is imported in a package of its own, and
+every function is called at the contacts of the proof, with scalars and with arrays.
 """
 
 import importlib
@@ -28,21 +28,22 @@ from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c
 
 TOLERANCE = 1e-10
-"""Largest error allowed, compared with the size of what is computed; a wrong text is far off."""
+"""Largest error allowed, relative to the size of the result; the error of a wrong formula is much
+larger."""
 
 _DIGITS = 30
 
 _LARGEST = 1e150
-"""Of a load with which a module is tried."""
+"""Largest tilt, load or moment at which a module is tried."""
 
 _CYCLES = 6
-"""Contacts at which a stick zone is tried."""
+"""Number of contacts at which a stick zone is tried."""
 
 
 def demand_right(sheet: FormulaSheet, text: str, stuck: str) -> None:
-    """Run the module and compare.
+    """Run the module and compare its results with the sheet.
 
-    Raises NotProven with the function, the point and both numbers.
+    Raises NotProven, which names the function, the point and both numbers.
     """
     name = sheet.geometry.name
     with imported(name, text, stuck) as module, mpmath.workdps(_DIGITS):
@@ -56,29 +57,31 @@ def demand_right(sheet: FormulaSheet, text: str, stuck: str) -> None:
 
 
 def _held(sheet: FormulaSheet, points: list[Point]) -> list[Point]:
-    """Contacts whose tilt, load and moment float64 holds, and their squares, too.
+    """Contacts whose tilt, load and moment, and the squares of these, are in the range of float64.
 
-    Raises NotProven where these are fewer than half: exp(exp(x/b)) leaves it at x = 6.6 b.
+    Raises NotProven if these are fewer than half of the contacts.  For example, exp(exp(x/b))
+    leaves the range at x = 6.6 b.
     """
     carried = [numeric(sheet.flat(name)) for name in ("tilt", "load", "moment")]
-    found = [p for p in points if all(abs(value(p)) < _LARGEST for value in carried)]
-    if len(found) < len(points) / 2:
+    usable = [p for p in points if all(abs(value(p)) < _LARGEST for value in carried)]
+    if len(usable) < len(points) / 2:
         raise NotProven(
-            f"module of {sheet.geometry.name!r}: tilt, load and moment stay below {_LARGEST:g} at "
-            f"{len(found)} of {len(points)} contacts about as wide as its parameters are; float64 "
-            "cannot be tried with the others: write a g(x) that rises less steeply"
+            f"module of {sheet.geometry.name!r}: tilt, load and moment are below {_LARGEST:g} at "
+            f"only {len(usable)} of {len(points)} contacts whose widths are similar to the "
+            "parameters, and at least half are needed to test the module in float64; write a g(x) "
+            "that rises less steeply"
         )
-    return found
+    return usable
 
 
 def _demand_forward(
     sheet: FormulaSheet, function: Function, module: ModuleType, points: list[Point]
 ) -> None:
-    found = _called(module, function, sheet, points)
-    for (field, source), values in zip(function.fields, found, strict=True):
-        wanted = [numeric(sheet.flat(str(source)))(point) for point in points]
-        scale = max(abs(value) for value in wanted)
-        for point, value, right in zip(points, values, wanted, strict=True):
+    results = _called(module, function, sheet, points)
+    for (field, source), values in zip(function.fields, results, strict=True):
+        expected = [numeric(sheet.flat(str(source)))(point) for point in points]
+        scale = max(abs(value) for value in expected)
+        for point, value, right in zip(points, values, expected, strict=True):
             size = abs(right) + (0 if function.name == "pressure" else scale / 100)
             _demand_close(sheet, f"{function.name} {field}".strip(), value, right, size, point)
 
@@ -86,14 +89,14 @@ def _demand_forward(
 def _demand_inverse(
     sheet: FormulaSheet, function: Function, module: ModuleType, points: list[Point]
 ) -> None:
-    """Loads of known contacts lead back to them."""
+    """Demand that the loads of known contacts lead back to these contacts."""
     forward = {P: "load", M: "moment", alpha: "tilt"}
     given = [
         {**point, **{s: numeric(sheet.flat(name))(point) for s, name in forward.items()}}
         for point in points
     ]
-    found = _called(module, function, sheet, given)
-    for field, values in zip((a, c, alpha), found, strict=True):
+    results = _called(module, function, sheet, given)
+    for field, values in zip((a, c, alpha), results, strict=True):
         for point, value in zip(given, values, strict=True):
             size = 100 * (point[a] + point[c]) if field != alpha else 100 + abs(point[alpha])
             label = f"{function.name} {field}"
@@ -101,9 +104,10 @@ def _demand_inverse(
 
 
 def _demand_patch(sheet: FormulaSheet, module: ModuleType, points: list[Point]) -> None:
-    """Under moderate tension the stick zone is the contact at the reduced load and shifted tilt.
+    """Demand that stick zones under moderate tension agree with contacts at other loads.
 
-    f = 1/2, dQ a quarter of the load, half of the threshold's tension at either sign in turn.
+    The stick zone is the contact at a reduced load and a shifted tilt.  Here f = 1/2, dQ is a
+    quarter of the load, and the tension is half of the threshold, with alternating sign.
     """
     constants = [E_star, *(q.symbol for q in sheet.geometry.parameters)]
     for i, point in enumerate(points):
@@ -114,11 +118,11 @@ def _demand_patch(sheet: FormulaSheet, module: ModuleType, points: list[Point]) 
         given = {str(s): float(point[s]) for s in constants}
         zone = module.stick_zone(here, here, float(shear), float(tension), f=0.5, **given)
         stuck = {**point, a: mpf(float(zone.m)), c: mpf(float(zone.n))}
-        wanted = {"load": load - shear, "tilt": tilt - tension / (2 * point[E_star])}
-        for name, right in wanted.items():
-            found = float(numeric(sheet.flat(name))(stuck))
+        expected = {"load": load - shear, "tilt": tilt - tension / (2 * point[E_star])}
+        for name, right in expected.items():
+            value = float(numeric(sheet.flat(name))(stuck))
             size = load if name == "load" else load / (point[E_star] * width)
-            _demand_close(sheet, f"stick_zone's {name}", found, right, size, point)
+            _demand_close(sheet, f"{name} of stick_zone", value, right, size, point)
 
 
 def _demand_close(
@@ -126,7 +130,7 @@ def _demand_close(
 ) -> None:
     if not abs(mpf(float(value)) - right) <= TOLERANCE * size:
         raise NotProven(
-            f"{label} of {sheet.geometry.name!r} as generated: {value!r} instead of "
+            f"{label} of {sheet.geometry.name!r}: the generated code returned {value!r} instead of "
             f"{mpmath.nstr(right, 17)} at {named(point)}"
         )
 
@@ -134,7 +138,10 @@ def _demand_close(
 def _called(
     module: ModuleType, function: Function, sheet: FormulaSheet, points: list[Point]
 ) -> list[Any]:
-    """Every field of the result, at all points at once; one of them as plain numbers, too."""
+    """Every field of the result at all points, computed with arrays.
+
+    Raises NotProven if a call with the scalars of the first point gives another result.
+    """
     call = getattr(module, function.name)
     symbols = (*function.arguments, *function.keywords(sheet))
     arrays = {str(s): np.array([float(point[s]) for point in points]) for s in symbols}
@@ -145,17 +152,18 @@ def _called(
     for field, single in zip(fields, singles, strict=True):
         if not np.allclose(field[0], single, rtol=1e-12, atol=0, equal_nan=True):
             raise NotProven(
-                f"{function.name} of {sheet.geometry.name!r}: {single!r} alone, {field[0]!r} as "
-                f"one of many, at {named(points[0])}"
+                f"{function.name} of {sheet.geometry.name!r}: the generated code returned "
+                f"{single!r} for scalars but {field[0]!r} for arrays at {named(points[0])}"
             )
     return list(fields)
 
 
 @contextmanager
 def imported(name: str, text: str, stuck: str) -> Iterator[ModuleType]:
-    """The module in a package of its own, that is forgotten again.
+    """The module, imported in a package of its own that is removed again afterwards.
 
-    The runtime is the one that will be copied beside it: it need not be compiled again.
+    Its runtime is derive.runtime, so that nothing is compiled again; generated packages receive a
+    copy of it.
     """
     with tempfile.TemporaryDirectory() as folder:
         package = f"_trial_of_{name}"
@@ -172,12 +180,12 @@ def imported(name: str, text: str, stuck: str) -> Iterator[ModuleType]:
             yield importlib.import_module(f"{package}.{name}")
         finally:
             sys.path.remove(folder)
-            for held in [m for m in sys.modules if m.split(".")[0] == package]:
-                del sys.modules[held]
+            for loaded in [m for m in sys.modules if m.split(".")[0] == package]:
+                del sys.modules[loaded]
 
 
 def _runtime() -> list[ModuleType]:
-    """The modules of the runtime that generated ones import."""
+    """The modules of the runtime, which generated modules import."""
     runtime = importlib.import_module("derive.runtime")
     names = sorted(path.stem for path in Path(runtime.__path__[0]).glob("[a-z]*.py"))
     return [runtime, *(importlib.import_module(f"derive.runtime.{name}") for name in names)]

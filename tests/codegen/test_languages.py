@@ -142,16 +142,16 @@ def test_julia_has_atan_of_two_arguments() -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_integrals_are_named_and_left_out(language: str) -> None:
     text = code_of(derive_sheet(load_geometry("catenary")), language)
-    assert "Integrals, which are not here: tilt, load, moment, pressure" in text
+    assert "Not included, because they are integrals: tilt, load, moment, pressure" in text
     assert "K_T_left" in text
 
 
 @pytest.mark.parametrize(
     ("language", "name", "why"),
     [
-        ("c", "register", "is a word of the language"),
-        ("javascript", "var", "is a word of the language"),
-        ("fortran", "e_star", "is E_star there"),
+        ("c", "register", "is reserved in code of that language"),
+        ("javascript", "var", "is reserved in code of that language"),
+        ("fortran", "e_star", "is the same name as 'E_star'"),
     ],
 )
 def test_a_name_that_a_language_has_no_room_for(language: str, name: str, why: str) -> None:
