@@ -57,8 +57,8 @@ ROUGHEST = 1e-4
 """No contact is returned if rounding of its edges changes the load by more than this fraction."""
 
 UNSURE = 1e-2
-"""No contact is returned if rounding of its place or tilt moves an edge by more than this fraction of
-the width."""
+"""No contact is returned if rounding of its place or tilt moves an edge by more than this fraction
+of the width."""
 
 EPS = 2.0**-52
 

@@ -162,7 +162,7 @@ if COMPILED:
         return at
 
     def value_of(signature: Any) -> Any:
-        """Turn a kernel into a value.  Code with numba's own function values is not kept on disk."""
+        """Turn a kernel into a value.  Code with numba's own such values is not kept on disk."""
 
         @intrinsic  # type: ignore[untyped-decorator]
         def value(_: Any, given: Any) -> Any:

@@ -1,4 +1,4 @@
-"""What a contact carries, by quadrature of the body's curvature: one rule for every convex body.
+"""State, pressure and series of a contact: one quadrature rule for every convex body.
 
 Each element ds of the contact [-a, c] adds the pressure (1/pi) g''(s) L(x, s) ds for E* = 1, with
 
@@ -9,12 +9,13 @@ and a corner adds the jump of g' there in place of g'' ds.  Load and edge coeffi
     P = (1/2) int g'' w ds,   K_left = (1/(pi sqrt(h))) int g'' w/(a + s) ds,   K_right alike,
     alpha = -(1/pi) int g'/w ds.
 
-On a convex body nothing in the first three is ever subtracted: no digit is lost, wherever the
-contact lies.  The contact is cut at the body's breaks, and the pressure's at x.  On each part the
-nodes of the double exponential rule crowd towards both ends, and every distance from an end is a
-product, not a difference.  The step is halved until two sums agree.
+On a convex body the first three have no negative terms, so that no digits are lost, wherever the
+contact lies.  The contact is cut at the body's breaks, and for the pressure also at x.  On each
+part the nodes of the double exponential rule crowd towards both ends, and every distance from an
+end is a product, not a difference.  The step is halved until two sums agree.
 
-What is alike on both sides of a contact is written once: the other side sees the body from behind.
+Formulas that are alike on both sides of a contact are written once: for the other side the body is
+seen from behind.
 """
 
 import math
@@ -38,44 +39,47 @@ from .kernels import (
 from .shared import shared
 
 FARTHEST = 6
-"""How far the rule may go: to 1e-275 of a part.  It stops where its terms count no more."""
+"""Largest t of the rule, where a node is 1e-275 of a part from its end.  The rule stops earlier
+once its terms are negligible."""
 
 FINEST = 8
-"""Steps of the rule are 1 at first and 2**-FINEST at last."""
+"""The step of the rule is 1 at first and 2**-FINEST at last."""
 
 EPS = 2.0**-52
 
 AGREED = 1e-12
-"""Two sums that agree to this, the later one is exact to rounding."""
+"""If two sums agree to this, the later one is exact to rounding."""
 
 SHORT = 0.03
-"""A neighbour is short if it is shorter than this part of a part."""
+"""A neighbouring part is short if its length is below this fraction of a part."""
 
 BESIDE = 0.1
-"""Smooth breaks closer to an edge than this, in parts of the width, divide nothing for L_N."""
+"""For L_N, smooth breaks closer to an edge than this, relative to the width, do not cut the
+contact."""
 
 ALIKE = 1e-12
-"""Two limits of g'' at a break that agree to this are the same."""
+"""Two limits of g'' at a break are equal if they agree to this."""
 
 STEP, LEAST_STEP = 1e-2, 1e-7
-"""Of a difference, over the width or the distance from a break; over the width at least."""
+"""Step of the difference, relative to the width or to the distance from a break, and its least
+value relative to the width."""
 
 DIFFERENCE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12
-"""Weights of the difference of fourth order."""
+"""Weights of the fourth-order difference."""
 
 HUGE = 1e300
-"""A quotient that is larger may leave float64."""
+"""A quotient larger than this may overflow."""
 
 TINY, NOTHING = 5e-324, 1e-300
-"""The smallest distance from a break, in metres, and from an edge, in parts of the width."""
+"""The smallest distance from a break, in metres, and from an edge, relative to the width."""
 
 
 class Curve(NamedTuple):
-    """A body by its curve.  It is cut into pieces at its breaks, one break at least.
+    """A body given by its curve, which is cut into pieces at its breaks (at least one).
 
     beside   (piece, side, t, own) -> g', g'' and t g''' on a piece, numbered from the left, at the
              distance t > 0 from its left break (side = 1) or its right one (side = -1)
-    breaks   (own) -> where the breaks are, from left to right
+    breaks   (own) -> positions of the breaks, from left to right
     corners  (own) -> jumps of g' at the breaks
     """
 
@@ -85,13 +89,13 @@ class Curve(NamedTuple):
 
 
 class Part(NamedTuple):
-    """What lies of one piece inside a window of the contact, seen from in front or from behind.
+    """The part of one piece inside a window of the contact, seen from in front or from behind.
 
-    piece, sense   the piece's number; 1, or -1 where it is seen from behind
+    piece, sense   the piece's number; 1, or -1 if it is seen from behind
     length         [m]
     past, ahead    distances from the piece's breaks to the part's ends [m]
-    extent         length in parts of the contact's width
-    start, end     distances from the window's ends to the part's, in parts of the width
+    extent         length relative to the contact width
+    start, end     distances from the window's ends to the part's ends, relative to the width
     """
 
     piece: Any
@@ -124,7 +128,7 @@ def curve_of(beside: Any, breaks: Any, corners: Any) -> Curve:
 
 @kernel(PART(vector, whole, real, real, real, whole))
 def _part(breaks: Any, piece: int, low: float, high: float, h: float, sense: int) -> Part:
-    """What lies of a piece inside the window [low, high]."""
+    """The part of a piece inside the window [low, high]."""
     width = high - low
     length, start, end, past, ahead = width, 0.0, 0.0, math.inf, math.inf
     if 0 < piece < breaks.size:
@@ -145,10 +149,11 @@ def _part(breaks: Any, piece: int, low: float, high: float, h: float, sense: int
 
 @kernel(NODE(CURVE, PART, real, real, vector))
 def _at(curve: Any, part: Any, q: float, rest: float, own: Any) -> tuple[float, ...]:
-    """The curve at the fractions q and 1 - q of a part, seen from the nearer break: a node.
+    """A node: the curve at the fractions q and rest = 1 - q of a part, seen from the nearer break.
 
-    It is g', g'', t g''' and t, the distance from the nearer break [m]; then in parts of the width
-    the distances from the window's start, from its end, and from the part's start.
+    The values are g', g'', t g''' and t, the distance from the nearer break [m].  Three distances
+    relative to the contact width follow: from the window's start, from its end, and from the
+    part's start.
     """
     before, behind = part.past + part.length * q, part.ahead + part.length * rest
     side = part.sense if before <= behind else -part.sense
@@ -161,7 +166,7 @@ def _at(curve: Any, part: Any, q: float, rest: float, own: Any) -> tuple[float, 
 
 @kernel(results(2)(CURVE, real, vector))
 def slope(curve: Any, x: float, own: Any) -> tuple[float, float]:
-    """g'(x) and g''(x); at a break, of the piece on its right."""
+    """g'(x) and g''(x); at a break those of the piece on its right."""
     breaks = curve.breaks(own)
     piece = 0
     while piece < breaks.size and x >= breaks[piece]:
@@ -176,9 +181,9 @@ def slope(curve: Any, x: float, own: Any) -> tuple[float, float]:
 def _rule() -> Any:
     """q, 1 - q, weights and t of the rule on (0, 1) with q = 1/(1 + exp(pi sinh t)), t >= 0.
 
-    First those of step 1, t = 0, 1, ..., FARTHEST; then, level by level, those of half the step
-    that come between.  Where t < 0, q and 1 - q change places; t = 0 is met so twice, and weighs
-    half.
+    The first nodes are those of step 1, t = 0, 1, ..., FARTHEST.  Then follow, level by level, the
+    nodes of half the step that lie between them.  For t < 0, q and 1 - q change places; t = 0 is
+    therefore used twice, with half its weight.
     """
     levels = [np.arange(FARTHEST + 1.0)]
     levels += [np.arange(0.5**n, FARTHEST, 2 * 0.5**n) for n in range(1, FINEST + 1)]
@@ -194,10 +199,10 @@ RULE = _rule()
 
 @kernel(whole(PART))
 def _coarsest(part: Any) -> int:
-    """The first level at which two sums that agree are believed.
+    """The first level at which the agreement of two sums is trusted.
 
-    A singularity close beyond an end, where the part's neighbour is short, shows on fine levels
-    alone: before, sums may agree by chance.
+    A singularity close beyond an end, where the neighbouring part is short, shows only on fine
+    levels.  On coarser levels sums may agree by chance.
     """
     h = part.length / part.extent
     for gap in (part.start + part.past / h, part.end + part.ahead / h):
@@ -208,12 +213,12 @@ def _coarsest(part: Any) -> int:
 
 @kernel(nothing(function(INTEGRAND), results(3), CURVE, PART, vector, vector))
 def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, total: Any) -> None:
-    """Add the integrals over a part to `total`: NaN where the sums do not agree or have no end.
+    """Add the integrals over a part to `total`; NaN where the sums do not agree or do not converge.
 
-    All are infinite beyond the body's curve, where the first one is infinite or none.  From the
-    third level on, the rule goes no farther than terms have counted.
+    All integrals are infinite beyond the body's curve, where the first one is infinite or NaN.
+    From the third level on, the rule goes no farther than its terms have changed the sums.
 
-    integrand: its values, as many as are totalled, from a node and three numbers that are given.
+    integrand: returns its values, as many as `total` holds, from a node and three given numbers.
     """
     if not part.length > 0:
         return
@@ -234,7 +239,7 @@ def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, tota
                     sizes[i] += abs(weight * values[i])
                     if sizes[i] != size:
                         reach = max(reach, t)
-                        if t == FARTHEST:  # the sum has not come to its end
+                        if t == FARTHEST:  # the sum has not converged
                             sums[i] = math.nan
         done = nodes
         if not sizes[0] < math.inf:
@@ -242,11 +247,11 @@ def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, tota
             return
         agree = level >= coarsest
         for i in range(total.size):
-            off = abs(sums[i] - 2 * before[i])
+            difference = abs(sums[i] - 2 * before[i])
             allowed = AGREED * sizes[i] + EPS * sizes[0]
-            if level == FINEST and not off <= allowed:
+            if level == FINEST and not difference <= allowed:
                 sums[i] = math.nan
-            agree = agree and (off <= allowed or math.isnan(sums[i]))
+            agree = agree and (difference <= allowed or math.isnan(sums[i]))
             before[i] = sums[i]
         if agree:
             total += 0.5**level * part.length * sums
@@ -258,7 +263,7 @@ def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, tota
 
 @kernel(INTEGRAND)
 def _of_state(node: Any, _: Any) -> tuple[float, ...]:
-    """g'' w, g'' w/(a + s), g'' w/(c - s), g'/w and g'' w (2 s + a - c), in parts of the width."""
+    """g'' w, g'' w/(a + s), g'' w/(c - s), g'/w and g'' w (2 s + a - c), relative to the width."""
     slope, curvature, _, _, start, end, _ = node
     root = math.sqrt(start / end)
     w = root * end
@@ -270,8 +275,8 @@ def _of_state(node: Any, _: Any) -> tuple[float, ...]:
 def state(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
     """Load, moment, tilt, K_N at the left and the right edge, for E* = 1.
 
-    NaN where [-a, c] is no contact, and what is infinite, as K_N is where g'' is infinite at an
-    edge; a load without limit where the contact leaves the body's curve.
+    NaN where [-a, c] is not a contact, and for quantities that are infinite, such as K_N where g''
+    is infinite at an edge.  The load is infinite where the contact exceeds the body's curve.
     """
     h, total = a + c, np.zeros(5)
     if not 0 < h < math.inf:
@@ -308,7 +313,7 @@ def _of_pressure(node: Any, given: Any) -> tuple[float, ...]:
 
 @kernel(real(CURVE, real, real, real, vector))
 def pressure(curve: Any, x: float, a: float, c: float, own: Any) -> float:
-    """The pressure at x for E* = 1; zero outside the contact, infinite at a corner alone."""
+    """The pressure at x for E* = 1; zero outside the contact, infinite only at a corner."""
     h, left, right, total = a + c, a + x, c - x, np.zeros(1)
     if not (0 < h < math.inf and math.isfinite(x)):
         return math.nan
@@ -337,7 +342,7 @@ def pressure(curve: Any, x: float, a: float, c: float, own: Any) -> float:
 
 @shared
 def _psi(r: float) -> float:
-    """3 sqrt(h) times the integral of k ds that is zero at the far edge."""
+    """3 sqrt(h) times that integral of k ds which is zero at the far edge."""
     return 2 * r - 1.5 * math.atan(r) - r / (2 * (1 + r * r))
 
 
@@ -353,7 +358,8 @@ def _of_second(node: Any, _: Any) -> tuple[float, ...]:
 def _of_second_by_parts(node: Any, given: Any) -> tuple[float, ...]:
     """-2 t g''' (psi(r) - psi(r_0))/t.
 
-    Given are r_0, how far its place lies from the edge, and how far the part starts from there.
+    Given are r_0, the distance from its point to the edge, and the distance from that point to the
+    start of the part.
     """
     r_0, to_edge, offset = given
     _, _, change, t, start, end, along = node
@@ -361,14 +367,14 @@ def _of_second_by_parts(node: Any, given: Any) -> tuple[float, ...]:
     step = (offset + along) / (end * to_edge) / (r + r_0)
     twist = (1 - r * r_0) / ((1 + r * r) * (1 + r_0 * r_0))
     rise = 2 * step - 1.5 * math.atan2(step, 1 + r * r_0) - step * twist / 2
-    if abs(rise) > HUGE * t:  # beside an edge that lies at a break
+    if abs(rise) > HUGE * t:  # next to an edge that lies at a break
         return -2 * (change / t) * rise, 0.0, 0.0, 0.0, 0.0
     return -2 * change * (rise / t), 0.0, 0.0, 0.0, 0.0
 
 
 @kernel(truth(CURVE, whole, vector))
 def _is_smooth(curve: Any, i: int, own: Any) -> bool:
-    """Whether g'' goes on at a break without a jump, neither zero nor infinite there."""
+    """Whether g'' is continuous at a break, and neither zero nor infinite there."""
     _, left, of_left = curve.beside(i, -1, TINY, own)
     _, right, of_right = curve.beside(i + 1, 1, TINY, own)
     return abs(left - right) + abs(of_left) + abs(of_right) < ALIKE * (left + right)
@@ -376,15 +382,16 @@ def _is_smooth(curve: Any, i: int, own: Any) -> bool:
 
 @kernel(real(CURVE, real, real, vector, whole))
 def _second(curve: Any, a: float, c: float, own: Any, sense: int) -> float:
-    """The coefficient of s**(3/2) at the right edge, seen from behind at the left one.
+    """The coefficient of s**(3/2) at the right edge, or at the left edge if seen from behind.
 
     It is (1/pi) times the finite part of int g'' k ds, k = r (3 + 2 r**2)/(6 h**(3/2)), with
     r = sqrt((a + s)/(c - s)).  Close to the edge g'' is integrated by parts, with
 
         int k ds = psi(r)/(3 sqrt(h)),   psi(r) = 2 r - (3/2) atan r - r/(2 (1 + r**2)),
 
-    whose finite part at the edge is -3 pi/4.  By parts goes what lies behind the last break, left
-    out smooth ones close to the edge: from these on, large terms would cancel.
+    whose finite part at the edge is -3 pi/4.  Integration by parts covers the region between the
+    last break and the edge.  Smooth breaks close to the edge do not count as the last break,
+    because large terms would cancel.
     """
     h, total = a + c, np.zeros(1)
     if not 0 < h < math.inf:
@@ -422,11 +429,11 @@ def _second(curve: Any, a: float, c: float, own: Any, sense: int) -> float:
 
 @kernel(real(CURVE, real, real, vector, whole, real))
 def _third(curve: Any, a: float, c: float, own: Any, sense: int, K: float) -> float:
-    """The coefficient N of s**(5/2) at the right edge, seen from behind at the left one.
+    """The coefficient N of s**(5/2) at the right edge, or at the left edge if seen from behind.
 
-    An edge that moves by dc adds K sqrt(h - s)/(2 sqrt(h) sqrt(s)) dc to the pressure; by powers of
-    s, dL/dc + (5/2) N = -K/(16 h**2).  The rate is a difference of fourth order, over steps short
-    against the width and the distance from the nearest break.
+    An edge that moves by dc adds K sqrt(h - s)/(2 sqrt(h) sqrt(s)) dc to the pressure.  Comparing
+    powers of s gives dL/dc + (5/2) N = -K/(16 h**2).  The rate is a fourth-order difference whose
+    steps are short compared with the width and with the distance from the nearest break.
     """
     edge, h = (c if sense > 0 else -a), a + c
     step = STEP * h

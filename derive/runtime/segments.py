@@ -1,14 +1,14 @@
-"""Functions of the parts of a contact, each of which one piece of a polynomial body covers.
+"""Functions of the parts of a contact, each of which lies on one piece of a polynomial body.
 
-A place s of the contact [-a, c], h wide, has its angle on the half circle over the contact,
-2 atan2(sqrt(a + s), sqrt(c - s)), from 0 at the left edge to pi at the right one.  A part opens an
-angle t: that between the angles of its ends.  Sines and cosines of half angles are roots of
-distances,
+A point s of the contact [-a, c] of width h has an angle on the semicircle over the contact,
+2 atan2(sqrt(a + s), sqrt(c - s)), from 0 at the left edge to pi at the right one.  A part subtends
+an angle t, the difference of the angles of its ends.  Sines and cosines of half angles are square
+roots of distances,
 
     sin = sqrt((a + s)/h),    cos = sqrt((c - s)/h).
 
-What is asked for is a sum of positive terms, or is expanded where its terms would cancel.  All
-functions take numbers and arrays, and are compiled for numbers.
+Every result is computed as a sum of positive terms, or is expanded in a series where its terms
+would cancel.  All functions take numbers and arrays, and are compiled for numbers.
 """
 
 from math import factorial
@@ -24,35 +24,35 @@ _RULE = tuple(
     for q, weight in zip(*np.polynomial.legendre.leggauss(24), strict=True)
     if q < 0
 )
-"""Gauss's rule on (0, 1): q, 1 - q and the weight of both.  Powers of a distance up to the ninth
-are exact to rounding over any part."""
+"""Gauss's rule on (0, 1): q, 1 - q and the weight of both.  Integrals over a part of powers of a
+distance up to the ninth are exact to rounding."""
 
 _AFAR = 0.15
-"""Seen from farther than this, in lengths of the part, a logarithm is no worse than they are."""
+"""From farther than this, in lengths of the part, the rule is as accurate for a logarithm."""
 
 NOTHING = 1e-300
-"""What stands for zero under a line."""
+"""Substitute for zero in a denominator."""
 
 _TURN = 1.0
-"""Below this angle a segment is expanded, and below 3/2 of it an involute."""
+"""Below this angle the function segment is expanded in a series; involute is below 3/2 of it."""
 
 _NEAR, _WIDE = 0.5, 1.0
-"""A part is seen from afar where its logarithms differ by less than artanh of the first, and half
-its angle is smaller than the second: elsewhere nothing cancels by parts."""
+"""A part is distant if its logarithms differ by less than artanh of the first number and half its
+angle is below the second.  Otherwise no terms cancel in the integration by parts."""
 
 _SEGMENT = tuple((-1) ** n * 4.0 ** (n + 1) / factorial(2 * n + 3) for n in range(12, -1, -1))
-"""segment(t)/t**3 = sum (-1)**n 4**(n + 1)/(2 n + 3)! t**(2 n), the highest power first."""
+"""segment(t)/t**3 = sum (-1)**n 4**(n + 1)/(2 n + 3)! t**(2 n), from the highest power down."""
 
 _INVOLUTE = tuple((-1) ** n * (2.0 * n + 2) / factorial(2 * n + 3) for n in range(12, -1, -1))
-"""involute(t)/t**3 = sum (-1)**n (2 n + 2)/(2 n + 3)! t**(2 n), the highest power first."""
+"""involute(t)/t**3 = sum (-1)**n (2 n + 2)/(2 n + 3)! t**(2 n), from the highest power down."""
 
 _EXCESS = tuple(1 / (2.0 * n + 3) for n in range(13, -1, -1))
-"""(artanh(z) - z)/z**3 = sum z**(2 n)/(2 n + 3), the highest power first."""
+"""(artanh(z) - z)/z**3 = sum z**(2 n)/(2 n + 3), from the highest power down."""
 
 
 @shared
 def polynomial(coefficients: tuple[float, ...], z: Array) -> Array:
-    """A polynomial of z, the coefficient of its highest power first."""
+    """A polynomial of z, with the coefficient of its highest power first."""
     total = 0.0 * z
     for coefficient in coefficients:
         total = total * z + coefficient
@@ -61,9 +61,9 @@ def polynomial(coefficients: tuple[float, ...], z: Array) -> Array:
 
 @shared
 def segment(t: Array) -> Array:
-    """t - sin(t) cos(t), 0 <= t <= pi: twice the area of a segment of the unit circle, 2 t wide.
+    """t - sin(t) cos(t), 0 <= t <= pi: the area of a segment of the unit circle of angle 2 t.
 
-    (2/3) t**3 - (2/15) t**5 + (4/315) t**7 - ... where t < 1.
+    For t < 1: (2/3) t**3 - (2/15) t**5 + (4/315) t**7 - ...
 
     >>> float(segment(np.pi))
     3.141592653589793
@@ -75,9 +75,9 @@ def segment(t: Array) -> Array:
 
 @shared
 def involute(t: Array) -> Array:
-    """sin(t) - t cos(t), 0 <= t <= pi: how far the involute of the unit circle leads sideways.
+    """sin(t) - t cos(t), 0 <= t <= pi: the lateral coordinate of the involute of the unit circle.
 
-    (1/3) t**3 - (1/30) t**5 + (1/840) t**7 - ... where t < 3/2.
+    For t < 3/2: (1/3) t**3 - (1/30) t**5 + (1/840) t**7 - ...
 
     >>> float(involute(np.pi))
     3.141592653589793
@@ -89,7 +89,7 @@ def involute(t: Array) -> Array:
 
 @shared
 def edge_angle(within: Array, beyond: Array) -> Array:
-    """2 atan2(sqrt(within), sqrt(beyond)), neither below zero: the angle of a part at an edge.
+    """2 atan2(sqrt(within), sqrt(beyond)), each at least zero: the angle of a part at an edge.
 
     >>> float(edge_angle(1.0, -1.0))
     3.141592653589793
@@ -99,9 +99,9 @@ def edge_angle(within: Array, beyond: Array) -> Array:
 
 @shared
 def part_area(t: Array, across: Array) -> Array:
-    """int w ds over h**2/8, of a part between two kinks: 2 segment(t/2) + 2 sin(t) across**2.
+    """int w ds over h**2/8, for a part between two kinks: 2 segment(t/2) + 2 sin(t) across**2.
 
-    t: the angle that the part opens, 0 <= t <= pi.
+    t: the angle of the part, 0 <= t <= pi.
     across: the sine of half the sum of the angles of its ends.
 
     >>> f"{part_area(np.pi, 1.0):.6g}"
@@ -112,9 +112,10 @@ def part_area(t: Array, across: Array) -> Array:
 
 @shared
 def part_arm(t: Array, sine_1: Array, cosine_1: Array, sine_2: Array, cosine_2: Array) -> Array:
-    """int w (s - mid) ds over h**3/24, of a part between two kinks.
+    """int w (s - mid) ds over h**3/24, for a part between two kinks.
 
-    t: the angle that the part opens; then sines and cosines of half the angles of its ends.
+    t: the angle of the part.
+    sine_1, ..., cosine_2: sines and cosines of half the angles of its ends.
 
     >>> float(part_arm(np.pi, 0.0, 1.0, 1.0, 0.0))
     0.0
@@ -126,9 +127,9 @@ def part_arm(t: Array, sine_1: Array, cosine_1: Array, sine_2: Array, cosine_2: 
 
 @shared
 def part_weight(t: Array, far: Array) -> Array:
-    """int w/A ds over h, of a part between two kinks: segment(t/2) + 2 sin(t/2) far.
+    """int w/A ds over h, for a part between two kinks: segment(t/2) + 2 sin(t/2) far.
 
-    t: the angle that the part opens.
+    t: the angle of the part.
     far: the product of the cosines of half the angles of its ends; of the sines for the right edge.
 
     >>> float(part_weight(np.pi, 0.0)) / (np.pi / 2)
@@ -154,7 +155,7 @@ def excess(y: Array) -> Array:
 
 @shared
 def root_ratio(numerator: Array, denominator: Array) -> Array:
-    """sqrt(numerator/denominator); zero unless both are positive, for a place in the contact.
+    """sqrt(numerator/denominator); zero unless both are positive, as they are inside the contact.
 
     >>> float(root_ratio(4.0, 1.0)), float(root_ratio(4.0, 0.0))
     (2.0, 0.0)
@@ -168,15 +169,15 @@ def root_ratio(numerator: Array, denominator: Array) -> Array:
 def second_term(t: Array, near: Array, far: Array) -> Array:
     """int (sin(v)**2 + 2 tan(v)**2) dv over the half angles of a part, for the right edge.
 
-    t: the angle that the part opens, 0 <= t < pi.
-    near, far: the product of the sines, and of the cosines, of the half angles of its ends; the
-        other way round for the left edge.  Zero where far is: of a part that ends at the edge.
+    t: the angle of the part, 0 <= t < pi.
+    near, far: the product of the sines, and of the cosines, of the half angles of its ends;
+        exchanged for the left edge.  The result is zero where far is: the part ends at the edge.
 
-    With e = t/2, cos(e) = near + far and the tangents' difference X = sin(e)/far it is
+    With e = t/2, cos(e) = near + far and X = sin(e)/far, the difference of the tangents, it is
 
         2 (X - e) + segment(e)/2 + near sin(e),   X - e = (near X + involute(e))/(near + far),
 
-    near zero t**3/4 for a part that begins at the left edge.
+    which tends to t**3/4 as near -> 0, for a part that begins at the left edge.
 
     >>> float(second_term(0.0, 0.5, 0.5))
     0.0
@@ -191,7 +192,7 @@ def second_term(t: Array, near: Array, far: Array) -> Array:
 def third_term(t: Array, near: Array, far: Array) -> Array:
     """int (3 sin(v)**2 + 12 tan(v)**2 + 8 tan(v)**4) dv over the half angles of a part.
 
-    Arguments as those of second_term; with e = t/2 and X = sin(e)/far it is
+    The arguments are those of second_term.  With e = t/2 and X = sin(e)/far it is
 
         4 (X - e) + (3/2) segment(e) + 3 near sin(e) + 8 (near/far) X + (8/3) X**3.
 
@@ -203,13 +204,13 @@ def third_term(t: Array, near: Array, far: Array) -> Array:
     below = np.maximum(far, NOTHING)
     rise = sine / below
     steep = rise * (8 * (near / below) + rise * rise * 8 / 3)
-    found = 4 * _beyond(e, sine, near, far) + 1.5 * segment(e) + 3 * near * sine + steep
-    return where(far > 0, found, 0.0)
+    result = 4 * _beyond(e, sine, near, far) + 1.5 * segment(e) + 3 * near * sine + steep
+    return where(far > 0, result, 0.0)
 
 
 @shared
 def _beyond(e: Array, sine: Array, near: Array, far: Array) -> Array:
-    """X - e: by how much the difference of two tangents exceeds that of their angles."""
+    """X - e: the difference of two tangents less the difference of their angles."""
     cosine = np.maximum(near + far, NOTHING)
     return (near * (sine / np.maximum(far, NOTHING)) + involute(e)) / cosine
 
@@ -218,15 +219,15 @@ def _beyond(e: Array, sine: Array, near: Array, far: Array) -> Array:
 def end_pressure(t: Array, sine: Array, cosine: Array) -> Array:
     """int L ds/h over the part between an edge and a kink, seen from x.
 
-    t: the angle that the part opens, 0 <= t <= pi.
-    sine, cosine: of half the angle of x, both from the part's edge: roots of the distances of x
-        from that edge and from the other one, over h.
+    t: the angle of the part, 0 <= t <= pi.
+    sine, cosine: of half the angle of x, both measured from the part's edge: square roots of the
+        distances of x from that edge and from the other one, over h.
 
     With e = t/2 and f, half the angle of x,
 
         e sin(f) cos(f) + (sin(e)**2 - sin(f)**2) artanh(y),   y = tan(e)/tan(f) or its inverse,
 
-    a sum of positive terms where x lies on the part.  Where it does not, y < 1/2 and e < 1,
+    a sum of positive terms if x lies on the part.  If x lies outside, and y < 1/2 and e < 1,
 
         sin(e)**2 y - sin(f) cos(f) involute(e)/cos(e) - (sin(f)**2 - sin(e)**2) excess(y).
 
@@ -258,17 +259,17 @@ def part_pressure(
 ) -> Array:
     """int L ds/h over the part between two kinks, seen from x.
 
-    t: the angle that the part opens, 0 <= t <= pi.
-    start, end: how far its ends lie right of x, over h.
+    t: the angle of the part, 0 <= t <= pi.
+    start, end: positions of its ends relative to x, positive to the right, over h.
     sine_1, ..., cosine: of the half angles of its ends and of x.
 
-    With L_1 and L_2 at its ends it is, a sum of positive terms where x lies on the part,
+    With L_1 and L_2 at its ends it is
 
-        (t/2) sin(f) cos(f) + end L_2 - start L_1,   L = artanh of the ratio of both tangents.
+        (t/2) sin(f) cos(f) + end L_2 - start L_1,   L = artanh of the ratio of both tangents,
 
-    Where it does not, the nearer end lies d away, w_1 is its sine times its cosine, l the part's
-    length, L that of the farther end, y < 1/2 and
-    e < 1, with e = t/2 and w = sin(f) cos(f),
+    a sum of positive terms if x lies on the part.  If x lies outside, let d be the distance of the
+    nearer end, w_1 its sine times its cosine, l the length of the part, L that of the farther end,
+    e = t/2 and w = sin(f) cos(f).  For y < 1/2 and e < 1 it is
 
         l L + (w/cos(e)) (w_1 sin(e)**2/(d cos(e) + w_1 sin(e)) - involute(e)) - d excess(y),
         y = w sin(e)/(d cos(e) + w_1 sin(e)),   l = sin(e) sin(f_1 + f_2).
@@ -281,7 +282,7 @@ def part_pressure(
     second = _level(sine_2 * cosine, cosine_2 * sine, end)
     by_parts = e * root + end * second - start * first
     sine_e, cosine_e = np.sin(e), np.maximum(sine_1 * sine_2 + cosine_1 * cosine_2, NOTHING)
-    right = start > 0  # of x
+    right = start > 0  # the part lies to the right of x
     distance = np.maximum(np.maximum(start, -end), 0.0)
     near = where(right, sine_1 * cosine_1, sine_2 * cosine_2)
     level = where(right, second, first)
@@ -296,7 +297,7 @@ def part_pressure(
 
 @shared
 def _level(p: Array, q: Array, offset: Array) -> Array:
-    """L = artanh(min(p, q)/max(p, q)), the difference of whose squares is the offset."""
+    """L = artanh(min(p, q)/max(p, q)), where offset is the difference of their squares."""
     least = np.minimum(p, q)
     return np.log1p(2 * (p * q + least * least) / np.maximum(np.abs(offset), NOTHING)) / 2
 
@@ -311,9 +312,9 @@ def _nodes(
     sine_2: Array,
     cosine_2: Array,
 ) -> tuple[tuple[Array, Array, Array], ...]:
-    """Sine, cosine of half the angle at two fractions of a part, and the distance from its start.
+    """Sine and cosine of half the angle at two fractions of a part, and distances from its start.
 
-    Sums of positive terms: from the sine at the start, from the cosine at the end.
+    They are sums of positive terms: the sine from the start, the cosine from the end.
     """
     ends = (sine_1, cosine_1, sine_2, cosine_2)
     first = np.sin(q * t / 2), np.cos(q * t / 2)
@@ -325,7 +326,7 @@ def _nodes(
 def _node(
     before: tuple[Array, Array], behind: tuple[Array, Array], ends: tuple[Array, ...]
 ) -> tuple[Array, Array, Array]:
-    """The one of them that lies so far from start and end, by sine and cosine."""
+    """The node whose half angles from start and end have these sines and cosines."""
     sine_1, cosine_1, sine_2, cosine_2 = ends
     sine = sine_1 * before[1] + cosine_1 * before[0]
     cosine = cosine_2 * behind[1] + sine_2 * behind[0]
@@ -343,13 +344,14 @@ def part_moment(
     sine_2: Array,
     cosine_2: Array,
 ) -> Array:
-    """int u**k A**i B**j dtheta over a part, u the distance from its start, A and B from the edges.
+    """int u**k A**i B**j dtheta over a part; u, A and B are distances from its start and the edges.
 
-    k, i, j: whole numbers; lengths are parts of the contact's width.
-    t: the angle that the part opens, 0 <= t <= pi.
+    k, i, j: whole numbers; lengths are relative to the contact width.
+    t: the angle of the part, 0 <= t <= pi.
     sine_1, ..., cosine_2: of the half angles of its ends.
 
-    A polynomial of a sine over an angle, by Gauss's rule: every term is positive.
+    The integrand is a polynomial in sines of an angle, integrated by Gauss's rule: every term is
+    positive.
 
     >>> f"{part_moment(0, 1, 1, np.pi, 0.0, 1.0, 1.0, 0.0) / (np.pi / 8):.12g}"
     '1'
@@ -374,18 +376,18 @@ def rising_pressure(
     past: Array,
     ahead: Array,
 ) -> Array:
-    """int u**k L ds over a part, seen from x, u the distance from its start.
+    """int u**k L ds over a part, seen from x; u is the distance from the start of the part.
 
-    Arguments as those of part_moment; sine and cosine of half the angle of x.
-    past, ahead: how far x lies behind the part's start and before its end; all over h.
+    The first arguments are those of part_moment; sine and cosine are of half the angle of x.
+    past, ahead: how far x lies beyond the part's start and before its end; all over h.
 
-    With L_1 and L_2 at the ends and w = sine cosine it is, a sum of positive terms where x lies on
-    the part, 1/(k + 1) times
+    With L_1 and L_2 at the ends and w = sine cosine it is 1/(k + 1) times
 
         past**(k + 1) L_1 + ahead S(length) L_2 + (w/2) int S(u) dtheta,
-        S(u) = past**k + past**(k - 1) u + ... + u**k.
+        S(u) = past**k + past**(k - 1) u + ... + u**k,
 
-    From afar it is integrated as it stands: the logarithm is smooth there.
+    which is a sum of positive terms if x lies on the part.  From afar the integral is evaluated
+    directly, because the logarithm is smooth there.
 
     >>> whole = (np.pi, 0.0, 1.0, 1.0, 0.0)
     >>> f"{rising_pressure(0, *whole, 0.6, 0.8, 0.36, 0.64) / (0.24 * np.pi):.12g}"
@@ -407,7 +409,7 @@ def rising_pressure(
 
 @shared
 def _mixed(k: int, v: Array, u: Array) -> Array:
-    """(u**(k + 1) - v**(k + 1))/(u - v), term by term."""
+    """(u**(k + 1) - v**(k + 1))/(u - v), computed term by term."""
     total = 1.0 + 0.0 * (u + v)
     power = total
     for _ in range(k):
