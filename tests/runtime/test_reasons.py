@@ -43,8 +43,8 @@ def test_a_contact_that_the_body_cannot_make() -> None:
     """A wedge leans on its apex: [-a, c] holds x = 0."""
     told = wedge.why(Contact(2.0, -1.0, 0.0), HERE, 0.1, 0.0, f=0.5, E_star=1.0, phi=0.1)
     assert told == (
-        "no load and tilt give the body the contacts [-a, c] of both first and second: pass contacts "
-        "returned by contact(...)"
+        "no load and tilt give the body the contacts [-a, c] of both first and second: "
+        "pass contacts returned by contact(...)"
     )
 
 
