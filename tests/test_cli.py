@@ -171,7 +171,7 @@ def test_the_command_is_a_module_too(tmp_path: Path) -> None:
         again, shell=True, cwd=tmp_path, env=environment, capture_output=True, text=True
     )
     assert (ended.returncode, ended.stdout) == (2, "")
-    assert "is there already" in ended.stderr and "Traceback" not in ended.stderr
+    assert "already exists" in ended.stderr and "Traceback" not in ended.stderr
 
 
 @pytest.mark.parametrize(
@@ -245,7 +245,7 @@ def test_a_formula_is_never_broken_where_no_terminal_is() -> None:
 @pytest.mark.usefixtures("shown_unproven")
 def test_show_prints_closed_forms_beside_the_integrals() -> None:
     printed = done("show", "catenary")
-    assert "Closed forms follow the integrals" in printed
+    assert "Each closed form follows its integral" in printed
     assert "load_closed" in printed
     assert "besseli(1, (a + c)/(2*b))" in printed
     assert "Integral(" in printed
@@ -254,7 +254,7 @@ def test_show_prints_closed_forms_beside_the_integrals() -> None:
 @pytest.mark.usefixtures("shown_unproven")
 def test_a_limit_that_strikes_is_told() -> None:
     result = run("show", "catenary", "--limit", "1e-9")
-    told = "No closed form found within 1e-09 s; its integrals stay."
+    told = "No closed form found within 1e-09 s; the formulas remain integrals."
     assert result.exit_code == 0
     assert result.stderr == f"catenary: {told}\n"
     assert told in result.stdout
@@ -278,7 +278,7 @@ def test_generate_tells_of_a_limit_that_struck(
 ) -> None:
     """Also when the body is kept from an earlier run; another limit looks again."""
     monkeypatch.setattr(derive.parallel, "cores", lambda: 1)
-    told = "catenary: No closed form found within 1e-09 s; its integrals stay.\n"
+    told = "catenary: No closed form found within 1e-09 s; the formulas remain integrals.\n"
     first = run("generate", "catenary", "--out", "made", "--limit", "1e-9")
     assert (first.exit_code, first.stderr) == (0, told)
     text = (here / "made" / "catenary.py").read_bytes()

@@ -1,6 +1,6 @@
-"""Drafts a geometry file in a process of its own: SymPy may run away with a short text.
+"""Drafts a geometry file in a separate process, because SymPy can take very long for a short text.
 
-Nothing here imports SymPy; the other process does.
+This module does not import SymPy; only the other process does.
 """
 
 from collections.abc import Mapping
@@ -9,11 +9,11 @@ from typing import NamedTuple
 from derive.parallel import Bounds, Report, in_processes
 
 BOUNDS = Bounds(seconds=60, gigabytes=2)
-"""What a text may take; those of the library take a second."""
+"""The limits for one text; each body of the library takes about a second."""
 
 
 class Asked(NamedTuple):
-    """What a user says of a new geometry, as `derive.writing.draft.Wanted`."""
+    """The description of a new geometry by a user; see `derive.writing.draft.Wanted`."""
 
     name: str
     profile: str
@@ -23,7 +23,7 @@ class Asked(NamedTuple):
 
 
 class Made(NamedTuple):
-    """The text of the file, g(x), and name, unit and meaning of each parameter."""
+    """The text of the file, g(x), and the name, unit and meaning of each parameter."""
 
     text: str
     g: str
@@ -31,9 +31,9 @@ class Made(NamedTuple):
 
 
 def drafted(asked: Asked, bounds: Bounds = BOUNDS) -> Made:
-    """The file that is wanted.
+    """The file for a new geometry.
 
-    Raises what `draft` raises; RanAway.
+    Raises RanAway if the process exceeds its limits, and the exceptions of `draft`.
     """
     (made,) = in_processes(_drafted, [asked], lambda *_: None, 1, bounds)
     return made

@@ -1,6 +1,6 @@
-"""A geometry file before it is written: all that can be wrong with it is told here.
+"""Drafts a geometry file; all mistakes in its description are reported before it is written.
 
-In:  a name, g(x) as text, and what is said of the parameters.
+In:  a name, g(x) as text, and the units and meanings of the parameters.
 Out: the Geometry and the text of the file that defines it.
 """
 
@@ -23,7 +23,7 @@ from derive.writing.python import Python
 from derive.writing.vocabulary import refusal
 
 NEUTRAL = "parameter of the profile"
-"""The meaning of a parameter of which nothing is said."""
+"""The meaning of a parameter for which none is given."""
 
 _LONGEST_UNIT = 60
 _TITLE_WIDTH = 80
@@ -31,14 +31,14 @@ _TITLE_WIDTH = 80
 _MODULES = sys.stdlib_module_names | {
     *("derive", "generated", "numpy", "numba", "sympy", "mpmath", "click", "rich", "ruff"),
 }
-"""Modules that a file of the same name would hide."""
+"""Modules that a file with the same name would hide."""
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a user says of a new geometry.
+    """The description of a new geometry by a user.
 
-    units, meanings: of the parameters, by name; both may be left out.
+    units, meanings: those of the parameters, by name; both are optional
 
     Raises BadName.
     """
@@ -50,13 +50,13 @@ class Wanted:
     meanings: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        Geometry(self.name, g=Abs(x))  # a name that Geometry refuses is told first
+        Geometry(self.name, g=Abs(x))  # first raises BadName for a name that Geometry refuses
         if self.name in RESERVED:
-            raise BadName("geometry", self.name, "is taken by the theory")
+            raise BadName("geometry", self.name, "is reserved by the theory")
         if self.name in _MODULES:
             raise BadName("geometry", self.name, "would hide the Python module of that name")
         if is_in_library(self.name):
-            raise BadName("geometry", self.name, "is in the library already")
+            raise BadName("geometry", self.name, "is already in the library")
 
 
 @dataclass(frozen=True)
@@ -68,9 +68,9 @@ class Draft:
 
 
 def draft(wanted: Wanted) -> Draft:
-    """The geometry that is wanted, as Geometry accepts it.
+    """The geometry that is described, and the text of its file.
 
-    Raises BadText, BadOption, BadUnit, OpenUnits, and what Geometry raises.
+    Raises BadText, BadOption, BadUnit, OpenUnits, and the exceptions of Geometry.
 
     >>> print(draft(Wanted("cylinder", "x**2/(2*R)")).text)
     \"""Profile g(x) = x**2/(2*R).\"""
@@ -92,21 +92,23 @@ def draft(wanted: Wanted) -> Draft:
     return Draft(_geometry(wanted, tree, parameters), _text(wanted, tree, parameters))
 
 
-def _demand_held(option: str, given: Mapping[str, str], held: Sequence[str]) -> None:
+def _demand_held(option: str, given: Mapping[str, str], parameters: Sequence[str]) -> None:
+    """Refuse an option for a name that is not a parameter of g(x)."""
     for name, text in given.items():
-        if name not in held:
-            raise BadOption(option, f"{name}={text}", _absent(name, held))
+        if name not in parameters:
+            raise BadOption(option, f"{name}={text}", _absent(name, parameters))
 
 
-def _absent(name: str, held: Sequence[str]) -> str:
-    there = f"its parameters are {', '.join(held)}" if held else "it has no parameters"
-    return f"g(x) holds no parameter {name!r}; {there}"
+def _absent(name: str, parameters: Sequence[str]) -> str:
+    known = f"its parameters are {', '.join(parameters)}" if parameters else "it has no parameters"
+    return f"g(x) has no parameter {name!r}; {known}"
 
 
 def _demand_plain(unit: str) -> None:
-    """Refuse a unit that Python's own parser should not be given."""
+    """Refuse a unit that should not be passed to the parser of Python."""
     if not unit.isprintable() or len(unit) > _LONGEST_UNIT:
-        raise BadUnit(unit[:_LONGEST_UNIT], "is too long, or no plain text")
+        why = f"it has more than {_LONGEST_UNIT} characters, or characters that cannot be printed"
+        raise BadUnit(unit[:_LONGEST_UNIT], why)
 
 
 Parameters = Mapping[str, tuple[str, str]]
@@ -114,13 +116,13 @@ Parameters = Mapping[str, tuple[str, str]]
 
 
 def _parameters(wanted: Wanted, tree: Node) -> Parameters:
-    """What each parameter means; one that has no influence is refused."""
+    """The meaning and unit of each parameter; a parameter without influence is refused."""
     g = read(wanted.profile)
-    found = units(g, wanted.units)
+    units_of = units(g, wanted.units)
     for name, column in names(tree).items():
-        if name not in found:
+        if name not in units_of:
             raise refusal(wanted.profile, column, f"{name} cancels out of g(x)", "leave it out")
-    return {name: (wanted.meanings.get(name, NEUTRAL), found[name]) for name in names(tree)}
+    return {name: (wanted.meanings.get(name, NEUTRAL), units_of[name]) for name in names(tree)}
 
 
 def _geometry(wanted: Wanted, tree: Node, parameters: Parameters) -> Geometry:
@@ -140,7 +142,7 @@ def _geometry(wanted: Wanted, tree: Node, parameters: Parameters) -> Geometry:
 
 
 def _text(wanted: Wanted, tree: Node, parameters: Parameters) -> str:
-    """The file, in the form of those of the library."""
+    """The text of the file, in the form of the files of the library."""
     python = Python()
     profile = python.write(tree).text
     imports = ", ".join(sorted(python.imports, key=lambda name: (name.islower(), name)))
@@ -169,7 +171,7 @@ def _title(wanted: Wanted) -> str:
 
 
 def _docstring(title: str) -> str:
-    """A title as a docstring of one line, whatever characters it holds."""
+    """A title as a docstring of one line, whatever characters it contains."""
     plain = "".join(_plain(character) for character in title)
     return '"""' + re.sub('"(?="|$)', r"\"", plain) + '"""'
 

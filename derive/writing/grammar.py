@@ -1,4 +1,4 @@
-"""Reads a text, g(x) or a formula of a claims file, into a tree; nothing is computed.
+"""Reads a text, g(x) or a formula of a claims file, into a tree without computing anything.
 
     or          ::= and (("or" | "|") and)*
     and         ::= not (("and" | "&") not)*
@@ -11,7 +11,7 @@
     primary     ::= number | name | "pi" | "True" | name "(" or ("," or)* ")"
                   | "(" or ")" | "(" or "," or ")"
 
-The precedence is Python's, but for & | ~, which here are just `and`, `or`, `not`.
+The precedence is that of Python, except that &, | and ~ are the same as `and`, `or` and `not`.
 """
 
 from collections.abc import Callable
@@ -42,14 +42,14 @@ _POWER_OF_TEN = 100
 
 @dataclass(frozen=True)
 class Node:
-    """A part of a formula; `column` is where a message points."""
+    """A part of a formula; a message points to its `column`."""
 
     column: int
 
 
 @dataclass(frozen=True)
 class Number(Node):
-    """A number, exact."""
+    """An exact number."""
 
     value: Fraction
 
@@ -92,7 +92,7 @@ class Power(Node):
 
 @dataclass(frozen=True)
 class Chain(Node):
-    """Operands with operators of one precedence between them, from left to right."""
+    """Operands, with operators of the same precedence between them, from left to right."""
 
     operands: tuple[Node, ...]
     operators: tuple[Token, ...]
@@ -133,22 +133,22 @@ class Call(Node):
 
 @dataclass(frozen=True)
 class Pair(Node):
-    """(value, condition), of a Piecewise."""
+    """(value, condition) in a Piecewise."""
 
     value: Node
     condition: Node
 
 
 def parse(text: str, words: Words = OF_PROFILES) -> Node:
-    """The tree of `text`, whose names are those of `words`.
+    """The tree of `text`, which may contain the names that `words` allows.
 
-    Raises BadText at the first place that is not of the grammar.
+    Raises BadText for the first token that does not follow the grammar.
     """
     return _Parser(text, words).whole()
 
 
 class _Parser:
-    """Recursive descent with one token ahead."""
+    """A recursive-descent parser with one token of lookahead."""
 
     def __init__(self, text: str, words: Words) -> None:
         self.text, self.words = text, words
@@ -199,7 +199,7 @@ class _Parser:
         return Negative(column, operand) if odd else operand
 
     def _prefixes(self, inverting: str, other: str) -> tuple[int, bool]:
-        """Where the prefixes start, and whether they invert: `- -x` is x."""
+        """The column of the first prefix, and whether the prefixes invert: `- -x` is x."""
         column, odd = self.here.column, False
         while self.here.among(inverting, other):
             odd ^= self._take().text in (inverting, LOGICAL.get(inverting))
@@ -228,7 +228,7 @@ class _Parser:
         raise self._missing()
 
     def _number(self) -> Fraction:
-        """The number here, exact; refused before a long one is computed."""
+        """The exact value of the current token; a long number is refused before it is computed."""
         mantissa, _, power = self.here.text.lower().partition("e")
         if len(mantissa) > _DIGITS or len(power) > 4 or abs(int(power or 0)) > _POWER_OF_TEN:
             raise self._refusal(
@@ -247,14 +247,14 @@ class _Parser:
         self._take()
         if self.here.among("("):
             raise self._refusal(
-                f"{name} is no function that may be used here",
-                f"write {name}*(...) for a product, or a function of those below",
+                f"{name} is not a function that may be used here",
+                f"write {name}*(...) for a product, or use a function of the list below",
                 column,
             )
         return Constant(column, name) if name in (PI, TRUE) else Name(column, name)
 
     def _demand_parameter(self, name: str) -> None:
-        """Refuse a name that no parameter can bear."""
+        """Refuse a name that a parameter cannot have."""
         if name in KEYWORDS or name in LOGICAL:
             raise self._keyword(name)
         if not self.words.of_parameters:
@@ -277,17 +277,19 @@ class _Parser:
             number = "one argument" if known.most == 1 else f"{known.least} to {known.most}"
             if known.least == known.most > 1 or known.most == MANY:
                 number = f"{'at most ' * (known.most == MANY)}{known.most} arguments"
-            remedy = "leave out the rest" if len(arguments) > known.most else "write all of them"
-            raise self._refusal(f"{name} takes {number}, here are {len(arguments)}", remedy, column)
+            many = len(arguments) > known.most
+            remedy = "leave out the others" if many else "add the missing ones"
+            why = f"{name} takes {number}, but {len(arguments)} are given"
+            raise self._refusal(why, remedy, column)
         return Call(column, name, arguments)
 
     def _arguments(self) -> tuple[Node, ...]:
-        found = [self._or()]
+        arguments = [self._or()]
         while self.here.among(","):
             self._take()
-            found.append(self._or())
+            arguments.append(self._or())
         self._close()
-        return tuple(found)
+        return tuple(arguments)
 
     def _parenthesised(self) -> Node:
         opening = self._take()
@@ -308,7 +310,7 @@ class _Parser:
     def _deeper(self, token: Token, part: Callable[[], Result]) -> Result:
         if self._depth == self.words.deepest:
             raise self._refusal(
-                f"this is nested deeper than {self.words.deepest} levels",
+                f"the formula is nested deeper than {self.words.deepest} levels here",
                 "write it with fewer parentheses",
                 token.column,
             )
@@ -332,35 +334,36 @@ class _Parser:
 
     def _missing(self) -> BadText:
         if self.here.kind == END:
-            return self._refusal("the text ends too early", "write a number, a name or (")
+            return self._refusal("the text ends too early", "add a number, a name or (")
         if self.here.among("|"):
-            return self._refusal("|x| is no absolute value here", "write Abs(x)")
+            return self._refusal("|x| cannot be used for an absolute value", "write Abs(x)")
         return self._refusal(
-            f"a number or a name is missing before {self.here.text}", "write it, or leave this out"
+            f"a number or a name is missing before {self.here.text}",
+            f"add it, or leave out {self.here.text}",
         )
 
     def _left_over(self) -> BadText:
         if self.here.among(")"):
-            return self._refusal("this parenthesis closes nothing", "leave it out, or add (")
+            return self._refusal("this ) has no matching (", "leave it out, or add (")
         if self.here.among(","):
             return self._refusal(
-                "a comma stands between the arguments of a function only",
-                "write a point in a decimal number, such as 2.5",
+                "a comma is only allowed between the arguments of a function",
+                "use a point in decimal numbers, such as 2.5",
             )
-        return self._refusal(f"{self.here.text} cannot stand here", "leave it out")
+        return self._refusal(f"{self.here.text} is not allowed here", "leave it out")
 
     def _keyword(self, name: str) -> BadText:
         remedy = "leave it out"
         if name in ("if", "else"):
             remedy = "write Piecewise((value, condition), (value, True))"
-        return self._refusal(f"{name} cannot stand here", remedy)
+        return self._refusal(f"{name} is not allowed here", remedy)
 
     def _refusal(self, why: str, remedy: str, column: int | None = None) -> BadText:
         return refusal(self.text, self.here.column if column is None else column, why, remedy)
 
 
 def _other(name: str) -> str:
-    """What to call a parameter instead."""
+    """The advice to choose another name for a parameter, with an example if there is one."""
     other = f"{name.strip('_')}0"
     try:
         parameter(other, "")

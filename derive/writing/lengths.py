@@ -1,7 +1,8 @@
-"""The unit of each parameter, found from g(x) being a length.
+"""Finds the unit of each parameter from the condition that g(x) is a length.
 
-A parameter is taken for a power of a length, m**k.  Terms that are added or compared, and the
-arguments of functions, give linear equations for the k; an exponent may hold a parameter.
+The unit of each parameter is assumed to be a power of a metre, m**k.  Terms that are added or
+compared, and the arguments of functions, give linear equations for the exponents k.  An exponent in
+g(x) may contain a parameter.
 """
 
 from collections.abc import Iterable, Mapping
@@ -34,12 +35,12 @@ from derive.units import parse_unit
 
 
 def units(g: Expr, given: Mapping[str, str]) -> dict[str, str]:
-    """A unit for every parameter of g: those given, and those that make g a length.
+    """A unit for every parameter of g: the units that are given, and those that make g a length.
 
-    What stays open is taken for a length where that agrees with the rest; what cannot agree with
-    anything is left to be refused where dimensions are checked.
+    Parameters whose units are not determined are assumed to be lengths, if that is consistent.  If
+    no units are consistent, the result is refused later, when the dimensions are checked.
 
-    Raises OpenUnits where more than one choice is left, BadUnit.
+    Raises BadUnit, and OpenUnits if the units are not determined and cannot all be lengths.
 
     >>> from derive.symbols import x
     >>> R, phi = Symbol("R"), Symbol("phi")
@@ -50,37 +51,38 @@ def units(g: Expr, given: Mapping[str, str]) -> dict[str, str]:
     parameters = sorted(g.free_symbols - {x}, key=str)
     unknown = {p: Dummy(p.name) for p in parameters if p.name not in known}
     powers = {x: S.One} | {p: unknown.get(p, known.get(p.name)) for p in parameters}
-    found = _solved(_equations(g, powers), unknown)
-    texts = {p.name: _unit(p, power, g) for p, power in found.items()}
+    solved = _solved(_equations(g, powers), unknown)
+    texts = {p.name: _unit(p, power, g) for p, power in solved.items()}
     return {p.name: given.get(p.name) or texts[p.name] for p in parameters}
 
 
 def _solved(equations: list[Expr], unknown: Mapping[Symbol, Symbol]) -> dict[Symbol, Expr]:
-    """The power of a metre that each unknown parameter is."""
+    """The power of a metre in the unit of each unknown parameter."""
     symbols = list(unknown.values())
     solution = next(iter(linsolve(equations, symbols)), None) if symbols else ()
-    if solution is None:  # nothing agrees
+    if solution is None:  # no units are consistent
         return dict.fromkeys(unknown, S.One)
-    found = dict(zip(unknown, solution, strict=True))
-    wanted = dict.fromkeys(symbols, S.One)
-    open_ = [p for p, power in found.items() if power.has(*symbols)]
-    if any(found[p].subs(wanted) != 1 for p in open_):
-        free = [p.name for p, symbol in unknown.items() if found[p] == symbol]
+    solved = dict(zip(unknown, solution, strict=True))
+    lengths = dict.fromkeys(symbols, S.One)
+    open_ = [p for p, power in solved.items() if power.has(*symbols)]
+    if any(solved[p].subs(lengths) != 1 for p in open_):
+        free = [p.name for p, symbol in unknown.items() if solved[p] == symbol]
         raise OpenUnits(tuple(p.name for p in open_), tuple(free))
-    return found | dict.fromkeys(open_, S.One)
+    return solved | dict.fromkeys(open_, S.One)
 
 
 def _equations(g: Expr, powers: Mapping[Symbol, Expr]) -> list[Expr]:
-    """What must vanish for g to be a length."""
+    """The expressions that must be zero for g to be a length."""
     walk = _Walk(powers)
     total = walk.power(g)
     return walk.zeros + ([] if total is None else [total - 1])
 
 
 class _Walk:
-    """The power of a metre that an expression is, and what must vanish for it to be one.
+    """The power of a metre in the unit of an expression, and the conditions for it to be one.
 
-    The rules are those of `derive.units.dimension_of`.
+    `zeros` are the expressions that must be zero.  The rules are those of
+    `derive.units.dimension_of`.
     """
 
     def __init__(self, powers: Mapping[Symbol, Expr]) -> None:
@@ -133,7 +135,7 @@ class _Walk:
 
 
 def _unit(parameter: Symbol, power: Expr, g: Expr) -> str:
-    """m**power as text; a number that is a slope or an angle is in rad."""
+    """m**power as text; the unit of a number is rad if it is a slope or an angle, otherwise -."""
     power = power.factor()
     if power == 0:
         return "rad" if _is_angle(parameter, g) else "-"
@@ -145,7 +147,10 @@ def _unit(parameter: Symbol, power: Expr, g: Expr) -> str:
 
 
 def _is_angle(parameter: Symbol, g: Expr) -> bool:
-    """Whether it is a plain factor or the argument of a trigonometric function, no exponent."""
+    """Whether a parameter is a plain factor, or the argument of a trigonometric function.
+
+    A parameter that occurs in an exponent is not an angle.
+    """
     if any(node.exp.has(parameter) for node in g.atoms(Pow, exp)):
         return False
     return any(parameter in node.args for node in g.atoms(Mul, sin, cos, tan))

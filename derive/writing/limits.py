@@ -1,4 +1,4 @@
-"""How large a formula may become: bounds that are known before SymPy multiplies it out."""
+"""Limits on the size of a formula, checked before SymPy expands it."""
 
 from functools import reduce
 from math import ceil, comb, inf
@@ -7,28 +7,28 @@ from operator import mul
 from sympy import Add, Expr, I, Integer, Mul, Piecewise, Pow, Rational, S, nan, oo, zoo
 
 LARGEST = 10**100
-"""Bound of a constant, and of one over it."""
+"""Upper bound of the magnitude of a constant, and of its reciprocal."""
 
 STEEPEST = 100
-"""Bound of a number in an exponent."""
+"""Upper bound of a number in an exponent."""
 
 MOST_TERMS = 1000
-"""Bound of the number of terms that a formula has when it is multiplied out."""
+"""Upper bound of the number of terms of an expanded formula."""
 
 _LONGEST = 2 * LARGEST.bit_length()
-"""Bits of an exact number."""
+"""Upper bound of the number of bits in the numerator or denominator of an exact number."""
 
 
 def fault(expr: Expr) -> str:
-    """What makes `expr` no formula to go on with; empty if nothing does."""
+    """The reason why `expr` is refused; empty if it is accepted."""
     if expr.has(zoo, nan, oo, -oo):
         return "is not finite"
     if expr.has(I) or expr.is_extended_real is False:
         return "is not real"
     if any(_bits(number) > _LONGEST for number in expr.atoms(Rational)) or _is_too_large(expr):
-        return "is a number too large or too small to go on with"
+        return "contains a number that is too large or too small, beyond 1e100 or within 1e-100"
     if terms(expr) > MOST_TERMS:
-        return f"has powers above {STEEPEST} or over {MOST_TERMS} terms when multiplied out"
+        return f"has powers above {STEEPEST} or more than {MOST_TERMS} terms when expanded"
     return ""
 
 
@@ -37,7 +37,7 @@ def _bits(number: Rational) -> int:
 
 
 def _is_too_large(expr: Expr) -> bool:
-    """Whether a constant is beyond 1e100 or within 1e-100; its own constants were not."""
+    """Whether a constant is above 1e100, or nonzero and below 1e-100, in magnitude."""
     if not expr.is_number:
         return False
     size = abs(expr.evalf(15))
@@ -45,7 +45,7 @@ def _is_too_large(expr: Expr) -> bool:
 
 
 def terms(expr: Expr) -> int:
-    """A bound of the number of terms of `expr`, multiplied out.
+    """An upper bound of the number of terms of `expr` when expanded.
 
     >>> from sympy.abc import x, y
     >>> terms((x + y) ** 3 * (1 + x))
@@ -62,14 +62,16 @@ def terms(expr: Expr) -> int:
 
 
 def _branches(expr: Expr) -> tuple[Expr, ...]:
-    """What may come in the place of a function: its arguments, or the values of a Piecewise."""
+    """The subexpressions that count for a function: its arguments, or the values of a Piecewise."""
     if isinstance(expr, Piecewise):
         return tuple(value for value, _ in expr.args)
     return expr.args
 
 
 def reach(expr: Expr) -> float:
-    """A bound of the numbers in `expr`, multiplied out: its value where all names are one.
+    """An upper bound of the numbers in `expr` when expanded.
+
+    It is the value with 1 for every name and with the magnitudes of all numbers.
 
     >>> from sympy.abc import x
     >>> reach(2 * (x - 100))

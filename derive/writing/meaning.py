@@ -1,4 +1,4 @@
-"""From the tree of a formula to SymPy, step by step as Python would compute it."""
+"""Converts the tree of a formula to SymPy, in the order in which Python would compute it."""
 
 import operator
 from collections.abc import Callable, Mapping
@@ -44,11 +44,11 @@ _OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
 }
 
 MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
-"""A comparison read from the right."""
+"""The same comparisons with their sides exchanged."""
 
 
 def read(text: str) -> Expr:
-    """g(x) of a text, its parameters plain positive symbols.
+    """The expression of a text of g(x), with plain positive symbols for its parameters.
 
     Raises BadText.
 
@@ -60,20 +60,20 @@ def read(text: str) -> Expr:
 
 
 def names(tree: Node) -> dict[str, int]:
-    """Every parameter of a formula with the column where it is named first."""
-    found: dict[str, int] = {}
+    """Every parameter of a formula, with the column of its first occurrence."""
+    columns: dict[str, int] = {}
     for node in walk(tree):
         if isinstance(node, Name) and node.name != "x":
-            found.setdefault(node.name, node.column)
-    return found
+            columns.setdefault(node.name, node.column)
+    return columns
 
 
 def walk(tree: Node) -> "list[Node]":
     """Every node of a tree, in the order of the text."""
-    found = [tree]
+    nodes = [tree]
     for part in _parts(tree):
-        found += walk(part)
-    return found
+        nodes += walk(part)
+    return nodes
 
 
 def _parts(node: Node) -> tuple[Node, ...]:
@@ -92,14 +92,15 @@ def _parts(node: Node) -> tuple[Node, ...]:
 
 
 def is_constant(tree: Node) -> bool:
-    """Whether a formula holds neither x nor a parameter."""
+    """Whether a formula contains neither x nor a parameter."""
     return not any(isinstance(node, Name) for node in walk(tree))
 
 
 class Meaning:
-    """The values and conditions that the nodes of one text stand for.
+    """The values and conditions of the nodes of one text.
 
-    text: for messages; parameters: a symbol for each name.
+    text: the text, for messages
+    parameters: the symbol of each parameter, by name
     """
 
     def __init__(self, text: str, parameters: Mapping[str, Expr]) -> None:
@@ -107,7 +108,7 @@ class Meaning:
         self.symbols: dict[str, Expr] = {"x": x, **parameters}
 
     def value(self, node: Node) -> Expr:
-        """The value of a node; BadText if it is a condition."""
+        """The value of a node; raises BadText if the node is a condition."""
         match node:
             case Number():
                 return Rational(node.value.numerator, node.value.denominator)
@@ -129,16 +130,16 @@ class Meaning:
                 raise self._pair(node)
         raise self.refusal(
             node.column,
-            "a condition is no value",
-            "write Piecewise((value, condition), ...) to choose by it",
+            "a condition cannot be used as a value",
+            "write Piecewise((value, condition), ...) to choose a value by a condition",
         )
 
     def named(self, node: Name) -> Expr:
-        """What a name stands for."""
+        """The symbol of a name."""
         return self.symbols[node.name]
 
     def call(self, node: Call) -> Expr:
-        """The value of a function of its arguments."""
+        """The value of a function call."""
         function = FUNCTIONS[node.function].of_sympy
         return self.step(node.column, function, *map(self.value, node.arguments))
 
@@ -153,7 +154,7 @@ class Meaning:
         base, exponent = self.value(node.base), self.value(node.exponent)
         if reach(exponent) > STEEPEST:
             raise self.refusal(
-                node.column, "the exponent is too large", f"numbers in it may reach {STEEPEST}"
+                node.column, "the exponent is too large", f"use numbers up to {STEEPEST} in it"
             )
         return self.step(node.column, operator.pow, base, exponent)
 
@@ -162,13 +163,15 @@ class Meaning:
         for pair in node.arguments:
             if not isinstance(pair, Pair):
                 raise self.refusal(
-                    pair.column, "Piecewise takes pairs", "write (value, condition), ..."
+                    pair.column,
+                    "the arguments of Piecewise must be pairs",
+                    "write (value, condition), ...",
                 )
             pairs.append((self.value(pair.value), self.condition(pair.condition)))
         return self.step(node.column, FUNCTIONS["Piecewise"].of_sympy, *pairs)
 
     def condition(self, node: Node) -> Boolean:
-        """The condition that a node stands for; BadText if it is a value."""
+        """The condition of a node; raises BadText if the node is a value."""
         match node:
             case Constant() if node.name == TRUE:
                 return true
@@ -183,7 +186,9 @@ class Meaning:
             case Pair():
                 raise self._pair(node)
         raise self.refusal(
-            node.column, "a value is no condition", "write one such as x < b, or True"
+            node.column,
+            "a value cannot be used as a condition",
+            "write a condition such as x < b, or True",
         )
 
     def _joined(self, node: Chain, join: Callable[[Any, Any], Any]) -> Boolean:
@@ -191,26 +196,26 @@ class Meaning:
         return self.step(node.column, lambda *all_: reduce(join, all_), *parts)
 
     def _comparison(self, node: Comparison) -> Boolean:
-        found = []
+        comparisons = []
         for sign, (left, right) in zip(node.operators, pairwise(node.operands), strict=True):
             if is_constant(left) and is_constant(right):
                 raise self.refusal(
-                    sign.column, "this compares two constants", "compare x with a place"
+                    sign.column, "this compares two constants", "compare x with a position"
                 )
             compare, sides = _OPERATORS[sign.text], (left, right)
             if is_constant(left):
                 compare, sides = _OPERATORS[MIRRORED[sign.text]], (right, left)
-            found.append(self.step(sign.column, compare, *map(self.value, sides)))
-        return reduce(operator.and_, found)
+            comparisons.append(self.step(sign.column, compare, *map(self.value, sides)))
+        return reduce(operator.and_, comparisons)
 
     def step(self, column: int, compute: Callable[..., Any], *operands: Any) -> Any:
-        """One step, refused where it leads to no formula of real numbers."""
+        """The result of one operation; refused if it is not a finite formula of real numbers."""
         try:
             result = compute(*operands)
             why = fault(result) if isinstance(result, Expr) else ""
         except Exception as error:
             raise self.refusal(
-                column, f"SymPy cannot compute this ({error})", "write it in another way"
+                column, f"SymPy cannot evaluate this ({error})", "write it in another form"
             ) from error
         if why:
             raise self.refusal(column, f"the result {why}", "write another formula")
@@ -219,10 +224,10 @@ class Meaning:
     def _pair(self, node: Pair) -> BadText:
         return self.refusal(
             node.column,
-            "a pair stands in a Piecewise only",
-            "write Piecewise((value, condition), ...), or a point in a decimal number",
+            "a pair is only allowed in a Piecewise",
+            "write Piecewise((value, condition), ...), or use a point in decimal numbers",
         )
 
     def refusal(self, column: int, why: str, remedy: str) -> BadText:
-        """The error for what stands at a column."""
+        """The error for the mistake at a column."""
         return refusal(self.text, column, why, remedy)

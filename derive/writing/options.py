@@ -1,4 +1,4 @@
-"""What options of the form NAME=TEXT say of parameters."""
+"""Reads options of the form NAME=TEXT, which describe parameters."""
 
 from collections.abc import Iterable
 
@@ -6,19 +6,19 @@ from derive.errors import BadOption
 
 
 def said(option: str, given: Iterable[str]) -> dict[str, str]:
-    """What an option NAME=TEXT says of each parameter.
+    """The text that an option NAME=TEXT gives for each parameter.
 
     Raises BadOption.
 
     >>> said("--unit", ["R=m", "phi = rad"])
     {'R': 'm', 'phi': 'rad'}
     """
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for each in given:
         name, equals, text = (part.strip() for part in each.partition("="))
         if not (name and equals and text):
             raise BadOption(option, each, "is not of the form NAME=TEXT")
-        if name in found:
-            raise BadOption(option, each, f"says something of {name} a second time")
-        found[name] = text
-    return found
+        if name in texts:
+            raise BadOption(option, each, f"{name} is given a second time")
+        texts[name] = text
+    return texts

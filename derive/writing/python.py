@@ -1,4 +1,4 @@
-"""The tree of a formula as Python that SymPy computes exactly; the order of its terms is kept."""
+"""Writes the tree of a formula as exact Python code for SymPy, with its terms in the same order."""
 
 from dataclasses import dataclass, field
 
@@ -23,14 +23,15 @@ from derive.writing.meaning import MIRRORED, is_constant
 from derive.writing.vocabulary import FUNCTIONS, TRUE
 
 _COMPARISON, _OR, _AND, _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(8)
-"""Python's precedences, where & and | bind closer than a comparison."""
+"""The precedence levels of Python, in which & and | bind more tightly than a comparison."""
 
 
 @dataclass(frozen=True)
 class Code:
-    """A piece of Python.
+    """A piece of Python code.
 
-    integer: whether Python computes it as an int, whose quotients are inexact.
+    level: the precedence level of its outermost operator
+    integer: whether its value is a Python int, whose quotients would be inexact
     """
 
     text: str
@@ -38,18 +39,18 @@ class Code:
     integer: bool = False
 
     def at(self, level: int) -> str:
-        """The text for a place that binds as closely as `level`."""
+        """The text, in parentheses unless it binds at least as tightly as `level`."""
         return self.text if self.level >= level else f"({self.text})"
 
 
 @dataclass
 class Python:
-    """Writes formulas, and notes what they need from SymPy."""
+    """Writes formulas, and collects the names that they import from SymPy."""
 
     imports: set[str] = field(default_factory=set)
 
     def write(self, node: Node) -> Code:
-        """The Python of a node."""
+        """The Python code of a node."""
         match node:
             case Number():
                 return self._number(node)
@@ -79,7 +80,7 @@ class Python:
             case Call():
                 function = self._imported(FUNCTIONS[node.function].name)
                 return Code(f"{function}({self._list(*node.arguments)})", _ATOM)
-        raise AssertionError(f"{type(node).__name__} has no form in Python")
+        raise AssertionError(f"no Python code is known for {type(node).__name__}")
 
     def _number(self, node: Number) -> Code:
         if node.value.denominator == 1:

@@ -1,4 +1,4 @@
-"""Puts a text where no file is yet, whole or not at all."""
+"""Writes a new file, completely or not at all."""
 
 import os
 import secrets
@@ -8,26 +8,28 @@ from derive.errors import BadTarget
 
 
 def place(name: str, out: Path | None) -> Path:
-    """Where the file of a geometry goes: `out` is a directory, a path in .py, or nothing.
+    """The path for the file of a geometry.
 
-    Raises BadTarget where no new file can be.
+    out: a directory, a path that ends in .py, or None for the current directory
+
+    Raises BadTarget if no new file can be created there.
     """
     folder = out if out is not None else Path()
     try:
         path = folder if folder.suffix == ".py" and not folder.is_dir() else folder / f"{name}.py"
         if os.path.lexists(path):
-            raise BadTarget(str(path), "is there already")
+            raise BadTarget(str(path), "already exists")
         if not path.parent.is_dir():
-            raise BadTarget(str(path.parent), "is no directory")
+            raise BadTarget(str(path.parent), "is not a directory")
     except OSError as error:
         raise _unwritable(folder, error) from error
     return path
 
 
 def write_new(path: Path, text: str) -> None:
-    """Write a file that is not there yet; a reader never sees a part of it.
+    """Write a new file; other programs never see an incomplete file.
 
-    Raises BadTarget where a file is there, or appears in the meantime, or cannot be written.
+    Raises BadTarget if the file exists, is created in the meantime, or cannot be written.
     """
     workpiece = path.with_name(f".{path.stem[:40]}-{secrets.token_hex(8)}.tmp")
     try:
@@ -37,7 +39,7 @@ def write_new(path: Path, text: str) -> None:
         finally:
             workpiece.unlink(missing_ok=True)
     except FileExistsError as error:
-        raise BadTarget(str(path), "is there already") from error
+        raise BadTarget(str(path), "already exists") from error
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from error
 
@@ -50,12 +52,12 @@ def _write(path: Path, text: str) -> None:
 
 
 def _publish(workpiece: Path, path: Path) -> None:
-    """Give the finished file its name, unless something bears it."""
+    """Give the finished file its name, unless a file with this name exists."""
     try:
         path.hardlink_to(workpiece)
     except FileExistsError:
         raise
-    except OSError:  # a file system without links: claim the name, then replace what was claimed
+    except OSError:  # a file system without hard links: create an empty file, then replace it
         path.open("xb").close()
         try:
             workpiece.replace(path)

@@ -1,4 +1,4 @@
-"""Cuts a text of g(x) into numbers, names and operators, one at a time."""
+"""Splits a text of g(x) into numbers, names and operators, one at a time."""
 
 import re
 import unicodedata
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from derive.writing.vocabulary import refusal
 
 LONGEST = 2000
-"""Characters that a text may have."""
+"""The largest number of characters of a text."""
 
 NUMBER, NAME, OPERATOR, END = "number", "name", "operator", "end"
 
@@ -20,31 +20,32 @@ _TOKEN = re.compile(
 
 _MISTAKES = {
     "//": ("// rounds down", "write / for a quotient"),
-    "==": ("== is no condition of a profile", "write <, <=, > or >="),
-    "!=": ("!= is no condition of a profile", "write <, <=, > or >="),
-    "<<": ("<< is no condition", "write <"),
-    ">>": (">> is no condition", "write >"),
-    ":=": ("nothing is assigned in a formula", "write the right-hand side of g(x) alone"),
-    "->": ("an arrow stands for nothing here", "write - and > apart, or leave it out"),
-    "=": ("nothing is assigned in a formula", "write the right-hand side of g(x) alone"),
-    "^": ("^ is no power here", "write ** for a power, such as x**2"),
-    ".": ("nothing has attributes here", "write a decimal point between digits only"),
-    "[": ("[ ] take out elements, of which there are none", "write ( ) to group"),
-    "]": ("[ ] take out elements, of which there are none", "write ( ) to group"),
-    "{": ("{ } hold sets, of which there are none", "write ( ) to group"),
-    "}": ("{ } hold sets, of which there are none", "write ( ) to group"),
-    "'": ("text in quotes is no part of a formula", "leave it out"),
-    '"': ("text in quotes is no part of a formula", "leave it out"),
-    "`": ("text in quotes is no part of a formula", "leave it out"),
-    "!": ("! stands for nothing here", "leave it out"),
-    "%": ("% stands for nothing here", "write a fraction as a number, such as 0.05"),
-    "@": ("@ multiplies matrices, of which there are none", "write * for a product"),
-    ";": ("; ends a formula, and one is enough", "leave it out"),
-    ":": (": stands for nothing here", "leave it out"),
-    "\\": ("\\ stands for nothing here", "write g(x) as in Python, not as in LaTeX"),
-    "$": ("$ stands for nothing here", "write g(x) as in Python, not as in LaTeX"),
-    "#": ("a formula has no comments", "say it by --title"),
+    "==": ("== is not allowed in the condition of a profile", "write <, <=, > or >="),
+    "!=": ("!= is not allowed in the condition of a profile", "write <, <=, > or >="),
+    "<<": ("<< is not a comparison", "write <"),
+    ">>": (">> is not a comparison", "write >"),
+    ":=": ("a formula cannot contain an assignment", "write only the right-hand side of g(x)"),
+    "->": ("an arrow has no meaning in a formula", "put a space between - and >, or leave it out"),
+    "=": ("a formula cannot contain an assignment", "write only the right-hand side of g(x)"),
+    "^": ("^ does not denote a power", "write ** for a power, such as x**2"),
+    ".": ("a formula cannot contain attributes", "use a point only in decimal numbers"),
+    "[": ("[ ] are not allowed in a formula", "write ( ) to group"),
+    "]": ("[ ] are not allowed in a formula", "write ( ) to group"),
+    "{": ("{ } are not allowed in a formula", "write ( ) to group"),
+    "}": ("{ } are not allowed in a formula", "write ( ) to group"),
+    "'": ("text in quotes is not allowed in a formula", "leave it out"),
+    '"': ("text in quotes is not allowed in a formula", "leave it out"),
+    "`": ("text in quotes is not allowed in a formula", "leave it out"),
+    "!": ("! has no meaning in a formula", "leave it out"),
+    "%": ("% has no meaning in a formula", "write a percentage as a number, such as 0.05"),
+    "@": ("@ is not allowed, because a formula has no matrices", "write * for a product"),
+    ";": ("; is not allowed, because only one formula can be given", "leave it out"),
+    ":": (": has no meaning in a formula", "leave it out"),
+    "\\": ("\\ has no meaning in a formula", "write g(x) as in Python, not as in LaTeX"),
+    "$": ("$ has no meaning in a formula", "write g(x) as in Python, not as in LaTeX"),
+    "#": ("a formula cannot contain a comment", "describe the profile with --title"),
 }
+"""The reason why an operator is refused, and what to do instead."""
 
 _INSTEAD = {
     **dict.fromkeys("−–—‐‑‒﹣-", "write -"),
@@ -56,46 +57,47 @@ _INSTEAD = {
     **dict.fromkeys("πϖ𝜋", "write pi"),
     **dict.fromkeys("√∛", "write sqrt(...), or **(1/3) for a cube root"),
     **dict.fromkeys("½⅓⅔¼¾⅕⅛", "write the fraction, such as 1/2"),
-    **dict.fromkeys("∞", "leave it out: a profile is finite"),
+    **dict.fromkeys("∞", "leave it out, because a profile is finite"),
 }
+"""What to write instead of a character that is not ASCII."""
 
 
 @dataclass(frozen=True)
 class Token:
-    """One word of a formula and the column where it starts."""
+    """One token of a formula and the column where it starts."""
 
     kind: str
     text: str
     column: int
 
     def among(self, *operators: str) -> bool:
-        """Whether it is one of these operators."""
+        """Whether the token is one of these operators."""
         return self.kind in (OPERATOR, NAME) and self.text in operators
 
 
 def tokens(text: str) -> Iterator[Token]:
-    """The tokens of `text`, and END for ever; a character is looked at when it is asked for."""
+    """The tokens of `text`, followed by END forever; the text is read only as far as needed."""
     if len(text) > LONGEST:
         raise refusal(
             text,
             LONGEST,
-            f"the text has {len(text)} characters, {LONGEST} are the most",
+            f"the text has {len(text)} characters, but at most {LONGEST} are allowed",
             "shorten it, or write a geometry file by hand",
         )
     column = _skip(text, 0)
     while column < len(text):
         mistake = text[column : column + 2] in _MISTAKES
-        found = None if mistake else _TOKEN.match(text, column)
-        if found is None:
+        match = None if mistake else _TOKEN.match(text, column)
+        if match is None:
             raise _unknown(text, column)
-        yield Token(str(found.lastgroup), found.group(), column)
-        column = _skip(text, found.end())
+        yield Token(str(match.lastgroup), match.group(), column)
+        column = _skip(text, match.end())
     while True:
         yield Token(END, "", column)
 
 
 def _skip(text: str, column: int) -> int:
-    """The next column without a blank."""
+    """The next column that is not white space."""
     while column < len(text) and text[column] in " \t\r\n":
         column += 1
     return column

@@ -1,4 +1,4 @@
-"""What a text of g(x) may hold; everything else is refused."""
+"""The functions and names that a text of g(x) may contain; all others are refused."""
 
 import keyword
 from collections.abc import Callable, Mapping
@@ -10,12 +10,12 @@ import sympy
 from derive.errors import BadText
 
 MANY = 20
-"""The most arguments that any function takes."""
+"""The largest number of arguments of a function."""
 
 
 @dataclass(frozen=True)
 class Function:
-    """A function that may be called: its name in SymPy and how many arguments it takes."""
+    """A function that may be called: its name in SymPy and its numbers of arguments."""
 
     name: str
     most: int = 1
@@ -23,7 +23,7 @@ class Function:
 
     @property
     def of_sympy(self) -> Callable[..., Any]:
-        """What it stands for."""
+        """The function in SymPy."""
         return getattr(sympy, self.name)
 
 
@@ -44,11 +44,11 @@ FUNCTIONS = {name: Function(name) for name in _OF_ONE} | {
 
 @dataclass(frozen=True)
 class Words:
-    """What the names of a text may be.
+    """The names that a text may contain.
 
-    functions      what may be called
-    of_parameters  whether any other name must be fit for a parameter of a geometry
-    deepest        levels of parentheses, calls and powers of powers
+    functions      the functions that may be called
+    of_parameters  whether all other names must be valid names of parameters of a geometry
+    deepest        the largest number of nested parentheses, calls and powers of powers
     """
 
     functions: Mapping[str, Function]
@@ -57,26 +57,26 @@ class Words:
 
 
 OF_PROFILES = Words(FUNCTIONS, of_parameters=True, deepest=30)
-"""The words of g(x)."""
+"""The names that g(x) may contain."""
 
 PI = "pi"
 TRUE = "True"
 LOGICAL = {"and": "&", "or": "|", "not": "~"}
-"""Words for a condition, and the signs that mean the same."""
+"""The logical operators as words, and the equivalent signs."""
 
 KEYWORDS = frozenset(keyword.kwlist) - {TRUE, *LOGICAL}
-"""Words of Python that are no part of a formula."""
+"""Keywords of Python that are not allowed in a formula."""
 
 OF_THE_FILE = frozenset({"Geometry", "geometry", "parameter", "Rational"})
-"""Names that a geometry file uses itself."""
+"""Names that the geometry file itself uses."""
 
 ALLOWED = (
-    "x, names of parameters, numbers, pi, + - * / ** ( ); Abs sqrt sign Max Min Heaviside exp log, "
-    "sin cos tan sinh cosh tanh and their inverses asin ...; "
+    "x, names of parameters, numbers, pi, + - * / ** ( ); Abs sqrt sign Max Min Heaviside exp log "
+    "sin cos tan sinh cosh tanh and their inverses (asin, ...); "
     "Piecewise((value, condition), ..., (value, True)) with < <= > >= and or not"
 )
 
 
 def refusal(text: str, column: int, why: str, remedy: str) -> BadText:
-    """The error for what stands at `column` of `text`."""
+    """The error for the mistake at `column` of `text`."""
     return BadText(text, column, why, remedy, ALLOWED)

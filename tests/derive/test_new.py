@@ -339,7 +339,7 @@ def test_a_file_is_never_overwritten(run: Callable[..., Result], tmp_path: Path)
     for arguments in ((), ("--out", "."), ("--out", "cylinder.py")):
         result = run("cylinder", "x**2/(2*R)", *arguments)
         assert result.exit_code == 2
-        assert "cylinder.py is there already; nothing was written" in result.stderr
+        assert "cylinder.py already exists; nothing was written" in result.stderr
     assert (tmp_path / "cylinder.py").read_text() == "mine"
     assert held(tmp_path) == ["cylinder.py"]
 
@@ -349,12 +349,12 @@ def test_a_file_is_never_overwritten(run: Callable[..., Result], tmp_path: Path)
     [
         (("body", ""), "empty"),
         (("body", "__import__('os').system('touch X')"), "cannot be used as a name"),
-        (("body", "(lambda: open('X', 'w'))()"), "lambda cannot stand"),
+        (("body", "(lambda: open('X', 'w'))()"), "lambda is not allowed"),
         (("body", "x**2/R", "--title", "t", "--unit", "R=__import__('os')"), "is not a known unit"),
         (("body", "(" * 10**5), "characters"),
         (("body", "[bold]x"), "[ ]"),
         (("body", "x*\udc80"), "U+DC80"),
-        (("body", "y**2/(2*R)"), "no x in it, only parameters (y, R)"),
+        (("body", "y**2/(2*R)"), "it does not contain x, only the parameters y, R"),
         (("body", "x**2/R + b - b"), "cancels out"),
         (("body", "10*x**2"), "replace it by a parameter with a unit, such as R in"),
         (("body", "phi*x**2/R"), "--unit"),
@@ -367,7 +367,7 @@ def test_a_file_is_never_overwritten(run: Callable[..., Result], tmp_path: Path)
         (("body", "x**2/R", "--out", "nowhere/"), "is not a directory"),
         (("../body", "x**2/R"), "name of a module"),
         (("class", "x**2/R"), "name of a module"),
-        (("contact", "x**2/R"), "taken by the theory"),
+        (("contact", "x**2/R"), "reserved by the theory"),
         (("hertz", "x**2/R"), "in the library"),
         (("sympy", "x**2/R"), "hide"),
         (("body",), "Missing argument"),
