@@ -57,6 +57,6 @@ def test_the_page_tells_what_is_met_and_what_is_not() -> None:
         Worst("hertz", "load", EXTREME, 8, 0, 4e-11, False, 1.0, {"a": 0.5}),
     ]
     text = page(rows, 8)
-    assert "Of 3 figures 2 meet their bound" in text
+    assert "Of 3 figures, 2 meet their bounds" in text
     assert "| load | 2.0e-16 | ~3.0e-11 (1 of 8) | **4.0e-11** |" in text
     assert "condition 1.0e+00, at a = 0.5" in text

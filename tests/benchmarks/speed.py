@@ -1,4 +1,4 @@
-"""`make bench`: docs/performance.md, all figures of one run.
+"""`make bench`: write docs/performance.md, with all figures from one run.
 
 python -m tests.benchmarks.speed [--quick] [--output FILE]
 """
@@ -38,16 +38,27 @@ BODIES: dict[str, dict[str, float]] = {
     "flat_rounded": {"R": 0.05, "b": 0.5e-3},
     "hyperbola": {"phi": 0.05, "b": 0.5e-3},
 }
-"""Of micrometres to millimetres, in SI units."""
+"""Parameters of each body, in SI units; the contacts are about two millimetres wide."""
 
+
+WORDS = """\
+This page is written by `make bench`, and all figures come from one run.  They are medians, except
+that times at neighbouring sizes are the least of several calls.  Functions that are compared were
+timed in turn.  One thread was used, except where two threads are named.
+
+Times of one call are for scalar arguments and exclude compilation.  The hand-written kernel
+(tests/benchmarks/by_hand.py) is compiled by numba.  It solves large tension on a wedge without any
+checks.  The integrated body is `hyperbola`, for which the code uses quadrature.  The ratios
+between neighbouring sizes compare the times per element of arrays of neighbouring sizes.
+"""
 
 WORDS_OF_SIZES = """\
-ns an element.  Twenty sizes a decade were measured, every tenth is shown; a blank would take too
-long."""
+The table gives the time per element in ns.  Twenty sizes per decade were measured, and every tenth
+is shown.  A cell is blank if its measurement would take too long."""
 
 
 class Figure(NamedTuple):
-    """One figure and the bound that it is held to."""
+    """A measured figure and its bound; `least` means that the bound is a lower one."""
 
     what: str
     value: float
@@ -57,7 +68,7 @@ class Figure(NamedTuple):
 
     @property
     def met(self) -> bool:
-        """Whether it is within its bound."""
+        """Whether the figure meets its bound."""
         return self.value >= self.bound if self.least else self.value <= self.bound
 
 
@@ -65,12 +76,12 @@ class Figure(NamedTuple):
 
 
 def in_turn(calls: Mapping[str, Call], seconds: float) -> dict[str, float]:
-    """Seconds of one call of each, warm: medians over rounds that time all of them in turn."""
+    """Return the seconds per warm call of each: medians over rounds that time all calls in turn."""
     once = {name: min(_timed(call, 1) for _ in range(2)) for name, call in calls.items()}
     repeats = {name: max(1, int(1e-3 / t)) for name, t in once.items()}
-    a_round = sum(repeats[name] * t for name, t in once.items())
+    per_round = sum(repeats[name] * t for name, t in once.items())
     times: dict[str, list[float]] = {name: [] for name in calls}
-    for _ in range(max(3, min(100, int(seconds / a_round)))):
+    for _ in range(max(3, min(100, int(seconds / per_round)))):
         for name, call in calls.items():
             times[name].append(_timed(call, repeats[name]))
     return {name: median(column) for name, column in times.items()}
@@ -87,7 +98,7 @@ def _timed(call: Call, repeat: int) -> float:
 
 
 class Cycle(NamedTuple):
-    """A body, its contact, and half-cycles at constant or varying normal loads."""
+    """A body, its contact, and the loads of half-cycles at constant or varying normal loads."""
 
     module: Any
     law: dict[str, float]
@@ -97,7 +108,7 @@ class Cycle(NamedTuple):
     threshold: float
 
     def zone(self, part: Any, varying: bool = False, **options: Any) -> Any:
-        """The stick zone, tension in parts of that at which it is no longer moderate."""
+        """Compute the stick zone; `part` is the tension relative to the threshold."""
         second = self.there if varying else self.here
         law = self.law | {"f": FRICTION}
         dsigma = part * self.threshold
@@ -105,7 +116,7 @@ class Cycle(NamedTuple):
 
 
 def cycle(body: str) -> Cycle:
-    """Shear of 0.3 f P."""
+    """Return the cycle of a body whose shear load changes by 0.3 f P."""
     module, law = importlib.import_module(f"generated.{body}"), {"E_star": E_STAR, **BODIES[body]}
     a, c = EDGES
     dQ = 0.3 * FRICTION * module.load(a, c, **law)
@@ -114,14 +125,14 @@ def cycle(body: str) -> Cycle:
 
 
 def loads_of(body: str) -> tuple[Any, dict[str, float], float, float]:
-    """A module, its law, and the loads of a contact."""
+    """Return a module, its constants, and the normal load and moment of its contact."""
     given = cycle(body)
     loads = (of(*EDGES, **given.law) for of in (given.module.load, given.module.moment))
     return given.module, given.law, *loads
 
 
 def inputs(body: str, function: str, size: int) -> dict[str, Any]:
-    """Random inputs of an explicit function."""
+    """Return random inputs for a function of a body."""
     rng = np.random.default_rng(7)
     a, c = rng.uniform(0.9, 1.1, (2, size)) * np.array(EDGES)[:, None]
     module, law = importlib.import_module(f"generated.{body}"), {"E_star": E_STAR, **BODIES[body]}
@@ -137,7 +148,7 @@ def inputs(body: str, function: str, size: int) -> dict[str, Any]:
 
 
 def contenders(body: str, function: str, size: int) -> dict[str, Call]:
-    """The generated function, and lambdify of the printed one with and without cse."""
+    """Return the generated function, and lambdify of the printed formula with and without cse."""
     given = inputs(body, function, size)
     module = importlib.import_module(f"generated.{body}")
     calls: dict[str, Call] = {"generated": lambda: getattr(module, function)(**given)}
@@ -156,7 +167,7 @@ def contenders(body: str, function: str, size: int) -> dict[str, Call]:
 
 
 def explicit(sizes: list[int], seconds: float) -> Iterator[tuple[str, int, dict[str, float]]]:
-    """ns an element of explicit functions, against lambdify."""
+    """Measure the ns per element of explicit functions and of lambdify."""
     for body, forms in FORMS.items():
         for function in forms:
             if body in BODIES:
@@ -166,7 +177,7 @@ def explicit(sizes: list[int], seconds: float) -> Iterator[tuple[str, int, dict[
 
 
 def scan(sizes: list[int], seconds: float) -> Iterator[tuple[str, list[float]]]:
-    """ns an element at many sizes, of functions of every kind: the least of several calls."""
+    """Measure the ns per element at many sizes, as the least of several calls."""
     for body, function in (
         *(("wedge", f) for f in ("contact", "pressure", "load", "K_N")),
         *(("flat_rounded", f) for f in ("load", "pressure", "contact")),
@@ -184,13 +195,13 @@ def scan(sizes: list[int], seconds: float) -> Iterator[tuple[str, list[float]]]:
 
 
 def hole(row: list[float]) -> float:
-    """The largest ratio of the times an element at two neighbouring sizes."""
-    above = [v / w for v, w in pairwise(row)] + [w / v for v, w in pairwise(row)]
-    return max(above) if above else 1.0
+    """Return the largest ratio of the times per element at two neighbouring sizes."""
+    ratios = [v / w for v, w in pairwise(row)] + [w / v for v, w in pairwise(row)]
+    return max(ratios) if ratios else 1.0
 
 
 def once(seconds: float) -> Iterator[Figure]:
-    """One call, warm."""
+    """Measure single warm calls."""
     wedge, smooth = cycle("wedge"), cycle("hyperbola")
     contact, law, P, M = loads_of("hyperbola")
     punch, punched, P_1, M_1 = loads_of("flat_rounded")
@@ -202,14 +213,14 @@ def once(seconds: float) -> Iterator[Figure]:
         ("stick_zone, large", lambda: wedge.zone(3.0), 100),
         ("stick_zone, large, varying loads", lambda: wedge.zone(3.0, varying=True), 3e3),
         ("stick_zone, mixed", lambda: wedge.zone(1.1, mixed=True), 1e4),
-        ("integrated contact", lambda: contact.contact(P, M, **law), 300),
-        ("integrated stick_zone, large", lambda: smooth.zone(3.0), 5e3),
+        ("contact, integrated body", lambda: contact.contact(P, M, **law), 300),
+        ("stick_zone, large, integrated body", lambda: smooth.zone(3.0), 5e3),
         (
-            "integrated stick_zone, large, varying loads",
+            "stick_zone, large, varying loads, integrated body",
             lambda: smooth.zone(3.0, varying=True),
             1.5e5,
         ),
-        ("solved contact, piecewise polynomial", lambda: punch.contact(P_1, M_1, **punched), 20),
+        ("contact by Newton, piecewise polynomial", lambda: punch.contact(P_1, M_1, **punched), 20),
         (
             "march of 100 instants",
             lambda: marched.march(P_2, M_2, Q, 0.0, **law_2),
@@ -221,7 +232,7 @@ def once(seconds: float) -> Iterator[Figure]:
 
 
 def beside_by_hand(counts: list[int], seconds: float) -> Iterator[Figure]:
-    """Large tension against a kernel that tests nothing, one core."""
+    """Compare large tension with a kernel that makes no checks, on one core."""
     by_hand = importlib.import_module("tests.benchmarks.by_hand")
     for count in counts:
         some, rows, ours = _large(count)
@@ -234,35 +245,35 @@ def beside_by_hand(counts: list[int], seconds: float) -> Iterator[Figure]:
         zone = ours()
         zone = np.stack([np.atleast_1d(zone.m), np.atleast_1d(zone.n)], axis=1)
         if zone.shape != out.shape or not np.allclose(zone, out, rtol=1e-6):
-            raise ArithmeticError("the kernel written by hand finds other stick zones")
+            raise ArithmeticError("the hand-written kernel gives different stick zones")
         times = in_turn({"ours": ours, "theirs": theirs}, seconds)
         yield Figure(
-            f"large tension over a kernel by hand, {count:,} cases",
+            f"large tension relative to the hand-written kernel, batch of {count:,}",
             times["ours"] / times["theirs"],
             2,
             "times",
         )
         if count >= 1000:
             each = 1e6 * times["ours"] / count
-            yield Figure(f"large tension, a case of {count:,}", each, 12, "us")
+            yield Figure(f"large tension, time per case in a batch of {count:,}", each, 12, "us")
 
 
 def _large(count: int) -> tuple[Cycle, Any, Call]:
-    """Cycles of large tension of a wedge: shear of 0.1 to 0.4 f P, tension 2.5 to 4 thresholds."""
+    """Return cycles of a wedge: shear of 0.1 to 0.4 f P, tension of 2.5 to 4 thresholds."""
     given, rng = cycle("wedge"), np.random.default_rng(7)
     dQ = rng.uniform(1 / 3, 4 / 3, count) * given.dQ
     dsigma = rng.uniform(2.5, 4.0, count) * dQ * (given.threshold / given.dQ)
     rows = np.stack([np.full(count, e) for e in EDGES] + [dQ, dsigma], axis=1)
     law = given.law | {"f": FRICTION}
     loads = (dQ, dsigma) if count > 1 else (float(dQ[0]), float(dsigma[0]))
-    found = given.module.stick_zone(given.here, given.here, *loads, **law)
-    if not np.all(found.regime == Regime.LARGE):
-        raise ArithmeticError("a case of the sample is not of large tension")
+    zones = given.module.stick_zone(given.here, given.here, *loads, **law)
+    if not np.all(zones.regime == Regime.LARGE):
+        raise ArithmeticError("the sample contains a case that is not of large tension")
     return given, rows, lambda: given.module.stick_zone(given.here, given.here, *loads, **law)
 
 
 def threads(count: int) -> Figure:
-    """Two threads of a user's own against one, the same work in all."""
+    """Compare two threads of a user's own with one thread that does the same work."""
     _, _, call = _large(count)
 
     def by(number: int) -> float:
@@ -277,7 +288,7 @@ def threads(count: int) -> Figure:
         return perf_counter() - began
 
     faster = median(by(1) / by(2) for _ in range(5))
-    return Figure("two threads over one", faster, 1.7, "times", least=True)
+    return Figure("speed of two threads relative to one", faster, 1.7, "times", least=True)
 
 
 FIRST = """
@@ -292,7 +303,7 @@ print(imported, perf_counter() - began)
 
 
 def first_calls(repeat: int) -> Iterator[Figure]:
-    """A fresh copy of the package: the first call that compiles, and imports once all is cached."""
+    """Measure the first call of a fresh copy, which compiles, and later imports and first calls."""
     with TemporaryDirectory() as folder:
         ignored = shutil.ignore_patterns("__pycache__")
         shutil.copytree(ROOT / "generated", Path(folder) / "generated", ignore=ignored)
@@ -315,9 +326,9 @@ def first_calls(repeat: int) -> Iterator[Figure]:
 
 
 def figures_of(scanned: Any) -> Iterator[Figure]:
-    """The worst ratios of what was measured along arrays."""
+    """Return the largest ratio between neighbouring sizes of each function."""
     for name, row in scanned:
-        yield Figure(f"between neighbouring sizes, {name}", hole(row), 2, "times")
+        yield Figure(f"largest ratio between neighbouring sizes, {name}", hole(row), 2, "times")
 
 
 def page(
@@ -326,13 +337,11 @@ def page(
     sizes: list[int],
     scanned: list[tuple[str, list[float]]],
 ) -> str:
-    """The page in Markdown."""
+    """Return the page in Markdown."""
     lines = [
         "# Speed",
         "",
-        "Made by `make bench`, all in one run: medians, contenders timed in turn, one thread but",
-        "where two are named.  One call is of numbers, warm.  The kernel by hand, in numba,",
-        "solves large tension on a wedge and tests nothing (tests/benchmarks/by_hand.py).",
+        WORDS,
         f"Python {platform.python_version()}, NumPy {np.__version__}, {os.cpu_count()} cores, "
         f"{platform.machine()}.",
         "",
@@ -348,7 +357,7 @@ def page(
         "",
         "## Explicit functions",
         "",
-        "ns an element; lambdify has the printed formula, and tests nothing.",
+        "Times are in ns per element.  lambdify evaluates the printed formula and makes no checks.",
         "",
     ]
     lines += ["| function | elements | generated | lambdify | lambdify, cse |"]
@@ -367,19 +376,19 @@ def page(
 
 
 @click.command()
-@click.option("--quick", is_flag=True, help="Few sizes and cases, to see that all runs.")
-@click.option("--output", default=PAGE, type=click.Path(path_type=Path), help="The page.")
+@click.option("--quick", is_flag=True, help="Few sizes and cases, to test that everything runs.")
+@click.option("--output", default=PAGE, type=click.Path(path_type=Path), help="The page to write.")
 def main(quick: bool, output: Path) -> None:
-    """Measure, print and write the page."""
+    """Measure the figures, and print and write the page."""
     seconds = 0.01 if quick else 0.5
     most = 4 if quick else 7
     sizes = [round(10 ** (k / 20)) for k in range(80, 101 if quick else 20 * most + 1)]
     rows = [*explicit([10**k for k in range(3, most + 1)], seconds)]
     scanned = [*scan(sizes, seconds)]
-    found = [*figures_of(scanned), *once(seconds)]
-    found += beside_by_hand([1, 1000] if quick else [1, 1000, 100_000], seconds)
-    found += [threads(1000 if quick else 20_000), *first_calls(1 if quick else 5)]
-    text = page(found, rows, sizes[::10], scanned)
+    figures = [*figures_of(scanned), *once(seconds)]
+    figures += beside_by_hand([1, 1000] if quick else [1, 1000, 100_000], seconds)
+    figures += [threads(1000 if quick else 20_000), *first_calls(1 if quick else 5)]
+    text = page(figures, rows, sizes[::10], scanned)
     output.write_text(text, encoding="utf-8")
     print(text)
 
