@@ -1,13 +1,13 @@
 """Contact laws of half-plane contacts: derived from g(x), proven, generated as NumPy.
 
-A geometry file needs three names from here, and nothing else of the package::
+A geometry file needs only three names from this package::
 
     from derive import Geometry, parameter, x
 
     R = parameter("R", "relative radius of curvature", unit="m")
     geometry = Geometry("hertz", g=x**2 / (2 * R))
 
-The names load on first use, so that ``derive --help`` does not wait for SymPy.
+The names are imported on first use, so that ``derive --help`` does not wait for SymPy.
 """
 
 from importlib import import_module
@@ -41,5 +41,5 @@ _HOME = {
 
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
-        raise AttributeError(f"module 'derive' has no attribute {name!r}; it offers {__all__}")
+        raise AttributeError(f"module 'derive' has no attribute {name!r}; it provides {__all__}")
     return getattr(import_module(_HOME[name]), name)

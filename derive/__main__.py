@@ -1,4 +1,4 @@
-"""`python -m derive` is the command `derive`."""
+"""Let `python -m derive` run the command `derive`."""
 
 from derive.cli import main
 

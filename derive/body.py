@@ -1,6 +1,7 @@
-"""One body at the end of the pipeline, as plain data.
+"""A finished body, as the pipeline returns it.
 
-It is passed between processes and stored in files, so it holds no expressions.
+It is passed between processes and stored in files.  It therefore contains only plain data and no
+expressions.
 """
 
 from collections.abc import Callable
@@ -13,23 +14,23 @@ _PARTS = {
     "from (P, M)": "contact_a",
     "from (P, alpha)": "contact_at_tilt_a",
 }
-"""Parts of a contact law, and the formula whose presence means that the part is closed form."""
+"""Parts of a contact law, each with the formula that exists only if the part is in closed form."""
 
 
 @dataclass(frozen=True)
 class Body:
     """The result of building one body.
 
-    name       the body's name, and its module's
-    text       the module
-    stuck      the module of full stick, which is the same for all bodies
-    seconds    from reading g(x) to the text
-    closed     parts of its contact law that are closed formulas
-    numerical  parts that are computed numerically
-    verdicts   the verdict on every formula
-    proofs     how every formula was proved, in words
-    struck     the message if the search for closed forms reached its time limit
-    kept       whether it comes from an earlier run
+    name       name of the body and of its module
+    text       text of the module
+    stuck      text of the module for full stick, which is the same for all bodies
+    seconds    time from reading g(x) to the finished text
+    closed     parts of the contact law that are closed formulas
+    numerical  parts of the contact law that are computed numerically
+    verdicts   verdict on every formula
+    proofs     how each formula was proved, in words
+    struck     message if the search for closed forms reached its time limit, otherwise empty
+    kept       whether the body was read from the cache
     """
 
     name: str
@@ -45,15 +46,16 @@ class Body:
 
     def formulas(self, verdict: Verdict) -> tuple[str, ...]:
         """Names of the formulas with this verdict."""
-        return tuple(name for name, found in self.verdicts if found == verdict)
+        return tuple(name for name, own in self.verdicts if own == verdict)
 
 
 def by_form(is_closed: Callable[[str], bool]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Which parts of a contact law are closed formulas, and which are not.
+    """Separate the parts of a contact law into closed formulas and numerical ones.
 
-    is_closed: whether the formula of this name is closed.
+    is_closed: tells whether the formula of a given name is closed.
 
-    A part with a closed form in special functions whose integral is evaluated in code is both.
+    A part belongs to both groups if it has a closed form in special functions, but the generated
+    code evaluates its integral.
 
     >>> by_form({"load", "contact_a"}.__contains__)
     (('forward', 'from (P, M)'), ('from (P, alpha)',))

@@ -1,18 +1,18 @@
-"""Bodies that were built before, found by the content of all that they follow from.
+"""A cache of built bodies, found again by the content of everything that they depend on.
 
     program_digest  the sources of `derive` and the versions of libraries -> a digest
-    key_of          a geometry file and that digest -> the body's key; None: it is never kept
+    key_of          a geometry file and that digest -> the body's key; None if it is never kept
     Cache.get       a key -> the Body that was kept under it, or None
     Cache.put       a key and a Body -> a file
 
-One JSON file a body, in the user's cache directory or in the directory that the environment
-variable DERIVE_CACHE names; nothing is kept where it is empty.  A file that is not whole, or not
-ours, is as good as none, and a directory that cannot be read or written is no error.
+Each body is one JSON file, in the user's cache directory or in the directory named by the
+environment variable DERIVE_CACHE.  Nothing is kept if that variable is empty.  A file that is
+incomplete or was not written here is ignored, and a directory that cannot be read or written is
+not an error.
 
-A key says what a body follows from only if its geometry file reads nothing but itself.  So one that
-imports anything besides SymPy, mpmath, math, fractions and the three names of `derive` that a
-geometry needs, or that names a built-in function by which it could read or execute more, is not
-kept.
+A key is complete only if the geometry file reads nothing but itself.  A file is therefore not kept
+if it imports anything besides SymPy, mpmath, math, fractions and the three names of `derive` that
+a geometry needs, or if it uses a built-in function by which it could read or execute more.
 
 Nothing here imports SymPy.
 """
@@ -40,16 +40,16 @@ from derive.files import write_whole
 from derive.proof.verdict import Verdict
 
 VARIABLE = "DERIVE_CACHE"
-"""Names the directory; empty: nothing is kept."""
+"""Environment variable that names the directory; if it is empty, nothing is kept."""
 
 PROGRAM = Path(__file__).parent
-"""The package whose sources every body follows from."""
+"""The package on whose sources every body depends."""
 
 MOST = 200
-"""Bodies kept; the ones used last stay."""
+"""Largest number of bodies kept; those used most recently stay."""
 
 _LIBRARIES = ("sympy", "mpmath", "ruff", "gmpy2", "python-flint")
-"""What else the bytes of a module depend on; the last two take over SymPy's numbers if present."""
+"""Libraries that affect the text of a module; SymPy computes with the last two if installed."""
 
 _IMPORTS = {"sympy", "mpmath", "math", "fractions", "__future__"}
 _FROM_DERIVE = {"Geometry", "parameter", "x"}
@@ -57,7 +57,7 @@ _READ_MORE = {
     *("open", "input", "eval", "exec", "compile", "breakpoint", "globals", "vars"),
     *("__import__", "__builtins__", "__loader__", "__spec__", "__file__"),
 }
-"""Names by which a file without further imports could depend on more than its bytes."""
+"""Names by which a file without other imports could depend on more than its own content."""
 
 _OURS = re.compile(r"[0-9a-f]{64}\.(json|\w+\.tmp)")
 
@@ -66,7 +66,7 @@ _OURS = re.compile(r"[0-9a-f]{64}\.(json|\w+\.tmp)")
 
 
 def program_digest(program: Path = PROGRAM) -> str:
-    """Digest of every source file of `derive` but the library's bodies, and of the versions."""
+    """Digest of all source files of `derive`, except the library's bodies, and of the versions."""
     bodies = program / "geometries"
     files = sorted(
         (path.relative_to(program).as_posix(), _content(path))
@@ -77,7 +77,7 @@ def program_digest(program: Path = PROGRAM) -> str:
 
 
 def _content(path: Path) -> str:
-    """Digest of a file; empty for one that is gone since it was listed."""
+    """Digest of a file; empty if the file was removed after it was listed."""
     try:
         return sha256(path.read_bytes()).hexdigest()
     except OSError:
@@ -86,12 +86,12 @@ def _content(path: Path) -> str:
 
 @cache
 def program_as_loaded() -> str:
-    """The digest when this process first asked; files may change after it has imported them."""
+    """Digest at the first call in this process; source files may change after they are imported."""
     return program_digest()
 
 
 def versions() -> dict[str, str]:
-    """Versions of Python and of the libraries that have a say in the bytes of a module."""
+    """Versions of Python and of the libraries that affect the text of a module."""
     python = f"{sys.version_info.major}.{sys.version_info.minor}"
     return {"python": python} | {name: _version(name) for name in _LIBRARIES}
 
@@ -104,26 +104,26 @@ def _version(library: str) -> str:
 
 
 def key_of(geometry: Path, origin: str, program: str) -> str | None:
-    """The key of the body that `program` makes of a geometry file, or None if it is never kept.
+    """Key of the body that `program` makes of a geometry file; None if the body is never kept.
 
-    origin: what the module says its g(x) came from.
+    origin: the source of g(x) that the module states.
     """
     try:
-        if not geometry.is_file():  # a device may have no end
+        if not geometry.is_file():  # reading a device may never end
             return None
         source = geometry.read_bytes()
     except (OSError, ValueError):
         return None
-    if not _is_all_there_is(source):
+    if not _is_self_contained(source):
         return None
     return _digest([origin, sha256(source).hexdigest(), program])
 
 
-def _is_all_there_is(source: bytes) -> bool:
-    """Whether a geometry file follows from its own bytes."""
+def _is_self_contained(source: bytes) -> bool:
+    """Whether a geometry file depends only on its own content."""
     try:
         with catch_warnings():
-            simplefilter("ignore")  # loading the file tells the user
+            simplefilter("ignore")  # the user sees the warnings when the file is loaded
             nodes = [*ast.walk(ast.parse(source))]
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return False
@@ -149,12 +149,12 @@ def _digest(what: object) -> str:
 
 @dataclass(frozen=True)
 class Cache:
-    """Bodies in the files of one directory; None: nothing is kept."""
+    """Bodies in the files of one directory; if `folder` is None, nothing is kept."""
 
     folder: Path | None
 
     def get(self, key: str | None) -> Body | None:
-        """The body kept under `key`, if there is one and its file is as it was written."""
+        """The body kept under `key`, or None if there is none or its file was changed."""
         if self.folder is None or key is None:
             return None
         path = self.folder / f"{key}.json"
@@ -167,7 +167,7 @@ class Cache:
         return body
 
     def put(self, key: str, body: Body) -> None:
-        """Keep a body; its file is there whole or not at all."""
+        """Keep a body; its file is written completely or not at all."""
         if self.folder is None:
             return
         with suppress(OSError):
@@ -180,24 +180,24 @@ class Cache:
             path.unlink(missing_ok=True)
 
     def _files(self) -> Iterator[Path]:
-        """Those of the directory that were written here, half-written ones included."""
+        """Files in the directory that were written here, including incomplete ones."""
         if self.folder is not None:
             yield from (p for p in self.folder.iterdir() if _OURS.fullmatch(p.name))
 
 
 def users_cache() -> Cache:
-    """The cache that the environment asks for; none where others may write to it."""
-    folder = _asked_for()
+    """The cache that the environment selects; it keeps nothing if others may write to it."""
+    folder = _selected()
     return Cache(folder if folder and _is_private(folder) else None)
 
 
 def distrusted() -> Path | None:
-    """The directory that is asked for and not used, since others may write to it."""
-    folder = _asked_for()
+    """The selected directory, if it is not used because others may write to it."""
+    folder = _selected()
     return folder if folder and not _is_private(folder) else None
 
 
-def _asked_for() -> Path | None:
+def _selected() -> Path | None:
     folder = os.environ.get(VARIABLE)
     if folder is None:
         folder = user_cache_dir("contact-derive", appauthor=False)
@@ -205,7 +205,7 @@ def _asked_for() -> Path | None:
 
 
 def _is_private(folder: Path) -> bool:
-    """Whether nobody else may write to a directory; one that is not there will be made so."""
+    """Whether only the user may write to a directory; a missing one will be created that way."""
     try:
         status = folder.stat()
     except OSError:
@@ -217,7 +217,7 @@ def _is_private(folder: Path) -> bool:
 def _last_used(path: Path) -> float:
     try:
         return path.stat().st_mtime
-    except OSError:  # another process has forgotten it
+    except OSError:  # another process has removed it
         return 0.0
 
 
@@ -228,13 +228,13 @@ def _written(body: Body, key: str) -> bytes:
 
 
 def _read(content: bytes, key: str) -> Body:
-    """The body in a file; raises one of many errors for a file that `_written` did not make."""
+    """The body in a file; raises one of several errors if `_written` did not make the file."""
     entry: dict[str, Any] = json.loads(content)
     facts = entry["body"]
     if entry["digest"] != _digest([key, facts]):
-        raise ValueError("not as it was written")
+        raise ValueError("the file was changed after it was written")
     if [name for name, _ in facts["proofs"]] != [name for name, _ in facts["verdicts"]]:
-        raise ValueError("verdicts without their proofs")
+        raise ValueError("verdicts and proofs do not belong together")
     return Body(
         name=facts["name"],
         text=facts["text"],

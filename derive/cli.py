@@ -1,7 +1,7 @@
-"""The command `derive`: parse, call, print.
+"""The command `derive`: read the arguments, call the package, print the results.
 
-Exit status: 0 done, 1 a check fell short, 2 bad input.  SymPy is imported by the commands that need
-it, so that help is instant.
+Exit status: 0 if all went well, 1 if a check failed, 2 if the input was bad.  SymPy is imported
+only by the commands that need it, so that help appears at once.
 """
 
 import errno
@@ -29,16 +29,16 @@ if TYPE_CHECKING:
     from derive.pipeline import Order
 
 _WIDE = 10_000
-"""Columns where the output is no terminal and COLUMNS is not set: nothing is broken that a program
-reads."""
+"""Columns of output that is not a terminal, if COLUMNS is not set: wide enough that no line that
+another program reads is broken."""
 
 FELL_SHORT, BAD_INPUT = 1, 2
 
 
 def _time(context: click.Context, option: click.Parameter, seconds: float) -> float:
-    """Seconds as they were given.
+    """Check a number of seconds and return it.
 
-    Raises BadLimit for what is no time that can pass.
+    Raises BadLimit if it is not a valid time limit.
     """
     if not 0 < seconds < inf:
         raise BadLimit(f"{seconds:g}")
@@ -57,7 +57,7 @@ _limit = click.option(
 
 
 class _Commands(click.Group):
-    """Shows a user's mistake as one message, and leaves with the status it deserves."""
+    """Show a user's mistake as a single message, and exit with the status that belongs to it."""
 
     def invoke(self, ctx: click.Context) -> object:
         try:
@@ -69,7 +69,7 @@ class _Commands(click.Group):
             _complain("Error", error.message.replace("`derive ", f"`{_command()} "))
             ctx.exit(BAD_INPUT)
         except OSError as error:
-            if error.errno == errno.EPIPE:  # whoever read this has seen enough
+            if error.errno == errno.EPIPE:  # the reader of the pipe has closed it
                 raise
             _complain("Error", f"{error.strerror}{f': {error.filename}' if error.filename else ''}")
             _forget_the_output()
@@ -80,24 +80,24 @@ class _Commands(click.Group):
 
 
 def _demand_surroundings() -> None:
-    """An output to print to, and a directory to be in."""
+    """Check that there is a standard output and a working directory."""
     if sys.stdout is None:
-        raise OSError(errno.EBADF, "the standard output is closed, and there is much to print")
+        raise OSError(errno.EBADF, "the standard output is closed, so nothing can be printed")
     try:
         Path.cwd()
     except OSError as error:
-        why = "the working directory is not there any more: change to another"
+        why = "the working directory no longer exists: change to another directory"
         raise OSError(error.errno, why) from error
 
 
 def _forget_the_output() -> None:
-    """What could not be written is not tried again as the process ends."""
-    with suppress(OSError, AttributeError):  # closed, or no file
+    """Prevent a second attempt, at the end of the process, to write output that failed."""
+    with suppress(OSError, AttributeError):  # closed, or not a file
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 class _WithFormula(click.Command):
-    """Takes -x + b for a formula; there is no option of one letter but -h."""
+    """Accept a formula such as -x + b as an argument; -h is the only option of one letter."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         shielded = [
@@ -114,7 +114,7 @@ def main() -> None:
 
 @main.command("list")
 def list_() -> None:
-    """Every geometry, its g(x), what is closed form and what is numerical."""
+    """List all geometries with g(x), and which parts are closed form or numerical."""
     from derive import load_geometry, view
     from derive.derivation import derive_law, with_closed_forms
     from derive.library import library
@@ -125,27 +125,30 @@ def list_() -> None:
 
 @main.command()
 @click.argument("name", required=False)
-@click.option("--latex", is_flag=True, help="As one LaTeX display.")
+@click.option("--latex", is_flag=True, help="Print the sheet as one LaTeX display.")
 @click.option(
     "--code",
     type=click.Choice(["c", "fortran", "javascript", "julia", "matlab"]),
-    help="Its closed formulas as functions of this language.",
+    help="Print the closed formulas as functions in this language.",
 )
-@click.option("--html", is_flag=True, help="As a page for the browser: NAME.html.")
+@click.option("--html", is_flag=True, help="Write a page for the browser, NAME.html.")
 @click.option(
-    "--all", "every", is_flag=True, help="With --html: a page of every body, and an index."
+    "--all",
+    "every",
+    is_flag=True,
+    help="With --html: write a page for every body, and an index.",
 )
 @click.option(
     "--out",
     type=click.Path(path_type=Path),
-    help="With --html: the file; with --all the directory, else handbook.",
+    help="With --html: the file to write; with --all, the directory (default: handbook).",
 )
 @click.option(
     "--slip",
     type=click.IntRange(1, 4),
     metavar="ORDER",
-    help="The series of its slip zones to this order instead, kappa being the senses of slip; "
-    "order 3 takes half a minute, order 4 far longer.",
+    help="Print the series of the slip zones up to this order instead; kappa is the direction of "
+    "slip. Order 3 takes half a minute, order 4 much longer.",
 )
 @_limit
 def show(
@@ -158,13 +161,13 @@ def show(
     slip: int | None,
     limit: float,
 ) -> None:
-    """The derived and proven formula sheet of NAME, a geometry or a geometry file."""
+    """Show the derived and proven formula sheet of NAME, a geometry or a geometry file."""
     if html + latex + bool(code) + bool(slip) > 1:
         raise click.UsageError("--html, --latex, --code and --slip exclude each other: give one")
     if (every or out) and not html:
-        raise click.UsageError("--all and --out go with --html: add it")
+        raise click.UsageError("--all and --out require --html: add it")
     if (name is None) != every:
-        raise click.UsageError("NAME is one geometry or geometry file; or give --all --html")
+        raise click.UsageError("give either NAME, a geometry or geometry file, or --all --html")
     if html:
         _show_pages(name, out, limit)
         return
@@ -196,7 +199,7 @@ def show(
 
 
 def _show_pages(name: str | None, out: Path | None, limit: float) -> None:
-    """One body's page, or those of the library with their index."""
+    """Write the page of one body, or the pages of the library with their index."""
     from derive import derive_sheet, load_geometry
     from derive.derivation import with_closed_forms
     from derive.handbook.page import entry, index, page, proven
@@ -223,20 +226,19 @@ def _show_pages(name: str | None, out: Path | None, limit: float) -> None:
     pages["index.html"] = index([entry(s, b) for s, b in zip(sheets, bodies, strict=True)])
     put_pages(pages, folder)
     _print(
-        f"Wrote {_shown((folder / 'index.html').resolve())}, and a page of each of "
-        f"{len(bodies)} bodies"
+        f"Wrote {_shown((folder / 'index.html').resolve())} and the pages of {len(bodies)} bodies"
     )
 
 
 _SENSES = (
-    "kappa_left, kappa_right: senses of slip in the half-cycle that raises the shear load: 1 and 1 "
-    "under moderate tension, 1 and -1 under large tension that rises, -1 and 1 under large tension "
-    "that falls"
+    "kappa_left, kappa_right: directions of slip in the half-cycle that raises the shear load: 1 "
+    "and 1 under moderate tension, 1 and -1 under large tension that rises, -1 and 1 under large "
+    "tension that falls"
 )
 
 
 def _show_slip(name: str, order: int) -> None:
-    """The terms of both slip zones, one under the other, then what their coefficients are."""
+    """Print the terms of both slip zones, one per line, then the meaning of their coefficients."""
     from derive import derive_sheet, load_geometry
     from derive.derivation import slip_series
     from derive.notation import text_of
@@ -259,9 +261,13 @@ def _show_slip(name: str, order: int) -> None:
 @click.argument("name")
 @click.argument("profile", metavar="G")
 @click.option("--unit", "units", multiple=True, metavar="NAME=UNIT", help="Unit of a parameter.")
-@click.option("--meaning", "meanings", multiple=True, metavar="NAME=TEXT", help="What it means.")
+@click.option(
+    "--meaning", "meanings", multiple=True, metavar="NAME=TEXT", help="Meaning of a parameter."
+)
 @click.option("--title", default="", help="First line of the file.")
-@click.option("--out", type=click.Path(path_type=Path), help="A directory, or a path in .py.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), help="A directory, or a path that ends in .py."
+)
 def new(
     name: str,
     profile: str,
@@ -270,10 +276,10 @@ def new(
     title: str,
     out: Path | None,
 ) -> None:
-    """Write the geometry file NAME.py from G, g(x) as text such as "x**2/(2*R)".
+    """Write the geometry file NAME.py from G, the text of g(x), such as "x**2/(2*R)".
 
-    Every name in G but x becomes a parameter; units that are not given follow from g(x) being a
-    length.  A file that is there is never changed.
+    Every name in G other than x becomes a parameter.  Units that are not given are derived from the
+    requirement that g(x) be a length.  An existing file is never changed.
     """
     from derive.writing.apart import Asked, drafted
     from derive.writing.options import said
@@ -297,12 +303,12 @@ def new(
 @click.argument("sources", nargs=-1, metavar="[NAME|FILE]...")
 @click.option("--out", type=click.Path(path_type=Path), help="Write an importable package here.")
 @click.option("--check", is_flag=True, help="Write nothing; fail if anything would change.")
-@click.option("--fresh", is_flag=True, help="Derive everything again; --check always does.")
+@click.option("--fresh", is_flag=True, help="Derive everything again; --check always does this.")
 @click.option(
     "--jobs",
     type=click.IntRange(min=1),
     metavar="N",
-    help="Bodies derived at once; as many as there are cores if not given.",
+    help="Number of bodies derived at once (default: the number of cores).",
 )
 @_limit
 def generate(
@@ -315,8 +321,9 @@ def generate(
 ) -> None:
     """Derive, prove and write NumPy modules: the whole library, or the geometries named.
 
-    A body whose geometry file and program are as in an earlier run is kept from there, in the
-    directory DERIVE_CACHE or the user's cache; if DERIVE_CACHE is empty, nothing is kept.
+    A body is taken from an earlier run if neither its geometry file nor the program has changed.
+    Such bodies are kept in the directory DERIVE_CACHE or in the user's cache; if DERIVE_CACHE is
+    empty, nothing is kept.
     """
     from derive import view
     from derive.codegen.publish import resolved
@@ -339,30 +346,30 @@ def generate(
     "form",
     type=click.Choice(["table", "json", "markdown", "latex", "html"]),
     default="table",
-    help="How the findings are written.",
+    help="Format of the findings.",
 )
-@click.option("--explain", metavar="LABEL", help="One claim: the steps and the numbers.")
+@click.option("--explain", metavar="LABEL", help="Explain one claim: the steps and the numbers.")
 @click.option(
     "--html",
     "page",
     type=click.Path(path_type=Path),
     metavar="PAGE",
-    help="Write all findings as a page for the browser, too.",
+    help="Also write all findings as a page for the browser.",
 )
 @click.option(
     "--accept",
     "accepting",
     is_flag=True,
-    help="Show what was understood of FILE's LaTeX, one by one; write what you accept into it.",
+    help="Show how each LaTeX formula of FILE was read; write the readings you accept into it.",
 )
 @click.option(
     "--draft",
     "drafted",
     type=click.Path(path_type=Path),
     metavar="NEW",
-    help="FILE is a paper in LaTeX: read its displays, and write the claims file NEW.",
+    help="FILE is a paper in LaTeX: read its displayed equations and write the claims file NEW.",
 )
-@click.option("--inline", is_flag=True, help="With --draft: relations in the text's lines, too.")
+@click.option("--inline", is_flag=True, help="With --draft: also read relations within the text.")
 def check(
     file: Path | None,
     form: str,
@@ -372,17 +379,17 @@ def check(
     drafted: Path | None,
     inline: bool,
 ) -> None:
-    """Check a paper's algebra: what is printed against what follows, claim by claim.
+    """Check the algebra of a paper: compare each printed claim with what follows from the theory.
 
-    Without FILE the paper by Andresen, Fleury, Moore and Hills (2020); FILE is a claims file of
-    one's own in TOML, as in examples/; docs/claims.md lists what it may hold.  Leaves with 1 if a
-    verdict is not the one expected.
+    FILE is a claims file in TOML; see examples/, and docs/claims.md for what it may contain.
+    Without FILE, the paper by Andresen, Fleury, Moore and Hills (2020) is checked.  The exit status
+    is 1 if a verdict is not the expected one.
     """
     if drafted is not None:
         _draft(file, drafted, inline)
         return
     if inline:
-        raise click.UsageError("--inline goes with --draft")
+        raise click.UsageError("--inline requires --draft: add it, or leave --inline out")
     if accepting:
         _accept(file, explain)
         return
@@ -418,7 +425,7 @@ def check(
         _print(f"Wrote {_shown(page.resolve())}")
     elif form == "table" and explain is None:
         given = "" if file is None else f"{_typed(file)} "
-        _print(f"More: {_command()} check {given}--explain CLAIM, or --html PAGE for all of it")
+        _print(f"More: {_command()} check {given}--explain CLAIM, or --html PAGE for all claims")
     wrong = report.unexpected(findings)
     if wrong:
         labels = ", ".join(finding.claim.label for finding in wrong)
@@ -434,12 +441,19 @@ def check(
     "dQ",
     type=float,
     metavar="N/M",
-    help="Change of the shear load instead, from its lowest to its highest.",
+    help="Change of the shear load, from its lowest to its highest value, if FILE has no dq.",
 )
-@click.option("--dsigma", type=float, metavar="PA", help="Change of bulk tension with it.")
+@click.option(
+    "--dsigma",
+    type=float,
+    metavar="PA",
+    help="Change of the bulk tension over the same half-cycle.",
+)
 @click.option("--unit", "units", multiple=True, metavar="NAME=UNIT", help="Unit of x or of p.")
-@click.option("--html", type=click.Path(path_type=Path), help="Write a page with pictures, too.")
-@click.option("--csv", "table", type=click.Path(path_type=Path), help="Write results in SI units.")
+@click.option("--html", type=click.Path(path_type=Path), help="Also write a page with pictures.")
+@click.option(
+    "--csv", "table", type=click.Path(path_type=Path), help="Also write the results, in SI units."
+)
 def edge(
     file: Path,
     friction: float,
@@ -451,9 +465,9 @@ def edge(
 ) -> None:
     """Coefficients and slip zones of both edges from FILE, a finite-element table.
 
-    FILE has a line of names with units, such as x [mm], p [MPa], dq [MPa], above its numbers; dq is
-    the change of shear of a run without slip.  A column `step` tells load steps; the half-cycle
-    leads from the first to the last.
+    In FILE, a line above the numbers names the columns with their units, such as x [mm], p [MPa],
+    dq [MPa].  dq is the change of the shear traction in a run without slip.  A column `step`
+    distinguishes load steps; the half-cycle leads from the first to the last of them.
     """
     from derive.edge import report
     from derive.edge.find import find
@@ -462,14 +476,16 @@ def edge(
     from derive.writing.options import said
 
     if not 0 < friction < inf:
-        raise click.BadParameter("must be above zero", param_hint="--f")
+        raise click.BadParameter("must be a finite number above zero", param_hint="--f")
     given = said("--unit", units)
     if wrong := given.keys() - {"x", "p"}:
-        raise click.BadParameter(f"{wrong.pop()!r} is not x or p", param_hint="--unit")
+        raise click.BadParameter(
+            f"{wrong.pop()!r} is neither x nor p: write x=UNIT or p=UNIT", param_hint="--unit"
+        )
     if table is not None and table.exists():
         head = table.read_bytes()[: len(report.CSV_HEAD)] if table.is_file() else b""
         if head != report.CSV_HEAD.encode():
-            why = f"{str(table)!r} is there already, and no table of results: give another file"
+            why = f"{str(table)!r} exists and is not a table of results: give another file"
             raise click.BadParameter(why, param_hint="--csv")
     steps = read(file, given)
     found = find(steps, file.name, friction, dQ, dsigma)
@@ -489,31 +505,31 @@ def edge(
 
 
 def _draft(file: Path | None, new: Path, inline: bool) -> None:
-    """Read a paper's displays and write them down as claims."""
+    """Read the displayed equations of a paper and write them as claims."""
     from derive.paper.draft import draft, write
 
     if file is None:
-        raise click.UsageError("--draft goes with a paper: give FILE, in LaTeX")
+        raise click.UsageError("--draft reads a paper: give FILE, in LaTeX")
     if new.exists():
-        raise click.UsageError(f"{new} is there already: name a new file by --draft")
+        raise click.UsageError(f"{new} already exists: give the name of a new file with --draft")
     with _console(stderr=True).status("reading the displays"):
         made = draft(file, inline)
     write(made, new)
-    click.echo(f"{made.environments} displays, {len(made.parts)} statements in them")
+    click.echo(f"{made.environments} displayed equations with {len(made.parts)} statements")
     named, symbols = made.named
-    click.echo(f"Wrote {_shown(new.absolute())}: {made.understood} read")
-    click.echo(f"{symbols} symbols, {named} with a proposal")
+    click.echo(f"Wrote {_shown(new.absolute())}: {made.understood} statements read")
+    click.echo(f"{symbols} symbols, {named} with a proposed meaning")
     for line in made.unread:
         click.echo(f"not read: {line}")
 
 
 def _accept(file: Path | None, label: str | None) -> None:
-    """Ask for each reading that waits, then write those accepted."""
+    """Show each reading that is not yet accepted, then write those that the user accepts."""
     from derive.paper.accept import accept
     from derive.paper.userfile import open_readings
 
     if file is None or label is not None:
-        raise click.UsageError("--accept goes with FILE and without --explain: give a claims file")
+        raise click.UsageError("--accept needs a claims file, without --explain: give FILE alone")
     readings = open_readings(file)
     accepted = []
     for number, reading in enumerate(readings, 1):
@@ -523,7 +539,7 @@ def _accept(file: Path | None, label: str | None) -> None:
         if reading.accepted:
             click.echo(f"  the file has {reading.accepted}")
         answer = click.prompt(
-            "Is that what is printed?",
+            "Is this what is printed?",
             type=click.Choice(["y", "n", "q"]),
             default="n",
             show_default=True,
@@ -539,11 +555,11 @@ def _accept(file: Path | None, label: str | None) -> None:
 
 
 def _paper(file: Path | None, label: str | None) -> "Paper":
-    """The claims of a paper, or the one claim of it that is asked for."""
+    """All claims of a paper, or only the claim with the given label."""
     from derive.errors import UnknownClaim
     from derive.paper.userfile import built_in, read_claims
 
-    with _console(stderr=True).status("deriving what the paper is compared with"):
+    with _console(stderr=True).status("deriving the formulas for comparison with the paper"):
         source = built_in() if file is None else read_claims(file)
     if label is None:
         return source
@@ -554,14 +570,15 @@ def _paper(file: Path | None, label: str | None) -> "Paper":
 
 
 def _built(sources: Sequence[str], jobs: int | None, fresh: bool, limit: float) -> "list[Body]":
-    """Every body, under a progress bar; which searches were ended by their limit."""
+    """Build every body under a progress bar, and report the searches that reached their limit."""
     from derive.cache import distrusted
     from derive.parallel import cores
     from derive.pipeline import STAGES, build_all
 
     if folder := distrusted():
-        why = "others may write to it, so nothing is kept there"
-        click.echo(f"{folder}: {why}: take that right away, or set DERIVE_CACHE", err=True)
+        why = "nothing is kept in this directory, because others may write to it"
+        remedy = "remove their permission to write, or set DERIVE_CACHE to another directory"
+        click.echo(f"{folder}: {why}: {remedy}", err=True)
     with _progress(len(sources), STAGES) as step:
         bodies = build_all(sources, step, jobs or cores(), fresh, limit)
     for body in bodies:
@@ -575,7 +592,7 @@ def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:
 
     found = order.check(bodies)
     if not found:
-        _print(f"{_shown(order.target)} is as generated")
+        _print(f"{_shown(order.target)} is up to date")
         return
     _print(view.drift(found))
     where = f" --out {_shown(order.target)}" if order.folder else ""
@@ -585,7 +602,7 @@ def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:
 
 @contextmanager
 def _progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str], None]]:
-    """A bar that is told each body and the stage that it enters; no stage means that it is done."""
+    """A progress bar; `step` tells it that a body enters a stage, or is done if there is none."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
     console = _console(stderr=True)
     with Progress(
@@ -601,19 +618,19 @@ def _progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str
         def step(body: str, stage: str) -> None:
             passed[body] = stages.index(stage) if stage in stages else len(stages)
             others = sum(n < len(stages) for name, n in passed.items() if name != body)
-            told = f"{body}: {stage}" + (f", {others} more at work" if others else "")
-            bar.update(task, description=told, completed=sum(passed.values()))
+            words = f"{body}: {stage}" + (f", {others} more in progress" if others else "")
+            bar.update(task, description=words, completed=sum(passed.values()))
 
         yield step
 
 
 def _console(stderr: bool = False, columns: str = "") -> Console:
-    """What is printed may be coloured into a pipe, by FORCE_COLOR; what moves is for terminals."""
-    there = (sys.stderr if stderr else sys.stdout).isatty()
+    """A console: FORCE_COLOR also colours piped output, but progress is shown on terminals only."""
+    is_terminal = (sys.stderr if stderr else sys.stdout).isatty()
     return Console(
         stderr=stderr,
-        force_terminal=False if stderr and not there else None,
-        width=None if there or columns else _WIDE,
+        force_terminal=False if stderr and not is_terminal else None,
+        width=None if is_terminal or columns else _WIDE,
         highlight=False,
         markup=False,
         emoji=False,
@@ -621,7 +638,7 @@ def _console(stderr: bool = False, columns: str = "") -> Console:
 
 
 def _print(what: RenderableType, columns: str = "") -> None:
-    """Print, without the blanks that fill a column up to its width."""
+    """Print, without the blanks that pad each column to its width."""
     console = _console(columns=columns)
     with console.capture() as printed:
         console.print(what)
@@ -630,7 +647,7 @@ def _print(what: RenderableType, columns: str = "") -> None:
 
 
 def _print_table(what: RenderableType) -> None:
-    """A table keeps to COLUMNS in a pipe, too; formulas and names of files are never broken."""
+    """Print a table; COLUMNS also holds for pipes, and formulas and file names are not broken."""
     _print(what, os.environ.get("COLUMNS", ""))
 
 
@@ -639,9 +656,9 @@ def _complain(what: str, message: str) -> None:
 
 
 def _command() -> str:
-    """This command as the user can type it again: derive, .venv/bin/derive, python -m derive."""
+    """This command as the user can type it: derive, .venv/bin/derive, or python -m derive."""
     called = Path(sys.argv[0])
-    if called.parent == Path(__file__).parent:  # a module that an interpreter was given by -m
+    if called.parent == Path(__file__).parent:  # python -m derive
         return f"{_typed(Path(sys.orig_argv[0]))} -m derive"
     if called.stem != "derive":  # called by another program
         return "derive"
@@ -649,7 +666,7 @@ def _command() -> str:
 
 
 def _typed(program: Path) -> str:
-    """A program by its name, if that finds it; else by the shortest path that does."""
+    """A program by its name if the shell finds it by that, otherwise by its shortest path."""
     found = which(program.name)
     if found and Path(found).absolute() == program.absolute():
         return shlex.quote(program.name)

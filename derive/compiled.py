@@ -1,4 +1,4 @@
-"""Expressions as functions of numbers, whatever names their symbols have."""
+"""Functions of numbers from expressions, whatever the names of their symbols."""
 
 import builtins
 import math
@@ -10,15 +10,15 @@ import numpy as np
 from sympy import Expr, Symbol, Tuple, cse, evaluate, lambdify, numbered_symbols
 
 _LIBRARIES = (builtins, math, mpmath, np)
-"""Whose names a function may call."""
+"""Libraries whose functions a compiled function may call."""
 
 
 def compiled(
     symbols: Sequence[Symbol], expr: Expr | Sequence[Expr], shared: bool = False, **options: Any
 ) -> Callable[..., Any]:
-    """`lambdify`, but a parameter may bear the name of a function.
+    """Like `lambdify`, but a parameter may have the name of a function.
 
-    shared: compute once what the expression repeats.
+    shared: compute repeated subexpressions only once.
 
     >>> from sympy import sqrt, symbols
     >>> root = symbols("sqrt", positive=True)
@@ -26,7 +26,7 @@ def compiled(
     3.0
     """
     own = {s: Symbol(f"_{s.name}", **s.assumptions0) for s in symbols if _is_called(s.name)}
-    with evaluate(False):  # the same expression: SymPy may see one that is built anew otherwise
+    with evaluate(False):  # else SymPy may change the expression
         renamed = _all(expr).xreplace(own) if own else expr
     taken = [own.get(symbol, symbol) for symbol in symbols]
     return lambdify(taken, renamed, cse=_repeated if shared else False, **options)
@@ -41,5 +41,5 @@ def _all(expr: Expr | Sequence[Expr]) -> Any:
 
 
 def _repeated(expr: Any, **_: Any) -> Any:
-    """What expressions repeat, by names that no parameter may bear."""
+    """Repeated subexpressions, under names that no parameter may have."""
     return cse(expr, symbols=numbered_symbols("_shared_"), list=False)

@@ -1,12 +1,12 @@
-"""Where a body is convex: what its parameters must meet, so that g'' >= 0 all over it.
+"""Conditions on the parameters under which a body is convex: g'' >= 0 everywhere.
 
-In:  the pieces of g(x), and where they are real.
-Out: demands on the parameters; BadProfile for a body that no demand found makes convex.
+In:  the pieces of g(x), and the interval in which they are real.
+Out: conditions on the parameters; BadProfile if no conditions are found that make the body convex.
 
-A polynomial curvature is carried to t >= 0, where the least value of A t^n + B t^m + C t^k follows
-from the weighted means of its outer terms, and that of a cubic from its discriminant.  What has no
-such form is tried at many places, for parameters whose ratios span twelve decades, and refused if
-it fails at any.
+A polynomial curvature is transformed to t >= 0.  There the least value of A t^n + B t^m + C t^k
+follows from the weighted means of its outer terms, and that of a cubic from its discriminant.  Any
+other curvature is evaluated at many points, for parameters whose ratios span twelve decades, and
+the body is refused if the curvature is negative at any of them.
 """
 
 import random
@@ -50,36 +50,37 @@ from derive.steep import gently
 from derive.symbols import x
 
 _SAMPLES = 8
-"""Sets of parameters of like size for which a body is tested."""
+"""Number of parameter sets of similar size for which a body is tested."""
 _WIDE = 48
-"""Sets of parameters far apart for which it is tested where no proof is found."""
+"""Number of widely differing parameter sets used if no proof is found."""
 _LEAST, _MOST = Rational(1, 1000), Integer(1000)
-"""What those parameters lie between."""
+"""Smallest and largest value of those parameters."""
 _DIGITS = 30
-"""Of a curvature at a place; three times as many where it seems to be negative."""
+"""Number of digits of a curvature; three times as many where it seems to be negative."""
 _ENOUGH = 10
-"""Of 40 sets around typical parameters, how many meet the demands."""
+"""Number of sets, of 40 around typical parameters, that suffices if they meet the conditions."""
 _PATIENCE = 2.0
-"""Seconds for the limit of a curvature at infinity, or of a profile beside a place."""
+"""Time in seconds for the limit of a curvature at infinity, or of a profile next to a point."""
 
 REAL_AND_FINITE = (
-    "g(x) must be real and finite on both sides of x = 0, and wherever else it can touch: shift it "
-    "along x, as by x + b in the place of x, or write it with Abs(x)"
+    "g(x) must be real and finite on both sides of x = 0, and wherever else contact can occur; "
+    "write it without this singularity, for example with Abs(x) instead of x, or shift it along x, "
+    "for example with x + b instead of x, so that the singularity lies outside the contact"
 )
-"""What is to be done where it is not."""
+"""Remedy for a profile that is not real and finite."""
 
 Values = dict[Symbol, Rational]
 Terms = dict[int, Expr]
-"""Coefficients of a polynomial that are not zero, by power."""
+"""Nonzero coefficients of a polynomial, by power."""
 
 
 def convex_where(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> tuple[Boolean, ...]:
-    """What the parameters must meet, that the body be convex.
+    """Conditions on the parameters under which the body is convex.
 
     Raises BadProfile.
     """
     if all(piece.straight for piece in pieces) and len(pieces) == 1:
-        raise BadProfile(name, "is straight", "a body must be convex somewhere, or nothing presses")
+        raise BadProfile(name, "is straight", "make it convex somewhere, such as x**2/(2*R)")
     found, doubtful = _demands(pieces)
     trial = _Trial(name, pieces, domain, doubtful)
     first = trial.failure(found)
@@ -92,11 +93,12 @@ def convex_where(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> t
 
 
 def _demands(pieces: list[Piece]) -> tuple[tuple[Boolean, ...], list[Piece]]:
-    """Demands, and the pieces of which it is open whether they are convex where these are met.
+    """Conditions, and the pieces that may still not be convex when the conditions are met.
 
-    A corner's jump and the factors of a curvature that do not hold x are positive, or the body is
-    convex for no or for some parameters only, such as k > 1 for Abs(x)**k.  Where such a power is
-    one term of several, or multiplied by a function, what stands before it at its root decides.
+    The jump of g' at a corner, and the factors of a curvature that do not contain x, must be
+    positive.  Otherwise the body is convex for no parameters, or only for some of them, such as
+    k > 1 for Abs(x)**k.  If such a power is one of several terms, or is multiplied by a function,
+    its coefficient at the root of the power decides.
     """
     found: dict[Boolean, None] = {}
     doubtful: list[Piece] = []
@@ -116,14 +118,14 @@ def _demands(pieces: list[Piece]) -> tuple[tuple[Boolean, ...], list[Piece]]:
 
 
 def _positive_factors(expr: Expr) -> Iterator[Boolean]:
-    """Factors without x whose sign is open, each to be positive."""
+    """Conditions that factors without x, whose sign is unknown, be positive."""
     for part in Mul.make_args(_factored(expr)):
         if part.free_symbols and not part.has(x) and part.is_extended_nonnegative is None:
             yield _above(part)
 
 
 def _leading(piece: Piece) -> Iterator[Expr]:
-    """What stands in g'' before (x - r)^(k - 2), k a parameter, at the root r."""
+    """Coefficients in g'' of (x - r)^(k - 2), where k contains a parameter, at the root r."""
     curvature = expand(piece.curvature)
     for power in sorted(curvature.atoms(Pow), key=str):
         if power.exp.free_symbols and power.base.has(x) and not diff(power.base, x).has(x):
@@ -134,17 +136,19 @@ def _leading(piece: Piece) -> Iterator[Expr]:
 
 
 def _factored(expr: Expr) -> Expr:
-    """`expr` in factors; what is no quotient of polynomials is simplified before."""
+    """Factor `expr`; an expression that is not a quotient of polynomials is simplified first."""
     return gently(factor, expr if expr.is_rational_function() else gently(simplify, expr))
 
 
-# ------------------------------------------------------------------ signs of what holds no x
+# ------------------------------------------------------------------ signs of expressions without x
 
 
 def _open(expr: Expr, sure: bool = True) -> Expr | None:
-    """What decides the sign of an expression without x: 1 if it is never negative, None if always.
+    """The factor that decides the sign of an expression without x.
 
-    sure: look further where SymPy does not know the sign of a factor.
+    It is 1 if the expression is never negative, and None if it is never positive.
+
+    sure: examine further any factor whose sign SymPy does not know.
     """
     decides, negative = Integer(1), False
     for part in Mul.make_args(_factored(expr)):
@@ -160,7 +164,7 @@ def _open(expr: Expr, sure: bool = True) -> Expr | None:
 
 
 def _is_sum_of_means(expr: Expr) -> bool:
-    """Whether a polynomial of positive parameters is never negative, as p^2 - p q + q^2."""
+    """Whether a polynomial of positive parameters is never negative, such as p^2 - p q + q^2."""
     for symbol in sorted(expr.free_symbols, key=str):
         if expr.is_polynomial(symbol) and Poly(expr, symbol).degree() > 1:
             return _at_least_zero(_terms(expr, symbol), sure=False) == []
@@ -168,7 +172,7 @@ def _is_sum_of_means(expr: Expr) -> bool:
 
 
 def _positive(expr: Expr, relation: type[Relational] = Gt) -> list[Boolean] | None:
-    """What makes an expression without x positive; None if nothing does."""
+    """Conditions that make an expression without x positive; None if nothing does."""
     decides = _open(expr)
     if decides is None:
         return None
@@ -176,7 +180,7 @@ def _positive(expr: Expr, relation: type[Relational] = Gt) -> list[Boolean] | No
 
 
 def _above(expr: Expr, relation: type[Relational] = Gt) -> Boolean:
-    """expr > 0, with a symbol alone on its side if it has one."""
+    """The relation expr > 0, solved for a symbol in which `expr` is linear and rising, if any."""
     for symbol in sorted(expr.free_symbols, key=str):
         rate = diff(expr, symbol)
         if rate.is_number and rate.is_positive:
@@ -188,9 +192,9 @@ def _above(expr: Expr, relation: type[Relational] = Gt) -> Boolean:
 
 
 def _of_polynomial(curvature: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:
-    """What makes a polynomial at least zero between two places; None if that is not found.
+    """Conditions that make a polynomial nonnegative between two points; None if none are found.
 
-    Factors that are nowhere negative there, or nowhere positive, are set aside first.
+    Factors that do not change sign between the points are removed first.
     """
     rest: list[Expr] = []
     constant = Integer(1)
@@ -213,7 +217,7 @@ def _of_polynomial(curvature: Expr, lower: Expr, upper: Expr) -> list[Boolean] |
 
 
 def _between(expr: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:
-    """What makes a polynomial at least zero between two places, carried to t >= 0."""
+    """Conditions that make a polynomial nonnegative between two points, transformed to t >= 0."""
     t = Dummy("t", positive=True)
     if lower != -oo and upper != oo:
         degree = Poly(expr, x).degree()
@@ -227,7 +231,7 @@ def _between(expr: Expr, lower: Expr, upper: Expr) -> list[Boolean] | None:
 
 
 def _everywhere(expr: Expr, t: Symbol) -> list[Boolean] | None:
-    """The same on the whole axis, on both sides of the roots' mean, or of the origin."""
+    """The same on the whole axis, split at the mean of the roots, or at the origin."""
     poly = Poly(expr, x)
     if poly.degree() % 2:
         return None
@@ -239,13 +243,13 @@ def _everywhere(expr: Expr, t: Symbol) -> list[Boolean] | None:
 
 
 def _terms(expr: Expr, t: Symbol) -> Terms:
-    """Coefficients in factors, by power."""
+    """Factored coefficients, by power."""
     found = {n: _factored(value) for (n,), value in Poly(expand(expr), t).terms()}
     return {n: value for n, value in found.items() if value != 0}
 
 
 def _at_least_zero(terms: Terms, sure: bool = True) -> list[Boolean] | None:
-    """What makes a polynomial at least zero for all t >= 0; None if that is not found."""
+    """Conditions that make a polynomial nonnegative for all t >= 0; None if none are found."""
     if not terms:
         return []
     signs = {n: _open(value, sure) for n, value in terms.items()}
@@ -275,10 +279,11 @@ def _at_least_zero(terms: Terms, sure: bool = True) -> list[Boolean] | None:
 
 
 def _means(terms: Terms, negative: bool) -> list[Boolean] | None:
-    """A t^n + B t^m + C t^k with A, C > 0: B is at least minus the weighted mean of the others.
+    """Conditions for A t^n + B t^m + C t^k >= 0 with A, C > 0.
 
-    With u = (m - k)/(n - k) and v = 1 - u its least value is zero at
-    B = -(A/u)^u (C/v)^v, which is raised to a power without roots where B is known to be negative.
+    B must be at least minus the weighted mean of the others.  With u = (m - k)/(n - k) and
+    v = 1 - u, the least value is zero for B = -(A/u)^u (C/v)^v.  If B is known to be negative, both
+    sides are raised to a power that removes the roots.
     """
     n, m, k = sorted(terms, reverse=True)
     outer, inner = m - k, n - m
@@ -291,11 +296,11 @@ def _means(terms: Terms, negative: bool) -> list[Boolean] | None:
     return [Ge(terms[m] + root(simplify(mean), whole), 0)]
 
 
-# ------------------------------------------------------------------ at places
+# ------------------------------------------------------------------ at single points
 
 
 def _at_ends(pieces: list[Piece]) -> Iterator[Boolean]:
-    """That the curvature be at least zero at the ends of pieces, and at the origin inside one."""
+    """Conditions that the curvature be nonnegative at the ends of pieces, and at the origin."""
     for piece in pieces:
         places = [(piece.lower, 1), (piece.upper, -1)]
         if piece.lower.is_extended_negative and piece.upper.is_extended_positive:
@@ -307,7 +312,7 @@ def _at_ends(pieces: list[Piece]) -> Iterator[Boolean]:
 
 
 def value_beside(expr: Expr, place: Expr, sense: int) -> Expr | None:
-    """An expression next to a place, on its right (+1) or left (-1); None if not found in time."""
+    """Value next to a point, on its right (+1) or left (-1); None if it is not found in time."""
     try:
         with within(_PATIENCE):
             found = limit(expr, x, place) if place in (oo, -oo) else None
@@ -320,9 +325,9 @@ def value_beside(expr: Expr, place: Expr, sense: int) -> Expr | None:
 
 
 def typical(demands: tuple[Boolean, ...]) -> Values:
-    """Parameters around which the demands are met; those that may be one are left out.
+    """Typical parameters that meet the conditions; empty if all parameters can be one.
 
-    Searched among powers of two, further and further apart.
+    The search covers powers of two that lie further and further from one.
     """
     least = {d.gts: d.lts for d in demands if d.lts.is_number and d.gts.is_Symbol}
     symbols = sorted(set().union(*(d.free_symbols for d in demands)) - {*least}, key=str)
@@ -336,7 +341,7 @@ def typical(demands: tuple[Boolean, ...]) -> Values:
         return all(bool(demand.subs(given)) for demand in demands)
 
     def rank(values: Values) -> tuple[int, int]:
-        """How many of 40 sets of like size meet the demands, up to enough; nearness to one."""
+        """Number of 40 similar sets that meet the conditions, up to a limit; nearness to one."""
         near = sum(met(drawn(values, 1)) for _ in range(40))
         return min(near, _ENOUGH), -max(map(_size, values.values()))
 
@@ -348,7 +353,7 @@ def typical(demands: tuple[Boolean, ...]) -> Values:
 
 
 def _size(power: Rational) -> int:
-    """How far a power of two is from one."""
+    """Distance of a power of two from one, as an exponent."""
     return int(abs(power.p.bit_length() - power.q.bit_length()))
 
 
@@ -356,7 +361,7 @@ def _size(power: Rational) -> int:
 
 
 class _Fault(Exception):
-    """A place where a body is not convex, or not real, for some parameters."""
+    """A point where a body is not convex, or not real, for certain parameters."""
 
     def __init__(self, how: str, values: Values, real: bool = True) -> None:
         super().__init__(how)
@@ -364,27 +369,27 @@ class _Fault(Exception):
         self.given = ", ".join(f"{symbol} = {value}" for symbol, value in values.items())
 
     def always(self, name: str) -> BadProfile:
-        """The refusal of a body that was found convex for no parameters."""
+        """The error for a body that was not found to be convex for any parameters."""
         if not self.real:
             return BadProfile(name, self.how, REAL_AND_FINITE)
-        remedy = f"the contact could break into several patches (seen with {self.given})"
-        return BadProfile(name, f"is not convex: {self.how}", f"{remedy}; make it convex")
+        remedy = "make g(x) convex, since the contact could otherwise split into several patches"
+        return BadProfile(name, f"is not convex: {self.how} with {self.given}", remedy)
 
     def sometimes(self, name: str) -> BadProfile:
-        """The refusal of a body that was found convex for other parameters."""
+        """The error for a body that was found to be convex for other parameters."""
         how = self.how if self.real else f"it {self.how}"
         why = f"is convex only for some values of its parameters: {how} with {self.given}"
         remedy = (
-            "no condition on them was found that could be checked; make it convex for all of them, "
-            "as by numbers, or multiples of one length, in their place"
+            "no condition on the parameters was found that can be checked; make g(x) convex for "
+            "all parameters, for example by replacing some with numbers or multiples of one length"
         )
         return BadProfile(name, why, remedy)
 
 
 class _Trial:
-    """A body tried at many sets of parameters.
+    """The test of a body with many sets of parameters.
 
-    doubtful: pieces that are tried for parameters far apart, too.
+    doubtful: pieces that are also tested with widely differing parameters.
     """
 
     def __init__(
@@ -400,7 +405,7 @@ class _Trial:
         }
 
     def failure(self, demands: tuple[Boolean, ...]) -> BadProfile | None:
-        """Why the body is not convex for all parameters that meet the demands."""
+        """The error for a body that is not convex for all parameters that meet the conditions."""
         fault, passed = None, False
         for values, pieces in self._sets(demands):
             try:
@@ -417,12 +422,12 @@ class _Trial:
         needed = " and ".join(map(str, demands))
         return BadProfile(
             self.name,
-            f"is convex only if {needed}, which no parameters were found to meet",
-            "make it convex for all parameters, or for all above a number",
+            f"is convex only if {needed}, and no parameters were found that meet this condition",
+            "make it convex for all parameters, or for all parameters above a given number",
         )
 
     def _sets(self, demands: tuple[Boolean, ...]) -> Iterator[tuple[Values, list[Piece]]]:
-        """Parameters that meet the demands, and the pieces to be tried with them."""
+        """Parameters that meet the conditions, and the pieces to be tested with them."""
         near = _meeting(demands, _samples(self.symbols), _SAMPLES)
         far = _meeting(demands, _far_apart(self.symbols, self._exponents), _WIDE)
         none_near = True
@@ -431,7 +436,7 @@ class _Trial:
             yield values, self.pieces
         if none_near:
             yield from ((values, self.pieces) for values in islice(far, _SAMPLES))
-        if self.doubtful and len(self.symbols) > 1:  # one parameter alone is but a scale
+        if self.doubtful and len(self.symbols) > 1:  # a single parameter is only a scale
             yield from ((values, self.doubtful) for values in far)
 
     @property
@@ -440,7 +445,7 @@ class _Trial:
         return set().union(*(power.exp.free_symbols for power in powers))
 
     def _try(self, values: Values, pieces: list[Piece]) -> None:
-        """Refuse a slope that falls anywhere: polynomials by their exact sign."""
+        """Refuse a slope that decreases anywhere; the sign of polynomials is determined exactly."""
         if pieces is self.pieces:
             _demand_steps(pieces, values)
         for piece in pieces:
@@ -457,7 +462,7 @@ def _samples(symbols: list[Symbol]) -> Iterator[Values]:
 
 
 def _far_apart(symbols: list[Symbol], exponents: set[Symbol]) -> Iterator[Values]:
-    """The corners first, in an order by chance, then anything between; exponents stay moderate."""
+    """Random corners of the parameter space, then points between; exponents stay moderate."""
     rng = random.Random(2)
     few = [(_LEAST, Integer(1), _MOST) if p not in exponents else (Integer(2),) for p in symbols]
     corners = list(islice(product(*few), 3**6))
@@ -472,7 +477,7 @@ def _far_apart(symbols: list[Symbol], exponents: set[Symbol]) -> Iterator[Values
 
 
 def _meeting(demands: tuple[Boolean, ...], sets: Iterator[Values], count: int) -> Iterator[Values]:
-    """So many sets that meet all demands, out of not too many."""
+    """Up to `count` sets that meet all conditions, from a limited number of candidates."""
     met = (v for v in islice(sets, 40 * count) if all(bool(d.subs(v)) for d in demands))
     return islice(met, count)
 
@@ -486,7 +491,7 @@ def _demand_steps(pieces: list[Piece], values: Values) -> None:
         rise = right.slope - left.slope
         rise = rise.subs(x, right.lower) if rise.is_polynomial(x) else step(left, right)
         if not rise.is_extended_real or rise < 0:
-            raise _Fault(f"its slope falls at x = {right.lower}", values)
+            raise _Fault(f"its slope decreases at x = {right.lower}", values)
 
 
 def _at(piece: Piece, values: Values) -> Piece:
@@ -507,7 +512,7 @@ def _demand_rising(piece: Piece, values: Values) -> None:
 
 
 def _ends(piece: Piece, values: Values) -> tuple[Expr, Expr]:
-    """Both ends as fractions; one that is none is moved inward by less than could matter."""
+    """Both ends as fractions; an irrational end is moved inward by a negligible amount."""
 
     def moved(end: Expr, inward: int) -> Expr:
         end = end.subs(values)
@@ -519,34 +524,34 @@ def _ends(piece: Piece, values: Values) -> tuple[Expr, Expr]:
 
 
 def _in_fractions(poly: Poly) -> Poly:
-    """A polynomial with simple roots, and 1 before its highest power, to more digits than matter.
+    """A polynomial with simple roots, made monic, with coefficients to more digits than needed.
 
-    SymPy isolates roots between fractions alone, and not where sqrt(2) or pi and E are held.
+    SymPy isolates roots only for fractional coefficients, and fails for sqrt(2) or for pi and E.
     """
     return Poly([_fraction(value) for value in poly.monic().all_coeffs()], x)
 
 
 def _fraction(number: Expr) -> Rational:
-    """A number as it is, or 60 digits of one that is no quotient of whole numbers."""
+    """The number itself if it is rational, otherwise its first 60 digits."""
     return number if number.is_Rational else Rational(str(number.evalf(60)))
 
 
 def _inside(lower: Expr, upper: Expr) -> Rational:
-    """A place between two ends, which may be infinite."""
+    """A point between two ends, which may be infinite."""
     if lower == -oo:
         return upper - 1 if upper != oo else Integer(0)
     return lower + 1 if upper == oo else (lower + upper) / 2
 
 
 def _roots_between(poly: Poly, lower: Expr, upper: Expr) -> int:
-    """How many roots a polynomial without double ones has between two places, these left out."""
+    """Number of roots of a polynomial with simple roots between two points, without these."""
     ends = [end for end in (lower, upper) if end.is_finite and poly.eval(end) == 0]
     low, high = (end if end.is_finite else None for end in (lower, upper))
     return int(poly.count_roots(low, high)) - len(ends)
 
 
 def _least_between(poly: Poly, lower: Expr, upper: Expr) -> Rational:
-    """Where a polynomial is least, of one place between each two of its roots and the ends."""
+    """The point with the least value, of one point in each interval between roots and ends."""
     found = poly.intervals(eps=Rational(1, 10**9))
     roots = [(low + high) / 2 for (low, high), _ in found]
     marks = [end for end in (lower, *roots, upper) if lower <= end <= upper and end.is_finite]
@@ -555,7 +560,7 @@ def _least_between(poly: Poly, lower: Expr, upper: Expr) -> Rational:
 
 
 class _Curvature:
-    """A curvature that is no polynomial, and its profile, compiled once for all parameters."""
+    """A curvature that is not a polynomial, and its profile, compiled once for all parameters."""
 
     def __init__(self, piece: Piece, domain: tuple[Expr, Expr], symbols: list[Symbol]) -> None:
         self._at, self._profile = (
@@ -567,9 +572,9 @@ class _Curvature:
         self._lows = None if piece.curvature.is_nonnegative else Lows(piece.curvature, symbols)
 
     def demand(self, values: Values) -> None:
-        """Refuse a curvature that is negative or not real at any of many places.
+        """Refuse a curvature that is negative, or not real, at any of many points.
 
-        log(x) is not real for x < 0, though its curvature is.
+        The profile must be real too: log(x) is not real for x < 0, but its curvature is.
         """
         with mpmath.workdps(_DIGITS):
             for place in chain(self._places(values), self._suspects(values)):
@@ -580,20 +585,20 @@ class _Curvature:
                     raise _Fault(_negative_at(place), values)
 
     def _value(self, function: Callable[..., mpf], place: mpf, values: Values) -> mpf:
-        """The curvature or the profile; zero where it has no value."""
+        """The curvature or the profile; zero where it is undefined."""
         try:
             return function(place, *_numbers(values))
         except (ZeroDivisionError, OverflowError):
             return mpf(0)
 
     def _is_sure(self, place: mpf, value: mpf, values: Values) -> bool:
-        """Whether a value is more than what rounding leaves of differences."""
+        """Whether the sign of a value is certain and not the result of cancellation."""
         with mpmath.workdps(3 * _DIGITS):
             again = self._value(self._at, place, values)
             return bool(abs(again - value) < abs(again) / 1000)
 
     def _places(self, values: Values) -> Iterator[mpf]:
-        """Places in the piece and the domain, near to its ends and far from them."""
+        """Points in the piece and the domain, close to its ends and far from them."""
         given = _numbers(values)
         lower, upper, *domain = map(mpf, self._ends(*given))
         least = min([*given, mpf(1)]) / 1000
@@ -609,7 +614,7 @@ class _Curvature:
                     yield place
 
     def _suspects(self, values: Values) -> Iterator[mpf]:
-        """Places in the piece and the domain where it seems to be negative, or to have no value."""
+        """Points in the piece and the domain where the curvature may be negative or undefined."""
         if self._lows is None:
             return
         given = _numbers(values)

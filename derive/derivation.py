@@ -1,4 +1,4 @@
-"""From a body to its formula sheet: the theory's stages in order, each result named and sourced.
+"""From a body to its formula sheet: the stages of the theory in order; each formula has a source.
 
 In:  Geometry.
 Out: FormulaSheet without proofs.
@@ -32,14 +32,14 @@ from derive.theory.segments import Parts, has_parts
 from derive.units import NUMBER, check, dimension_of
 
 Stage = Callable[[FormulaSheet], Iterator[Formula]]
-"""Formulas that follow from those already on a sheet."""
+"""Function that derives formulas from those already on a sheet."""
 
 _PAPER = "Andresen, Fleury, Moore & Hills 2020"
 _CLASSIC = "singular integral equation of the half-plane, pressure bounded at both edges"
 
 
 def derive_sheet(geometry: Geometry) -> FormulaSheet:
-    """Derive everything that the theory gives for one body; nothing is proven yet.
+    """Derive all formulas that the theory provides for one body; nothing is proven yet.
 
     >>> from derive.library import load_geometry
     >>> sheet = derive_sheet(load_geometry("wedge"))
@@ -50,15 +50,15 @@ def derive_sheet(geometry: Geometry) -> FormulaSheet:
 
 
 def derive_law(geometry: Geometry) -> FormulaSheet:
-    """Load, moment and tilt of a contact, and the contact from the loads where it is a formula."""
+    """Derive load, moment and tilt, and the contact from the loads where a formula exists."""
     return _derived(geometry, _LAW if geometry.slope.is_polynomial else (_superposed,))
 
 
 def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaSheet:
-    """The sheet with the closed forms of its integrals, if the rules give them in time.
+    """Add the closed forms of the integrals, if the rules find them in time.
 
-    Each stands below its integral under a name such as load_closed; the sheet's remark says what
-    was found.  A body whose formulas are already closed is returned unchanged.
+    Each closed form follows its integral, under a name such as load_closed, and the sheet's remark
+    states the result.  A body whose formulas are already closed is returned unchanged.
 
     >>> from derive.library import load_geometry
     >>> sheet = with_closed_forms(derive_sheet(load_geometry("catenary")))
@@ -71,12 +71,12 @@ def with_closed_forms(sheet: FormulaSheet, seconds: float = DEFAULT) -> FormulaS
         with within(seconds) as look:
             found = closed_forms(sheet.frame, look)
     except LimitReached:
-        return replace(sheet, remark=f"{NONE_IN_TIME} {seconds:g} s; its integrals stay.")
+        return replace(sheet, remark=f"{NONE_IN_TIME} {seconds:g} s; {_REMAIN}")
     except NoRule as without:
-        remark = f"No closed form known: no rule for {without}; its integrals stay."
+        remark = f"No closed form known: no rule for {without}; {_REMAIN}"
         return replace(sheet, remark=remark)
     except _SYMPY_GAVE_UP:
-        return replace(sheet, remark="No closed form found: SymPy gave up; its integrals stay.")
+        return replace(sheet, remark=f"No closed form found: SymPy gave up; {_REMAIN}")
     for name, expr in found.items():
         integral = sheet[name]
         sheet = sheet.plus(
@@ -96,14 +96,16 @@ _SYMPY_GAVE_UP = (
     *(ArithmeticError, AttributeError, NotImplementedError, RecursionError, TypeError, ValueError),
     BasePolynomialError,
 )
-"""What SymPy raises on expressions that it cannot handle."""
+"""Exceptions that SymPy raises for expressions that it cannot handle."""
 
 NONE_IN_TIME = "No closed form found within"
 """Start of the remark if the search for closed forms reached its time limit."""
 
+_REMAIN = "the formulas remain integrals."
+
 _FOUND = (
-    "Closed forms follow the integrals, as load_closed follows load.  Generated code "
-    "evaluates the integrals, which keep digits that the closed forms lose in float64."
+    "Each closed form follows its integral, for example load_closed follows load.  Generated code "
+    "evaluates the integrals, because the closed forms lose digits in float64."
 )
 
 _RULES = "int g' cos(n theta) dtheta, x = mid + (h/2) cos(theta), term by term"
@@ -112,12 +114,13 @@ _RULES = "int g' cos(n theta) dtheta, x = mid + (h/2) cos(theta), term by term"
 def slip_series(
     sheet: FormulaSheet, order: int
 ) -> tuple[dict[Edge, tuple[Expr, ...]], dict[Symbol, Expr]]:
-    """Terms of order 1, 2, ... of both slip zones under constant loads; a zone is their sum.
+    """Terms of order 1, 2, ... of both slip zones under constant loads; each zone is their sum.
 
-    Returns the terms, in ratios, and what each symbol in them is, down to the body's parameters.
+    Returns the terms, written with ratios, and the definition of every symbol in them in terms of
+    the body's parameters.
 
-    Raises ValueError for an order below 1, or above that known of a body
-    whose formulas are integrals.
+    Raises ValueError for an order below 1, or for one above the highest known order of a body whose
+    formulas are integrals.
 
     >>> from derive.library import load_geometry
     >>> terms, known = slip_series(derive_sheet(load_geometry("wedge")), 1)
@@ -127,7 +130,7 @@ def slip_series(
     K_T_right/(K_N_right*f*kappa_right)
     """
     if order < 1:
-        raise ValueError(f"a series has an order of 1 or more; got {order}")
+        raise ValueError(f"the order of a series must be at least 1; got {order}")
     ratios: dict[Symbol, Expr] = {}
     values: dict[Symbol, Expr] = {}
     pressed = []
@@ -149,12 +152,13 @@ def slip_series(
 
 
 def _pressure_terms(sheet: FormulaSheet, edge: Edge, order: int) -> list[Expr]:
-    """K_N, L_N, ... of a body; L_N is the last one where they are integrals."""
+    """K_N, L_N, ... of a body; if its formulas are integrals, L_N is the last one known."""
     if sheet.geometry.slope.is_polynomial:
         return pressure_series(sheet.frame, edge, order)
     names = [f"{name}_{edge.name.lower()}" for name, *_ in _EDGE_COEFFICIENTS]
     if order > len(names):
-        raise ValueError(f"{sheet.geometry.name!r} has a series to order {len(names)}; got {order}")
+        known = f"the highest known order for {sheet.geometry.name!r} is {len(names)}"
+        raise ValueError(f"{known}; got {order}")
     return [sheet[name].expr for name in names[:order]]
 
 
@@ -167,7 +171,7 @@ def _derived(geometry: Geometry, stages: Iterable[Stage]) -> FormulaSheet:
 
 
 def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
-    """The sheet with sums over the parts of a contact beside what loses digits at kinks."""
+    """Add sums over the parts of a contact to formulas that lose digits near kinks."""
     if not has_parts(sheet.frame):
         return sheet
     parts, known = Parts(sheet.frame), dict(sheet.dimensions)
@@ -182,11 +186,11 @@ def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
 
 
 def _superposed(sheet: FormulaSheet) -> Iterator[Formula]:
-    """Loads, tilt, pressure and edge coefficients of any shape, as integrals of its curvature."""
+    """Loads, tilt, pressure and edge coefficients of any profile, as integrals of its curvature."""
     frame, conditions = sheet.frame, contact_conditions(sheet.frame)
     source = f"superposition of wedges; {_CLASSIC}"
     for name, symbol, derive, meaning, unit in (
-        ("tilt", alpha, superposition.tilt, "tilt that this contact takes", "rad"),
+        ("tilt", alpha, superposition.tilt, "tilt of this contact", "rad"),
         ("load", P, superposition.load, "normal load", "N/m"),
         ("moment", M, superposition.moment, "moment", "N"),
     ):
@@ -203,7 +207,7 @@ def _superposed(sheet: FormulaSheet) -> Iterator[Formula]:
 def _equilibrium(sheet: FormulaSheet) -> Iterator[Formula]:
     conditions = contact_conditions(sheet.frame)
     for name, symbol, derive, meaning, unit, source in (
-        ("tilt", alpha, equilibrium.tilt, "tilt that this contact takes", "rad", "I_0 = 0"),
+        ("tilt", alpha, equilibrium.tilt, "tilt of this contact", "rad", "I_0 = 0"),
         ("load", P, equilibrium.load, "normal load", "N/m", "P = (E*/2) I_1"),
         ("moment", M, equilibrium.moment, "moment", "N", "M = -(E*/2) (I_2 - mid I_1)"),
     ):
@@ -226,15 +230,15 @@ def _pressure(sheet: FormulaSheet) -> Iterator[Formula]:
 
 def _contact_law(sheet: FormulaSheet) -> Iterator[Formula]:
     frame, conditions = sheet.frame, contact_conditions(sheet.frame)
-    if frame.is_long:  # from K_N: quotients of long sums would be longer still
+    if frame.is_long:  # from K_N, since quotients of long sums would be longer
         right = sheet["K_N_right"].expr
         ratio, rate = right / sheet["K_N_left"].expr, pi / 2 * sqrt(h) * right
     else:
         ratio = edge_ratio(frame, sheet["tilt"].expr)
         rate = load_rate(frame, sheet["load"].expr, ratio)
     for name, symbol, expr, meaning, unit, source in (
-        ("edge_ratio", "a_prime", ratio, "a'(c), left edge against right at fixed tilt", "-", ""),
-        ("load_rate", "P_prime", rate, "P'(c), the contact law's slope at fixed tilt", "Pa", ""),
+        ("edge_ratio", "a_prime", ratio, "a'(c), derivative of a at fixed tilt", "-", ""),
+        ("load_rate", "P_prime", rate, "P'(c), derivative of P at fixed tilt", "Pa", ""),
         ("punch", "F", rate / pi, "weight of the flat punches", "Pa", "eq. (7), "),
     ):
         source = f"Mossakovskii's method; {source}{_PAPER}, section 2"
@@ -272,9 +276,9 @@ def _edge_formula(
 
 
 def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
-    """How loads and tilt change as an edge moves: by a flat punch, for every body alike."""
+    """Rates of the loads and the tilt as one edge moves; for every body given by a flat punch."""
     conditions = contact_conditions(sheet.frame)
-    source = "an edge that moves adds sqrt((a + x)/(c - x)), or its mirror image, to the pressure"
+    source = "a moving edge adds sqrt((a + x)/(c - x)), or its mirror image, to the pressure"
     for edge, symbol, sense in ((Edge.LEFT, a, -1), (Edge.RIGHT, c, 1)):
         force = pi * sqrt(h) / 4 * sheet[f"K_N_{edge.name.lower()}"].expr
         for of, meaning, unit, expr in (
@@ -287,7 +291,7 @@ def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
                 Symbol(f"{sheet[of].symbol}_{symbol}"),
                 (a, c),
                 tidy(expr, sheet.frame),
-                f"rate of the {meaning} as {symbol} alone grows",
+                f"rate of change of the {meaning} as only {symbol} grows",
                 unit,
                 source,
                 conditions,
@@ -304,7 +308,7 @@ def _stick(sheet: FormulaSheet) -> Iterator[Formula]:
         Symbol("dq"),
         (x, *arguments),
         stick.full_stick_change(),
-        "change of the shear traction of a fully stuck contact",
+        "change of the shear traction under full stick",
         "Pa",
         source,
         inside,
@@ -332,15 +336,15 @@ def _stick(sheet: FormulaSheet) -> Iterator[Formula]:
             Symbol(f"S_{side}"),
             (a, c, dP, dM, dQ, dsigma),
             stick.stick_margin(edge),
-            f"friction left at the {side} edge as all loads begin to change",
+            f"margin against slip at the {side} edge as all loads begin to change",
             "N/m",
-            "an edge that moves by d leaves the shear 2 K_T sqrt(s)/d behind, under f K_N sqrt(s)",
+            "an edge that moves by d leaves dq = 2 K_T sqrt(s)/d; stick needs |dq| < f K_N sqrt(s)",
             conditions,
         )
 
 
 def _slip(sheet: FormulaSheet) -> Iterator[Formula]:
-    source = f"both conditions for a bounded change of shear, first order; cf. {_PAPER}, section 3"
+    source = f"dq bounded at both ends of the stick zone, first order; cf. {_PAPER}, section 3"
     for edge in Edge:
         side = edge.name.lower()
         yield Formula(
@@ -348,7 +352,7 @@ def _slip(sheet: FormulaSheet) -> Iterator[Formula]:
             Symbol(f"d_{side}"),
             (a, c, dQ, dsigma),
             slip.slip_zone(edge, stick.pull(edge), sheet[f"K_N_{side}"].expr),
-            f"slip zone at the {side} edge under constant normal loads, first order",
+            f"slip zone at the {side} edge under constant normal load, to first order",
             "m",
             source,
             contact_conditions(sheet.frame),
@@ -356,7 +360,7 @@ def _slip(sheet: FormulaSheet) -> Iterator[Formula]:
 
 
 def _moderate(sheet: FormulaSheet) -> Iterator[Formula]:
-    """The stick zone as a contact patch, where contact_at_tilt is a formula."""
+    """The stick zone as a contact patch, if contact_at_tilt is a formula."""
     if "contact_at_tilt_a" not in sheet:
         return
     for symbol, edge, side in ((m, "a", "left"), (n, "c", "right")):
@@ -366,9 +370,9 @@ def _moderate(sheet: FormulaSheet) -> Iterator[Formula]:
             symbol,
             (P, alpha, dQ, dsigma),
             stick.moderate(inverse.expr),
-            f"{side} end of the stick zone, moderate tension; P and alpha are the cycle's means",
+            f"{side} end of the stick zone under moderate tension; P, alpha: cycle means",
             "m",
-            "f (p1 + p2) less 2 f times the pressure of a contact patch of the same body",
+            "f (p1 + p2) minus 2 f times the pressure of a contact patch of the same body",
             tuple(stick.moderate(condition) for condition in inverse.conditions),
         )
 
@@ -404,7 +408,7 @@ def _inverse(
                 expr,
                 f"{meaning} from {loads}",
                 unit,
-                "load(a, c), moment(a, c) and tilt(a, c) solved",
+                "solution of load(a, c), moment(a, c) and tilt(a, c)",
                 conditions,
             )
 
@@ -416,7 +420,7 @@ _CLOSED = (
 """Stages for a body whose integrals are elementary."""
 
 _LAW = (_equilibrium, _inverses)
-"""The stages of the contact law alone."""
+"""Stages of the contact law alone."""
 
 _SUPERPOSED = (_superposed, _stick, _slip)
 """Stages for any other body."""

@@ -1,7 +1,7 @@
-"""What a user can get wrong: one small class a mistake, each with its facts.
+"""Mistakes that a user can make: one small class for each kind of mistake, with its facts.
 
-Every message says what was given, what is allowed and what to do.  The command line prints the
-message alone and leaves with status 2.
+Every message says what was given, what is wrong, what is allowed and what to do.  The command line
+prints only the message and exits with status 2.
 """
 
 from dataclasses import dataclass, fields
@@ -9,28 +9,28 @@ from difflib import get_close_matches
 
 
 class NotProven(Exception):
-    """A formula, or a rewritten form of one, whose proof is missing or falls short."""
+    """The proof of a formula, or of its rewritten form, is missing or insufficient."""
 
 
 class UserError(Exception):
-    """A mistake in what the user gave; never a fault of the program."""
+    """A mistake in the user's input; never a fault of the program."""
 
     def __str__(self) -> str:
         return self.message
 
     def __reduce__(self) -> tuple[type, tuple[object, ...]]:
-        """Its facts, so that another process can be told of the mistake."""
+        """Pickle the mistake by its facts, so that it can be sent to another process."""
         return type(self), tuple(_portable(getattr(self, f.name)) for f in fields(self))  # type: ignore[arg-type]
 
     @property
     def message(self) -> str:
-        """One line: what was given, what is allowed, what to do."""
-        raise AssertionError("each mistake writes its own message")
+        """The message in one line: what was given, what is allowed and what to do."""
+        raise AssertionError("each kind of mistake must define its own message")
 
 
 @dataclass(frozen=True)
 class _Shown:
-    """What another process could not rebuild, by how it is shown."""
+    """A fact that cannot be sent to another process, replaced by its text."""
 
     as_text: str
     as_repr: str
@@ -43,7 +43,7 @@ class _Shown:
 
 
 def _portable(fact: object) -> object:
-    """Texts and numbers as they are, in tuples, too; of all else what a message shows of it."""
+    """Return text and numbers, also in tuples, unchanged; replace anything else by its text."""
     if type(fact) is tuple:
         return tuple(map(_portable, fact))
     return fact if type(fact) in _PLAIN else _Shown(str(fact), repr(fact))
@@ -54,7 +54,7 @@ _PLAIN = (str, int, float, bool, type(None), _Shown)
 
 @dataclass
 class BadName(UserError):
-    """A geometry or a parameter has a name that the generated code cannot carry."""
+    """The name of a geometry or of a parameter cannot be used in the generated code."""
 
     what: str
     given: str
@@ -62,33 +62,33 @@ class BadName(UserError):
 
     @property
     def message(self) -> str:
-        """What was wrong with the name."""
+        """Why the name is refused, and which names are allowed."""
         return (
-            f"{self.what} {self.given!r} {self.why}; a name is letters, digits and "
-            "_, does not start with a digit, and is none of the theory's own, such as a, c, E, "
-            "f, h, m, n, p, q, s, t, x: choose another"
+            f"{self.what} {self.given!r} {self.why}; choose another name. A name consists of "
+            "letters, digits and _, does not start with a digit, and is not a symbol of the "
+            "theory, such as a, c, E, f, h, m, n, p, q, s, t or x"
         )
 
 
 @dataclass
 class BadUnit(UserError):
-    """A unit that is no product of powers of m, Pa, N and rad."""
+    """A unit is not a product of powers of m, Pa, N and rad."""
 
     given: object
     why: str
 
     @property
     def message(self) -> str:
-        """What was wrong with the unit."""
+        """Why the unit is refused, and which units are allowed."""
         return (
-            f"unit {self.given!r}: {self.why}; write a product of powers of m, Pa, N, rad or '-', "
-            "such as 'm', '1/m' or 'N/m'"
+            f"unit {self.given!r}: {self.why}; write a product of powers of m, Pa, N and rad, such "
+            "as 'm', '1/m' or 'N/m', or '-' for a pure number"
         )
 
 
 @dataclass
 class DimensionMismatch(UserError):
-    """A formula whose terms, or whose two sides, differ in dimension."""
+    """The terms of a formula, or its two sides, differ in dimension."""
 
     where: str
     found: str
@@ -99,14 +99,14 @@ class DimensionMismatch(UserError):
     def message(self) -> str:
         """Which dimensions do not agree."""
         return (
-            f"{self.where} has the dimension {self.found} where {self.expected} is needed: "
+            f"the dimension of {self.where} is {self.found}, but must be {self.expected}: "
             f"{self.remedy}"
         )
 
 
 @dataclass
 class UnknownSymbol(UserError):
-    """g(x) holds a symbol that is neither x nor made by `parameter`."""
+    """g(x) contains a symbol that is neither x nor made by `parameter`."""
 
     geometry: str
     given: str
@@ -114,16 +114,16 @@ class UnknownSymbol(UserError):
 
     @property
     def message(self) -> str:
-        """Which symbol is unknown, and the line that is missing."""
+        """Which symbol is unknown, and which line is missing."""
         return (
-            f"g of {self.geometry!r} holds the symbol {self.given!r}; only derive's x and "
+            f"g of {self.geometry!r} contains the symbol {self.given!r}, but only derive's x and "
             f"parameters are allowed: {self.remedy}"
         )
 
 
 @dataclass
 class BadProfile(UserError):
-    """g(x) is not the profile of one convex contact that can be derived."""
+    """g(x) is not the profile of one convex contact for which formulas can be derived."""
 
     geometry: str
     why: str
@@ -137,98 +137,103 @@ class BadProfile(UserError):
 
 @dataclass
 class BadGeometryFile(UserError):
-    """A file that does not define `geometry`, or is not there."""
+    """A geometry file does not exist or does not define `geometry`."""
 
     given: str
     why: str
 
     @property
     def message(self) -> str:
-        """What is wrong with the file."""
+        """What is wrong with the file, and what it must contain."""
         return (
-            f"{self.given}: {self.why}; a geometry file is Python and ends in "
-            "`geometry = Geometry(name, g=...)`, as in derive/geometries/hertz.py"
+            f"{self.given}: {self.why}; a geometry file is a Python file that defines "
+            "`geometry = Geometry(name, g=...)`, as derive/geometries/hertz.py does"
         )
 
 
 @dataclass
 class UnknownGeometry(UserError):
-    """A name that is neither a geometry of the library nor a file."""
+    """A name is neither a geometry of the library nor a file."""
 
     given: str
     known: tuple[str, ...]
 
     @property
     def message(self) -> str:
-        """Which names there are."""
+        """Which names the library contains."""
         return (
-            f"there is no geometry {self.given!r}; the library has {', '.join(self.known)}: "
-            "name one of them, or give the path of a geometry file"
+            f"there is no geometry {self.given!r}; the library contains {', '.join(self.known)}: "
+            "choose one of these, or give the path of a geometry file"
         )
 
 
 @dataclass
 class BadOutput(UserError):
-    """A directory that `derive generate --out` must not replace."""
+    """`derive generate --out` must not replace the given directory."""
 
     given: str
     why: str
 
     @property
     def message(self) -> str:
-        """Why the directory is refused."""
+        """Why the directory is refused, and which directories are allowed."""
         return (
-            f"{self.given} {self.why}; a package is written to a directory that does not exist, is "
-            "empty, or was made by `derive generate`: choose another by --out, or clear this one"
+            f"{self.given} {self.why}; a package is only written to a directory that does not "
+            "exist, is empty, or was made by `derive generate`: choose another directory with "
+            "--out, or clear this one"
         )
 
 
 @dataclass
 class BadPage(UserError):
-    """A file or directory that `derive show --html` must not replace, or cannot write."""
+    """`derive show --html` must not replace, or cannot write, a file or directory."""
 
     given: str
     why: str
 
     @property
     def message(self) -> str:
-        """Why it is refused, and what may be replaced."""
+        """Why the path is refused, and what may be replaced."""
         return (
-            f"{self.given} {self.why}; pages are written where nothing is, or where pages made by "
-            "`derive show --html` are: choose another place by --out"
+            f"{self.given} {self.why}; pages are only written to a path that does not exist, or "
+            "over pages made by `derive show --html`: choose another path with --out"
         )
 
 
 @dataclass
 class NeedsOutput(UserError):
-    """A geometry outside the library, and no directory for its module."""
+    """A geometry is not in the library, and no directory was given for its module."""
 
     given: str
 
     @property
     def message(self) -> str:
-        """What to add."""
+        """Which option is missing."""
         return (
-            f"{self.given} is not in the library, and the package `generated` holds nothing else: "
-            f"say where its module goes, as in `derive generate {self.given} --out my_package`"
+            f"{self.given} is not in the library, and the package `generated` contains only bodies "
+            "of the library: say where to write its module, as in "
+            f"`derive generate {self.given} --out my_package`"
         )
 
 
 @dataclass
 class TwoOfOneName(UserError):
-    """Two geometries that would become one module."""
+    """Two geometries have the same name and would be written to the same module."""
 
     name: str
 
     @property
     def message(self) -> str:
         """Which name occurs twice."""
-        return f"two geometries are named {self.name!r}, one module each is needed: rename one"
+        return (
+            f"two geometries are named {self.name!r}, but each needs a module of its own: rename "
+            "one of them"
+        )
 
 
 @dataclass
 class NoSuchName(UserError):
-    """A name of a body that another language cannot carry."""
+    """The name of a body cannot be used in another programming language."""
 
     body: str
     language: str
@@ -237,7 +242,7 @@ class NoSuchName(UserError):
 
     @property
     def message(self) -> str:
-        """Which name, and what to do."""
+        """Which name cannot be used, and what to do."""
         return (
             f"{self.body} in {self.language}: {self.given!r} {self.why}; give it another name in "
             "a geometry file of your own"
@@ -246,7 +251,7 @@ class NoSuchName(UserError):
 
 @dataclass
 class LostProcess(UserError):
-    """One of several processes that ended before its work was done."""
+    """One of several processes ended before its work was done."""
 
     jobs: int
 
@@ -254,14 +259,14 @@ class LostProcess(UserError):
     def message(self) -> str:
         """What may have happened, and what to try."""
         return (
-            f"one of {self.jobs} processes ended before its body was done, as when memory runs "
-            f"out: build fewer at once, as by --jobs {self.jobs // 2}"
+            f"one of {self.jobs} processes ended before its body was finished, possibly because "
+            f"memory ran out: build fewer bodies at once, as with --jobs {self.jobs // 2}"
         )
 
 
 @dataclass
 class RanAway(UserError):
-    """Work on a body that went beyond its time or its memory, or brought its process down."""
+    """The work on a body exceeded its time or its memory, or made its process fail."""
 
     what: str
     stage: str
@@ -270,17 +275,17 @@ class RanAway(UserError):
 
     @property
     def message(self) -> str:
-        """Where it was, what it had, and what to try."""
+        """Which stage was reached, what its limits were, and what to try."""
         return (
-            f"{self.what or 'this body'}: {self.stage or 'starting'} went beyond its limits of "
+            f"{self.what or 'this body'}: {self.stage or 'starting'} exceeded its limits of "
             f"{self.seconds:g} s and {self.gigabytes:g} GB of memory: write g(x) with fewer kinks, "
-            "parameters or functions of functions"
+            "fewer parameters or fewer nested functions"
         )
 
 
 @dataclass
 class BadText(UserError):
-    """A text of g(x) that cannot be read; the message shows where."""
+    """The text of g(x) cannot be read; the message shows where."""
 
     given: str
     column: int
@@ -289,7 +294,7 @@ class BadText(UserError):
     allowed: str
 
     _BEFORE, _AFTER = 48, 24
-    """Characters shown on each side of the place."""
+    """Characters shown before and after the column of the mistake."""
 
     @property
     def message(self) -> str:
@@ -300,7 +305,7 @@ class BadText(UserError):
 
 
 def _marked(text: str, column: int, start: int = 0, end: int | None = None) -> str:
-    """A text, or the part of it from `start` to `end`, and a caret under the column."""
+    """A text, or its part from `start` to `end`, and below it a caret under the column."""
     left = "..." if start else ""
     right = "..." if end is not None and end < len(text) else ""
     shown = "".join(_visible(character) for character in text[start:end])
@@ -309,7 +314,7 @@ def _marked(text: str, column: int, start: int = 0, end: int | None = None) -> s
 
 
 def _visible(character: str) -> str:
-    """One column for one character."""
+    """Replace a character by one that is exactly one column wide."""
     if character.isspace():
         return " "
     return character if character.isprintable() else "?"
@@ -317,7 +322,7 @@ def _visible(character: str) -> str:
 
 @dataclass
 class BadOption(UserError):
-    """A `--unit` or a `--meaning` that says nothing of any parameter of g(x)."""
+    """A `--unit` or `--meaning` option does not refer to a parameter of g(x)."""
 
     option: str
     given: str
@@ -325,79 +330,80 @@ class BadOption(UserError):
 
     @property
     def message(self) -> str:
-        """What is wrong with the option."""
+        """What is wrong with the option, and how to write it."""
+        text = "m" if self.option == "--unit" else "radius"
         return (
-            f"{self.option} {self.given!r}: {self.why}; write {self.option} NAME=TEXT once for a "
-            f"parameter, such as {self.option} R={'m' if self.option == '--unit' else 'radius'}"
+            f"{self.option} {self.given!r}: {self.why}; write {self.option} NAME=TEXT once for "
+            f"each parameter, such as {self.option} R={text}"
         )
 
 
 @dataclass
 class BadLimit(UserError):
-    """A `--limit` that is no time which can pass."""
+    """The value of `--limit` is not a valid time."""
 
     given: str
 
     @property
     def message(self) -> str:
-        """What may stand there."""
+        """Which values are allowed."""
         return (
-            f"--limit {self.given}: the search for closed forms takes a number of seconds above "
-            "zero, and not without end; write one, such as --limit 20"
+            f"--limit {self.given} is not a valid time: give the search for closed forms a finite "
+            "number of seconds above zero, such as --limit 20"
         )
 
 
 @dataclass
 class OpenUnits(UserError):
-    """Units that g(x) being a length does not fix."""
+    """The requirement that g(x) be a length does not determine all units."""
 
     parameters: tuple[str, ...]
     enough: tuple[str, ...]
 
     @property
     def message(self) -> str:
-        """Which units are open, and which of them would be enough."""
+        """Which units are undetermined, and which of them suffice."""
         options = " ".join(f"--unit {name}=m" for name in self.enough)
         return (
-            f"the units of {', '.join(self.parameters)} are open: g(x) must be a length in m, and "
-            f"more than one choice makes it one; say which, such as {options}"
+            f"the units of {', '.join(self.parameters)} are not determined: g(x) must be a length "
+            f"in m, and more than one choice of units makes it one; give units, such as {options}"
         )
 
 
 @dataclass
 class BadTarget(UserError):
-    """A place where `derive new` must not, or cannot, write."""
+    """`derive new` must not, or cannot, write to the given path."""
 
     given: str
     why: str
 
     @property
     def message(self) -> str:
-        """Why nothing was written."""
+        """Why nothing was written, and which paths are allowed."""
         return (
-            f"{self.given} {self.why}; nothing was written: choose a new file by "
-            "--out, a directory that exists or a path that ends in .py"
+            f"{self.given} {self.why}; nothing was written: with --out, give an existing "
+            "directory, or the path of a new file that ends in .py"
         )
 
 
 @dataclass
 class InstalledPackage(UserError):
-    """The package `generated` of an installation, which is not written to."""
+    """The package `generated` belongs to an installation and is not overwritten."""
 
     given: str
 
     @property
     def message(self) -> str:
-        """Why it is left alone, and what to add."""
+        """Why the package is not changed, and which option is missing."""
         return (
-            f"{self.given} belongs to an installed package and is left as it is: say where the "
-            "modules go, as in `derive generate --out my_package`"
+            f"{self.given} belongs to an installed package and is not changed: say where to write "
+            "the modules, as in `derive generate --out my_package`"
         )
 
 
 @dataclass
 class MissingLibrary(UserError):
-    """A library that only some of the package needs, and that is not installed."""
+    """A library that only a part of the package needs is not installed."""
 
     given: str
     purpose: str
@@ -405,37 +411,37 @@ class MissingLibrary(UserError):
 
     @property
     def message(self) -> str:
-        """What needs it, and how to install it."""
+        """What needs the library, and how to install it."""
         return (
-            f"{self.given} is not installed, and {self.purpose} needs it: "
+            f"{self.given} is not installed, and {self.purpose} needs it: run "
             f"pip install 'contact-derive[{self.group}]'"
         )
 
 
 @dataclass
 class UnknownClaim(UserError):
-    """A label that no claim of the source bears."""
+    """No claim of the source has the given label."""
 
     given: str
     known: tuple[str, ...]
 
     _NEAREST = 8
-    """Labels that a message shows."""
+    """Number of labels that a message shows."""
 
     @property
     def message(self) -> str:
-        """Which labels come nearest."""
+        """Which labels are most similar."""
         alike = get_close_matches(self.given, self.known, n=self._NEAREST, cutoff=0.3)
         shown = ", ".join(alike or self.known[: self._NEAREST])
         return (
-            f"there is no claim {self.given!r} among {len(self.known)}; the nearest are {shown}: "
-            "name one of them, `derive check` lists all"
+            f"none of the {len(self.known)} claims has the label {self.given!r}; the most similar "
+            f"labels are {shown}: give one of them, or list all with `derive check`"
         )
 
 
 @dataclass
 class _BadFile(UserError):
-    """A file that is not what a command reads."""
+    """A file is not of the kind that a command reads."""
 
     given: str
     why: str
@@ -448,16 +454,16 @@ class _BadFile(UserError):
 
 
 class BadClaimsFile(_BadFile):
-    """A claims file that cannot be read, or says something of a claim that it cannot."""
+    """A claims file cannot be read, or contains an entry that is not allowed."""
 
 
 class BadTable(_BadFile):
-    """A table that cannot be read, or is none of a contact."""
+    """A table cannot be read, or is not the table of a contact."""
 
 
 @dataclass
 class BadFormula(UserError):
-    """A formula of a claims file that cannot be read, or can be read in two ways."""
+    """A formula of a claims file cannot be read, or can be read in two ways."""
 
     where: str
     given: str
@@ -467,13 +473,13 @@ class BadFormula(UserError):
 
     @property
     def message(self) -> str:
-        """What is wrong, and a caret under it."""
+        """What is wrong, and below it the formula with a caret under the mistake."""
         return f"{self.where}: {self.why}: {self.remedy}\n{_marked(self.given, self.column)}"
 
 
 @dataclass
 class NotAccepted(UserError):
-    """LaTeX whose reading the claims file does not accept."""
+    """The claims file does not accept the way in which its LaTeX was read."""
 
     where: str
     understood: str
@@ -481,10 +487,10 @@ class NotAccepted(UserError):
 
     @property
     def message(self) -> str:
-        """What was understood, and how to accept it."""
-        said = f"the file accepts `{self.accepted}`" if self.accepted else "the file accepts none"
+        """How the LaTeX was read, and how to accept this reading."""
+        accepts = f"accepts `{self.accepted}`" if self.accepted else "does not accept a reading"
         return (
             f"{self.where}: the LaTeX was understood as\n    {self.understood}\n"
-            f"and {said}; if that is what is printed, write\n"
+            f"but the file {accepts}; if this is what is printed, write\n"
             f'    understood = "{self.understood}"'
         )

@@ -1,8 +1,9 @@
-"""One directory in the place of another.
+"""Replace one directory by another.
 
-Linux exchanges two names in one step, so that a package is in place at every moment, even if the
-process is killed.  Elsewhere there are two steps; killed between them, the old directory lies in
-the hidden one beside its place, and the next run makes the new one.
+Linux can exchange two names in a single step.  A package is then complete at every moment, even if
+the process is killed.  Other systems need two steps.  If the process is killed between them, the
+old directory is left in the hidden directory next to its place, and the next run writes the new
+directory.
 """
 
 import ctypes
@@ -10,13 +11,13 @@ import os
 from pathlib import Path
 
 _HERE, _EXCHANGE = -100, 2
-"""AT_FDCWD and RENAME_EXCHANGE of Linux."""
+"""Values of AT_FDCWD and RENAME_EXCHANGE on Linux."""
 
 
 def put_in_place(fresh: Path, folder: Path, old: Path) -> None:
-    """Name the directory `fresh` as `folder`; what was there is `old` or `fresh` afterwards.
+    """Rename the directory `fresh` to `folder`; the previous `folder` becomes `old` or `fresh`.
 
-    Raises OSError; `old` is to be put back then, if it is there.
+    Raises OSError; the caller must then put `old` back, if it exists.
     """
     if folder.exists():
         if _exchanged(fresh, folder):
@@ -26,7 +27,7 @@ def put_in_place(fresh: Path, folder: Path, old: Path) -> None:
 
 
 def _exchanged(one: Path, other: Path) -> bool:
-    """Exchange the names of two directories; False where the system or the disk cannot."""
+    """Exchange the names of two directories; False if the system or the disk cannot do this."""
     try:
         rename = ctypes.CDLL(None).renameat2
     except (AttributeError, OSError, TypeError):

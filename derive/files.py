@@ -1,7 +1,7 @@
-"""Files that a user names: read whole, and no more than they may hold; written whole or not at all.
+"""Read a user's files completely, up to a size limit; write them completely or not at all.
 
-In:  a path and a number of bytes, or a text.
-Out: the file's bytes, or the file.
+In:  a path and a largest size in bytes, or the content to be written.
+Out: the content of the file, or the written file.
 """
 
 import os
@@ -10,18 +10,18 @@ from pathlib import Path
 
 
 class Unreadable(Exception):
-    """Why a file cannot be read, in a few words."""
+    """The reason why a file cannot be read, in a few words."""
 
 
 def bytes_of(path: Path, most: int) -> bytes:
-    """The bytes of a file.
+    """Return the content of a file.
 
-    Raises Unreadable for what is no file, a device that may have no end say, for one of more than
-    `most` bytes, and for what the system does not let us read.
+    Raises Unreadable for a path that is not a regular file (reading a device may never end), for a
+    file of more than `most` bytes, and for a file that the system does not allow to be read.
     """
     try:
         if path.exists() and not path.is_file():
-            what = "a directory" if path.is_dir() else "no file but a device or a pipe"
+            what = "a directory" if path.is_dir() else "a device or a pipe, not a regular file"
             raise Unreadable(f"is {what}")
         with path.open("rb") as file:
             found = file.read(most + 1)
@@ -34,7 +34,7 @@ def bytes_of(path: Path, most: int) -> bytes:
 
 
 def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:
-    """Write a file in place of another; nobody sees half of it, and what fails leaves the old one.
+    """Replace a file in one step; nobody sees a part of it, and after a failure the old one stays.
 
     Raises OSError.
     """

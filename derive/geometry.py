@@ -1,4 +1,4 @@
-"""A body: its name, its profile g(x), and the parameters that g holds."""
+"""A body: its name, its profile g(x), and the parameters that g contains."""
 
 import keyword
 import re
@@ -17,7 +17,7 @@ from derive.units import Dimension, check, parse_unit
 
 
 class Parameter(Symbol):
-    """A positive real symbol that remembers what it means; made by `parameter`."""
+    """A positive real symbol with a meaning and a unit; made by `parameter`."""
 
     __slots__ = ("meaning", "unit")
 
@@ -25,7 +25,7 @@ class Parameter(Symbol):
     unit: str
 
     def __new__(cls, name: str, meaning: str, unit: str) -> "Parameter":
-        """A symbol of its own: parameters of one name that mean different things stay apart."""
+        """Make a new symbol; parameters of the same name but different meaning stay distinct."""
         symbol = Symbol.__xnew__(cls, name, positive=True)
         symbol.meaning, symbol.unit = meaning, unit
         return symbol
@@ -40,9 +40,9 @@ class Parameter(Symbol):
 def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     """Make a positive real parameter of a profile.
 
-    name: a Python identifier that is none of the theory's own symbols.
+    name: a Python identifier that is not one of the theory's own symbols.
     meaning: a few words for the formula sheet and the docstrings.
-    unit: a product of powers of m, Pa, N, rad; '-' for a number.
+    unit: a product of powers of m, Pa, N, rad; '-' for a pure number.
 
     Raises BadName or BadUnit.
 
@@ -51,21 +51,21 @@ def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     True
     """
     if not isinstance(name, str) or not _usable(name):
-        raise BadName("parameter", str(name), "cannot be a name")
+        raise BadName("parameter", str(name), "cannot be used as a name")
     if _is_taken(name):
-        raise BadName("parameter", name, f"is taken by the theory{_FOR_X * (name == x.name)}")
+        raise BadName("parameter", name, f"is reserved by the theory{_FOR_X * (name == x.name)}")
     parse_unit(unit)
     return Parameter(name, meaning, unit)
 
 
 MODULES = ("edge", "full_stick", "runtime")
-"""What a generated package holds beside its bodies."""
+"""Names of the modules that every generated package contains besides its bodies."""
 
-_FOR_X = ", for the place along the contact: `from derive import x` has it"
+_FOR_X = " for the position along the contact, which `from derive import x` provides"
 
 
 def _is_taken(name: str) -> bool:
-    """Whether a name is one of the theory's own."""
+    """Whether a name belongs to one of the theory's own symbols."""
     numbered = re.fullmatch(r"(theta|w|L|u|v|m|n|q_left|q_right)_\d+", name)
     return name in RESERVED or numbered is not None
 
@@ -80,32 +80,32 @@ def _usable(name: str) -> bool:
 
 
 def _stranger(body: str, given: str) -> UnknownSymbol:
-    """What is to be said of a symbol that is neither x nor a parameter: a line that is accepted."""
+    """The error for a symbol that is neither x nor a parameter, with a line that mends it."""
     if given == x.name:
-        remedy = "this one is another of the same name: write `from derive import x`, and use that"
+        remedy = "this is another symbol named x; write `from derive import x` and use that x"
         return UnknownSymbol(body, given, remedy)
     if _usable(given) and not _is_taken(given):
-        return UnknownSymbol(body, given, f"write {_line(given)}")
+        return UnknownSymbol(body, given, f"declare it by {_line(given)}")
     candidates = (f"{given}0", f"my_{given}", "R0")
     free = next(name for name in candidates if _usable(name) and not _is_taken(name))
-    why = "is no name for one"
+    why = "cannot be the name of a parameter"
     if _is_taken(given):
         meaning = QUANTITIES[given].meaning if given in QUANTITIES else ""
-        why = f"is taken by the theory{f', for the {meaning}' * bool(meaning)}"
-    return UnknownSymbol(body, given, f"{given} {why}; write one of your own, {_line(free)}")
+        why = f"is reserved by the theory{f' ({meaning})' * bool(meaning)}"
+    return UnknownSymbol(body, given, f"{given} {why}; choose another, {_line(free)}")
 
 
 def _line(name: str) -> str:
-    """What makes a name a parameter."""
+    """The line of a geometry file that declares a parameter."""
     return f'{name} = parameter("{name}", "its meaning", unit="m")'
 
 
 _BY_ROOTS = {number: number.expand(func=True) for number in (S.GoldenRatio, S.TribonacciConstant)}
-"""Numbers that SymPy names, by the roots that they are."""
+"""Numbers that have a name in SymPy, written with roots."""
 
 
 def as_written(number: Float) -> Rational:
-    """A decimal number as the fraction that was meant: 0.7 is 7/10 and no binary fraction.
+    """A decimal number as the fraction that was meant: 0.7 is 7/10, not a binary fraction.
 
     >>> as_written(Float(0.7)), as_written(Float("0.12345678901234567890"))
     (7/10, 1234567890123456789/10000000000000000000)
@@ -116,42 +116,42 @@ def as_written(number: Float) -> Rational:
 
 def _expression(name: str, g: Any) -> Expr:
     """g as a real SymPy expression."""
-    remedy = "write a real SymPy expression of x and parameters, such as x**2/(2*R)"
+    remedy = "write a real SymPy expression in x and parameters, such as x**2/(2*R)"
     try:
         given = sympify(g, strict=True)
     except SympifyError:
-        raise BadProfile(name, f"is {g!r:.60}, which is no expression", remedy) from None
+        raise BadProfile(name, f"is {g!r:.60}, which is not an expression", remedy) from None
     if not isinstance(given, Expr):
-        raise BadProfile(name, f"is {given!s:.60}, which is no expression", remedy)
+        raise BadProfile(name, f"is {given!s:.60}, which is not an expression", remedy)
     if given.has(I, nan, oo, -oo, zoo) or given.is_real is False:
         raise BadProfile(name, f"is {given}, which is not real and finite", remedy)
     return given.xreplace(_BY_ROOTS | {number: as_written(number) for number in given.atoms(Float)})
 
 
 _NUMBERS = (
-    "a number has no unit: write it as a parameter with its unit, such as R in x**2/(2*R), and "
-    "give its value in the call"
+    "a number has no unit: replace it by a parameter with a unit, such as R in x**2/(2*R), and "
+    "give the value of this parameter when you call the generated functions"
 )
 
 
 def without_x(name: str, parameters: Iterable[str]) -> BadProfile:
-    """What is to be said of a profile that does not depend on x."""
+    """The error for a profile that does not depend on x."""
     held = ", ".join(parameters)
-    others = f", only parameters ({held})" if held else ""
+    others = f", only the parameters {held}" if held else ""
     return BadProfile(
         name,
-        f"is straight, as there is no x in it{others}",
-        "x is the place along the contact; write g(x) with it, such as x**2/(2*R)",
+        f"is constant, because it does not contain x{others}",
+        "write g as a function of x, the position along the contact, such as x**2/(2*R)",
     )
 
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """One body that presses on a half-plane, given by its profile g(x) before loading.
+    """One body that is pressed on a half-plane, given by its profile g(x) before loading.
 
-    name: a Python identifier; the generated module bears it.
-    g: SymPy expression of x and parameters, in metres, upward positive, convex where it can touch.
-       The tilt is never part of g.
+    name: a Python identifier; it becomes the name of the generated module.
+    g: SymPy expression in x and parameters, in metres, positive upward, and convex wherever
+       contact can occur.  The tilt is never part of g.
 
     Raises BadName, UnknownSymbol, BadUnit, DimensionMismatch or BadProfile.
 
@@ -170,7 +170,7 @@ class Geometry:
         if not isinstance(self.name, str) or not _usable(self.name):
             raise BadName("geometry", str(self.name), "cannot be the name of a module")
         if self.name in MODULES:
-            raise BadName("geometry", self.name, "is a module of every generated package")
+            raise BadName("geometry", self.name, "is a module in every generated package")
         given = _expression(self.name, self.g)
         plain: dict[Symbol, Quantity] = {}
         for symbol in sorted(given.free_symbols, key=str):
@@ -186,10 +186,10 @@ class Geometry:
         self._demand_length()
         if x not in self.g.free_symbols:
             raise without_x(self.name, (q.name for q in self.parameters))
-        self.slope  # noqa: B018  (a profile that cannot be read is refused here)
+        self.slope  # noqa: B018  (refuses a profile that cannot be read)
 
     def _demand_length(self) -> None:
-        """Refuse a g(x) that is no length, and say that no number in it can make it one."""
+        """Refuse a g(x) that is not a length, and explain that numbers have no unit."""
         try:
             check(self.g, "m", f"g of {self.name!r}", self.dimensions)
         except DimensionMismatch as error:
@@ -198,26 +198,26 @@ class Geometry:
 
     @cached_property
     def slope(self) -> Slope:
-        """g'(x), read as a polynomial and what each kink adds to it."""
+        """g'(x) as that of one reference piece plus a jump at each kink."""
         return read_slope(self.name, self.g)
 
     def described(self, description: str) -> "Geometry":
-        """The same body with its file's docstring."""
+        """The same body with the docstring of its file as description."""
         twin = copy(self)
         object.__setattr__(twin, "description", description)
         return twin
 
     @property
     def title(self) -> str:
-        """First line of its description, or its name."""
+        """First line of the description, or the name if there is no description."""
         return self.description.splitlines()[0] if self.description else self.name
 
     @property
     def quantities(self) -> dict[str, Quantity]:
-        """Theory's symbols and the body's parameters by name."""
+        """The symbols of the theory and the body's parameters, by name."""
         return QUANTITIES | {q.name: q for q in self.parameters}
 
     @property
     def dimensions(self) -> dict[Symbol, Dimension]:
-        """Dimension of every symbol that a formula of this body may hold."""
+        """Dimension of every symbol that a formula of this body may contain."""
         return {q.symbol: parse_unit(q.unit) for q in self.quantities.values()}

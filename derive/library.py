@@ -1,6 +1,6 @@
-"""Finds and loads geometry files: those of the library by name, a user's by path.
+"""Find and load geometry files: those of the library by name, those of a user by path.
 
-SymPy is imported when a file is loaded, not when it is found.
+SymPy is imported when a file is loaded, not when it is looked up.
 """
 
 import importlib.util
@@ -27,14 +27,14 @@ def library() -> tuple[str, ...]:
 
 
 def is_in_library(name: str) -> bool:
-    """Whether a body of this name is in derive/geometries/."""
+    """Whether derive/geometries/ contains a body of this name."""
     return name in library()
 
 
 def load_geometry(name_or_path: str | Path) -> "Geometry":
-    """The geometry of a library name or of a file's path.
+    """Load the geometry of a library name or of a file's path.
 
-    Raises UnknownGeometry or BadGeometryFile; what is wrong with g(x) itself is raised by Geometry.
+    Raises UnknownGeometry or BadGeometryFile; a fault in g(x) itself is raised by Geometry.
 
     >>> load_geometry("hertz").g
     x**2/(2*R)
@@ -51,7 +51,7 @@ def load_geometry(name_or_path: str | Path) -> "Geometry":
 def _exists(path: Path) -> bool:
     try:
         return path.exists()
-    except (OSError, ValueError):  # no name that a file could have
+    except (OSError, ValueError):  # not a valid file name
         return False
 
 
@@ -61,11 +61,11 @@ def _execute(path: Path) -> "Geometry":
     if not _exists(path):
         raise BadGeometryFile(str(path), "there is no such file")
     if not path.is_file():
-        what = "a directory" if path.is_dir() else "no file but a device or a pipe"
+        what = "a directory" if path.is_dir() else "a device or a pipe, not a regular file"
         raise BadGeometryFile(str(path), f"it is {what}")
     spec = importlib.util.spec_from_file_location(f"_geometry_{path.stem}", path)
     if spec is None or spec.loader is None:
-        raise BadGeometryFile(str(path), "it is no Python file")
+        raise BadGeometryFile(str(path), "it is not a Python file")
     module = importlib.util.module_from_spec(spec)
     keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
@@ -82,13 +82,13 @@ def _execute(path: Path) -> "Geometry":
         sys.dont_write_bytecode = keep
     geometry = getattr(module, "geometry", None)
     if not isinstance(geometry, Geometry):
-        raise BadGeometryFile(str(path), "it defines no `geometry`")
+        raise BadGeometryFile(str(path), "it does not define `geometry`")
     return geometry.described((module.__doc__ or "").strip())
 
 
 @contextmanager
 def _interrupts_noticed() -> Iterator[Callable[[], bool]]:
-    """Whether Ctrl-C was pressed in the block: a KeyboardInterrupt may be the file's own."""
+    """Tell whether Ctrl-C was pressed in the block; the file itself may raise KeyboardInterrupt."""
     pressed: list[int] = []
     before = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or not callable(before):

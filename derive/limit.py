@@ -1,10 +1,10 @@
 """A time limit for a search.
 
 In:  seconds.
-Out: a block that raises LimitReached when they have passed.
+Out: a context manager that raises LimitReached when they have passed.
 
-Where the system has alarms, work in the main thread is interrupted; elsewhere the search ends the
-next time it looks at the clock.
+On systems with alarms, work in the main thread is interrupted.  Otherwise the search ends when it
+next checks the clock.
 """
 
 import signal
@@ -16,28 +16,28 @@ from time import monotonic
 from types import FrameType
 
 DEFAULT = 20.0
-"""Seconds that the search for the closed forms of one body may take."""
+"""Time limit, in seconds, of the search for the closed forms of one body."""
 
 _NO_LIMIT = 1e6
-"""Seconds above which no alarm is set; some systems have no alarm that late."""
+"""Number of seconds above which no alarm is set; some systems do not support such late alarms."""
 
 _AGAIN = 1.0
-"""Seconds until the alarm rings again, in case the interrupted code has caught the exception."""
+"""Seconds until the alarm is repeated, in case the interrupted code has caught the exception."""
 
 _SOON = 0.01
-"""The same after a finaliser or the garbage collector, which cannot raise."""
+"""The same after a finaliser or the garbage collector, from which nothing can be raised."""
 
 LookAtClock = Callable[[], None]
 """Raises LimitReached when the time is up."""
 
 
 class LimitReached(Exception):
-    """The time given to a search is up."""
+    """The time limit of a search has been reached."""
 
 
 @contextmanager
 def within(seconds: float) -> Iterator[LookAtClock]:
-    """Run a block for at most so many seconds, and no longer than an enclosing block may run.
+    """Run a block for at most this many seconds, and within the limit of any enclosing block.
 
     Raises LimitReached.
     """
@@ -73,7 +73,7 @@ def _ring(number: int, frame: FrameType | None) -> None:
 
 @contextmanager
 def _unraisable_again() -> Iterator[None]:
-    """Where nothing can be raised, in finalisers and callbacks, the alarm rings again soon."""
+    """Repeat the alarm soon if it comes in a finaliser or callback, which cannot raise."""
     before = sys.unraisablehook
 
     def hook(what: "sys.UnraisableHookArgs") -> None:

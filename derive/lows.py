@@ -2,7 +2,7 @@
 
 In:  an expression of x; numbers for its parameters, and the ends of an interval.
 Out: places where it seems to be negative or undefined, few enough to be computed to many digits:
-     double precision alone decides nothing.
+     double precision alone does not decide.
 
 The points lie densely at all distances from the origin, from the ends and from places where the
 arguments of functions are zero or one, since narrow features are found there.  Between the points
@@ -33,31 +33,31 @@ from derive.symbols import x
 Array = NDArray[np.float64]
 
 _PER_DECADE = 200
-"""Distances from the origin and from the ends; a quarter as many from other marks."""
+"""Distances per decade from the origin and the ends; from other marks a quarter as many."""
 _BEYOND = 1000
 """Factor by which the search extends beyond the largest length and below the smallest."""
 _DECADES = 16
-"""Decades that the distances span at most."""
+"""Largest number of decades that the distances span."""
 _EVENLY = 4000
-"""Evenly spaced points over the marks."""
+"""Number of evenly spaced points across the marks."""
 _MARKS = 40
-"""Marks at most."""
+"""Largest number of marks."""
 _VALLEYS, _STEPS, _ROUNDS = 64, 17, 4
-"""Valleys searched further, points in each, and the number of refinements."""
+"""Number of valleys searched further, of points in each, and of refinements."""
 _NEGATIVE, _WITHOUT = 24, 4
-"""Runs of points that are returned: of negative values, and of undefined ones."""
+"""Number of runs of points that are used: of negative values, and of undefined ones."""
 
 
 class Lows:
     """The search for one expression, compiled once for all parameters."""
 
     def __init__(self, expr: Expr, symbols: Sequence[Symbol]) -> None:
-        expr = powsimp(expr, combine="exp") if expr.has(exp) else expr  # or exp(1e5) * exp(-1e5)
+        expr = powsimp(expr, combine="exp") if expr.has(exp) else expr  # no exp(1e5) * exp(-1e5)
         self._at = compiled([x, *symbols], expr, shared=True, modules="numpy")
         self._polynomials = compiled(symbols, list(_marking(expr)), modules="numpy")
 
     def places(self, given: Sequence[float], lower: float, upper: float) -> list[float]:
-        """Places between two ends where the expression may be negative, the most certain first."""
+        """Points between two ends where the expression may be negative, the likeliest first."""
         numbers = [np.float64(value) for value in given]
         with np.errstate(all="ignore"):
             places = self._grid(numbers, lower, upper)
@@ -94,7 +94,7 @@ class Lows:
         return places[(places > lower) & (places < upper)]
 
     def _roots(self, numbers: list[np.float64]) -> NDArray[np.complex128]:
-        """Where arguments are zero or one, complex places included."""
+        """Points where arguments are zero or one, including complex points."""
         polynomials = [np.array(each, dtype=float) for each in self._polynomials(*numbers)]
         found = [np.roots(each) for each in polynomials if np.all(np.isfinite(each))]
         return np.concatenate([np.zeros(0, dtype=complex), *found])
@@ -119,7 +119,7 @@ class Lows:
 
 
 def _marking(expr: Expr) -> Iterator[Tuple]:
-    """Polynomials, by their coefficients, at whose roots functions or powers change."""
+    """Coefficients of polynomials at whose roots the behaviour of functions or powers changes."""
     arguments = {arg for f in expr.atoms(Function) for arg in f.args}
     arguments |= {p.exp for p in expr.atoms(Pow)}
     bases = {p.base for p in expr.atoms(Pow)}
@@ -131,13 +131,13 @@ def _marking(expr: Expr) -> Iterator[Tuple]:
 
 
 def _runs(flags: NDArray[np.bool_]) -> NDArray[np.int_]:
-    """Start and (exclusive) end of each run of neighbours, the longest first."""
+    """Start and (exclusive) end of each run of true values, the longest run first."""
     ends = np.flatnonzero(np.diff(np.concatenate(([0], flags.astype(int), [0])))).reshape(-1, 2)
     return ends[np.argsort(ends[:, 0] - ends[:, 1], kind="stable")]
 
 
 def _lowest(places: Array, values: Array) -> Iterator[float]:
-    """The lowest place of each long run of negative values."""
+    """The point with the lowest value in each long run of negative values."""
     for first, last in islice(_runs(values < 0), _NEGATIVE):
         yield float(places[first + np.argmin(values[first:last])])
 

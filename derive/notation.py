@@ -1,4 +1,4 @@
-"""How formulas are written: text and LaTeX, rendered from expressions and never typed."""
+"""Formulas as text and LaTeX, always rendered from expressions and never typed by hand."""
 
 import re
 from functools import cache
@@ -22,10 +22,10 @@ _OWN = {
 }
 
 _AT_EDGE = re.compile(r"q_(left|right)_(\d+)")
-"""The root of a quadratic at an edge."""
+"""Name of the root of a quadratic at an edge."""
 
 _OF_HALF = re.compile(r"(sin|cos|tan|cot)_(\w+)")
-"""Sine, cosine or tangent of half the angle of a place."""
+"""Name of the sine, cosine, tangent or cotangent of half the angle of a point."""
 
 
 def text_of(expr: Basic) -> str:
@@ -56,7 +56,7 @@ def gathered(expr: Basic) -> Basic:
     args = [gathered(arg) for arg in expr.args]
     if isinstance(expr, Mul):
         return gathered_product(args)
-    if isinstance(expr, Add | Pow | Rel):  # else a condition such as P > 0, P positive, is True
+    if isinstance(expr, Add | Pow | Rel):  # otherwise P > 0 becomes True for a positive P
         return expr.func(*args, evaluate=False)
     return expr.func(*args)
 

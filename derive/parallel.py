@@ -1,17 +1,18 @@
-"""One function of many items in processes of their own.
+"""Apply one function to many items in separate processes.
 
-In:  a function, items, a report that is told what the processes do.
+In:  a function, items, and a report that is called with the progress of the processes.
 Out: results in the order of the items.
 
-Bounds say how long a process may be at one stage, and how much memory it may take: what runs away,
-or brings its process down, is refused.
+Bounds limit the time of a process in one stage, and its memory.  An item is refused if its process
+exceeds them or fails.
 
-The first failure, or Ctrl-C, ends every process at once.  Processes are spawned, so that they begin
-alike on every system: the function is named by its module, items and results are plain data, and a
-script that asks for several processes guards its own start, by `if __name__ == "__main__":`.
+The first failure, or Ctrl-C, ends all processes at once.  Processes are spawned, so that they
+start in the same way on every system.  Therefore the function must be importable from its module,
+items and results must be plain data, and a script that uses several processes must guard its own
+start with `if __name__ == "__main__":`.
 
-Each process has a line of its own to the first one, whose end tells of its death at once; an
-executor of the standard library can miss the death of a process that it has just spawned.
+The first process has a separate connection to each of the others.  The connection closes as soon as
+its process ends; an executor of the standard library can miss the end of a new process.
 """
 
 import os
@@ -35,21 +36,21 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 Report = Callable[[str, str], None]
-"""Told what is worked on, and the stage that it enters."""
+"""Called with the item that is worked on and the stage that it enters."""
 
 _MOST = 60
-"""Processes that one can wait for on every system."""
+"""Largest number of processes that one process can wait for on every system."""
 _INTERVAL = 0.2
-"""Seconds between two looks at whether Ctrl-C was pressed, on systems where waiting hides it."""
+"""Seconds between two checks for Ctrl-C, on systems where waiting delays it."""
 
 
 @dataclass(frozen=True)
 class Bounds:
-    """What a process may take for one item.
+    """Limits on the work of a process on one item.
 
-    seconds   at one stage
-    gigabytes of memory, where the system can hold a process to it
-    stages    seconds of stages that may take another time
+    seconds    time for one stage
+    gigabytes  memory, on systems that can limit it
+    stages     time in seconds of stages with a limit of their own
     """
 
     seconds: float
@@ -57,12 +58,12 @@ class Bounds:
     stages: Mapping[str, float] = field(default_factory=dict)
 
     def at(self, stage: str) -> float:
-        """Seconds that a stage may take."""
+        """Time limit of a stage in seconds."""
         return self.stages.get(stage, self.seconds)
 
 
 def cores() -> int:
-    """Cores that this process may use."""
+    """Number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
@@ -75,12 +76,12 @@ def in_processes(
     jobs: int,
     bounds: Bounds | None = None,
 ) -> list[Result]:
-    """`function` of every item, at most `jobs` at once; what one of them raises is raised here.
+    """Apply `function` to every item, at most `jobs` at once; raise here what one of them raises.
 
-    Where one process is enough and nothing bounds it, it is this one.
+    No other process is used if one is enough and there are no bounds.
 
-    Raises LostProcess for a process that ends before its item is done, RanAway for one that goes
-    beyond its bounds, or ends although they are kept.
+    Raises LostProcess if a process ends before its item is done.  With bounds, raises RanAway if a
+    process exceeds them or ends early.
     """
     jobs = min(jobs, len(items), _MOST)
     if not items or (jobs <= 1 and bounds is None):
@@ -93,7 +94,7 @@ def in_processes(
 def _processes(
     function: Callable[[Item, Report], Result], jobs: int, bounds: Bounds | None
 ) -> Iterator[list[Connection]]:
-    """Lines to processes that work until the block's end, and no longer."""
+    """Connections to processes that work until the end of the block, and no longer."""
     context = get_context("spawn")
     started: list[BaseProcess] = []
     lines: list[Connection] = []
@@ -121,14 +122,14 @@ def _processes(
 def _results(
     lines: Sequence[Connection], items: Sequence[Item], report: Report, bounds: Bounds | None
 ) -> list[Result]:
-    """Hand out the items one by one; reports are passed on, the first failure is raised."""
-    ahead = iter(range(len(items)))
+    """Distribute the items one by one; pass reports on, and raise the first failure."""
+    waiting = iter(range(len(items)))
     at_work: dict[Connection, int] = {}
     watches: dict[Connection, _Watch] = {}
     results: dict[int, Result] = {}
 
     def hand_out(line: Connection) -> None:
-        number = next(ahead, None)
+        number = next(waiting, None)
         if number is not None:
             at_work[line], watches[line] = number, _Watch(bounds, len(lines))
             with watches[line].no_loss():
@@ -155,24 +156,24 @@ def _results(
 
 
 class _Watch:
-    """Over one process at one item: what it is at, and since when."""
+    """The work of one process on one item: the present stage, and when it began."""
 
     def __init__(self, bounds: Bounds | None, jobs: int) -> None:
         self.bounds, self.jobs = bounds, jobs
         self.enter("", "")
 
     def enter(self, what: str, stage: str) -> None:
-        """It has entered a stage."""
+        """Record that the process has entered a stage."""
         self.what, self.stage, self.since = what, stage, monotonic()
 
     def look(self) -> None:
-        """Raise RanAway when the time of the stage is over."""
+        """Raise RanAway if the time of the stage is over."""
         if self.bounds and monotonic() - self.since > self.bounds.at(self.stage):
             raise self._ran_away()
 
     @contextmanager
     def no_loss(self) -> Iterator[None]:
-        """Raise LostProcess, or RanAway of one that is bounded, if the line ends."""
+        """Raise LostProcess, or RanAway if there are bounds, if the connection closes."""
         try:
             yield
         except (EOFError, ConnectionError):
@@ -190,7 +191,7 @@ def _with_note(error: Exception, note: str) -> Exception:
 
 @contextmanager
 def _interrupts_held_back() -> Iterator[None]:
-    """Ctrl-C waits until the block's end; a process started within it is never told of Ctrl-C."""
+    """Delay Ctrl-C until the end of the block; a process started in it never receives Ctrl-C."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -203,9 +204,9 @@ def _interrupts_held_back() -> Iterator[None]:
 
 @contextmanager
 def _safe_path() -> Iterator[None]:
-    """A process started within it finds the standard library, whatever the directory holds.
+    """Let a process started in the block find the standard library, whatever the directory holds.
 
-    Before it is told where to look, it would take a file threading.py of the user's for Python's.
+    Otherwise it would first import a user's file such as threading.py instead of Python's own.
     """
     name = "PYTHONSAFEPATH"
     before = os.environ.get(name)
@@ -219,13 +220,13 @@ def _safe_path() -> Iterator[None]:
             os.environ[name] = before
 
 
-# ------------------------------------------------------------------ in a process of its own
+# ------------------------------------------------------------------ in a separate process
 
 
 def _work(
     function: Callable[[Item, Report], Result], line: Connection, bounds: Bounds | None
 ) -> None:
-    """Do what the line brings, until it, or the process at its other end, is gone."""
+    """Work on items from the connection until it closes or the first process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends this one
     Thread(target=_end_with_the_first, daemon=True).start()
     if bounds is not None:
@@ -242,13 +243,13 @@ def _do(function: Callable[[Item, Report], Result], item: Item, line: Connection
     try:
         line.send(("result", function(item, report)))
     except MemoryError:
-        os._exit(1)  # nothing more can be done here; the first process is told by the line's end
+        os._exit(1)  # the first process notices that the connection closes
     except Exception as error:
         line.send(("failure", _portable(error), f"in another process:\n{traceback.format_exc()}"))
 
 
 def _bind(bounds: Bounds) -> None:
-    """Hold this process to its memory; libraries that abort it have no say on the terminal."""
+    """Limit the memory of this process, and keep libraries that abort it from printing."""
     with suppress(ImportError, OSError, ValueError):
         from resource import RLIMIT_CORE, RLIMIT_DATA, getrlimit, setrlimit
 
@@ -261,7 +262,7 @@ def _bind(bounds: Bounds) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """An exception that arrives in another process as what it is; its text, if it would not."""
+    """The exception itself if it can be sent to another process, otherwise one with its text."""
     with suppress(Exception):
         if type(pickle.loads(pickle.dumps(error))) is type(error):
             return error
@@ -269,7 +270,7 @@ def _portable(error: Exception) -> Exception:
 
 
 def _end_with_the_first() -> None:
-    """End this process, whatever it is at, when the one that started it is gone."""
+    """End this process, whatever it is doing, when the process that started it ends."""
     first = parent_process()
     if first is not None:
         first.join()

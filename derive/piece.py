@@ -1,7 +1,7 @@
-"""One piece of a profile, and what g' does where two of them meet.
+"""One piece of a profile, and the jump of g' where two pieces meet.
 
 In:  g(x) between two kinks.
-Out: its slope and curvature; by how much the slope rises at a kink; whether it is straight.
+Out: its slope and curvature, the jump of the slope at a kink, and whether the piece is straight.
 """
 
 from dataclasses import dataclass
@@ -47,17 +47,17 @@ class Piece:
 
     @cached_property
     def straight(self) -> bool:
-        """Whether the piece is a straight line, which alone carries no load."""
+        """Whether the piece is a straight line, which carries no load by itself."""
         return vanishes(self.curvature)
 
 
 def surpluses(demands: tuple[Boolean, ...]) -> dict[Symbol, tuple[Expr, Symbol]]:
-    """Parameters with a lower bound: the bound, and a positive symbol for the excess."""
+    """Parameters with a lower bound, each with its bound and a positive symbol for the excess."""
     return {d.gts: (d.lts, Dummy("above", positive=True)) for d in demands if d.gts.is_Symbol}
 
 
 def with_surpluses(expr: Expr, found: dict[Symbol, tuple[Expr, Symbol]]) -> Expr:
-    """`expr` with each of those parameters written as its bound plus the excess."""
+    """`expr` with each such parameter written as its bound plus the excess."""
     return expr.subs({p: least + above for p, (least, above) in found.items()})
 
 
@@ -73,9 +73,9 @@ def step(left: Piece, right: Piece, demands: tuple[Boolean, ...] = ()) -> Expr:
 
 
 def beside(expr: Expr, place: Expr, sense: int) -> Expr:
-    """The value of `expr` next to a place, on its right (+1) or left (-1).
+    """The value of `expr` next to a point, on its right (+1) or left (-1).
 
-    The value at the place itself where there is one; otherwise that of a simpler
+    This is the value at the point itself if there is one, otherwise the value of a simplified
     form, or the limit.
     """
     at_once = expr.subs(x, place)
@@ -88,7 +88,7 @@ def beside(expr: Expr, place: Expr, sense: int) -> Expr:
 
 
 def vanishes(expr: Expr) -> bool:
-    """Whether an expression is zero everywhere; for most, one number shows that it is not."""
+    """Whether an expression is zero everywhere; one number usually shows that it is not."""
     symbols = sorted(expr.free_symbols, key=str)
     value = expr.xreplace({symbol: Rational(3 * i + 5, 7) for i, symbol in enumerate(symbols)})
     return bool(abs(value.evalf(30, maxn=100)) < 1e-15 and gently(simplify, expr) == 0)

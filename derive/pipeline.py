@@ -1,4 +1,4 @@
-"""From g(x) to NumPy: the stages in order, what comes in and what goes out.
+"""From g(x) to NumPy: the stages in order, with their input and output.
 
     stage          in                         out
     ------------   ------------------------   -----------------------------------------------
@@ -7,17 +7,17 @@
     with_closed_forms  FormulaSheet           the same with closed forms beside its integrals
     prove_sheet    FormulaSheet               the same with a proof for every formula
     module_text    proven FormulaSheet        the text of a NumPy module
-    demand_right   sheet and text             nothing, or NotProven: the text run and compared
+    demand_right   sheet and text             nothing, or NotProven: runs the text and compares
     package_files  texts of modules           the files of a package
-    publish        files, a directory         the directory replaced whole, or
-    differences    files, a directory         what would change
+    publish        files, a directory         the directory, replaced as a whole
+    differences    files, a directory         the changes that would be made
 
     build          a name or a file           Body: the first five stages, as plain data
-    build_all      names and files            a Body of each, several built at once (parallel.py)
-                                              or kept from an earlier run (cache.py)
+    build_all      names and files            a Body for each, several built at once (parallel.py)
+                                              or read from the cache (cache.py)
 
-What is not proven stops the build at module_text or demand_right: nothing is written.  `build`
-imports its stages when it is called: what is kept does without them.
+A missing proof stops the build at module_text or demand_right, and nothing is written.  `build`
+imports its stages only when it is called, because cached bodies do not need them.
 """
 
 import ast
@@ -44,30 +44,30 @@ from derive.limit import DEFAULT
 from derive.parallel import Bounds, Report, in_processes
 
 GENERATED = Path(__file__).parent.parent / "generated"
-"""The package that is committed."""
+"""The package under version control."""
 
 STAGES = (
     *("reading g(x)", "deriving", "looking for closed forms"),
     *("proving", "generating", "trying"),
 )
 STRANGERS = Bounds(seconds=600, gigabytes=4, stages={STAGES[0]: 60})
-"""What a body that is not of the library may take; none of twenty tried took a tenth of it."""
+"""Limits for a body outside the library; none of twenty such bodies needed a tenth of them."""
 
 DONE, KEPT = "done", "kept"
-"""What a report is told of a body behind its last stage, or of one that enters none."""
+"""Stages reported for a body that is finished, and for one that is read from the cache."""
 
 
 def _silent(body: str, stage: str) -> None:
-    """A report that tells nobody."""
+    """Ignore a report."""
 
 
 def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body:
-    """One body, from its name or file to the text of its module.
+    """Build one body, from its name or file to the text of its module.
 
-    limit: seconds that the search for closed forms of integrals may take; the text does not depend
-    on what it finds.
+    limit: time in seconds for the search for closed forms of integrals; the text of the module does
+    not depend on its outcome.
 
-    Raises UserError for what is wrong with the source, NotProven for a proof that falls short.
+    Raises UserError for a fault in the source, and NotProven if a proof is missing or insufficient.
     """
     from derive.codegen.module import full_stick_text, module_text
     from derive.codegen.printer import CannotPrint
@@ -90,8 +90,9 @@ def build(source: str, report: Report = _silent, limit: float = DEFAULT) -> Body
         report(source, STAGES[5])
         demand_right(sheet, text, stuck)
     except CannotPrint as error:
-        remedy = "write it with numbers and functions that NumPy has"
-        raise BadProfile(geometry.name, f"cannot become code ({error})", remedy) from error
+        remedy = "use only numbers and functions that NumPy supports"
+        why = f"cannot be translated into NumPy code ({error})"
+        raise BadProfile(geometry.name, why, remedy) from error
     closed, numerical = by_form(sheet.is_closed)
     verdicts = tuple((name, f.proof.verdict) for name, f in sheet.items() if f.proof)
     proofs = tuple((name, str(f.proof)) for name, f in sheet.items() if f.proof)
@@ -107,14 +108,14 @@ def build_all(
     fresh: bool = False,
     limit: float = DEFAULT,
 ) -> list[Body]:
-    """A body of every source, in their order; `jobs` processes build what is not kept.
+    """The bodies of all sources, in order; `jobs` processes build those that are not in the cache.
 
-    fresh: build all, and read nothing of what is kept.
-    limit: seconds that the search for the closed forms of one body may take.
+    fresh: build all bodies and do not read the cache.
+    limit: time in seconds for the search for the closed forms of one body.
 
-    Raises what `build` raises for the first source that fails, and ends the others; LostProcess;
-    TwoOfOneName before anything is built, where the files say so; RanAway for a file whose body
-    goes beyond STRANGERS.
+    Raises what `build` raises for the first source that fails, and stops work on the others.
+    Raises LostProcess if a process ends early, TwoOfOneName before anything is built if the files
+    state the same name, and RanAway for a file whose body exceeds the limits STRANGERS.
     """
     _demand_names_of_their_own(sources)
     keys = _keys(sources, limit)
@@ -129,7 +130,7 @@ def build_all(
 
 
 def _demand_names_of_their_own(sources: Iterable[str]) -> None:
-    """Raise TwoOfOneName where names that are written out in the files are the same."""
+    """Raise TwoOfOneName if two files literally state the same name."""
     known: set[str] = set()
     for source in dict.fromkeys(sources):
         name = source if is_in_library(source) else _name_in(source)
@@ -139,7 +140,7 @@ def _demand_names_of_their_own(sources: Iterable[str]) -> None:
 
 
 def _name_in(file: str) -> str:
-    """What a file names its one Geometry, without running it; empty where that cannot be seen."""
+    """The name that a file gives its only Geometry, read without running it; "" if unclear."""
     with suppress(OSError, ValueError, SyntaxError, RecursionError, MemoryError):
         path = Path(file)
         tree = ast.parse(path.read_bytes() if path.is_file() else b"")
@@ -151,7 +152,7 @@ def _name_in(file: str) -> str:
 
 
 def _keys(sources: Iterable[str], limit: float) -> dict[str, str | None]:
-    """Every source once, with the key of its body; None if that is not kept."""
+    """Every source once, with the key of its body, or None if the body is never kept."""
     if users_cache().folder is None:
         return dict.fromkeys(sources)
     program = program_as_loaded()
@@ -159,19 +160,19 @@ def _keys(sources: Iterable[str], limit: float) -> dict[str, str | None]:
 
 
 def _key(source: str, program: str, limit: float) -> str | None:
-    """The key of a body; another limit may find closed forms that this one does not."""
+    """The key of a body; it includes an unusual limit, which may lead to other closed forms."""
     origin = _origin(source) if limit == DEFAULT else f"{_origin(source)} within {limit:g} s"
     return key_of(_path(source), origin, program)
 
 
 def _kept(keys: Mapping[str, str | None]) -> dict[str, Body]:
-    """Bodies of an earlier run, by source."""
+    """Cached bodies, by source."""
     found = {source: users_cache().get(key) for source, key in keys.items()}
     return {source: body for source, body in found.items() if body}
 
 
 def _build_and_keep(asked: tuple[str, str | None, float], report: Report) -> Body:
-    """One body; kept under its key, unless a file that it follows from has changed meanwhile."""
+    """Build one body, and keep it under its key unless a file it depends on has changed."""
     source, key, limit = asked
     body = build(source, report, limit)
     if key is not None and key == _key(source, program_digest(), limit):
@@ -181,24 +182,24 @@ def _build_and_keep(asked: tuple[str, str | None, float], report: Report) -> Bod
 
 
 def _path(source: str) -> Path:
-    """The file that holds g(x)."""
+    """The file that contains g(x)."""
     return FOLDER / f"{source}.py" if is_in_library(source) else Path(source)
 
 
 def _origin(source: str) -> str:
-    """Where g(x) came from, without anything that differs between machines."""
+    """The source of g(x), without anything that differs between machines."""
     return f"derive/geometries/{source}.py" if is_in_library(source) else Path(source).name
 
 
 @dataclass(frozen=True)
 class Order:
-    """What is to be generated, and where to; a wrong order is refused before any work.
+    """What to generate, and where; an invalid order is refused before any work is done.
 
-    sources: names and files; none for the whole library.
+    sources: names and files; empty for the whole library.
     folder: None for the package `generated`.
 
-    Raises NeedsOutput for a file without a folder, InstalledPackage for no folder where `generated`
-    is an installed one, BadOutput for a folder that must not be replaced.
+    Raises NeedsOutput for a file without a folder, InstalledPackage if there is no folder and
+    `generated` is an installed package, and BadOutput for a folder that must not be replaced.
     """
 
     sources: tuple[str, ...] = ()
@@ -210,14 +211,14 @@ class Order:
             return
         for source in self.sources:
             if not is_in_library(source):
-                load_geometry(source)  # a name that is unknown is told first
+                load_geometry(source)  # reports an unknown name first
                 raise NeedsOutput(source)
-        if not (GENERATED.parent / "pyproject.toml").exists():  # no clone: an installation
+        if not (GENERATED.parent / "pyproject.toml").exists():  # installed, not a clone
             raise InstalledPackage(str(GENERATED))
 
     @property
     def target(self) -> Path:
-        """The directory to write."""
+        """The directory to be written."""
         return self.folder or GENERATED
 
     @property
@@ -226,7 +227,7 @@ class Order:
         return tuple(dict.fromkeys(self.sources)) or library()
 
     def files(self, bodies: Iterable[Body]) -> dict[str, str]:
-        """The package: the bodies made, and those of `generated` that were not asked for.
+        """The files of the package: the bodies given, and those of `generated` that stay.
 
         Raises TwoOfOneName.
         """
@@ -239,7 +240,7 @@ class Order:
         return package_files(kept | made)
 
     def write(self, bodies: Iterable[Body]) -> bool:
-        """Write the package; False if nothing had to change."""
+        """Write the package; return False if nothing had to be changed."""
         files = self.files(bodies)
         if not differences(files, self.target):
             return False
@@ -247,5 +248,5 @@ class Order:
         return True
 
     def check(self, bodies: Iterable[Body]) -> list[Difference]:
-        """What in the directory is not as it would be written."""
+        """The differences between the directory and what would be written."""
         return differences(self.files(bodies), self.target)

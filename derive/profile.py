@@ -1,9 +1,9 @@
-"""Reads g(x): its pieces, where they meet, and what each kink adds.
+"""Read g(x): its pieces, the points where they meet, and the contribution of each kink.
 
-In:  a SymPy expression of x and positive parameters, with Abs, sign, Max, Min, Heaviside and
-     Piecewise in any nesting.
+In:  a SymPy expression of x and positive parameters, with any nesting of Abs, sign, Max, Min,
+     Heaviside and Piecewise.
 Out: a `Slope`: g'(x) as that of one reference piece plus a jump at each kink, its domain, and the
-     conditions on parameters that make it convex.
+     conditions on the parameters under which the body is convex.
 """
 
 from dataclasses import dataclass
@@ -74,18 +74,19 @@ from derive.symbols import a, c, x
 
 _BRANCHING = (Abs, sign, Max, Min, Heaviside, Piecewise)
 _JUMPING = (sign, Heaviside, Piecewise)
-"""Functions whose value at a branch point may differ from both sides."""
+"""Functions whose value at a branch point may differ from the values on both sides."""
 _SMOOTH = (exp, log, sinh, cosh, tanh, asinh, atan)
 _FIXED = (*_BRANCHING, *_SMOOTH, sin, cos, tan, asin, acos, acosh, atanh, atan2)
-"""Functions of parameters and numbers that proofs can compute to any number of digits."""
+"""Functions of parameters and numbers that the proofs can compute to any number of digits."""
 
 
 @dataclass(frozen=True)
 class Kink:
-    """A point where g' changes its formula.
+    """A point where the formula of g' changes.
 
-    side = +1: `jump` is added to the slope for x > position, the kink lies right of the reference
-    piece; side = -1: it is added for x < position.  `step` is by how much g' itself rises there.
+    side = +1: `jump` is added to the slope for x > position; the kink lies to the right of the
+    reference piece.  side = -1: `jump` is added for x < position.  `step` is the jump of the value
+    of g' at the kink.
     """
 
     number: int
@@ -96,13 +97,13 @@ class Kink:
 
     @property
     def is_corner(self) -> bool:
-        """Whether g' itself jumps here (an apex), not only a derivative of it."""
+        """Whether the value of g' jumps here (a corner), not only one of its derivatives."""
         return bool(self.step != 0)
 
 
 @dataclass(frozen=True)
 class Slope:
-    """g'(x) = base + sum of the jumps of all kinks that x has passed, coming from the reference."""
+    """g'(x) = base + the sum of the jumps at all kinks between the reference piece and x."""
 
     pieces: tuple[Piece, ...]
     base: Expr
@@ -112,12 +113,12 @@ class Slope:
 
     @cached_property
     def is_polynomial(self) -> bool:
-        """Whether g' is a polynomial on every piece: then every integral is elementary."""
+        """Whether g' is a polynomial on every piece, so that all integrals are elementary."""
         return all(piece.slope.is_polynomial(x) for piece in self.pieces)
 
     @cached_property
     def quadratics(self) -> tuple[Expr, ...]:
-        """Quadratics in x whose square roots g' holds."""
+        """Quadratics in x whose square roots occur in g'."""
         powers = {p for piece in self.pieces for p in exact(piece.slope).atoms(Pow)}
         found = {
             expand(p.base)
@@ -133,7 +134,7 @@ class Slope:
 
     @cached_property
     def typical(self) -> dict[Symbol, Rational]:
-        """Values of parameters that meet the conditions where 1 would not; above the bounds."""
+        """Typical values of parameters without a lower bound, if 1 does not meet the conditions."""
         return typical(self.demands)
 
     @property
@@ -143,16 +144,16 @@ class Slope:
 
     @cached_property
     def limits(self) -> tuple[Expr, Expr]:
-        """g' at both ends of the domain: the tilts -g' there bound those that the body can take."""
+        """g' at both ends of the domain; these values bound the possible tilts -g'."""
         if self.is_polynomial:
             return limit(self.pieces[0].slope, x, -oo), limit(self.pieces[-1].slope, x, oo)
         (low, high), (first, last) = self.domain, (self.pieces[0], self.pieces[-1])
         bounds = self._limit(first, low, "+", -oo), self._limit(last, high, "-", oo)
         rises = gently(simplify, bounds[1] - bounds[0]).is_extended_positive
-        return bounds if rises else (-oo, oo)  # SymPy's limits of powers are not always right
+        return bounds if rises else (-oo, oo)  # SymPy's limits of powers can be wrong
 
     def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
-        """Limit of g' at an end; `otherwise`, which bounds nothing, if SymPy finds no limit."""
+        """Limit of g' at an end; `otherwise`, which is no bound, if SymPy does not find it."""
         try:
             slope = gently(simplify, with_surpluses(piece.slope, surpluses(self.demands)))
             found = limit(slope, x, end, side)
@@ -166,7 +167,7 @@ class Slope:
 def read_slope(name: str, g: Expr) -> Slope:
     """Read the profile of the body `name`.
 
-    Raises BadProfile when g is not real, not continuous, not convex or straight.
+    Raises BadProfile if g is not real, not continuous, not convex, or straight.
     """
     pieces = _resolved(name, g, -oo, oo)
     _demand_no_point_apart(name, g, pieces)
@@ -192,7 +193,7 @@ def read_slope(name: str, g: Expr) -> Slope:
 
 
 def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
-    """Split (lower, upper) at the switching points of the innermost branch of g, then again."""
+    """Split (lower, upper) where the innermost branch of g switches, and repeat for each part."""
     g = _with_moduli(g)
     inner = _innermost(g)
     if inner is None:
@@ -209,22 +210,23 @@ def _resolved(name: str, g: Expr, lower: Expr, upper: Expr) -> list[Piece]:
 
 
 def _ends_beyond_origin(piece: Piece) -> bool:
-    """Whether a piece is known to contain the origin or to end right of it, as the last one does.
+    """Whether a piece is known to contain the origin or to end to the right of it.
 
-    The first such piece holds the origin where the kinks' places tell; any other would serve.
+    The first such piece contains the origin if the positions of the kinks are known.  Any other
+    piece would also do.
     """
     return piece.upper == 0 or bool(_is_known_positive(piece.upper))
 
 
 def _with_moduli(g: Expr) -> Expr:
-    """g with roots of squares as moduli, since they hide kinks: sqrt(x**2 - 2 b x + b**2)."""
+    """Write roots of squares, such as sqrt(x**2 - 2 b x + b**2), as moduli; they hide kinks."""
     powers = [p for p in g.atoms(Pow) if not p.exp.is_Integer and p.base.is_rational_function(x)]
     found = {p: _without_squares(p) for p in powers if p.base.has(x) and not p.exp.has(x)}
     return g.xreplace({power: value for power, value in found.items() if value != power})
 
 
 def _without_squares(power: Pow) -> Expr:
-    """(f^(2 n) r)^k, f and r quotients of polynomials, as |f|^(2 n k) r^k."""
+    """Write (f^(2 n) r)^k as |f|^(2 n k) r^k, where f and r are quotients of polynomials."""
     sides = [Poly(side, x).sqf_list() for side in fraction(together(power.base))]
     squares = [
         (abs(part.as_expr()), sense * (times - times % 2))
@@ -249,7 +251,7 @@ def _innermost(g: Expr) -> Expr | None:
 
 
 def _arguments(node: Expr) -> list[Expr]:
-    """Expressions at whose change of sign the branch of `node` changes."""
+    """Expressions whose changes of sign switch the branch of `node`."""
     if isinstance(node, Max | Min):
         first, *rest = node.args
         return [first - second for second in rest] + [
@@ -269,30 +271,33 @@ def _switching_points(name: str, node: Expr) -> list[Expr]:
         if not argument.is_polynomial(x):
             raise BadProfile(
                 name,
-                f"branches on {argument}, which is no polynomial in x",
-                "write the places where it branches as polynomials, such as Abs(x) - b",
+                f"switches branches with {argument}, which is not a polynomial in x",
+                "use only polynomials in x in conditions and in Abs, Max, Min, sign and Heaviside, "
+                "such as x - b",
             )
         points += _roots(name, Poly(argument, x))
     return list(dict.fromkeys(points))
 
 
 def _roots(name: str, poly: Poly) -> list[Expr]:
-    """All real roots; an error if any of them is unknown."""
+    """All real roots; raises an error if any of them is not known."""
     found = roots(poly)
-    remedy = "write each branch by Abs(x - b), Max(0, x - b) or conditions such as x < b"
+    remedy = "write each branch with Abs(x - b), Max(0, x - b) or a condition such as x < b"
     at_origin = sum(times for root, times in found.items() if root == 0)
     lowest = min(power for (power,), _ in poly.terms())
-    if sum(found.values()) < poly.degree() or at_origin != lowest:  # 1e-30 is not taken for zero
-        raise BadProfile(name, f"branches where {poly.as_expr()} changes sign", remedy)
+    if sum(found.values()) < poly.degree() or at_origin != lowest:  # roots near 1e-30 are not zero
+        why = f"switches branches where {poly.as_expr()} changes sign, and this point is not known"
+        raise BadProfile(name, why, remedy)
     for root in found:
         if root.is_real is None:
             numerator, denominator = fraction(simplify(root))
             if numerator.is_real and denominator.is_real and not denominator.is_nonzero:
-                why = f"branches at {simplify(root)}, where {denominator} may be zero"
-                raise BadProfile(name, f"{why}, or of either sign", _order(denominator))
-            raise BadProfile(
-                name, f"branches at {simplify(root)}, which may be real or not", remedy
-            )
+                why = f"the sign of {denominator} depends on the parameters"
+                raise BadProfile(
+                    name, f"has a kink at x = {simplify(root)}, but {why}", _order(denominator)
+                )
+            why = f"has a kink at x = {simplify(root)}, which is real for some parameters only"
+            raise BadProfile(name, why, remedy)
     return [simplify(root) for root in found if root.is_real]
 
 
@@ -316,14 +321,14 @@ def _is_positive(name: str, difference: Expr) -> bool:
         difference = simplify(difference)
         raise BadProfile(
             name,
-            f"has kinks whose order is open: the sign of {difference} depends on the parameters",
+            f"has kinks in an unknown order: the sign of {difference} depends on the parameters",
             _order(difference),
         )
     return found
 
 
 def _is_known_positive(difference: Expr) -> bool | None:
-    """Whether it is positive; None where that depends on the parameters."""
+    """Whether a difference is positive; None if this depends on the parameters."""
     difference = simplify(difference)
     if difference.is_extended_positive:
         return True
@@ -336,9 +341,9 @@ def _is_known_positive(difference: Expr) -> bool | None:
 
 
 def _squares(difference: Expr) -> Expr | None:
-    """p^2 - q^2 r with the sign of p + q sqrt(r), where one of both terms is known to be negative.
+    """p^2 - q^2 r with the sign of p + q sqrt(r), if exactly one of the two terms is negative.
 
-    None where there are more roots of sums, or unknown signs.
+    None if there are several roots of sums, or if signs are not known.
     """
     roots = [p for p in difference.atoms(Pow) if p.exp == S.Half and p.base.is_Add]
     if len(roots) != 1:
@@ -357,7 +362,7 @@ def _squares(difference: Expr) -> Expr | None:
 
 
 def _order(difference: Expr) -> str:
-    """How a user can say which of two places lies further right."""
+    """The advice to a user who must fix the sign of a difference."""
     held = {symbol.name for symbol in difference.free_symbols}
     gap = next(word for word in ("gap", "excess", "further") if word not in held)
     for symbol in sorted(difference.free_symbols, key=str, reverse=True):
@@ -365,10 +370,10 @@ def _order(difference: Expr) -> str:
         if rate.is_number:
             other = expand(symbol - difference / rate)
             return (
-                f"say which is larger, by a positive parameter {gap} in place of one of them, such "
-                f"as {symbol} = {other} + {gap}"
+                f"fix this sign with a new positive parameter {gap}, for example by writing "
+                f"{symbol} = {other} + {gap}"
             )
-    return f"write one of them as the other plus a positive parameter {gap}"
+    return f"fix this sign by writing one term as another plus a new positive parameter {gap}"
 
 
 def _inside(lower: Expr, upper: Expr) -> Expr:
@@ -378,9 +383,10 @@ def _inside(lower: Expr, upper: Expr) -> Expr:
 
 
 def _in_between(expr: Expr, lower: Expr, upper: Expr) -> Expr:
-    """What has the sign of a polynomial between two places, where it has no root.
+    """A number with the sign that a polynomial without roots between two points has there.
 
-    Its leading coefficient far out, else its value in the middle: no length is compared with 1 m.
+    This is the leading coefficient if an end is infinite, otherwise the value in the middle.  No
+    length is compared with 1 m.
     """
     if not expr.has(x) or (lower == -oo and upper == oo):
         return simplify(expr.subs(x, 0))
@@ -390,7 +396,7 @@ def _in_between(expr: Expr, lower: Expr, upper: Expr) -> Expr:
 
 
 def _branch(name: str, node: Expr, lower: Expr, upper: Expr) -> Expr:
-    """What `node` is between two places, as an expression without this branch."""
+    """The value of `node` between two points, as an expression without this branch."""
 
     def positive(expr: Expr) -> bool:
         value = _in_between(expr, lower, upper)
@@ -411,7 +417,8 @@ def _branch(name: str, node: Expr, lower: Expr, upper: Expr) -> Expr:
                 if value == 0
                 else bool(condition.func(1 if _is_positive(name, value) else -1, 0))
             )
-        raise BadProfile(name, f"has the condition {condition}", "use <, <=, >, >= and, or, not")
+        why = f"uses the condition {condition}, which is not supported"
+        raise BadProfile(name, why, "use <, <=, > or >=, combined with and, or, not")
 
     match node:
         case Abs():
@@ -451,14 +458,14 @@ def _demand_known_functions(name: str, pieces: list[Piece]) -> None:
     for piece in pieces:
         for held in sorted(piece.profile.atoms(Function), key=str):
             if held.has(x) and not isinstance(held, _SMOOTH):
-                why = f"holds {held}, a function of x that cannot be derived with"
-                raise BadProfile(name, why, f"write it with powers and {known}")
+                why = f"contains {held}, a function of x that is not supported"
+                raise BadProfile(name, why, f"use only powers and {known}")
             if not held.has(x) and not isinstance(held, _FIXED):
                 raise _not_computed(name, held)
 
 
 def _demand_known_numbers(name: str, pieces: list[Piece]) -> None:
-    """Refuse numbers such as EulerGamma in a profile that the proofs integrate."""
+    """Refuse numbers such as EulerGamma in a profile that the proofs must integrate."""
     if all(piece.profile.is_polynomial(x) for piece in pieces):
         return
     held = set().union(*(piece.profile.atoms(NumberSymbol) for piece in pieces)) - {pi, E}
@@ -467,16 +474,16 @@ def _demand_known_numbers(name: str, pieces: list[Piece]) -> None:
 
 
 def _not_computed(name: str, held: Expr) -> BadProfile:
-    """The error for what proofs cannot compute to any number of digits."""
+    """The error for an expression that the proofs cannot compute to any number of digits."""
     remedy = (
-        "write a parameter in its place and give its value in the call, or the number itself, such "
+        "replace it by a parameter and give its value in the call, or by the number itself, such "
         "as Rational('0.577')"
     )
-    return BadProfile(name, f"holds {held}, which the proofs cannot compute", remedy)
+    return BadProfile(name, f"contains {held}, which the proofs cannot compute", remedy)
 
 
 def _demand_finite(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) -> None:
-    """Refuse a pole or a logarithmic singularity anywhere but at the ends of the domain."""
+    """Refuse a pole or a logarithmic singularity, except at the ends of the domain."""
     for piece in pieces:
         for place in _branch_points(piece.profile):
             for sense, end in ((1, piece.upper), (-1, piece.lower)):
@@ -487,14 +494,14 @@ def _demand_finite(name: str, pieces: list[Piece], domain: tuple[Expr, Expr]) ->
 
 
 def _is_infinite(profile: Expr, place: Expr, sense: int) -> bool:
-    """Whether a profile is known to be infinite beside a place."""
+    """Whether a profile is known to be infinite next to a point."""
     value = profile.subs(x, place)
     found = value_beside(profile, place, sense) if value is nan else value
     return found is not None and found.is_finite is False
 
 
 def _is_held(place: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
-    """Whether a place is known to lie in a piece or at its ends, and inside the domain."""
+    """Whether a point is known to lie in a piece or at its ends, and inside the domain."""
     (lower, upper), (low, high) = (piece.lower, piece.upper), domain
     if not place.is_real or place in domain:
         return False
@@ -511,12 +518,12 @@ def _demand_continuous(name: str, pieces: list[Piece]) -> None:
             raise BadProfile(
                 name,
                 f"jumps by {step} at x = {right.lower}",
-                "a profile is continuous: shift one piece so that both meet",
+                "a profile must be continuous: shift one piece so that both meet",
             )
 
 
 def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
-    """Refuse a value at a single place, such as Piecewise((-b, Eq(x, 0)), (x**2/R, True))."""
+    """Refuse a value at a single point, such as Piecewise((-b, Eq(x, 0)), (x**2/R, True))."""
     if not any(node.has(x) for node in g.atoms(*_JUMPING)):
         return
     for left, right in pairwise(pieces):
@@ -526,13 +533,13 @@ def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
         if jump == 0 and apart != 0 and apart.is_real and not apart.has(*_BRANCHING):
             raise BadProfile(
                 name,
-                f"has the value {here} at x = {right.lower} alone, {near[0]} beside it",
-                "a profile is continuous: leave out the condition that holds at this place only",
+                f"has the value {here} at x = {right.lower}, but {near[0]} next to it",
+                "a profile must be continuous: remove the condition that holds only at this point",
             )
 
 
 def _domain(name: str, pieces: list[Piece]) -> tuple[Expr, Expr]:
-    """Where the outermost pieces stay real: up to the nearest root under a fractional power."""
+    """The interval in which the outermost pieces are real: up to the roots of fractional powers."""
     low, high = -oo, oo
     for point in _branch_points(pieces[0].profile):
         if point.is_real and _is_positive(name, _reach(pieces[0], upper=True) - point):
@@ -544,13 +551,13 @@ def _domain(name: str, pieces: list[Piece]) -> tuple[Expr, Expr]:
 
 
 def _reach(piece: Piece, upper: bool) -> Expr:
-    """The inner end of an outermost piece, the origin where it has none."""
+    """The inner end of an outermost piece; the origin if there is none."""
     end = piece.upper if upper else piece.lower
     return end if end.is_finite else Integer(0)
 
 
 def _branch_points(profile: Expr) -> list[Expr]:
-    """Zeros, complex ones too, of what log takes and of bases whose power is no natural number."""
+    """Real and complex zeros of arguments of log, and of bases without a natural exponent."""
     bases = {p.base for p in profile.atoms(Pow) if p.base.has(x) and not _is_natural(p.exp)}
     bases |= {p.args[0] for p in profile.atoms(log) if p.args[0].has(x)}
     bases |= {1 + p.args[0] ** 2 for p in profile.atoms(atan) if p.args[0].has(x)}
@@ -563,16 +570,16 @@ def _branch_points(profile: Expr) -> list[Expr]:
 
 
 def has_sharp_power(expr: Expr, place: Symbol) -> bool:
-    """Whether a power in it is infinite or not smooth at a place fixed by parameters alone.
+    """Whether a power in `expr` is infinite or not smooth at a point fixed by parameters alone.
 
-    Roots that vanish at the edges of a contact contain a and c; they are no feature of the body.
+    Roots that vanish at the edges of a contact contain a and c; they are not features of the body.
     """
     powers = (p for p in expr.atoms(Pow) if p.base.has(place) and not p.base.has(a, c))
     return any(not p.exp.is_Integer and diff(p.base, place, 2) == 0 for p in powers)
 
 
 def exact(expr: Expr) -> Expr:
-    """`expr` with every float as its exact binary fraction."""
+    """`expr` with every float replaced by its exact binary fraction."""
     return expr.xreplace({number: Rational(number) for number in expr.atoms(Float)})
 
 
@@ -581,9 +588,10 @@ def _is_natural(exponent: Expr) -> bool:
 
 
 def breaks_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
-    """Where quadrature must split the body, and the pieces between.
+    """Points where quadrature must split the body, and the pieces between them.
 
-    Kinks, and the real parts of complex singularities; a smooth body is split at the origin.
+    These are the kinks and the real parts of complex singularities.  A smooth body is split at the
+    origin.
     """
     pieces: list[Piece] = []
     for piece in slope.pieces:
@@ -598,7 +606,7 @@ def breaks_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
 
 
 def lies_in(point: Expr, piece: Piece, domain: tuple[Expr, Expr]) -> bool:
-    """Whether a place is known to lie inside a piece and inside the domain, not at an end."""
+    """Whether a point is known to lie strictly inside a piece and inside the domain."""
     ends = ((piece.lower, 1), (domain[0], 1), (piece.upper, -1), (domain[1], -1))
     return all(
         end in (oo, -oo) or bool(simplify(sense * (point - end)).is_positive) for end, sense in ends

@@ -1,8 +1,8 @@
-"""The formula sheet: everything derived for one body, in one object.
+"""The formula sheet: all formulas derived for one body, in one object.
 
 In:  a geometry.
-Out: `FormulaSheet`, a mapping from names to `Formula`; it prints itself in a terminal and renders
-     as LaTeX in Jupyter.  A formula's dimensions are checked when it is made.
+Out: `FormulaSheet`, a mapping from names to `Formula`; it prints as text in a terminal and as LaTeX
+     in Jupyter.  The dimensions of a formula are checked when it is added.
 """
 
 from collections.abc import Iterator, Mapping
@@ -24,16 +24,16 @@ from derive.units import NUMBER, Dimension, check, dimension_of, parse_unit
 
 @dataclass(frozen=True)
 class Formula:
-    """One derived formula: left = right, with all that a reader needs to use and trust it.
+    """One derived formula, left = right, with all information needed to use and to trust it.
 
     name        its key on the sheet, e.g. "load"
     symbol      left-hand side, e.g. P
-    arguments   what it is a function of, e.g. (a, c)
+    arguments   the variables of which it is a function, e.g. (a, c)
     expr        right-hand side; may contain the frame's symbols theta_j, w_j, L_j
     meaning, unit, source
     conditions  assumptions under which it holds
-    proof       None until proven
-    closes      the formula, an integral, that it is the closed form of; "" for all others
+    proof       the proof; None until there is one
+    closes      name of the integral whose closed form this formula is; "" for all others
     computed    the form that is evaluated, if it differs: a sum over the parts of a contact
     """
 
@@ -51,12 +51,12 @@ class Formula:
 
     @property
     def head(self) -> str:
-        """Left-hand side in text, e.g. P(a, c)."""
+        """Left-hand side as text, e.g. P(a, c)."""
         return f"{self.symbol}({', '.join(str(argument) for argument in self.arguments)})"
 
     @property
     def assumptions(self) -> str:
-        """The conditions in words."""
+        """The conditions as text."""
         return " and ".join(str(condition) for condition in self.conditions)
 
     @property
@@ -71,9 +71,9 @@ class Formula:
 
 @dataclass(frozen=True, eq=False)
 class FormulaSheet(Mapping[str, Formula]):
-    """All formulas of one body, by name and in the order of their derivation.
+    """All formulas of one body, by name, in the order of their derivation.
 
-    remark: the outcome of the search for closed forms, where formulas are integrals.
+    remark: the result of the search for closed forms, if formulas are integrals.
     """
 
     geometry: Geometry
@@ -105,7 +105,7 @@ class FormulaSheet(Mapping[str, Formula]):
         return known
 
     def plus(self, formula: Formula) -> "FormulaSheet":
-        """The sheet with one more formula: a closed form right below its integral, else at the end.
+        """Add a formula: a closed form directly below its integral, any other at the end.
 
         Raises DimensionMismatch if the formula does not have the dimension of its unit.
         """
@@ -117,9 +117,9 @@ class FormulaSheet(Mapping[str, Formula]):
         return replace(self, formulas=dict(entries))
 
     def demand_proven(self) -> "FormulaSheet":
-        """The sheet itself.
+        """Return the sheet itself.
 
-        Raises NotProven if the proof of any formula is missing or falls short.
+        Raises NotProven if the proof of any formula is missing or insufficient.
         """
         for name, formula in self.items():
             if formula.proof is None or not formula.proof.holds:
@@ -127,21 +127,21 @@ class FormulaSheet(Mapping[str, Formula]):
         return self
 
     def flat(self, name: str) -> Expr:
-        """A formula's right-hand side with every symbol of the frame written out."""
+        """Right-hand side of a formula with every symbol of the frame written out."""
         return self.frame.flat(self[name].expr)
 
     def shown(self, name: str) -> Expr:
-        """A formula's right-hand side as printed: roots that are never clipped are written out."""
+        """Right-hand side of a formula as printed: roots that are never clipped are written out."""
         roots = {k.w: k.root for k in self.frame.kinks if not k.clipped}
         return self[name].expr.xreplace(roots)
 
     @cached_property
     def definitions(self) -> dict[Symbol, Expr]:
-        """The frame's symbols that any formula contains."""
+        """Definitions of the frame's symbols that the formulas contain."""
         return self.defined_in(*self)
 
     def defined_in(self, *names: str) -> dict[Symbol, Expr]:
-        """The frame's symbols that the formulas of these names contain, as printed."""
+        """Definitions of the frame's symbols that the named formulas contain, as printed."""
         held = set().union(*(self.shown(name).free_symbols for name in names))
         definitions: dict[Symbol, Expr] = {}
         for k in self.frame.kinks:
@@ -153,12 +153,12 @@ class FormulaSheet(Mapping[str, Formula]):
         return definitions
 
     def is_closed(self, name: str) -> bool:
-        """Whether a formula is on the sheet and is not an integral for quadrature."""
+        """Whether the sheet contains a formula and this is not an integral for quadrature."""
         return name in self and not self[name].expr.has(Integral)
 
     @cached_property
     def quantities(self) -> tuple[Quantity, ...]:
-        """What the formulas' symbols mean: the body's own parameters, and the theory's symbols."""
+        """The body's own parameters and the theory's symbols that the formulas contain."""
         own = {p.symbol.name for p in self.geometry.parameters}
         held = {str(s) for f in self.values() for s in (*f.arguments, *f.expr.free_symbols)}
         theory = (q for name, q in QUANTITIES.items() if name in held and name not in own)
@@ -182,17 +182,17 @@ class FormulaSheet(Mapping[str, Formula]):
         return f"$$\n{self.latex}\n$$"
 
     def equation(self, name: str) -> str:
-        """One formula as a line of text."""
+        """A formula as a line of text."""
         return f"{self[name].head} = {text_of(self.shown(name))}"
 
     def computed_as(self, name: str) -> str:
-        """The form that is evaluated, as a line of text; "" where it is the formula itself."""
+        """The form that is evaluated, as a line of text; "" if it is the formula itself."""
         formula = self[name]
         return "" if formula.computed is None else f"{formula.head} = {text_of(formula.computed)}"
 
     @cached_property
     def computed_definitions(self) -> dict[Expr, Expr]:
-        """The symbols that the evaluated forms contain, and the functions that they call."""
+        """Definitions of the symbols and functions in the evaluated forms."""
         forms = [f.computed for f in self.values() if f.computed is not None]
         return Parts(self.frame).defined_in(forms) if forms else {}
 
@@ -225,9 +225,9 @@ POSITIVE_LOAD = Gt(P, 0, evaluate=False)
 
 
 def contact_conditions(frame: Frame) -> tuple[Boolean, ...]:
-    """When [-a, c] is a contact: it has a width and does not lie within one straight piece of g.
+    """Conditions for a contact [-a, c]: it has a width and extends beyond any straight piece.
 
-    A body that is straight over the whole contact carries no load there.
+    A body that is straight over the whole contact would carry no load.
     """
     conditions = []
     for piece in frame.slope.straight_pieces:
@@ -246,12 +246,12 @@ def contact_conditions(frame: Frame) -> tuple[Boolean, ...]:
 
 
 def load_conditions(frame: Frame) -> tuple[Boolean, ...]:
-    """A contact carries a positive load and any moment that its flanks can take."""
+    """The load must be positive; any moment that the flanks can carry is allowed."""
     return (POSITIVE_LOAD, *frame.slope.demands)
 
 
 def tilt_conditions(frame: Frame) -> tuple[Boolean, ...]:
-    """The tilt leaves slopes of both signs at the body's ends; else the contact cannot close."""
+    """The tilted body must have slopes of both signs at its ends, or the contact cannot close."""
     low, high = frame.slope.limits
     bounds = []
     if high != oo:
@@ -262,5 +262,5 @@ def tilt_conditions(frame: Frame) -> tuple[Boolean, ...]:
 
 
 def inside_contact(frame: Frame, place: Symbol) -> tuple[Boolean, ...]:
-    """`place` lies in the contact."""
+    """Conditions under which `place` lies inside the contact."""
     return (*contact_conditions(frame), place > -a, place < c)

@@ -1,7 +1,7 @@
-"""Simplifying expressions of functions of very different steepness.
+"""Simplification of expressions that contain functions of very different steepness.
 
 In:  an expression, and an operation such as `factor` or `simplify`.
-Out: its result, without treating exp(99999 x/b) as a polynomial of that degree in exp(x/b).
+Out: the result; exp(99999 x/b) is not treated as a polynomial of that degree in exp(x/b).
 """
 
 from collections.abc import Callable
@@ -10,11 +10,11 @@ from math import lcm
 from sympy import Dummy, Expr, Function, Pow, Rational, powsimp
 
 _MOST = 50
-"""Degree up to which functions and powers may be treated as polynomials in the smallest of them."""
+"""Largest degree at which functions and powers are treated as polynomials in the smallest one."""
 
 
 def gently(compute: Callable[[Expr], Expr], expr: Expr) -> Expr:
-    """compute(expr); steep functions and powers are replaced by symbols meanwhile."""
+    """Return compute(expr); steep functions and powers are temporarily replaced by symbols."""
     nodes = [node for node in expr.atoms(Function, Pow) if _is_transcendental(node)]
     if _degree(nodes) <= _MOST:
         return compute(expr)
@@ -29,7 +29,7 @@ def _is_transcendental(node: Expr) -> bool:
 
 
 def _degree(nodes: list[Expr]) -> int:
-    """Degree of the polynomial that they would form, from the numbers in their arguments."""
+    """Degree of the polynomial that the nodes would form, from the numbers in their arguments."""
     held = [node.exp if node.is_Pow else node for node in nodes]
     numbers = set().union(*(expr.atoms(Rational) for expr in held))
     common = lcm(*(int(number.q) for number in numbers))
@@ -37,7 +37,7 @@ def _degree(nodes: list[Expr]) -> int:
 
 
 def _masked(expr: Expr, symbols: dict[Expr, Dummy]) -> Expr:
-    """`expr` with a symbol of the same sign for each outermost function or power."""
+    """`expr` with each outermost function or power replaced by a symbol of the same sign."""
     if isinstance(expr, Function | Pow) and _is_transcendental(expr):
         if expr not in symbols:
             name = f"f_{len(symbols)}"

@@ -1,8 +1,9 @@
-"""Every symbol of the theory once: its meaning, unit and assumptions.
+"""All symbols of the theory, each with its meaning, unit and assumptions.
 
-One convention of signs for the whole project: x to the right, the tilt alpha anticlockwise, the
-contact [-a, c] with signed a and c, M = -int p x dx so that M > 0 goes with alpha > 0 on a
-symmetric body, dsigma > 0 and dQ > 0 together load the left edge more.
+The whole project uses one sign convention.  x points to the right, and the tilt alpha is positive
+anticlockwise.  The contact is [-a, c] with signed a and c.  M = -int p x dx, so that a symmetric
+body with M > 0 has alpha > 0.  If dsigma > 0 and dQ > 0, the left edge is loaded more than the
+right edge.
 """
 
 from dataclasses import dataclass
@@ -21,7 +22,7 @@ class Quantity:
 
     @property
     def name(self) -> str:
-        """Its name in code and in commands."""
+        """Name in code and in commands."""
         return str(self.symbol.name)
 
 
@@ -45,15 +46,15 @@ n = Symbol("n", real=True)
 h = a + c
 """Contact width."""
 mid = (c - a) / 2
-"""Middle of the contact."""
+"""Midpoint of the contact."""
 w = sqrt((a + x) * (c - x))
-"""The root that vanishes at both edges."""
+"""Square root that vanishes at both edges."""
 
 _TABLE = (
-    Quantity(x, "position along the interface, right positive", "m"),
+    Quantity(x, "position along the interface, positive to the right", "m"),
     Quantity(a, "left edge of the contact at x = -a", "m"),
     Quantity(c, "right edge of the contact at x = c", "m"),
-    Quantity(alpha, "tilt, anticlockwise positive: the slope in contact is g'(x) + alpha", "rad"),
+    Quantity(alpha, "tilt, positive anticlockwise: the slope in contact is g'(x) + alpha", "rad"),
     Quantity(
         E_star,
         "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain",
@@ -124,4 +125,5 @@ _USED_BESIDES = (
 )
 
 RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_USED_BESIDES)
-"""Names that no parameter may take; nor may it look like theta_1, w_1, L_1, q_left_1 or m_1."""
+"""Names that no parameter may have; names such as theta_1, w_1, L_1, q_left_1 or m_1 are reserved,
+too."""

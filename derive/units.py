@@ -1,7 +1,7 @@
-"""Units and dimensions: every formula is checked when it is made.
+"""Units and dimensions: every formula is checked as soon as it is made.
 
-All quantities of the half-plane are products of powers of a pressure and a length, so a dimension
-is the pair of their exponents.  An exponent may hold a parameter, as in C |x|**n.
+All quantities of the half-plane are products of powers of a pressure and a length.  A dimension is
+therefore a pair of exponents.  An exponent may contain a parameter, as in C |x|**n.
 """
 
 import ast
@@ -83,16 +83,16 @@ _UNITS = {
 def parse_unit(text: str) -> Dimension:
     """Read a unit such as 'm', 'N/m', 'Pa/sqrt(m)', 'm**(1 - n)', '-'.
 
-    Raises BadUnit, with the reason, on anything else.
+    Raises BadUnit for anything else.
     """
     if not isinstance(text, str):
-        raise BadUnit(text, "is no text")
+        raise BadUnit(text, "it is not a string")
     if text.strip() in ("-", "1", ""):
         return NUMBER
     try:
         tree = ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise BadUnit(text, "is not a product of powers") from None
+        raise BadUnit(text, "it is not a product of powers") from None
     return _unit(tree, text)
 
 
@@ -110,7 +110,7 @@ def _unit(node: ast.expr, text: str) -> Dimension:
             return _unit(left, text) ** _exponent(right, text)
         case ast.Call(func=ast.Name(id="sqrt"), args=[inside], keywords=[]):
             return _unit(inside, text) ** Rational(1, 2)
-    raise BadUnit(text, f"{ast.unparse(node)!r} is no unit")
+    raise BadUnit(text, f"{ast.unparse(node)!r} is not a known unit")
 
 
 def _exponent(node: ast.expr, text: str) -> Expr:
@@ -132,14 +132,14 @@ def _exponent(node: ast.expr, text: str) -> Expr:
                     return first * second
                 case ast.Div() if second != 0:
                     return first / second
-    raise BadUnit(text, f"{ast.unparse(node)!r} is no exponent")
+    raise BadUnit(text, f"{ast.unparse(node)!r} is not an exponent")
 
 
 def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimension | None:
-    """Dimension of `expr`; None for a zero, which has every dimension.
+    """Dimension of `expr`; None for zero, which has every dimension.
 
-    Raises DimensionMismatch where terms of a sum differ, or where a function or an exponent takes
-    what is no number.
+    Raises DimensionMismatch if the terms of a sum differ, or if the argument of a function or an
+    exponent is not a pure number.
     """
     expr = sympify(expr, strict=True)
     if expr == 0:
@@ -180,7 +180,7 @@ def dimension_of(expr: Expr, dimensions: Mapping[Symbol, Dimension]) -> Dimensio
         for argument in arguments:
             _demand(argument, NUMBER, f"the argument {argument} of {expr.func}", dimensions)
         return NUMBER
-    raise DimensionMismatch(str(expr), "unknown", "a known function")
+    raise DimensionMismatch(str(expr), "unknown", "known")
 
 
 def _common(

@@ -1,9 +1,9 @@
-"""What the commands print: tables and formula sheets in a terminal.
+"""The output of the commands: tables and formula sheets for a terminal.
 
 In:  sheets, bodies, differences, findings.
-Out: renderables of rich.
+Out: renderable objects of the library rich.
 
-SymPy is imported by what shows formulas, not by what shows bodies.
+Only functions that show formulas import SymPy.
 """
 
 from collections.abc import Iterable, Sequence
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 
 def listing(sheets: "Iterable[FormulaSheet]") -> Table:
-    """Every geometry, its g(x), what is closed form and what is numerical."""
+    """A table of all geometries: g(x), and which parts are closed form or numerical."""
     from derive.notation import text_of
 
     names = Column("geometry", no_wrap=True)
-    body = Column("body", min_width=16)  # its longest word
+    body = Column("body", min_width=16)  # width of its longest word
     table = Table(names, Column("g(x)", overflow="fold"), "closed form", "numerical", body)
     for sheet in sheets:
         closed, numerical = by_form(sheet.is_closed)
@@ -43,7 +43,7 @@ def listing(sheets: "Iterable[FormulaSheet]") -> Table:
 
 
 def summary(bodies: Iterable[Body]) -> Table:
-    """What was built: closed form or numerical, how many formulas were proven how, time."""
+    """A table of the bodies built: closed or numerical parts, proofs by kind, and time."""
     table = Table(
         Column("geometry", no_wrap=True),
         *("closed form", "numerical"),
@@ -64,7 +64,7 @@ def summary(bodies: Iterable[Body]) -> Table:
 
 
 def _row(words: Iterable[str]) -> str:
-    """Every word once, in a row."""
+    """Every word once, separated by commas."""
     return ", ".join(dict.fromkeys(words)) or "-"
 
 
@@ -93,7 +93,7 @@ def formulas(sheet: "FormulaSheet") -> Group:
 
 
 def drift(found: "Iterable[Difference]") -> Group:
-    """Which files differ from what is generated, and how."""
+    """The files that differ from the generated ones, with their differences."""
     parts: list[RenderableType] = []
     for difference in found:
         parts.append(Text(f"{difference.name}: {difference.what}", style="bold red"))
@@ -116,7 +116,7 @@ _VERDICTS = {
 
 
 def checked(findings: "Sequence[Finding]") -> Group:
-    """The verdict on every claim, and a line for each that is not true as printed."""
+    """The verdict on every claim, and a remark on each claim that is not true as printed."""
     from derive.paper import report
 
     table = Table(Column("claim", no_wrap=True), Column("verdict", no_wrap=True), "place")
@@ -136,7 +136,7 @@ def _verdict_of(finding: "Finding") -> Text:
 
 
 def explained(finding: "Finding") -> Group:
-    """One claim: what it was compared with, by which steps, and the numbers."""
+    """One claim: the formula it was compared with, the steps, and the numbers."""
     from derive.paper import report
 
     parts: list[RenderableType] = [Text(finding.claim.label, style="bold cyan")]

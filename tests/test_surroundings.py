@@ -58,7 +58,7 @@ def test_a_reader_that_has_seen_enough(tmp_path: Path) -> None:
 )
 def test_a_directory_that_is_gone(tmp_path: Path, command: str) -> None:
     done = derive(tmp_path, command, "mkdir gone && cd gone && rmdir ../gone;")
-    demand_one_line(done, "the working directory is not there any more")
+    demand_one_line(done, "the working directory no longer exists")
 
 
 @pytest.mark.parametrize(
@@ -70,7 +70,7 @@ def test_a_directory_that_is_gone(tmp_path: Path, command: str) -> None:
 )
 def test_a_device_without_end(tmp_path: Path, command: str) -> None:
     done = derive(tmp_path, command.format("/dev/zero"))
-    demand_one_line(done, "no file but a device or a pipe")
+    demand_one_line(done, "a device or a pipe, not a regular file")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -87,5 +87,5 @@ def test_a_cache_that_others_may_write_to(tmp_path: Path) -> None:
     (tmp_path / "open").chmod(0o777)
     done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="open")
     assert done.returncode == 0
-    assert "others may write to it, so nothing is kept there" in done.stderr
+    assert "nothing is kept in this directory, because others may write to it" in done.stderr
     assert list((tmp_path / "open").iterdir()) == []

@@ -1,1 +1,1 @@
-"""The library: one body a file, nothing but g(x)."""
+"""The library: each file defines one body by its profile g(x)."""

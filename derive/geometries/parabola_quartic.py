@@ -3,5 +3,5 @@
 from derive import Geometry, parameter, x
 
 R = parameter("R", "relative radius of curvature at the apex", unit="m")
-L = parameter("L", "distance at which the quartic alone has slope one", unit="m")
+L = parameter("L", "distance from the apex at which the quartic term alone has slope one", unit="m")
 geometry = Geometry("parabola_quartic", g=x**2 / (2 * R) + x**4 / (4 * L**3))

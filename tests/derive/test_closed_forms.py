@@ -222,7 +222,7 @@ def test_a_term_without_a_rule_leaves_the_integrals(name: str) -> None:
     assert {*found} == {*given}
     assert found.remark.startswith("No closed form known: no rule for ")
     assert told in found.remark
-    assert found.remark.endswith("its integrals stay.")
+    assert found.remark.endswith("the formulas remain integrals.")
 
 
 def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -233,7 +233,7 @@ def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPat
     given = derive_sheet(load_geometry("catenary"))
     found = with_closed_forms(given)
     assert {*found} == {*given}
-    assert found.remark == "No closed form found: SymPy gave up; its integrals stay."
+    assert found.remark == "No closed form found: SymPy gave up; the formulas remain integrals."
 
 
 # ------------------------------------------------------------------ in time
@@ -264,7 +264,7 @@ def test_the_search_ends_at_its_limit(
     found = with_closed_forms(given, 0.25)
     assert 0.25 <= time.monotonic() - began < 5
     assert {*found} == {*given}
-    assert found.remark == f"{NONE_IN_TIME} 0.25 s; its integrals stay."
+    assert found.remark == f"{NONE_IN_TIME} 0.25 s; the formulas remain integrals."
 
 
 def test_nothing_rings_behind_the_block() -> None:

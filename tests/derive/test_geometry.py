@@ -29,7 +29,7 @@ def test_a_parameter_is_positive_and_remembers_what_it_means() -> None:
 def test_a_name_of_the_theory_is_refused(name: str) -> None:
     with pytest.raises(BadName) as caught:
         parameter(name, "something")
-    assert caught.value == BadName("parameter", name, "is taken by the theory")
+    assert caught.value == BadName("parameter", name, "is reserved by the theory")
     assert "choose another" in caught.value.message
 
 
@@ -107,7 +107,7 @@ def test_an_x_of_one_s_own_is_refused_with_where_to_get_it() -> None:
 def test_a_symbol_of_the_theory_is_refused_with_what_it_means() -> None:
     with pytest.raises(UnknownSymbol) as caught:
         Geometry("body", g=x**2 / QUANTITIES["a"].symbol)
-    assert "taken by the theory, for the left edge of the contact" in caught.value.message
+    assert "reserved by the theory (left edge of the contact" in caught.value.message
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_a_symbol_of_the_theory_is_refused_with_what_it_means() -> None:
 def test_a_profile_that_is_no_length_is_refused(g: object) -> None:
     with pytest.raises(DimensionMismatch) as caught:
         Geometry("body", g=g)
-    assert "a number has no unit: write it as a parameter" in caught.value.message
+    assert "a number has no unit: replace it by a parameter" in caught.value.message
     has_parameters = bool(getattr(g, "free_symbols", set()) - {x})
     assert ("check the units of the parameters" in caught.value.message) == has_parameters
 

@@ -345,7 +345,7 @@ def test_two_parabolas_need_to_be_told_which_is_wider() -> None:
     b where R1 > R, on the other side of the origin where R1 < R."""
     with pytest.raises(BadProfile) as caught:
         slope(Max(x**2 / R1, (x - b) ** 2 / R))
-    assert "R - R1 may be zero" in caught.value.why
+    assert "the sign of R - R1 depends on the parameters" in caught.value.why
     assert "R1 = R + gap" in caught.value.remedy
     gap = parameter("gap", "by how much wider", unit="m")
     found = slope(Max(x**2 / R1, (x - b) ** 2 / (R1 + gap))).kinks
@@ -364,7 +364,7 @@ def test_a_switch_beside_another_is_not_taken_for_it() -> None:
 
 
 REFUSED = {
-    "is not convex; make it convex": [
+    "is not convex; make g(x) convex": [
         -(x**2) / R,
         x**3 / R**2,
         -phi * Abs(x),
@@ -376,7 +376,7 @@ REFUSED = {
         Piecewise((phi * b, Abs(x) < b), (2 * phi * Abs(x), True)),
     ],
     "is straight; convex somewhere": [phi * x + b, phi * (Max(0, x) - Max(0, -x))],
-    "is straight, as there is no x in it; with it": [Abs(b), 0],
+    "is constant, because it does not contain x; write g as a function of x": [Abs(b), 0],
     # Each of these has a curvature that is real, and positive where it is, around the place.
     "is not real near x = -0.001; real and finite on both sides of x = 0": [
         b * (x / b) ** Rational(4, 3),
@@ -393,11 +393,11 @@ REFUSED = {
         b**3 / (x - b) ** 2 + phi * Abs(x) + phi * Max(0, x - 2 * b)
     ],
     "has no value at x = 0; shift it along x": [b * (Abs(x) / b) ** k * log(Abs(x) / b) + x**2 / R],
-    "a function of x that cannot be derived with; cosh": [
+    "a function of x that is not supported; cosh": [
         floor(x / R) * R,
         R * zeta(2 + x**2 / R**2),
     ],
-    "no polynomial in x; polynomials": [
+    "not a polynomial in x; polynomials": [
         Max(0, R * cosh(x / R) - 2 * x**2 / R),
         Abs(R * cosh(x / R) - R),
     ],
@@ -405,10 +405,10 @@ REFUSED = {
         Piecewise((x**2 / R, x < 0)),
         Piecewise((x**2 / R, Abs(x) > b)),
     ],
-    "order is open; b2 = b + gap": [(Max(0, x - b) ** 2 + Max(0, x - b2) ** 2) / R],
-    "order is open; psi = phi + gap": [Max(0, phi * x, psi * x) + x**2 / R],
+    "in an unknown order; b2 = b + gap": [(Max(0, x - b) ** 2 + Max(0, x - b2) ** 2) / R],
+    "in an unknown order; psi = phi + gap": [Max(0, phi * x, psi * x) + x**2 / R],
     # Where both parabolas meet depends on which is wider; the smaller must not win silently.
-    "may be real or not; ": [
+    "real for some parameters only; ": [
         Max(x**2 / (2 * R), x**2 / (2 * R1) - b),
         Max(0, x**2 - (R - R1) * b) / b,
     ],
@@ -423,7 +423,7 @@ REFUSED = {
         Piecewise((x**2 / (2 * R), x**5 - b**4 * x - b**5 < 0), (x**2 / R, True)),
         x**2 / R + Max(0, x**5 - b**4 * x - b**5) / b**4,
     ],
-    "; use <, <=, >, >=": [Piecewise((beyond**2 / R, Xor(x > -b, x < b)), (0, True))],
+    "not supported; use <, <=, > or >=": [Piecewise((beyond**2 / R, Xor(x > -b, x < b)), (0, True))],
 }
 """Bodies by why they are refused, and what the remedy says."""
 

@@ -95,35 +95,35 @@ def test_units_may_be_said(tmp_path: Path) -> None:
 
 
 BAD = [
-    ("", "is empty"),
-    ("   \n\n", "is empty"),
-    ("hello\n", "holds no rows of numbers"),
-    ("x [mm],p [MPa]\n", "holds no rows of numbers"),
-    ("# only\n# comments\n", "holds no rows of numbers"),
+    ("", "the file is empty"),
+    ("   \n\n", "the file is empty"),
+    ("hello\n", "has no rows of numbers"),
+    ("x [mm],p [MPa]\n", "has no rows of numbers"),
+    ("# only\n# comments\n", "has no rows of numbers"),
     ("x [mm]\n" + "\n".join(f"{x:.4f}" for x in X), "one column of numbers"),
-    (rows(X, P), "has no line that names its columns"),
+    (rows(X, P), "has no line with column names"),
     ("x,p\n" + rows(X, P), "the unit of 'x' is missing"),
     ("x [mm],p\n" + rows(X, P), "the unit of 'p' is missing"),
     ("x,p [MPa]\n" + rows(X, P), "the unit of 'x' is missing"),
-    ("x [furlong],p [MPa]\n" + rows(X, P), "'furlong' is no unit"),
-    ("x [mm],p [bar]\n" + rows(X, P), "'bar' is no unit"),
-    ("x [MPa],p [MPa]\n" + rows(X, P), "'MPa' is no unit of the place"),
-    ("u [mm],p [MPa]\n" + rows(X, P), "no column is the place along the interface"),
-    ("x [mm],temperature [K]\n" + rows(X, P), "no column is the contact pressure"),
-    ("x [mm],Distance [mm],p [MPa]\n" + rows(X, X, P), "may each be 'x'"),
-    ("x [mm],p [MPa],p [MPa]\n" + rows(X, P, P), "two columns are called 'p'"),
-    ("x [mm],p [MPa],q [Pa]\n" + rows(X, P, Q), "tractions are given in"),
-    ("x [mm],p [MPa],y\n" + rows(X, P), "has 3 names over 2 columns"),
-    ("x [mm],p [MPa]\n" + rows(X, P, P), "has 2 names over 3 columns"),
-    ("x [mm],p [MPa]\n" + rows(X, P, comma=True), "decimal commas cannot be told"),
-    (with_line("0.5"), "has 1 fields where"),
-    (with_line("0.5,1.0,2.0"), "has 3 fields where"),
-    (with_line("0.05,nan"), "has 'nan' where 'p' is a number"),
-    (with_line("inf,3.0"), "has 'inf' where 'x' is a number"),
-    (with_line("0.05,"), "fields where"),
-    (with_line("0.05,----"), "has '----' where 'p' is a number"),
-    (with_line("0.05,1_0"), "has '1_0' where 'p' is a number"),
-    (with_line("0.05,0x1F"), "has '0x1F' where 'p' is a number"),
+    ("x [furlong],p [MPa]\n" + rows(X, P), "'furlong' is not a known unit"),
+    ("x [mm],p [bar]\n" + rows(X, P), "'bar' is not a known unit"),
+    ("x [MPa],p [MPa]\n" + rows(X, P), "'MPa' is not a known unit of the position"),
+    ("u [mm],p [MPa]\n" + rows(X, P), "no column has the position along the interface"),
+    ("x [mm],temperature [K]\n" + rows(X, P), "no column has the contact pressure"),
+    ("x [mm],Distance [mm],p [MPa]\n" + rows(X, X, P), "may be 'x'"),
+    ("x [mm],p [MPa],p [MPa]\n" + rows(X, P, P), "two columns are named 'p'"),
+    ("x [mm],p [MPa],q [Pa]\n" + rows(X, P, Q), "tractions are given in different units"),
+    ("x [mm],p [MPa],y\n" + rows(X, P), "has 3 names for 2 columns"),
+    ("x [mm],p [MPa]\n" + rows(X, P, P), "has 2 names for 3 columns"),
+    ("x [mm],p [MPa]\n" + rows(X, P, comma=True), "commas may be decimal commas"),
+    (with_line("0.5"), "has 1 instead of"),
+    (with_line("0.5,1.0,2.0"), "has 3 instead of"),
+    (with_line("0.05,nan"), "has 'nan' instead of a finite number in column 'p'"),
+    (with_line("inf,3.0"), "has 'inf' instead of a finite number in column 'x'"),
+    (with_line("0.05,"), "instead of"),
+    (with_line("0.05,----"), "has '----' instead of a finite number in column 'p'"),
+    (with_line("0.05,1_0"), "has '1_0' instead of a finite number in column 'p'"),
+    (with_line("0.05,0x1F"), "has '0x1F' instead of a finite number in column 'p'"),
     (with_line("-0.9,3.0"), "x turns round"),
     (with_line(f"{X[24]:.6f},3.0"), "two nodes lie at x"),
     (HEAD + rows(X[::2].tolist() + X[1::2].tolist(), P), "x turns round"),
@@ -138,7 +138,7 @@ BAD = [
         "x [mm],p 1 [MPa],p 2 [MPa],p 3 [MPa],q 1 [MPa],q 2 [MPa]\n" + rows(X, P, P, P, Q, Q),
         "of shear",
     ),
-    ("x [mm]\0,p [MPa]\n" + rows(X, P), "is no text"),
+    ("x [mm]\0,p [MPa]\n" + rows(X, P), "is not text"),
     ("x [mm],p [MPa]\n1.0,2.0 3.0\n2.0,abc\n", "of numbers"),
 ]
 
@@ -300,7 +300,7 @@ def test_a_table_that_was_given_is_not_written_over(tmp_path: Path) -> None:
     for target in (path, tmp_path):
         result = run(path, "--f", 0.5, "--csv", target)
         assert result.exit_code == 2
-        assert "is there already, and no table of results" in " ".join(result.output.split())
+        assert "exists and is not a table of results" in " ".join(result.output.split())
     assert path.read_text() == "mine\n"
 
 
@@ -309,5 +309,5 @@ def test_a_unit_that_the_table_gives_otherwise_is_refused(tmp_path: Path) -> Non
     path.write_text(HEAD + rows(X, P))
     result = run(path, "--f", 0.5, "--unit", "p=Pa")
     assert result.exit_code == 2
-    assert "the table gives p in MPa, --unit in Pa" in result.output
+    assert "the table gives p in MPa, but --unit says Pa" in result.output
     assert run(path, "--f", 0.5, "--unit", "p=MPa").exit_code == 0

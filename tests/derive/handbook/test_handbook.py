@@ -144,14 +144,14 @@ def test_a_curve_is_cut_where_it_is_infinite() -> None:
 def test_a_page_of_ones_own_is_never_lost(tmp_path: Path) -> None:
     mine = tmp_path / "hertz.html"
     mine.write_text("mine")
-    with pytest.raises(BadPage, match="no page made here"):
+    with pytest.raises(BadPage, match="not a page made by"):
         put_page("<html>", mine)
     assert mine.read_text() == "mine"
     with pytest.raises(BadPage, match="is a directory"):
         put_page("<html>", tmp_path)
     with pytest.raises(BadPage, match="too long"):
         put_page("<html>", tmp_path / ("a" * 300))
-    with pytest.raises(BadPage, match=r"holds 'hertz.html'"):
+    with pytest.raises(BadPage, match=r"contains 'hertz.html'"):
         put_pages({}, tmp_path)
     assert [p.name for p in tmp_path.iterdir()] == ["hertz.html"]
 
@@ -169,10 +169,10 @@ def test_pages_made_here_are_replaced_whole(pages: Path, tmp_path: Path) -> None
     [
         (["hertz", "--html", "--latex"], "exclude each other"),
         (["hertz", "--html", "--slip", "2"], "exclude each other"),
-        (["hertz", "--all", "--html"], "NAME is one geometry"),
-        (["--html"], "NAME is one geometry"),
-        (["hertz", "--out", "x.html"], "go with --html"),
-        (["--all"], "go with --html"),
+        (["hertz", "--all", "--html"], "give either NAME, a geometry"),
+        (["--html"], "give either NAME, a geometry"),
+        (["hertz", "--out", "x.html"], "require --html"),
+        (["--all"], "require --html"),
     ],
 )
 def test_options_that_do_not_go_together(arguments: list[str], told: str) -> None:

@@ -532,7 +532,7 @@ def test_without_matplotlib_one_clear_error() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     said, remedy = "matplotlib is not installed, and drawing needs it", "contact-derive[plot]"
-    assert done.stdout == f"{said}: pip install '{remedy}'\n", done.stderr
+    assert done.stdout == f"{said}: run pip install '{remedy}'\n", done.stderr
 
 
 def test_without_ipywidgets_one_clear_error(monkeypatch: pytest.MonkeyPatch) -> None:
