@@ -1,24 +1,28 @@
-r"""Slip zones beside a stick zone: where shear stays bounded at both of its ends.
+r"""Slip zones next to a stick zone at both ends of which the shear traction stays bounded.
 
-A cycle is seen so that tension loads the left edge more, dsigma >= 0; else the body is looked at
-from behind.  Slip leaves a change of shear r in both slip zones: f (p1 + p2) on the left, kappa f
-(p1 + p2) on the right, less what was won there since it stuck again (mixed.py).  Let h_s = m + n
-and y be the distance from the stick zone.  The change of shear is bounded at both ends of [-m, n]
-if, with u = sqrt(y/(h_s + y)),
+A cycle is seen so that tension loads the left edge more, dsigma >= 0; otherwise the body is seen
+from behind.  Slip leaves a change of shear r in both slip zones: f (p1 + p2) on the left, and on
+the right kappa f (p1 + p2), less the shear gained there since it last stuck (mixed.py).  Let h_s =
+m + n and let y be the distance from the stick zone.  With u = sqrt(y/(h_s + y)), the change of
+shear is bounded at both ends of [-m, n] if
 
     left:   L = int_left r/u dy + int_right r u dy = dQ + pi h_s dsigma/8,
     right:  R = int_left r u dy + int_right r/u dy = dQ - pi h_s dsigma/8.
 
-With C the finite parts of int r/(y w) dy, w = sqrt(y (h_s + y)), D = int r/((h_s + y) w) dy, and F
-the difference of what both conditions, right and left, are off by, over h_s, their rates are
+Let C be the finite part of int r/(y w) dy, w = sqrt(y (h_s + y)), let D = int r/((h_s + y) w) dy,
+and let F be the residual of the right condition less that of the left one, over h_s.  The rates of
+the residuals are
 
     d right/dn =  F/2 + h_s (C_right + D_left)/2,    d right/dm =  F/2,
     d left/dn  = -F/2,                               d left/dm  = -F/2 + h_s (C_left + D_right)/2.
 
-Between, at distances d and D from this end and the other one, a slip zone that is l long causes
+In the stick zone, at distances d and D from this end and the other one, a slip zone of length l
+causes
 
-    dq = (sqrt(d D)/pi) int r/(w (y + d)) dy;  and of a constant r, (2 r/pi) arctan sqrt(l D/(d (l +
-    h_s))), so that this is taken off.
+    dq = (sqrt(d D)/pi) int r/(w (y + d)) dy;
+
+for a constant r this is (2 r/pi) arctan sqrt(l D/(d (l + h_s))), so that r at the start of the zone
+is subtracted and integrated exactly.
 """
 
 import math
@@ -32,48 +36,54 @@ from .quadrature import slip_nodes
 from .tables import TABLE, Table, tabled
 
 SMALL = 1e-9
-"""After a step below this, compared with the slip zone, the next one is below rounding,"""
+"""Newton's method ends after a step below this, relative to the slip zone: the next is rounding."""
 
 ROUGH = 1e-7
-"""or, by the coarsest rule, below what that is good for."""
+"""The same for the coarsest rule, whose own error is larger."""
 
 STEPS = 40
-"""Newton's steps at most for one rule; a solution takes two to eight."""
+"""Largest number of Newton's steps for one rule; a solution takes two to eight."""
 
 MET = 1e-7
-"""Steps end short of a solution, at a break, unless both conditions are off by less."""
+"""Largest residual of a solution, relative to the drive; at a break, steps may get small before."""
 
 LONGEST = 2.0
-"""Longest of Newton's steps in the logarithm of a slip zone over the stick zone."""
+"""Longest Newton step in the logarithm of a slip zone over the stick zone."""
 
 SHORTEST = 1e-3
-"""A step that leads away even if it is cut down to this part is given up."""
+"""The method is given up if even this fraction of a step leads away from the solution."""
 
 LEAST_STUCK = 1e-3
-"""No narrower stick zone is sought, in parts of the width at which slip would reverse."""
+"""Narrowest stick zone that is sought, relative to the width at which slip would reverse."""
 
 NEAREST = 1e-9
-"""Closer to the stick zone, in parts of a slip zone, finite parts are left to their limit."""
+"""Closer to the stick zone than this fraction of a slip zone, finite parts are left to their
+limit."""
 
 CLOSE = 4 * EPS
-"""How well a stick zone of given width is placed, in parts of it."""
+"""Accuracy of the position of a stick zone of given width, relative to this width."""
 
 
 class Gain(NamedTuple):
-    """Shear won since it stuck again: tabled, and beyond all of r if it rubs there, else none."""
+    """Shear gained since a point stuck again.
+
+    table  the gain as a function of position
+    rubs   1 if the points beyond the table are at friction, so that the gain is all of r; else 0
+    """
 
     table: Any
     rubs: float
 
 
 class Friction(NamedTuple):
-    """What leaves r.
+    """The data that determine r, the traction left by slip.
 
-    pressure, own  of the body as it is; x there is `sense` times x here
+    pressure, own  of the body itself; x there is `sense` times x here
+    sense          1, or -1 if the body is seen from behind
     cycle          a1, c1, a2, c2, dQ, dsigma, f, as seen
-    cuts           where r changes its formula
-    a, c           how far slip zones go in the smaller contact
-    da, dc         how much further in the larger one
+    cuts           points where r changes its formula
+    a, c           edges of the smaller contact, to which slip zones extend
+    da, dc         how much further out the edges of the larger contact are
     kappa          sense of slip on the right
     left, right    gains
     """
@@ -93,7 +103,7 @@ class Friction(NamedTuple):
 
 
 class Zone(NamedTuple):
-    """A slip zone: nodes y, their weights, and r there; its length; r where it begins."""
+    """A slip zone: its nodes y, their weights, r at the nodes, its length, and r at its start."""
 
     y: Any
     weight: Any
@@ -103,7 +113,7 @@ class Zone(NamedTuple):
 
 
 class Slip(NamedTuple):
-    """A stick zone [-m, n], the lengths of what slips in the smaller contact, and both zones."""
+    """A stick zone [-m, n], the lengths of slip in the smaller contact, and both slip zones."""
 
     m: float
     n: float
@@ -122,12 +132,12 @@ ZONE = record(Zone, vector, vector, vector, real, real)
 SLIP = record(Slip, real, real, real, real, ZONE, ZONE)
 
 
-# ---------------------------------------------------------------- what slip leaves
+# ---------------------------------------------------------------- the traction left by slip
 
 
 @kernel(real(vector))
 def sense_of(cycle: Any) -> Any:
-    """Where a cycle is seen from: -1 from behind."""
+    """1, or -1 if a cycle is seen from behind."""
     return -1.0 if cycle[5] < 0 else 1.0
 
 
@@ -144,13 +154,13 @@ def seen(cycle: Any) -> Any:
 
 @kernel(GAIN())
 def no_gain() -> Any:
-    """Of a place that has slipped all the time."""
+    """The gain where points have slipped all the time."""
     return Gain(Table(-math.inf, -math.inf, 0.0, np.zeros(1)), 0.0)
 
 
 @kernel(FRICTION(LAW, vector, vector, real, real, real))
 def friction(law: Any, own: Any, cycle: Any, sense: float, kappa: float, also: float) -> Any:
-    """Of a cycle as seen.  also: one more place where integrals are cut."""
+    """The friction of a cycle as seen.  also: one more point where integrals are cut."""
     a, c = min(cycle[0], cycle[2]), min(cycle[1], cycle[3])
     da, dc = max(cycle[0], cycle[2]) - a, max(cycle[1], cycle[3]) - c
     breaks, nothing = law.breaks(own), no_gain()
@@ -162,18 +172,18 @@ def friction(law: Any, own: Any, cycle: Any, sense: float, kappa: float, also: f
 
 @kernel(real(FRICTION, whole, real))
 def pressure_at(of: Any, end: int, x: float) -> Any:
-    """p at the first contact, end = 0, or the second, 2; zero at a corner, where it is infinite."""
+    """p in the first contact (end = 0) or the second (end = 2); a corner's infinite p counts as 0."""
     a, c = of.cycle[end], of.cycle[end + 1]
     p = of.pressure(x, a, c, of.own) if of.sense > 0 else of.pressure(-x, c, a, of.own)
     return p if p < math.inf else 0.0
 
 
 @kernel(vector(FRICTION, vector))
-def rubbed(of: Any, places: Any) -> Any:
-    """f (p1 + p2); a corner's infinite pressure counts as none."""
+def friction_limits(of: Any, places: Any) -> Any:
+    """f (p1 + p2) at the given points; the infinite pressure of a corner counts as zero."""
     pressure, own, sense = of.pressure, of.own, of.sense
     alike = of.cycle[0] == of.cycle[2] and of.cycle[1] == of.cycle[3]
-    found, f = np.zeros(places.size), of.cycle[6] * (2 if alike else 1)
+    limits, f = np.zeros(places.size), of.cycle[6] * (2 if alike else 1)
     for end in range(0, 2 if alike else 4, 2):
         a, c = of.cycle[end], of.cycle[end + 1]
         if sense < 0:
@@ -181,27 +191,27 @@ def rubbed(of: Any, places: Any) -> Any:
         for i in range(places.size):
             p = pressure(sense * places[i], a, c, own)
             if p < math.inf:
-                found[i] += f * p
-    return found
+                limits[i] += f * p
+    return limits
 
 
 @kernel(vector(FRICTION, GAIN, vector))
-def lacking(of: Any, gain: Any, places: Any) -> Any:
-    """f (p1 + p2) less a gain."""
-    found, end = rubbed(of, places), gain.table.end
+def remaining_friction(of: Any, gain: Any, places: Any) -> Any:
+    """f (p1 + p2) less a gain, at the given points."""
+    remaining, end = friction_limits(of, places), gain.table.end
     if end == -math.inf:
-        return found
+        return remaining
     for i in range(places.size):
         if places[i] < end:
-            found[i] -= tabled(gain.table, places[i])
+            remaining[i] -= tabled(gain.table, places[i])
         elif gain.rubs > 0:
-            found[i] = 0.0
-    return found
+            remaining[i] = 0.0
+    return remaining
 
 
 @kernel(ZONE(FRICTION, real, real, real, whole))
 def slip_zone(of: Any, side: float, start: float, slip: float, level: int) -> Any:
-    """The slip zone on one side, from m or n on, so long in the smaller contact."""
+    """The slip zone on one side, from m or n outward, with length `slip` in the smaller contact."""
     beyond, kappa, gain = of.da, 1.0, of.left
     if side > 0:
         beyond, kappa, gain = of.dc, of.kappa, of.right
@@ -210,44 +220,46 @@ def slip_zone(of: Any, side: float, start: float, slip: float, level: int) -> An
     places = np.full(count + 1, side * start)
     for i in range(count):
         places[i] = side * (start + nodes[0, i])
-    r = kappa * lacking(of, gain, places)
+    r = kappa * remaining_friction(of, gain, places)
     return Zone(nodes[0], nodes[1], r[:-1], slip + beyond, r[-1])
 
 
 @kernel(SLIP(FRICTION, real, real, real, real, whole))
 def beside(of: Any, m: float, n: float, left: float, right: float, level: int) -> Any:
-    """The slip zones beside [-m, n]; left, right: their lengths, a - m and c - n."""
+    """The slip zones beside [-m, n], with lengths left = a - m and right = c - n."""
     at_left = slip_zone(of, -1.0, m, left, level)
     return Slip(m, n, left, right, at_left, slip_zone(of, 1.0, n, right, level))
 
 
 @kernel(SLIP(real))
 def unknown(why: float) -> Any:
-    """NaN where slip zones are not found, -inf where there are none of the kind asked for."""
+    """NaN if slip zones are not found, -inf if there are none of the kind sought."""
     nothing = np.empty(0)
     zone = Zone(nothing, nothing, nothing, 0.0, 0.0)
     return Slip(why, why, -why, -why, zone, zone)
 
 
 @kernel(real(ZONE, real, real))
-def felt(zone: Any, away: float, across: float) -> Any:
-    """dq by one slip zone at a place in the stick zone, so far from this end and the other one."""
+def change_by_zone(zone: Any, near: float, far: float) -> Any:
+    """dq due to one slip zone, at given distances from this end of the stick zone and the other."""
     if not zone.length > 0:
         return 0.0
-    total, stuck, length = 0.0, away + across, zone.length
+    total, stuck, length = 0.0, near + far, zone.length
     for i in range(zone.y.size):
         y = zone.y[i]
-        singular = math.sqrt(y * (y + stuck)) * (y + away)
+        singular = math.sqrt(y * (y + stuck)) * (y + near)
         total += zone.weight[i] * (zone.r[i] - zone.at_start) / singular
-    angle = math.atan2(math.sqrt(length * across), math.sqrt(away * (length + stuck)))
-    return (math.sqrt(away * across) * total + 2 * zone.at_start * angle) / math.pi
+    angle = math.atan2(math.sqrt(length * far), math.sqrt(near * (length + stuck)))
+    return (math.sqrt(near * far) * total + 2 * zone.at_start * angle) / math.pi
 
 
 @kernel(real(SLIP, real))
 def change(slip: Any, x: float) -> Any:
-    """dq at x in the stick zone; where rounding puts x past its ends, dq there."""
+    """dq at x in the stick zone; if rounding puts x outside the stick zone, dq at its end."""
     from_left, from_right = max(x + slip.m, 0.0), max(slip.n - x, 0.0)
-    return felt(slip.left, from_left, from_right) + felt(slip.right, from_right, from_left)
+    return change_by_zone(slip.left, from_left, from_right) + change_by_zone(
+        slip.right, from_right, from_left
+    )
 
 
 # ---------------------------------------------------------------- both conditions
@@ -255,14 +267,14 @@ def change(slip: Any, x: float) -> Any:
 
 @kernel(results(2)(real, real, real))
 def pulls(dQ: float, dsigma: float, stuck: float) -> Any:
-    """By how much shear and tension drive slip at both ends of what is stuck, its width given."""
+    """The drive of slip by shear and tension at both ends of a stick zone of given width."""
     by_tension = math.pi * stuck * dsigma / 8
     return dQ + by_tension, dQ - by_tension
 
 
 @kernel(results(4)(ZONE, real))
 def _integrals(zone: Any, stuck: float) -> Any:
-    """int r/u, int r u, C and D of the text above over one slip zone."""
+    """int r/u, int r u, C and D of the module's docstring over one slip zone."""
     near = far = finite = beyond = 0.0
     if not zone.length > 0:
         return near, far, finite, beyond
@@ -270,11 +282,11 @@ def _integrals(zone: Any, stuck: float) -> Any:
     finite = -2 * at_start / math.sqrt(zone.length)
     for i in range(zone.y.size):
         y, weight = zone.y[i], zone.weight[i]
-        across = stuck + y
-        force = weight * zone.r[i] / math.sqrt(y * across)
-        near += force * across
+        from_other_end = stuck + y
+        force = weight * zone.r[i] / math.sqrt(y * from_other_end)
+        near += force * from_other_end
         far += force * y
-        beyond += force / across
+        beyond += force / from_other_end
         if y > NEAREST * zone.length:
             finite += (force - weight * at_start / math.sqrt(y)) / y
     return near, far, finite, beyond
@@ -282,7 +294,7 @@ def _integrals(zone: Any, stuck: float) -> Any:
 
 @kernel(results(4)(SLIP))
 def sums(slip: Any) -> Any:
-    """L and R, and how fast L falls with m and R with n, twice, as far as F does not tell."""
+    """L and R, and twice the rates of L with m and of R with n, without the terms of F."""
     stuck = slip.m + slip.n
     near_left, far_left, C_left, D_left = _integrals(slip.left, stuck)
     near_right, far_right, C_right, D_right = _integrals(slip.right, stuck)
@@ -292,24 +304,24 @@ def sums(slip: Any) -> Any:
 
 @kernel(results(3)(FRICTION, SLIP))
 def _step(of: Any, slip: Any) -> Any:
-    """Newton's step in the logarithms of both slip zones over the stick zone, and the miss."""
+    """Newton's step in the logarithms of both slip zones over the stick zone; the squared error."""
     stuck = slip.m + slip.n
     L, R, by_m, by_n = sums(slip)
-    pull_left, pull_right = pulls(of.cycle[4], of.cycle[5], stuck)
-    off_left, off_right = L - pull_left, R - pull_right
-    skew = (off_right - off_left) / (2 * stuck)
-    left = off_left, skew - by_m / 2, skew
-    right = off_right, -skew, -skew - by_n / 2
+    drive_left, drive_right = pulls(of.cycle[4], of.cycle[5], stuck)
+    residual_left, residual_right = L - drive_left, R - drive_right
+    skew = (residual_right - residual_left) / (2 * stuck)
+    left = residual_left, skew - by_m / 2, skew
+    right = residual_right, -skew, -skew - by_n / 2
     by_left, by_right = log_step(slip.d_left, slip.d_right, left, right, stuck)
-    return by_left, by_right, off_left * off_left + off_right * off_right
+    return by_left, by_right, residual_left * residual_left + residual_right * residual_right
 
 
 @kernel(SLIP(FRICTION, real, real, whole))
 def solved(of: Any, left: float, right: float, level: int) -> Any:
-    """Slip zones that meet both conditions, from a guess; NaN where Newton's method does not end.
+    """Slip zones that meet both conditions, from a guess; NaN if Newton's method does not converge.
 
-    If a step leads away from the solution, a quarter of it is tried.  The zones' nodes are those of
-    the last step but one.
+    If a step leads away from the solution, a quarter of it is tried.  The nodes of the zones are
+    those before the last step.
     """
     width, small = of.a + of.c, ROUGH if level == 0 else SMALL
     least = LEAST_STUCK * 8 * of.cycle[4] / math.pi
@@ -320,17 +332,17 @@ def solved(of: Any, left: float, right: float, level: int) -> Any:
         if not (now_left > 0 and now_right > 0 and stuck * of.cycle[5] > least):
             break
         slip = beside(of, of.a - now_left, of.c - now_right, now_left, now_right, level)
-        by_left, by_right, miss = _step(of, slip)
+        by_left, by_right, error = _step(of, slip)
         length = max(abs(by_left), abs(by_right))
-        if miss < best and length < math.inf:
-            left, right, best, part = now_left, now_right, miss, 1.0
+        if error < best and length < math.inf:
+            left, right, best, part = now_left, now_right, error, 1.0
             shrink = LONGEST / max(LONGEST, length)
             to_left, to_right = by_left * shrink, by_right * shrink
             rounding = 16 * EPS * width / min(left, right, stuck)
             if length < max(small, rounding):
                 if (
                     rounding < small
-                    and miss > (MET * pulls(of.cycle[4], of.cycle[5], stuck)[0]) ** 2
+                    and error > (MET * pulls(of.cycle[4], of.cycle[5], stuck)[0]) ** 2
                 ):
                     break
                 left, right = moved(width, left, right, to_left, to_right)
@@ -344,22 +356,22 @@ def solved(of: Any, left: float, right: float, level: int) -> Any:
 
 @kernel(SLIP(FRICTION, real, real, whole))
 def placed(of: Any, stuck: float, n: float, level: int) -> Any:
-    """Slip zones that leave a stick zone of this width as the loads go on in proportion.
+    """Slip zones that leave a stick zone of given width as the loads grow in proportion.
 
-    Both conditions ask for L and R in the proportion of what drives them; that difference grows
-    with n all the way.  Slip must be driven on to opposite sides, or not at all on the right.
-    n: where to look first.
+    Both conditions require L and R in the ratio of the drives; the deviation from this ratio grows
+    monotonically with n.  Slip must be driven in opposite senses, or not at all on the right.
+    n: the first guess.
     """
     least, most, close = stuck - of.a, of.c, CLOSE * stuck
     if not least < n < most:
         n = (least + most) / 2
     bracket = (least, most, n, most - least)
-    pull_left, pull_right = pulls(of.cycle[4], of.cycle[5], stuck)
+    drive_left, drive_right = pulls(of.cycle[4], of.cycle[5], stuck)
     for _ in range(2 * STEPS):
         n = bracket[2]
         slip = beside(of, stuck - n, n, n - least, most - n, level)
         L, R, by_m, by_n = sums(slip)
-        value, rate = pull_left * R - pull_right * L, (pull_left * by_n + pull_right * by_m) / 2
+        value, rate = drive_left * R - drive_right * L, (drive_left * by_n + drive_right * by_m) / 2
         bracket = narrowed(bracket, value, rate, close)
         if bracket[1] - bracket[0] <= 2 * close:
             return slip
@@ -368,6 +380,6 @@ def placed(of: Any, stuck: float, n: float, level: int) -> Any:
 
 @kernel(real(FRICTION, SLIP))
 def share(of: Any, slip: Any) -> Any:
-    """The part of the loads that leaves such slip zones."""
+    """The fraction of the loads that produces these slip zones."""
     L, R, _, _ = sums(slip)
     return 4 * (L - R) / (math.pi * (slip.m + slip.n) * of.cycle[5])

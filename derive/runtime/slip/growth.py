@@ -1,27 +1,31 @@
-r"""How slip begins at both ends of a cycle, and whether it goes on all the way.
+r"""How slip begins at both ends of a cycle, and whether it grows throughout.
 
 The conditions of a stick zone are exact only while both slip zones grow all the way from one end of
-the cycle to the other.  Let the loads change by dP and dM along the way, at a contact of width h,
-and let h_s be the width of the zone that is still stuck; then slip goes on at the edges if
+the cycle to the other.  Let the loads change by dP and dM along the path, at a contact of width h,
+and let h_s be the width of the zone that still sticks.  Slip grows at the edges if
 
-    kappa pull > f lead,    pull = dQ -/+ pi h_s dsigma/8,   lead = dP -/+ 4 h_s (dM + mid dP)/h**2,
+    kappa drive > f lead,   drive = dQ -/+ pi h_s dsigma/8,
+    lead = dP -/+ 4 h_s (dM + mid dP)/h**2,
 
-the upper sign at the right edge, and as long as the zone ends inside both contacts.  `lead` says
-how fast an edge runs ahead.  Shear that has not slipped yet, at friction since the last half-cycle,
-must stay within it while the pressure falls: kappa dq > f (p1 - p).  Under moderate tension it
-does, since p exceeds the pressure of a contact inside its own; under large tension it is asked.
-This is tested at PARTS parts of the way, from both ends, lead included at the start.
+with the upper sign at the right edge, as long as the zone ends inside both contacts.  `lead`
+measures how fast an edge advances.  Shear that has not slipped yet, and has been at friction since
+the last half-cycle, must stay within friction while the pressure falls: kappa dq > f (p1 - p).
+Under moderate tension it does, since p exceeds the pressure of a contact inside its own; under
+large tension it is tested.  The test is made at PARTS points of the path, from both ends, and with
+`lead` at the start.
 
-On the way shear comes in at a rate of
+Along the path the shear traction grows at the rate
 
-    (dQ - pi dsigma (x - mid)/4)/(pi sqrt((x + m)(n - x))),    mid the middle of what sticks so far,
+    (dQ - pi dsigma (x - mid)/4)/(pi sqrt((x + m)(n - x))),
 
-which changes its sign at x = mid + 4 dQ/(pi dsigma).  Under large tension that place must lie
-between the slip zones to come, which are at friction since the last half-cycle: it does so all the
-way if it does at both ends of it.
+where mid is the middle of the current stick zone.  This rate changes its sign at
+x = mid + 4 dQ/(pi dsigma).  Under large tension that point must lie between the final slip zones,
+which have been at friction since the last half-cycle.  It lies there all along the path if it does
+at both ends of the path.
 
-A way is a matrix with a row for every part of it, the first one and the last one those of both
-contacts: a, c, tilt, load, moment.  Steady loads have these two alone.
+A path is a matrix with a row for each of its points; the first and the last row are the two
+contacts of the cycle.  The columns are a, c, tilt, load, moment.  Constant loads have these two
+rows alone.
 """
 
 import math
@@ -37,81 +41,82 @@ from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .quadrature import slip_nodes
 
 PARTS = 8
-"""Parts of a half-cycle at which the growth of slip is tested."""
+"""Number of parts of a half-cycle at which the growth of slip is tested."""
 
 PLACES = 4
-"""Places of a slip zone to come at which its shear is compared with friction."""
+"""Number of points in a future slip zone at which the shear is compared with friction."""
 
 SLACK = 1e-6
-"""What is allowed for rounding, in parts of the friction."""
+"""Allowance for rounding, relative to friction."""
 
 AGREED = 1e-8
-"""What slip zones on the way are known to, in parts of their own."""
+"""Accuracy of the slip zones along the path, relative to their length."""
 
 
 @kernel(matrix(LAW, vector, matrix))
 def followed(law: Any, own: Any, ends: Any) -> Any:
-    """The way between two contacts, loads in proportion; steady loads are left as they are."""
+    """The path between two contacts, loads in proportion; constant loads are left as they are."""
     if ends[0, A] == ends[1, A] and ends[0, C] == ends[1, C]:
         return ends
-    way = np.empty((PARTS + 1, 5))
+    path = np.empty((PARTS + 1, 5))
     for i in range(5):
-        way[0, i], way[PARTS, i] = ends[0, i], ends[1, i]
+        path[0, i], path[PARTS, i] = ends[0, i], ends[1, i]
     for k in range(1, PARTS):
         part = k / PARTS
-        way[k, LOAD] = ends[0, LOAD] + part * (ends[1, LOAD] - ends[0, LOAD])
-        way[k, MOMENT] = ends[0, MOMENT] + part * (ends[1, MOMENT] - ends[0, MOMENT])
-        way[k, A], way[k, C], way[k, TILT] = contact(law, own, way[k, LOAD], way[k, MOMENT])
-    return way
+        path[k, LOAD] = ends[0, LOAD] + part * (ends[1, LOAD] - ends[0, LOAD])
+        path[k, MOMENT] = ends[0, MOMENT] + part * (ends[1, MOMENT] - ends[0, MOMENT])
+        path[k, A], path[k, C], path[k, TILT] = contact(law, own, path[k, LOAD], path[k, MOMENT])
+    return path
 
 
 @kernel(results(2)(matrix, real, real, real))
-def leads(way: Any, stuck: float, a: float, c: float) -> Any:
-    """By how much the loads drive the left and the right edge of the contact [-a, c]."""
-    last = way.shape[0] - 1
-    more, turn = way[last, LOAD] - way[0, LOAD], way[last, MOMENT] - way[0, MOMENT]
+def leads(path: Any, stuck: float, a: float, c: float) -> Any:
+    """The rates at which the loads advance the left and the right edge of the contact [-a, c]."""
+    last = path.shape[0] - 1
+    more, turn = path[last, LOAD] - path[0, LOAD], path[last, MOMENT] - path[0, MOMENT]
     by_turning = 4 * stuck * (turn + (c - a) / 2 * more) / (a + c) ** 2
     return more + by_turning, more - by_turning
 
 
 @kernel(truth(matrix, vector, real))
-def slips_at_the_start(way: Any, cycle: Any, right: float) -> Any:
-    """Whether slip begins at either end of the cycle: forward on the left, of this sense right."""
-    for end in (0, way.shape[0] - 1):
-        a, c = way[end, A], way[end, C]
-        lead_left, lead_right = leads(way, a + c, a, c)
-        pull_left, pull_right = pulls(cycle[4], cycle[5], a + c)
+def slips_at_the_start(path: Any, cycle: Any, right: float) -> Any:
+    """Whether slip begins at both ends of the cycle, forward on the left, in sense `right` at c."""
+    for end in (0, path.shape[0] - 1):
+        a, c = path[end, A], path[end, C]
+        lead_left, lead_right = leads(path, a + c, a, c)
+        drive_left, drive_right = pulls(cycle[4], cycle[5], a + c)
         if not (
-            pull_left >= cycle[6] * abs(lead_left)
-            and right * pull_right >= cycle[6] * abs(lead_right)
+            drive_left >= cycle[6] * abs(lead_left)
+            and right * drive_right >= cycle[6] * abs(lead_right)
         ):
             return False
     return True
 
 
 @kernel(truth(matrix, vector))
-def sticks_all_over(way: Any, cycle: Any) -> Any:
-    """Whether there is no slip at all.
+def sticks_all_over(path: Any, cycle: Any) -> Any:
+    """Whether nothing slips at all.
 
-    An edge that turns back on the way, lead = 0, could not bear any shear there.  Rates of shear
-    and of pressure are lines over w between those of the edges.  If the pressure rises, or falls,
-    at both, friction at the edges is friction all over; else there is a place where it rests while
-    shear goes on, and the edges tell nothing, unless there is no shear.
+    An edge whose motion reverses on the way, lead = 0, cannot bear any shear at that point.  The
+    rates of shear and of pressure, times w, vary linearly between their values at the edges.  If
+    the pressure rises at both edges, or falls at both, friction that holds at the edges holds
+    everywhere.  Otherwise the pressure is stationary at some point while the shear changes, and the
+    edges decide nothing, unless there is no shear.
     """
     dQ, dsigma, f = cycle[4], cycle[5], cycle[6]
     if dQ == 0 and dsigma == 0:
         return True
-    if way.shape[0] == 2:
+    if path.shape[0] == 2:
         return False
-    first_left, first_right = leads(way, way[0, A] + way[0, C], way[0, A], way[0, C])
-    for k in range(way.shape[0]):
-        a, c = way[k, A], way[k, C]
-        left, right = leads(way, a + c, a, c)
-        pull_left, pull_right = pulls(dQ, dsigma, a + c)
+    first_left, first_right = leads(path, path[0, A] + path[0, C], path[0, A], path[0, C])
+    for k in range(path.shape[0]):
+        a, c = path[k, A], path[k, C]
+        left, right = leads(path, a + c, a, c)
+        drive_left, drive_right = pulls(dQ, dsigma, a + c)
         if not (
-            (left * right >= 0 or pull_left == pull_right == 0)
-            and abs(pull_left) <= f * abs(left)
-            and abs(pull_right) <= f * abs(right)
+            (left * right >= 0 or drive_left == drive_right == 0)
+            and abs(drive_left) <= f * abs(left)
+            and abs(drive_right) <= f * abs(right)
             and left * first_left >= 0
             and right * first_right >= 0
         ):
@@ -123,22 +128,22 @@ def sticks_all_over(way: Any, cycle: Any) -> Any:
 
 
 @kernel(truth(LAW, vector, matrix, vector))
-def grows(law: Any, own: Any, way: Any, cycle: Any) -> Any:
-    """Whether moderate slip goes on at every part of the way, from both ends."""
-    last = way.shape[0] - 1
+def grows(law: Any, own: Any, path: Any, cycle: Any) -> Any:
+    """Whether moderate slip grows at every point of the path, from both ends."""
+    last = path.shape[0] - 1
     for sense in (1, -1):
         end = 0 if sense > 0 else last
         for k in range(1, last + 1):
-            there = k if sense > 0 else last - k
-            a, c = way[there, A], way[there, C]
-            m, n = patch(law, own, way, end, there, k / last, cycle)
-            left, right = leads(way, m + n, a, c)
-            pull_left, pull_right = pulls(cycle[4], cycle[5], m + n)
+            point = k if sense > 0 else last - k
+            a, c = path[point, A], path[point, C]
+            m, n = patch(law, own, path, end, point, k / last, cycle)
+            left, right = leads(path, m + n, a, c)
+            drive_left, drive_right = pulls(cycle[4], cycle[5], m + n)
             if not (
-                m <= min(a, way[end, A])
-                and n <= min(c, way[end, C])
-                and pull_left >= sense * cycle[6] * left
-                and pull_right >= sense * cycle[6] * right
+                m <= min(a, path[end, A])
+                and n <= min(c, path[end, C])
+                and drive_left >= sense * cycle[6] * left
+                and drive_right >= sense * cycle[6] * right
             ):
                 return False
     return True
@@ -148,26 +153,27 @@ def grows(law: Any, own: Any, way: Any, cycle: Any) -> Any:
 
 
 @kernel(matrix(matrix))
-def mirrored(way: Any) -> Any:
-    """The same way seen from behind."""
-    behind = way.copy()
-    for k in range(way.shape[0]):
-        behind[k, A], behind[k, C] = way[k, C], way[k, A]
-        behind[k, TILT], behind[k, MOMENT] = -way[k, TILT], -way[k, MOMENT]
+def mirrored(path: Any) -> Any:
+    """The same path seen from behind."""
+    behind = path.copy()
+    for k in range(path.shape[0]):
+        behind[k, A], behind[k, C] = path[k, C], path[k, A]
+        behind[k, TILT], behind[k, MOMENT] = -path[k, TILT], -path[k, MOMENT]
     return behind
 
 
 @kernel(truth(matrix, vector, real, real))
-def holds_at_the_start(way: Any, cycle: Any, m: float, n: float) -> Any:
+def holds_at_the_start(path: Any, cycle: Any, m: float, n: float) -> Any:
     """Whether shear that has not slipped yet stays within friction, from either end.
 
-    Shear in full stick and pressure both change as a line over w; so it holds all over a slip zone
-    to come if it does at its inner end, -m or n, and slip begins at its edge.
+    The changes of shear in full stick and of pressure, times w, are both linear in x.  Shear
+    therefore stays within friction all over a future slip zone if it does at the inner end, -m or
+    n, and if slip begins at the edge.
     """
     for sense in (1, -1):
-        end = 0 if sense > 0 else way.shape[0] - 1
-        a, c = way[end, A], way[end, C]
-        left, right = leads(way, a + c, a, c)
+        end = 0 if sense > 0 else path.shape[0] - 1
+        a, c = path[end, A], path[end, C]
+        left, right = leads(path, a + c, a, c)
         for side in (-1, 1):
             x = -m if side < 0 else n
             shear = cycle[4] - math.pi * cycle[5] * (x - (c - a) / 2) / 4
@@ -181,8 +187,8 @@ def holds_at_the_start(way: Any, cycle: Any, m: float, n: float) -> Any:
 def _force_rates(slip: float, stuck: float, h: float, own_lead: float, other_lead: float) -> Any:
     """int dp sqrt((stuck + y)/y) dy and int dp sqrt(y/(stuck + y)) dy over one slip zone.
 
-    dp = (own (h - s) + other s)/(pi h sqrt(s (h - s))) as the loads go on, s the distance from the
-    zone's edge; `own` and `other` say how fast this edge and the other one are driven.
+    dp = (own (h - s) + other s)/(pi h sqrt(s (h - s))) as the loads change, where s is the distance
+    from the zone's edge, and `own` and `other` are the leads of this edge and of the other one.
     """
     nodes = slip_nodes(np.empty(0), 1.0, 0.0, slip, slip, 1)
     near, far = 0.0, 0.0
@@ -197,70 +203,70 @@ def _force_rates(slip: float, stuck: float, h: float, own_lead: float, other_lea
 
 
 @kernel(truth(matrix, vector, whole, real, real, real))
-def _still_driven(way: Any, cycle: Any, k: int, sense: float, m: float, n: float) -> Any:
-    """Whether both slip zones of large tension are growing, at a contact on the way.
+def _still_grows(path: Any, cycle: Any, k: int, sense: float, m: float, n: float) -> Any:
+    """Whether both slip zones of large tension are growing, at a contact of the path.
 
-    The shear that comes in with the next step, dQ, dsigma and +/- f dp in the slip zones, would
-    be singular at the ends of the stick zone; it drives slip on there if it has the slip's sign.
+    The next change of shear, due to dQ, dsigma and +/- f dp in the slip zones, would be singular at
+    the ends of the stick zone.  It extends the slip there if it has the sign of the slip.
     """
-    a, c = way[k, A], way[k, C]
+    a, c = path[k, A], path[k, C]
     if not (m < a and n < c and m + n > 0):
         return False
-    left, right = leads(way, a + c, a, c)
+    left, right = leads(path, a + c, a, c)
     near_left, far_left = _force_rates(a - m, m + n, a + c, left, right)
     near_right, far_right = _force_rates(c - n, m + n, a + c, right, left)
-    pull_left, pull_right = pulls(cycle[4], cycle[5], m + n)
+    drive_left, drive_right = pulls(cycle[4], cycle[5], m + n)
     moving = sense * cycle[6]
-    at_left = pull_left - moving * (near_left - far_right)
-    at_right = pull_right - moving * (far_left - near_right)
+    at_left = drive_left - moving * (near_left - far_right)
+    at_right = drive_right - moving * (far_left - near_right)
     return at_left >= 0 and at_right <= 0
 
 
 @kernel(truth(FRICTION, SLIP, real, real))
-def _within_friction(of: Any, so_far: Any, m: float, n: float) -> Any:
-    """Whether kappa dq > f (p1 - p) at places where slip is still to come.
+def _within_friction(of: Any, partial: Any, m: float, n: float) -> Any:
+    """Whether kappa dq > f (p1 - p) at points that will slip later.
 
-    of, so_far: the cycle between the first contact and the one on the way, and its zone;
-    [-m, n]: what sticks in the end.
+    of, partial: the cycle between the first contact and the one on the path, and its stick zone;
+    [-m, n]: the final stick zone.
     """
     for side in (-1, 1):
-        end, now = (m, so_far.m) if side < 0 else (n, so_far.n)
+        end, now = (m, partial.m) if side < 0 else (n, partial.n)
         for k in range(PLACES):
             x = side * (end + (k + 0.5) / PLACES * (now - end))
-            fallen = of.cycle[6] * (pressure_at(of, 0, x) - pressure_at(of, 2, x))
-            if not fallen > 0 or not -so_far.m < x < so_far.n:
+            drop = of.cycle[6] * (pressure_at(of, 0, x) - pressure_at(of, 2, x))
+            if not drop > 0 or not -partial.m < x < partial.n:
                 continue
-            if not -side * change(so_far, x) >= fallen * (1 - SLACK):
+            if not -side * change(partial, x) >= drop * (1 - SLACK):
                 return False
     return True
 
 
 @kernel(truth(LAW, vector, matrix, vector, real, real, real))
-def grows_apart(law: Any, own: Any, way: Any, cycle: Any, sense: float, m: float, n: float) -> Any:
-    """Whether slip of opposite signs goes on at every part of the way, from both ends."""
-    last = way.shape[0] - 1
-    if not (m <= min(way[0, A], way[last, A]) and n <= min(way[0, C], way[last, C])):
+def grows_apart(law: Any, own: Any, path: Any, cycle: Any, sense: float, m: float, n: float) -> Any:
+    """Whether slip of opposite signs grows at every point of the path, from both ends."""
+    last = path.shape[0] - 1
+    if not (m <= min(path[0, A], path[last, A]) and n <= min(path[0, C], path[last, C])):
         return False
     for direction in (1, -1):
         end = 0 if direction > 0 else last
-        before_m, before_n = way[end, A], way[end, C]
+        before_m, before_n = path[end, A], path[end, C]
         for k in range(1, last):
-            there = k if direction > 0 else last - k
-            a, c, part = way[there, A], way[there, C], k / last
-            so_far = cycle.copy()
-            so_far[0], so_far[1], so_far[2], so_far[3] = way[end, A], way[end, C], a, c
-            so_far[4], so_far[5] = part * cycle[4], part * cycle[5]
-            slip = large_slip(law, own, so_far, sense, AGREED)
+            point = k if direction > 0 else last - k
+            a, c, part = path[point, A], path[point, C], k / last
+            partial = cycle.copy()
+            partial[0], partial[1], partial[2], partial[3] = path[end, A], path[end, C], a, c
+            partial[4], partial[5] = part * cycle[4], part * cycle[5]
+            slip = large_slip(law, own, partial, sense, AGREED)
             if not (
                 slip.m <= min(before_m, a)
                 and slip.n <= min(before_n, c)
-                and _still_driven(way, cycle, there, direction, slip.m, slip.n)
-                and _within_friction(friction(law, own, so_far, sense, -1.0, math.nan), slip, m, n)
+                and _still_grows(path, cycle, point, direction, slip.m, slip.n)
+                and _within_friction(friction(law, own, partial, sense, -1.0, math.nan), slip, m, n)
             ):
                 return False
             before_m, before_n = slip.m, slip.n
         if not (m <= before_m and n <= before_n):
             return False
-        if not _still_driven(way, cycle, last - end, direction, m, n):
+        if not _still_grows(path, cycle, last - end, direction, m, n):
             return False
     return True

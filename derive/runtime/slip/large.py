@@ -1,9 +1,10 @@
-r"""The stick zone between slip zones of opposite signs, of a cycle as `bounded.seen` gives it.
+r"""The stick zone between slip zones of opposite signs, of a cycle as returned by `bounded.seen`.
 
-Newton's method starts from the leading order of both slip zones.  Where it fails the width of the
-stick zone is sought in a bracket: the wider, the smaller the part of the loads that leaves it.  No
+Newton's method starts from the leading order of both slip zones.  If it fails, the width of the
+stick zone is sought in a bracket: a wider stick zone belongs to a smaller part of the loads.  No
 zone of this kind is narrower than the width H = 8 dQ/(pi dsigma) at which slip reverses on the
-right; that more than the loads leave such a zone shows that slip has reversed.
+right.  If a zone of that width takes more than the given loads, slip has not reversed; if it takes
+less, slip has reversed.
 """
 
 import math
@@ -28,21 +29,22 @@ from .newton import EPS, narrowed
 from .quadrature import FINEST
 
 EXACT = 1e-12
-"""Slip zones by two rules that agree to this are exact to rounding by the finer one."""
+"""If slip zones by two rules agree to this, those by the finer rule are exact to rounding."""
 
 LAST = 100.0
-"""The finest rule is far better than what it changes: it is taken if it changes so much more."""
+"""The finest rule is accepted at a change larger by this factor, since its own error is far
+smaller."""
 
 LEAST_SLIP = 1e-14
-"""Smallest slip zone to start from, in parts of the width."""
+"""Smallest initial slip zone, relative to the width."""
 
 NARROWEST = 1e-6
-"""The narrowest stick zone that is looked for in a bracket, in parts of the width."""
+"""The narrowest stick zone that is sought in a bracket, relative to the width."""
 
 
 @kernel(results(2)(LAW, vector, FRICTION))
 def _first_guess(law: Any, own: Any, of: Any) -> Any:
-    """Slip zones K_T/(f K_N), drawn in so that they leave some stick between them."""
+    """Slip zones K_T/(f K_N), reduced so that they leave some stick between them."""
     K_left = K_right = 0.0
     for end in (0, 2):
         a, c = of.cycle[end], of.cycle[end + 1]
@@ -62,22 +64,22 @@ def _first_guess(law: Any, own: Any, of: Any) -> Any:
 
 @kernel(SLIP(FRICTION, whole))
 def _bracketed(of: Any, level: int) -> Any:
-    """Slip zones by the width of the stick zone; m = -inf where slip reverses on the right."""
+    """Slip zones by the width of the stick zone; m = -inf if slip reverses on the right."""
     width = of.a + of.c
     stuck = max(8 * of.cycle[4] / (math.pi * of.cycle[5]), NARROWEST * width)
     if not stuck < width:
         return unknown(-math.inf)
     slip = placed(of, stuck, math.nan, level)
-    last, off = stuck, 1 - share(of, slip)
-    if off > 0:
+    last, excess = stuck, 1 - share(of, slip)
+    if excess > 0:
         return unknown(-math.inf)
     bracket = (stuck, width, (stuck + width) / 2, width - stuck)
     for _ in range(2 * STEPS):
-        before, stuck = off, bracket[2]
+        before, stuck = excess, bracket[2]
         slip = placed(of, stuck, slip.n, level)
-        off = 1 - share(of, slip)
-        bracket = narrowed(bracket, off, (off - before) / (stuck - last), CLOSE * width)
-        if bracket[1] - bracket[0] <= 2 * CLOSE * width or math.isnan(off):
+        excess = 1 - share(of, slip)
+        bracket = narrowed(bracket, excess, (excess - before) / (stuck - last), CLOSE * width)
+        if bracket[1] - bracket[0] <= 2 * CLOSE * width or math.isnan(excess):
             return slip
         last = stuck
     return unknown(math.nan)
@@ -85,10 +87,11 @@ def _bracketed(of: Any, level: int) -> Any:
 
 @kernel(SLIP(LAW, vector, vector, real, real))
 def large_slip(law: Any, own: Any, cycle: Any, sense: float, agreed: float) -> Any:
-    """The stick zone and its slip zones.
+    """The stick zone with its slip zones.
 
-    m and n are -inf where slip reverses, NaN where they are not found.
-    agreed: zones by two rules that agree to this, in parts of their own, are taken: EXACT or more.
+    m and n are -inf if slip reverses, NaN if they are not found.
+    agreed: zones by two rules are accepted if they agree to this, relative to their own lengths;
+    EXACT or more.
     """
     of = friction(law, own, cycle, sense, -1.0, math.nan)
     left, right = _first_guess(law, own, of)
@@ -104,10 +107,10 @@ def large_slip(law: Any, own: Any, cycle: Any, sense: float, agreed: float) -> A
             slip = _bracketed(of, level)
         if slip.m == -math.inf and last_left == math.inf:
             return slip
-        nearly = agreed if level < FINEST else LAST * agreed
+        allowed = agreed if level < FINEST else LAST * agreed
         if (
-            abs(slip.d_left - last_left) <= nearly * slip.d_left + rounding
-            and abs(slip.d_right - last_right) <= nearly * slip.d_right + rounding
+            abs(slip.d_left - last_left) <= allowed * slip.d_left + rounding
+            and abs(slip.d_right - last_right) <= allowed * slip.d_right + rounding
         ):
             return slip
         last_left, last_right = slip.d_left, slip.d_right

@@ -1,18 +1,19 @@
-r"""A steady cycle instant by instant: where it slips, and which way.
+r"""A steady cycle instant by instant: where it slips, and in which sense.
 
-All loads move in proportion, there and back between two states: at the least shear and at the
-greatest.  Let `part` say how far an instant has come from the first to the second.  Since the loads
-last turned, slip has grown as in a half-cycle that ends now, between the contact at the turn and
-the one now, if it grows all the way in the whole half-cycle; so the regime is that of the whole.
-Where slip turns round inside it (MIXED), nothing is told but its ends.
+All loads move in proportion, back and forth between two states, at the smallest and at the largest
+shear load.  Let `progress` be the fraction of the way from the first state to the second.  Since
+the last reversal of the loads, slip has grown as in a half-cycle that ends now, between the contact
+at the reversal and the contact now, provided that slip grows throughout the whole half-cycle.  The
+regime is therefore that of the whole half-cycle.  Where slip reverses within it (MIXED), only the
+states at its ends are returned.
 
-What is not known is refused, for all instants alike: loads out of proportion, a history that does
-not come back, and |Q| >= f P.  The last instant leads straight back to the first.  A history that
-goes from one state to the other and no further, so that this step were the whole way back, is a
-first loading and no cycle.
+Histories that cannot be solved are refused at all instants: loads out of proportion, a history that
+does not return to its first state, and |Q| >= f P.  The last instant leads straight back to the
+first.  A history that only goes from one state to the other, so that this last step would be the
+whole way back, is a first loading and not a cycle.
 
-Loads are a matrix of P, M, Q, sigma over E*, an instant a column; contacts one of A, C, TILT, LOAD
-and MOMENT, an instant a row.
+The loads are a matrix with rows P, M, Q, sigma over E* and a column per instant.  The contacts are
+a matrix with columns A, C, TILT, LOAD and MOMENT and a row per instant.
 """
 
 import math
@@ -29,19 +30,19 @@ from .series import slip_zones
 from .zone import FULL_STICK, LARGE, MIXED, NONE, SLIDING, UNSOLVED, stick_zone
 
 OUT_OF_PHASE, NOT_CLOSED, IN_ORDER = 7.0, 8.0, -1.0
-"""Two more codes of Regime, and that nothing is amiss."""
+"""Two more codes of Regime, and a code for a history without faults."""
 
 P, M, Q, SIGMA = range(4)
 """The rows of the loads."""
 
 BY_RANK = (Q, SIGMA, P, M)
-"""The first of them that changes says how far the others must have come."""
+"""The first of these loads that changes determines the progress of the others."""
 
 IN_PHASE = 1e-6
-"""How far loads may be off the way between both states, in parts of their change."""
+"""Largest deviation of a load from the way between both states, relative to its change."""
 
 ROUNDING = 1e-12
-"""Loads that change by less, in parts of what is large, are constant."""
+"""Loads whose relative change is below this are constant."""
 
 NOWHERE = math.nan, math.nan
 
@@ -51,20 +52,22 @@ NOWHERE = math.nan, math.nan
 
 @kernel(matrix(LAW, vector, matrix))
 def _contacts(law: Any, own: Array, loads: Array) -> Array:
-    """The contact at every instant; NaN where there is none."""
-    found = np.empty((loads.shape[1], 5))
+    """The contact at every instant; NaN if there is none."""
+    contacts = np.empty((loads.shape[1], 5))
     for i in range(loads.shape[1]):
         if i > 0 and loads[P, i] == loads[P, i - 1] and loads[M, i] == loads[M, i - 1]:
-            found[i] = found[i - 1]
+            contacts[i] = contacts[i - 1]
             continue
-        found[i, A], found[i, C], found[i, TILT] = contact(law, own, loads[P, i], loads[M, i])
-        found[i, LOAD], found[i, MOMENT] = loads[P, i], loads[M, i]
-    return found
+        contacts[i, A], contacts[i, C], contacts[i, TILT] = contact(
+            law, own, loads[P, i], loads[M, i]
+        )
+        contacts[i, LOAD], contacts[i, MOMENT] = loads[P, i], loads[M, i]
+    return contacts
 
 
 @kernel(vector(matrix, matrix, real))
 def _roundings(loads: Array, contacts: Array, f: Array) -> Array:
-    """What counts as no change of each load: a part of its size, and of P, P h, f P and f P/h."""
+    """Changes of each load that count as zero: a part of its size, and of P, P h, f P and f P/h."""
     sizes = np.zeros(4)
     for i in range(loads.shape[1]):
         h, load = contacts[i, A] + contacts[i, C], abs(loads[P, i])
@@ -76,43 +79,45 @@ def _roundings(loads: Array, contacts: Array, f: Array) -> Array:
 
 
 @kernel(vector(matrix, vector))
-def _parts(loads: Array, roundings: Array) -> Array:
-    """How far every instant has come, 0 to 1; NaN where the loads are out of proportion."""
-    part = np.zeros(loads.shape[1])
+def _progress(loads: Array, roundings: Array) -> Array:
+    """The progress of every instant, from 0 to 1; NaN where the loads are out of proportion."""
+    progress = np.zeros(loads.shape[1])
     low = high = 0
     for k in BY_RANK:
         low, high = int(np.argmin(loads[k])), int(np.argmax(loads[k]))
         change = loads[k, high] - loads[k, low]
         if change > 2 * roundings[k]:
-            rest = roundings[k] / change
-            for i in range(part.size):
-                come = (loads[k, i] - loads[k, low]) / change
-                part[i] = 0.0 if come <= rest else 1.0 if come >= 1 - rest else come
+            rounding = roundings[k] / change
+            for i in range(progress.size):
+                fraction = (loads[k, i] - loads[k, low]) / change
+                progress[i] = (
+                    0.0 if fraction <= rounding else 1.0 if fraction >= 1 - rounding else fraction
+                )
             break
     for k in range(4):
         change = loads[k, high] - loads[k, low]
-        for i in range(part.size):
-            off = abs(loads[k, i] - loads[k, low] - part[i] * change)
-            if not off <= IN_PHASE * abs(change) + 2 * roundings[k]:
-                part[i] = math.nan
-    return part
+        for i in range(progress.size):
+            deviation = abs(loads[k, i] - loads[k, low] - progress[i] * change)
+            if not deviation <= IN_PHASE * abs(change) + 2 * roundings[k]:
+                progress[i] = math.nan
+    return progress
 
 
 @kernel(vector(vector))
-def _starts(part: Array) -> Array:
-    """When the half-cycle of every instant began; NaN where the way there or back is not monotone.
+def _starts(progress: Array) -> Array:
+    """The instant at which each half-cycle began; NaN where the way there or back is not monotonic.
 
-    While the loads rest at a turn, the half-cycle that led there is at its end.
+    While the loads rest at a reversal, the half-cycle that led there has reached its end.
     """
-    count, begin = part.size, 0
+    count, begin = progress.size, 0
     for i in range(count):
-        if part[i] == 0 and part[(i + 1) % count] > 0:
+        if progress[i] == 0 and progress[(i + 1) % count] > 0:
             begin = i
     starts = np.empty(count)
     turn, rises, reached = begin, True, 0.0
     for k in range(1, count + 1):
         i = (begin + k) % count
-        now = part[i] if rises else 1 - part[i]
+        now = progress[i] if rises else 1 - progress[i]
         if reached == 1 and now < 1:
             turn, rises, reached = (i - 1) % count, not rises, 0.0
             now = 1 - now
@@ -122,27 +127,27 @@ def _starts(part: Array) -> Array:
 
 
 @kernel(real(matrix, matrix, real, vector, vector))
-def _amiss(loads: Array, contacts: Array, f: Array, part: Array, starts: Array) -> Array:
-    """The regime of a history that is refused at all instants."""
-    last = part.size - 1
-    slides, leaps = False, abs(part[last] - part[0]) > 1 - IN_PHASE
-    strays = False
-    for i in range(part.size):
+def _refusal(loads: Array, contacts: Array, f: Array, progress: Array, starts: Array) -> Array:
+    """The regime of a history that is refused at all instants, or IN_ORDER."""
+    last = progress.size - 1
+    slides, jumps = False, abs(progress[last] - progress[0]) > 1 - IN_PHASE
+    out_of_phase = False
+    for i in range(progress.size):
         known = f > 0 and contacts[i, C] + contacts[i, A] > 0 and math.isfinite(contacts[i, TILT])
         for k in range(4):
             known = known and math.isfinite(loads[k, i])
         if not known:
             return NONE
         slides = slides or abs(loads[Q, i]) >= f * loads[P, i]
-        strays = strays or math.isnan(part[i]) or math.isnan(starts[i])
+        out_of_phase = out_of_phase or math.isnan(progress[i]) or math.isnan(starts[i])
     if slides:
         return SLIDING
-    if strays:
+    if out_of_phase:
         return OUT_OF_PHASE
-    return NOT_CLOSED if leaps else IN_ORDER
+    return NOT_CLOSED if jumps else IN_ORDER
 
 
-# ---------------------------------------------------------------- what slips
+# ---------------------------------------------------------------- stick zones and slip
 
 
 @kernel(vector(matrix, matrix, vector, real, whole, whole, real))
@@ -155,7 +160,7 @@ def _half_cycle(
     end: Array,
     sense: Array,
 ) -> Array:
-    """a1, c1, a2, c2, dQ, dsigma, f between two instants; sense: -1 if the loads go back."""
+    """a1, c1, a2, c2, dQ, dsigma, f between two instants; sense is -1 if the loads go back."""
     cycle = np.empty(7)
     cycle[0], cycle[1] = contacts[start, A], contacts[start, C]
     cycle[2], cycle[3] = contacts[end, A], contacts[end, C]
@@ -177,7 +182,7 @@ def _stuck(
     order: Array,
     regime: Array,
 ) -> Any:
-    """m and n of a half-cycle that ends now, if the whole one is of a regime that is known."""
+    """m and n of a half-cycle that ends now, if the regime of the whole half-cycle is known."""
     a, c = min(cycle[0], cycle[2]), min(cycle[1], cycle[3])
     m, n = NOWHERE
     if regime == FULL_STICK:
@@ -200,7 +205,7 @@ def _stuck(
 
 @kernel(real(matrix, matrix, real))
 def _begin(found: Array, contacts: Array, regime: Array) -> Array:
-    """Instants of which no more is known than their contacts and the regime."""
+    """Fill the rows of instants for which only the contacts and the regime are known."""
     for i in range(found.shape[0]):
         found[i, 0], found[i, 1], found[i, 6] = contacts[i, A], contacts[i, C], regime
         found[i, 2] = found[i, 3] = math.nan
@@ -210,7 +215,7 @@ def _begin(found: Array, contacts: Array, regime: Array) -> Array:
 
 @kernel(real(vector, real, real, real))
 def _finish(found: Array, regime: Array, left: Array, order: Array) -> Array:
-    """The senses of slip of an instant whose stick zone has been asked for, and its regime."""
+    """Fill in the senses of slip, and the regime, at an instant whose stick zone was computed."""
     if math.isnan(found[2]):
         found[6] = UNSOLVED if order == 0 else NONE
     elif regime != FULL_STICK:
@@ -231,22 +236,22 @@ def each_march(law: Any, given: Array, own: Array, out: Array) -> None:
         loads, found = given[row, 2:].reshape((4, count)), out[row].reshape((count, 7))
         contacts = _contacts(law, body, loads)
         roundings = _roundings(loads, contacts, f)
-        part = _parts(loads, roundings)
-        starts = _starts(part)
-        regime = _amiss(loads, contacts, f, part, starts)
+        progress = _progress(loads, roundings)
+        starts = _starts(progress)
+        regime = _refusal(loads, contacts, f, progress, starts)
         _begin(found, contacts, regime)
         if regime != IN_ORDER:
             continue
-        low, high = np.argmin(part), np.argmax(part)
+        low, high = np.argmin(progress), np.argmax(progress)
         cycle = _half_cycle(loads, contacts, roundings, f, low, high, 1.0)
         m, _, regime = stick_zone(law, body, cycle)
         _begin(found, contacts, regime)
         kappa = -1.0 if regime == LARGE and cycle[5] < 0 else 1.0
         for i in range(count):
             start = int(starts[i])
-            sense = 1.0 if part[start] == 0 else -1.0
-            # of a mixed cycle its ends alone are known, if at all, and not by series
-            ends = part[i] == (1 + sense) / 2 and order == 0
+            sense = 1.0 if progress[start] == 0 else -1.0
+            # of a mixed cycle at most the ends are known, and not by series
+            ends = progress[i] == (1 + sense) / 2 and order == 0
             if not math.isnan(m) and (regime != MIXED or ends):
                 cycle = _half_cycle(loads, contacts, roundings, f, start, i, sense)
                 found[i, 2], found[i, 3] = _stuck(

@@ -1,34 +1,36 @@
-r"""Slip that turns round inside a half-cycle of constant normal loads: the exact stick zone.
+r"""Slip that reverses within a half-cycle at constant normal loads: the exact stick zone.
 
-Tension loads the left edge more, dsigma > 0; else the body is seen from behind.  While [-m, n]
-sticks and the loads go on in proportion, its right end is driven by dQ - pi dsigma (m + n)/8, which
-vanishes at a width m + n = H = 8 dQ/(pi dsigma).  Between the moderate and the large regime a
+Tension loads the left edge more, dsigma > 0; otherwise the body is seen from behind.  While [-m, n]
+sticks and the loads change in proportion, its right end is driven by dQ - pi dsigma (m + n)/8,
+which vanishes at a width m + n = H = 8 dQ/(pi dsigma).  Between the moderate and the large regime a
 half-cycle has three phases:
 
-1. Slip as in large tension makes both ends recede until m + n = H: n is as small as it gets.
-2. The right edge sticks again, from n outward.  Its new end is not loaded, so that m + n = H stays:
+1. With slip as in large tension both ends recede until m + n = H, where n reaches its minimum. 2.
+The right edge sticks again, from n outward.  The new end is not loaded, so that m + n = H remains:
 
        dq/dlambda = (dsigma/4) sqrt((H - t)/t),    t = x + m,
 
-   lambda the part of the half-cycle.  How fast m falls, Lambda = -dlambda/dm, follows from friction
-   at -m, which is Abel's equation:
+   where lambda is the part of the half-cycle.  The rate at which m falls, Lambda = -dlambda/dm,
+   follows from friction at -m, which is Abel's equation:
 
        (dsigma/4) int_m^m1 sqrt((H - t)/t) Lambda(mu) dmu = 2 f p(-m) - dq1(-m),    t = mu - m,
 
-   m1 and dq1 those at the end of phase 1.  Where m passes a kink of the body, p has d log d, d the
-   distance from it: Lambda has a root before the kink and none behind, and is kept leg by leg.
-3. All of the right edge sticks, m + c = H, and from now on it slips as in moderate tension.
+   with m1 and dq1 from the end of phase 1.  Where m passes a kink of the body, p contains d log d,
+   d being the distance from the kink.  Lambda has a square root before the kink and none beyond it,
+   and is therefore stored leg by leg.
+3. All of the right edge sticks, m + c = H, and from then on it slips as in moderate tension.
 
-Each half-cycle ends as the other one began, with the sign of shear turned.  So what slips back on
-the right in phase 1 is 2 f p less the gain, the shear won since it stuck again: 2 f p where phase 3
-brought it to friction.  The gain is found by iteration, in tables of more and more terms until m
-and n stay.
+Each half-cycle starts from the end of the other one, with the sign of shear reversed.  In phase 1
+the reversed slip on the right therefore leaves 2 f p less the gain, the shear gained since the
+point stuck again; the gain is 2 f p where phase 3 brought the point to friction.  The gain is found
+by iteration, in tables of more and more terms, until m and n converge.
 
-Shear must not be driven on where it is at friction since the last half-cycle: on the left, and on
-the right where nothing was won.  In phase 1 its rate changes its sign at mid + H/2, mid the middle
-of what sticks so far: at n when the phase ends, and nowhere there when it begins.
+Shear must not be driven further where it has been at friction since the last half-cycle: on the
+left, and on the right where nothing was gained.  In phase 1 its rate changes sign at mid + H/2,
+where mid is the middle of the current stick zone: at n when the phase ends, and at no such point
+when it begins.
 
-In phases 1 and 3 slip grows as bounded.py says, in phase 3 with what was won taken off.
+In phases 1 and 3 slip grows as bounded.py describes; in phase 3 the gain is subtracted.
 """
 
 import math
@@ -57,10 +59,10 @@ from .bounded import (
     Gain,
     change,
     friction,
-    lacking,
+    friction_limits,
     no_gain,
     placed,
-    rubbed,
+    remaining_friction,
     seen,
     sense_of,
     share,
@@ -83,48 +85,50 @@ from .tables import (
 from .zone import MIXED, UNSOLVED, ends_of, stick_zone
 
 TERMS = (16, 24, 36, 54)
-"""Terms of the tables, one after the other."""
+"""Numbers of terms of the tables, in turn."""
 
 LEVEL = 2
 """Level of the quadrature of slip zones."""
 
 AGREED = 1e-7
-"""Zones by two tables that agree to this, in parts of the contact, are exact by the finer one."""
+"""If zones by two tables agree to this, relative to the contact width, the finer one is exact."""
 
 ROUNDS = 20
-"""Rounds of the iteration at most; three to five are common."""
+"""Largest number of iterations; three to five are common."""
 
 REST = 1e-9
-"""Change of m and n from one round to the next that is none, in parts of the contact."""
+"""Change of m and n between iterations that counts as zero, relative to the contact width."""
 
 SLACK = 1e-6
-"""What is allowed for rounding, in parts of the friction."""
+"""Allowance for rounding, relative to friction."""
 
 STRETCHES = (1 / 64, 1 / 16, 1 / 4, 1.0)
-"""How far tables of phase 2 reach, in parts of the way to the end of the stick zone's growth."""
+"""Lengths of the tables of phase 2, relative to the distance to its end."""
 
 NEAR = 1e-4
-"""Where roots at the edges are measured to start from, in parts of H."""
+"""Distance, over H, at which the square roots at the edges are measured for a first guess."""
 
 STEPS = 80
-"""Steps at most to find the end of phase 2."""
+"""Largest number of steps to find the end of phase 2."""
 
 STRIP, BESIDE = 2e-3, 4e-3
-"""How far past its end the moderate zone is led on where tables fail, and whence, over a + c."""
+"""Width of the strip beyond the moderate zone in which tables fail and the solution is
+extrapolated, and the point from which it is extrapolated, both as (a + n - H)/(a + c)."""
 
 
 CROWDED, CROWDED_WEIGHTS = double_exponential(2.0**-4)
-"""The quadrature of what was won: roots and what is nearly singular at both ends."""
+"""The quadrature of the gain, which has square roots and near singularities at both ends."""
 
 
 class Receded(NamedTuple):
-    """Phase 2, in legs between the breaks that m passes; its m and part at the end.
+    """Phase 2, in legs between the breaks that m passes, with m and lambda at its end.
 
-    tops     where m is when a leg begins
-    spans    how far the table of a leg reaches
-    rates    a leg's Lambda as a series in s, mu = top - span sin(pi s/2)**2, a row each
-    s        where the last leg ends
-    stretch  number of the stretch that the last table spans, four a leg
+    tops     m at the start of each leg
+    spans    length of the table of each leg
+    rates    Lambda of each leg as a series in s, mu = top - span sin(pi s/2)**2, one row per leg
+    m, part  m and lambda at the end
+    s        end of the last leg
+    stretch  number of the stretch that the last table spans, four per leg
     """
 
     tops: Any
@@ -137,10 +141,12 @@ class Receded(NamedTuple):
 
 
 class State(NamedTuple):
-    """What a half-cycle leaves to the next: its zone, the gain, and where to start from.
+    """The state that a half-cycle passes on to the next: its zone, the gain, and first guesses.
 
-    m, n         the permanent stick zone; NaN where the phases are not these
+    m, n         the permanent stick zone; NaN unless the half-cycle has these phases
+    gain         the gain on the right
     left, right  slip zones of phase 3
+    stretch      stretch at which the tables of phase 2 start
     """
 
     m: float
@@ -157,7 +163,7 @@ STATE = record(State, real, real, GAIN, real, real, whole)
 
 @kernel(FRICTION(FRICTION, real, real, real, GAIN, GAIN))
 def _with_gains(of: Any, part: float, a: float, kappa: float, left: Any, right: Any) -> Any:
-    """Of a part of the loads, slip zones on the left as far as a, and gains."""
+    """Friction for a part of the loads, with slip zones on the left up to a, and gains."""
     cycle, cuts = of.cycle.copy(), np.empty(of.cuts.size + 4)
     cycle[4], cycle[5] = part * cycle[4], part * cycle[5]
     cuts[0], cuts[1] = left.table.start, left.table.end
@@ -171,7 +177,7 @@ def _with_gains(of: Any, part: float, a: float, kappa: float, left: Any, right: 
 
 @kernel(real(FRICTION))
 def _width(of: Any) -> float:
-    """H."""
+    """The width H."""
     return float(8 * of.cycle[4] / (math.pi * of.cycle[5]))
 
 
@@ -180,7 +186,7 @@ def _width(of: Any) -> float:
 
 @kernel(vector(matrix))
 def _eliminated(rows: Any) -> Any:
-    """The solution of linear equations, by Gauss's elimination; their right sides come last."""
+    """The solution of linear equations by Gaussian elimination; the last column is the right side."""
     count = len(rows)
     for k in range(count):
         pivot = k
@@ -195,21 +201,21 @@ def _eliminated(rows: Any) -> Any:
             factor = rows[i, k] / rows[k, k]
             for j in range(k, count + 1):
                 rows[i, j] -= factor * rows[k, j]
-    found = np.empty(count)
+    solution = np.empty(count)
     for k in range(count - 1, -1, -1):
-        found[k] = rows[k, count]
+        solution[k] = rows[k, count]
         for j in range(k + 1, count):
-            found[k] -= rows[k, j] * found[j]
-        found[k] /= rows[k, k]
-    return found
+            solution[k] -= rows[k, j] * solution[j]
+        solution[k] /= rows[k, k]
+    return solution
 
 
 @kernel(vector(real, vector))
 def abel(width: float, right: Any) -> Any:
-    """The series Lambda(s) whose integrals at the places s are `right`.
+    """The series Lambda(s) whose integrals at the points s are `right`.
 
     int_0^(pi/2) sqrt(width - (v sin(phi))**2) cos(phi) Lambda dphi = right,   v = sin(pi s/2),
-    Lambda where v is v cos(phi)
+    with Lambda taken where v is v cos(phi)
     """
     count = len(right)
     rows = np.zeros((count, count + 1))
@@ -232,7 +238,7 @@ def abel(width: float, right: Any) -> Any:
 
 
 @kernel(real(vector, real, real))
-def _gone(rates: Any, span: float, s: float) -> float:
+def _elapsed(rates: Any, span: float, s: float) -> float:
     """The part of the half-cycle since a leg began:  span int_0^s (pi/2) sin(pi s) Lambda ds."""
     part = 0.0
     for i in range(len(GAUSS)):
@@ -241,20 +247,20 @@ def _gone(rates: Any, span: float, s: float) -> float:
 
 
 @kernel(real(FRICTION, RECEDED, real))
-def _won(of: Any, receded: Any, x: float) -> float:
+def _gained(of: Any, receded: Any, x: float) -> float:
     """(dsigma/4) int sqrt((H - x - mu)/(x + mu)) Lambda dmu over mu > m, while x sticks."""
     total, legs = 0.0, len(receded.tops)
     for leg in range(legs):
-        last = receded.tops[leg + 1] if leg < legs - 1 else receded.m
-        room = _width(of) - x - receded.tops[leg]
-        top = min(0.0, room)
-        length = receded.tops[leg] + top - last
+        bottom = receded.tops[leg + 1] if leg < legs - 1 else receded.m
+        distance = _width(of) - x - receded.tops[leg]
+        top = min(0.0, distance)
+        length = receded.tops[leg] + top - bottom
         if length > 0:
             rates, span = receded.rates[leg], receded.spans[leg]
             for i in range(len(CROWDED)):
                 below_top = length * CROWDED[len(CROWDED) - 1 - i]
                 s = 2 / math.pi * math.asin(math.sqrt(min((below_top - top) / span, 1.0)))
-                above, below = below_top + (room - top), (x + last) + length * CROWDED[i]
+                above, below = below_top + (distance - top), (x + bottom) + length * CROWDED[i]
                 weight = length * CROWDED_WEIGHTS[i]
                 total += weight * summed(rates, s) * math.sqrt(above / below)
     return float(of.cycle[5] / 4 * total)
@@ -262,29 +268,29 @@ def _won(of: Any, receded: Any, x: float) -> float:
 
 @kernel(vector(FRICTION, SLIP, RECEDED, real, whole))
 def _rates(of: Any, grown: Any, before: Any, span: float, count: int) -> Any:
-    """Lambda on the leg behind those before, down to m - span."""
+    """Lambda on the next leg, down to m - span, given the legs before it."""
     s = np.array([chebyshev_place(i, count) for i in range(count)])
     places = span * np.sin(math.pi / 2 * s) ** 2 - before.m
-    right = rubbed(of, places)
+    right = friction_limits(of, places)
     for i in range(count):
-        right[i] -= change(grown, places[i]) + _won(of, before, places[i])
+        right[i] -= change(grown, places[i]) + _gained(of, before, places[i])
         right[i] *= 2 / (of.cycle[5] * span * math.sin(math.pi / 2 * s[i]))
     return abel(_width(of) / span, right)
 
 
 @kernel(real(FRICTION, real, real))
 def _next_break(of: Any, m: float, least: float) -> float:
-    """Where m passes a break next, falling; `least` where it does not."""
-    found = least
+    """The next break that m passes as it falls; `least` if there is none."""
+    next_break = least
     for place in of.cuts:
-        if found < -place < m:
-            found = -place
-    return found
+        if next_break < -place < m:
+            next_break = -place
+    return next_break
 
 
 @kernel(RECEDED(RECEDED, real, vector, real, whole))
 def _with_leg(before: Any, span: float, rates: Any, part: float, stretch: int) -> Any:
-    """One more leg, which begins where the last one ends, as far as its table reaches."""
+    """Append one leg, which begins at the end of the last one and extends over its whole table."""
     legs = len(before.tops)
     tops, spans = np.full(legs + 1, before.m), np.full(legs + 1, span)
     series = np.empty((legs + 1, len(rates)))
@@ -295,18 +301,18 @@ def _with_leg(before: Any, span: float, rates: Any, part: float, stretch: int) -
 
 @kernel(RECEDED(RECEDED, real, real, real))
 def _ending(receded: Any, m: float, part: float, s: float) -> Any:
-    """The same with another end."""
+    """The same legs with another end."""
     return Receded(receded.tops, receded.spans, receded.rates, m, part, s, receded.stretch)
 
 
 @kernel(RECEDED(RECEDED, real))
 def _cut_off(receded: Any, part: float) -> Any:
-    """Ended in its last leg, with the half-cycle; part: what was gone before that leg."""
+    """The legs ended in the last one by the end of the half-cycle; part: lambda before that leg."""
     top, span, rates = receded.tops[-1], receded.spans[-1], receded.rates[-1]
     bracket = (0.0, 1.0, 1.0, 1.0)
     for _ in range(STEPS if receded.part < math.inf else 0):
         s = bracket[2]
-        excess = part + _gone(rates, span, s) - 1
+        excess = part + _elapsed(rates, span, s) - 1
         rate = math.pi / 2 * span * math.sin(math.pi * s) * summed(rates, s)
         bracket = narrowed(bracket, excess, rate, 4 * EPS)
         if bracket[1] - bracket[0] <= 8 * EPS:
@@ -318,8 +324,8 @@ def _cut_off(receded: Any, part: float) -> Any:
 def _recede(of: Any, grown: Any, middle: float, part: float, stretch: int, count: int) -> Any:
     """Phase 2, until all of the right edge sticks or the half-cycle ends.
 
-    How far m falls is not known beforehand: tables reach further and further.  At a break begins
-    another leg, as Lambda has a root before it.
+    The range of m is not known beforehand, so that the tables are extended step by step.  A new leg
+    begins at each break, because Lambda has a square root before it.
     """
     sticks_all_right, nowhere = _width(of) - of.c, np.empty(0)
     least, legs = max(sticks_all_right, -middle), 0
@@ -329,23 +335,23 @@ def _recede(of: Any, grown: Any, middle: float, part: float, stretch: int, count
         for i in range(max(min(stretch - 4 * legs, 3), 0), len(STRETCHES)):
             span = STRETCHES[i] * full
             rates = _rates(of, grown, before, span, count)
-            gone = before.part + _gone(rates, span, 1.0)
-            receded = _with_leg(before, span, rates, gone, 4 * legs + i)
-            if not gone < 1:
+            elapsed = before.part + _elapsed(rates, span, 1.0)
+            receded = _with_leg(before, span, rates, elapsed, 4 * legs + i)
+            if not elapsed < 1:
                 return _cut_off(receded, before.part)
         legs += 1
     return receded if sticks_all_right >= -middle else _ending(receded, math.nan, 1.0, math.nan)
 
 
 @kernel(GAIN(FRICTION, RECEDED, SLIP, real, real, real, whole))
-def _won_from(
+def _gain_of_phase_2(
     of: Any, receded: Any, grown: Any, start: float, end: float, near: float, count: int
 ) -> Any:
-    """The gain of phase 2; near > 0: on the left, where shear of phase 1 is added."""
+    """The gain of phase 2.  near > 0: the gain on the left, where the shear of phase 1 is added."""
     values = np.empty(count)
     for i in range(count):
         x = table_place(start, end, near, i, count)
-        values[i] = _won(of, receded, x)
+        values[i] = _gained(of, receded, x)
         if near > 0:
             values[i] += change(grown, x)
     return Gain(Table(start, end, near, series_of(values)), 0.0)
@@ -355,8 +361,9 @@ def _won_from(
 def _regrown(of: Any, left: float, right: float) -> Any:
     """Slip zones of phase 3: from those of the last half-cycle, else from a first guess.
 
-    That takes roots for what friction lacks at both edges.  At its start the left edge is driven by
-    2 dQ and the right one not at all; later by what the stick zone has lost in width.
+    The first guess takes the remaining friction at both edges as square roots.  At the start of
+    phase 3 the left edge is driven by 2 dQ and the right one not at all; later the right one is
+    driven in proportion to the loss of width of the stick zone.
     """
     if left > 0:
         slip = solved(of, left, right, LEVEL)
@@ -364,8 +371,8 @@ def _regrown(of: Any, left: float, right: float) -> Any:
             return slip
     H, near = _width(of), NEAR * _width(of)
     scale = math.pi / 2 * math.sqrt(H / near)
-    at_left = scale * lacking(of, of.left, np.array([near - of.a]))[0]
-    at_right = scale * lacking(of, of.right, np.array([of.c - near]))[0]
+    at_left = scale * remaining_friction(of, of.left, np.array([near - of.a]))[0]
+    at_right = scale * remaining_friction(of, of.right, np.array([of.c - near]))[0]
     left, right = H / 4, H / 4
     if at_left > 0:
         left = min(2 * of.cycle[4] / at_left, left)
@@ -377,7 +384,7 @@ def _regrown(of: Any, left: float, right: float) -> Any:
 
 @kernel(STATE(FRICTION, real, STATE, whole))
 def _half_cycle(of: Any, middle: float, begun: Any, count: int) -> Any:
-    """The zone and the gain that a half-cycle ends with, by tables of so many terms."""
+    """The zone and the gain at the end of a half-cycle, by tables with `count` terms."""
     nothing = State(math.nan, math.nan, begun.gain, math.nan, math.nan, 0)
     c, H = of.c, _width(of)
     of = _with_gains(of, 1.0, of.a, -1.0, no_gain(), begun.gain)
@@ -394,13 +401,13 @@ def _half_cycle(of: Any, middle: float, begun: Any, count: int) -> Any:
             if not summed(receded.rates[leg], end * chebyshev_place(i, count)) >= 0:
                 return nothing
     m, n, left, right = receded.m, H - receded.m, 0.0, 0.0
-    won_right = _won_from(of, receded, grown, n_1, min(n, c), 0.0, count)
+    gain_right = _gain_of_phase_2(of, receded, grown, n_1, min(n, c), 0.0, count)
     if not receded.part < 1:
-        return State(m, n_1, won_right, left, right, receded.stretch)
+        return State(m, n_1, gain_right, left, right, receded.stretch)
 
     middle_right = (middle + n_1) / 2
-    won_left = _won_from(of, receded, grown, -m, middle_right, grown.m - m, count)
-    of = _with_gains(of, 1 - receded.part, m, 1.0, won_left, won_right)
+    gain_left = _gain_of_phase_2(of, receded, grown, -m, middle_right, grown.m - m, count)
+    of = _with_gains(of, 1 - receded.part, m, 1.0, gain_left, gain_right)
     slip = _regrown(of, begun.left, begun.right)
     left, right = slip.d_left, slip.d_right
     if not (left < m + middle_right and left - m < middle < c - right):
@@ -410,30 +417,30 @@ def _half_cycle(of: Any, middle: float, begun: Any, count: int) -> Any:
     values = np.empty(count)
     for i in range(count):
         x = table_place(start, n, 0.0, i, count)
-        values[i] = tabled(won_right.table, x) + change(slip, x)
+        values[i] = tabled(gain_right.table, x) + change(slip, x)
     gain = Gain(Table(start, n, 0.0, series_of(values)), 1.0)
     return State(slip.m, n_1, gain, left, right, receded.stretch)
 
 
 @kernel(truth(FRICTION, STATE))
 def _is_sound(of: Any, state: Any) -> bool:
-    """Whether shear stays within friction where it sticks again, and is not driven on elsewhere."""
-    table, count, most, off = state.gain.table, len(state.gain.table.terms), 0.0, 0.0
+    """Whether shear stays within friction where points stick again, and is not driven on elsewhere."""
+    table, count, most, excess = state.gain.table, len(state.gain.table.terms), 0.0, 0.0
     places = np.array([table_place(state.n, table.end, 0.0, i, count) for i in range(count)])
-    twice = rubbed(of, places)
+    twice = friction_limits(of, places)
     for i in range(count):
-        won = tabled(table, places[i])
-        if not abs(won) < math.inf:
+        gained = tabled(table, places[i])
+        if not abs(gained) < math.inf:
             return False
-        most, off = max(most, twice[i]), max(off, -won, won - twice[i])
+        most, excess = max(most, twice[i]), max(excess, -gained, gained - twice[i])
     turns = (of.c - of.a) / 2 + _width(of) / 2
     last = of.c if state.gain.rubs > 0 else table.end
-    return state.n < table.end <= of.c and -state.m <= turns <= last and off <= SLACK * most
+    return state.n < table.end <= of.c and -state.m <= turns <= last and excess <= SLACK * most
 
 
 @kernel(results(2)(LAW, vector, vector, real))
 def turning(law: Any, own: Any, cycle: Any, sense: float) -> Any:
-    """m and n of a cycle as seen; NaN where the phases are not these, or tables do not agree."""
+    """m and n of a cycle as seen; NaN unless it has these phases and the tables converge."""
     a, c = cycle[0], cycle[1]
     if not (cycle[4] > 0 and cycle[5] > 0 and a + c > 0):
         return math.nan, math.nan
@@ -457,27 +464,27 @@ def turning(law: Any, own: Any, cycle: Any, sense: float) -> Any:
 
 @kernel(results(3)(LAW, vector, matrix, vector, real))
 def _moderate(law: Any, own: Any, ends: Any, cycle: Any, times: float) -> Any:
-    """m and n under moderate tension so many times as large, seen so that it is positive.
+    """m and n under moderate tension at `times` the given tension, seen so that this is positive.
 
-    And how far a + n is past H, in parts of the contact.
+    The third value is (a + n - H)/(a + c).
     """
-    tried = cycle.copy()
-    tried[5] *= times
-    m, n = patch(law, own, ends, 0, 1, 1.0, tried)
+    trial = cycle.copy()
+    trial[5] *= times
+    m, n = patch(law, own, ends, 0, 1, 1.0, trial)
     a = cycle[0]
-    if tried[5] < 0:
+    if trial[5] < 0:
         m, n, a = n, m, cycle[1]
-    past = a + n - 8 * cycle[4] / (math.pi * abs(tried[5]))
-    return m, n, past / (cycle[0] + cycle[1])
+    excess = a + n - 8 * cycle[4] / (math.pi * abs(trial[5]))
+    return m, n, excess / (cycle[0] + cycle[1])
 
 
 @kernel(results(2)(LAW, vector, matrix, vector))
 def turned_round(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
-    """m and n of a cycle of constant loads in which slip turns round; NaN where they are not found.
+    """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found.
 
-    A little past the end of the moderate zone, where tables fail, n parts from the moderate one
-    like the square of what a + n is past H, and m far less: by how much is taken from a tension a
-    little larger.
+    In a strip beyond the end of the moderate zone, tables fail.  There n departs from the moderate
+    solution as the square of a + n - H, and m departs far less.  Both departures are scaled from
+    a tension a little larger.
 
     ends, cycle: as in zone.py.
     """
@@ -498,7 +505,7 @@ def turned_round(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
 
 @kernel(LOOP)
 def each_stick_zone(law: Any, given: Any, own: Any, out: Any) -> None:
-    """As in zone.py, and the zones of mixed cycles at constant normal loads."""
+    """As in zone.py, and also the zones of mixed cycles at constant normal loads."""
     law = opened(law)
     for i in range(given.shape[0]):
         cycle, body = given[i], own[i]

@@ -1,5 +1,7 @@
-"""The stick zone of moderate tension: the contact at the mean load less dQ/(2 f) and the mean tilt
-less dsigma/(4 f), for E* = 1; and the changes of tension that leave no slip zone at one edge.
+"""The stick zone under moderate tension, and the tensions that leave no slip zone at one edge.
+
+The stick zone is the contact at the mean load less dQ/(2 f) and the mean tilt less dsigma/(4 f),
+for E* = 1.
 """
 
 import math
@@ -10,26 +12,26 @@ from ..kernels import LAW, kernel, matrix, real, results, vector, whole
 from .newton import EPS, narrowed
 
 A, C, TILT, LOAD, MOMENT = range(5)
-"""What is known of a contact, in this order."""
+"""Columns of a matrix of contacts."""
 
 FACTOR = 8.0
-"""By how much a width is changed until it is bracketed."""
+"""Factor by which a width is changed until it is bracketed."""
 
 STEPS = 100
-"""Steps at most until a width is bracketed, and until it is found."""
+"""Largest number of steps until a width is bracketed and found."""
 
 
 @kernel(results(2)(LAW, vector, matrix, whole, whole, real, vector))
-def patch(law: Any, own: Any, way: Any, one: int, other: int, part: float, cycle: Any) -> Any:
-    """m and n between two contacts, the rows of `way`, after a part of the change of shear."""
-    load = (way[one, LOAD] + way[other, LOAD]) / 2 - part * cycle[4] / (2 * cycle[6])
-    tilt = (way[one, TILT] + way[other, TILT]) / 2 - part * cycle[5] / (4 * cycle[6])
+def patch(law: Any, own: Any, path: Any, one: int, other: int, part: float, cycle: Any) -> Any:
+    """m and n between two contacts, rows of `path`, after a part of the change of shear."""
+    load = (path[one, LOAD] + path[other, LOAD]) / 2 - part * cycle[4] / (2 * cycle[6])
+    tilt = (path[one, TILT] + path[other, TILT]) / 2 - part * cycle[5] / (4 * cycle[6])
     return contact_at_tilt(law, own, load, tilt)
 
 
 @kernel(results(3)(LAW, vector, real, real, real))
 def _keeping(law: Any, own: Any, edge: float, width: float, side: float) -> Any:
-    """Load, its rate with the width, and tilt of a contact that keeps its left or right edge."""
+    """Load, its rate with the width, and tilt of a contact whose left or right edge is kept."""
     a, c = (edge, width - edge) if side < 0 else (width - edge, edge)
     load, _, tilt, K_left, K_right = law.state(a, c, own)
     if not load > 0:
@@ -39,9 +41,9 @@ def _keeping(law: Any, own: Any, edge: float, width: float, side: float) -> Any:
 
 @kernel(real(LAW, vector, real, real, real, real))
 def _width_under(law: Any, own: Any, load: float, edge: float, side: float, width: float) -> Any:
-    """Width of the contact under a load that keeps its edge on one side; NaN if there is none.
+    """Width of the contact under a load with the edge on one side given; NaN if there is none.
 
-    width: where to look first.
+    width: the first guess.
     """
     steps = 0
     while _keeping(law, own, edge, width, side)[0] < load and steps < STEPS:
@@ -51,17 +53,17 @@ def _width_under(law: Any, own: Any, load: float, edge: float, side: float, widt
     least = width / FACTOR
     bracket = (least, width, width, width - least)
     for _ in range(STEPS - steps):
-        tried = bracket[2]
-        now, rate, _ = _keeping(law, own, edge, tried, side)
+        trial = bracket[2]
+        now, rate, _ = _keeping(law, own, edge, trial, side)
         bracket = narrowed(bracket, now - load, rate, 2 * EPS * width)
         if bracket[1] - bracket[0] <= 4 * EPS * width:
-            return tried
+            return trial
     return math.nan
 
 
 @kernel(real(LAW, vector, matrix, vector, real))
 def closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
-    """The change of tension at which the zone ends where the smaller contact does, on one side."""
+    """The change of tension at which the zone reaches the smaller contact's edge on one side."""
     load = (ends[0, LOAD] + ends[1, LOAD]) / 2 - cycle[4] / (2 * cycle[6])
     if not load > 0:
         return math.nan
@@ -71,6 +73,6 @@ def closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
     if not width > 0:
         return math.nan
     now, _, tilt = _keeping(law, own, edge, width, side)
-    # beside a kink rounding of the other edge is much of the tilt: what the load lacks tells it
+    # next to a kink, rounding of the other edge changes the tilt: correct it by the missing load
     tilt += side * 4 * (load - now) / (math.pi * width)
     return 4 * cycle[6] * ((ends[0, TILT] + ends[1, TILT]) / 2 - tilt)

@@ -1,4 +1,4 @@
-r"""The change of shear over a half-cycle, and how far the surfaces slip.
+r"""The change of shear over a half-cycle, and the slip range.
 
 With w(x) = sqrt((x + m)(x - n)), negative on the left, W(x) = sqrt((x + m)(n - x)), and r = kappa f
 (p1 + p2) in the slip zones, the bounded solution is
@@ -7,27 +7,29 @@ With w(x) = sqrt((x + m)(x - n)), negative on the left, W(x) = sqrt((x + m)(n - 
     (1/pi) PV int dq/(x - xi) dxi - dsigma/4
           = -(w(x)/pi) PV int_slip r/(w(xi) (xi - x)) dxi          in the slip zones.
 
-Let a slip zone be L long and d away from x, the other one D, y the distance from its start, and
-h_s = m + n.  It holds p1 + p2 = p_0 at its start, which is taken off, since
+Let L be the length of a slip zone, d the distance of x from it, D the distance of x from the other
+one, y the distance from the start of the slip zone, and h_s = m + n.  The value of r at the start
+of the zone is subtracted from r and integrated exactly, since
 
     sqrt(d D) int_0^L dy/(sqrt(y (y + h_s)) (y + d)) = 2 arctan sqrt(L D/(d (L + h_s))).
 
-Under moderate tension dq is f (p1 + p2 - 2 p_s), p_s the pressure of the patch [-m, n].
+Under moderate tension dq is f (p1 + p2 - 2 p_s), where p_s is the pressure of the patch [-m, n].
 
 The second equation is E*/2 times the rate of slip along x.  Slip is its integral from the stick
-zone: with y and Y the distances of x and xi from there, to the outside,
+zone.  With y and Y the outward distances of x and xi from the stick zone,
 
     int_0^y sqrt(t (t + h_s))/(Y - t) dt = -sqrt(y (y + h_s)) - (2 Y + h_s) asinh sqrt(y/h_s)
-        + sqrt(Y (Y + h_s)) log |(r + s)/(r - s)|,   r = sqrt(Y (y + h_s)),  s = sqrt(y (Y + h_s)),
+        + sqrt(Y (Y + h_s)) log |(r + s)/(r - s)|,   r = sqrt(Y (y + h_s)),  s = sqrt(y (Y + h_s)).
 
-and for Y < -h_s, the other slip zone, with |Y|, |Y + h_s| in r and s and the logarithm's sign
-changed.
+For Y < -h_s, the other slip zone, r and s take |Y| and |Y + h_s|, and the logarithm changes its
+sign.
 
-The shear itself follows from its changes where the normal loads are constant.  From nothing, slip
-holds f p where a half-cycle changes by 2 f p, and both obey the same linear equations: what Q and
-sigma leave when they first rise is half the change under 2 Q and 2 sigma.  What they fall by after
-that changes it as any half-cycle does, as long as it slips back in no other place than it slipped,
-and drives none of these on.
+At constant normal loads the shear traction itself follows from its changes.  In the first loading
+from zero, friction in the slip zones is f p, where the change over a half-cycle is 2 f p.  Both
+problems obey the same linear equations, so that the first loading to Q and sigma produces half of
+the change under 2 Q and 2 sigma.  When the loads then fall, the shear traction changes as in any
+half-cycle, provided that reverse slip is confined to points that slipped before, and that no point
+that slipped before is driven further.
 
 A cycle is a vector a1, c1, a2, c2, dQ, dsigma, f; everything is for E* = 1.
 """
@@ -44,19 +46,20 @@ MODERATE, LARGE, MIXED, FULL_STICK = 1.0, 2.0, 3.0, 5.0
 """Codes of Regime."""
 
 LEVEL = 2
-"""Level of the quadrature: enough however close a kink is to the stick zone."""
+"""Level of the quadrature, sufficient however close a kink is to the stick zone."""
 
 BESIDE = 1e-20
-"""How far a place in the stick zone is kept from a corner, in parts of its width, or"""
+"""Least distance between a point in the stick zone and a corner, relative to the zone's width."""
 
 EPS = 2.0**-52
-"""in parts of its distance from the origin."""
+"""Least such distance relative to the corner's distance from the origin; the larger one applies."""
 
 ROUNDED = 1e-9
-"""Ends of two stick zones that differ by less, in parts of the contact, may be the same."""
+"""Ends of two stick zones that differ by less than this fraction of the contact width may be
+equal."""
 
 TINY = 1e-300
-"""Least number a logarithm is taken of."""
+"""Least argument of a logarithm."""
 
 
 # ---------------------------------------------------------------- the change of shear
@@ -70,11 +73,11 @@ def _alike(cycle: Any) -> Any:
 
 @kernel(real(LAW, vector, real, real, real))
 def _beside_corner(law: Any, own: Any, x: float, m: float, n: float) -> Any:
-    """x, moved off a corner in the stick zone, inward: p is infinite there, dq is not."""
-    for place in law.breaks(own):
-        away = max(BESIDE * (m + n), EPS * abs(place))
-        if abs(x - place) < away:
-            x = place + (away if place < (n - m) / 2 else -away)
+    """x, moved inward off a corner in the stick zone: p is infinite at the corner, dq is not."""
+    for corner in law.breaks(own):
+        away = max(BESIDE * (m + n), EPS * abs(corner))
+        if abs(x - corner) < away:
+            x = corner + (away if corner < (n - m) / 2 else -away)
     return x
 
 
@@ -116,29 +119,29 @@ def each_shear_change(law: Any, given: Any, own: Any, out: Any) -> None:
         out[i, 0] = change_at(law, own[i], given[i, 1:8], m, n, regime, given[i, 0])
 
 
-# ---------------------------------------------------------------- the shear itself
+# ---------------------------------------------------------------- the shear traction itself
 
 
 @kernel(truth(vector, results(3), real, real))
 def _turns_between(cycle: Any, zone: Any, a: float, c: float) -> Any:
-    """Whether the rate of shear, while [-a, c] sticks, changes its sign in a stick zone."""
-    place = (c - a) / 2 + 4 * cycle[4] / (math.pi * cycle[5])
-    nearly = ROUNDED * (cycle[0] + cycle[1])
-    return -zone[0] - nearly < place < zone[1] + nearly
+    """Whether the rate of shear, while [-a, c] sticks, changes its sign within a stick zone."""
+    turn = (c - a) / 2 + 4 * cycle[4] / (math.pi * cycle[5])
+    margin = ROUNDED * (cycle[0] + cycle[1])
+    return -zone[0] - margin < turn < zone[1] + margin
 
 
 @kernel(truth(vector, results(3), vector, results(3)))
 def _slips_within(cycle: Any, zone: Any, other: Any, other_zone: Any) -> Any:
-    """Whether a half-cycle slips nowhere but where the other one does, and there in its sense.
+    """Whether a half-cycle slips only where another one does, and in the corresponding sense.
 
-    Nor does it drive any place on that slipped.  Under moderate tension the rate of shear has one
-    sign all over.  A zone is m, n and its regime.
+    No point that slipped before may be driven further either.  Under moderate tension the rate of
+    shear has the same sign everywhere.  A zone is given by m, n and its regime.
     """
     m, n, regime = zone
     if regime == FULL_STICK:
         return True
-    nearly = ROUNDED * (cycle[0] + cycle[1])
-    if regime != other_zone[2] or not (m > other_zone[0] - nearly and n > other_zone[1] - nearly):
+    margin = ROUNDED * (cycle[0] + cycle[1])
+    if regime != other_zone[2] or not (m > other_zone[0] - margin and n > other_zone[1] - margin):
         return False
     if regime == MODERATE:
         return True
@@ -154,10 +157,10 @@ def _slips_within(cycle: Any, zone: Any, other: Any, other_zone: Any) -> Any:
 def shear_at(
     law: Any, own: Any, rise: Any, rise_zone: Any, fall: Any, fall_zone: Any, x: float
 ) -> Any:
-    """q at x after half of the change `rise` from nothing, less that of `fall`.
+    """q at x after half of the change `rise` from zero, less the change `fall`.
 
-    Both are cycles of one contact, with their m, n and regime.  NaN where a stick zone on the way
-    is not known, or where slip does not grow all the way.
+    Both are cycles of one contact, given with m, n and the regime.  NaN if one of the stick zones
+    is not known, or if slip does not grow throughout.
     """
     known = rise_zone[2] in (MODERATE, LARGE, FULL_STICK) and fall[4] <= rise[4]
     if not (known and _slips_within(fall, fall_zone, rise, rise_zone)):
@@ -193,33 +196,33 @@ def each_shear(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(real(ZONE, real, real, truth))
 def _slipped(zone: Any, stuck: float, there: float, here: bool) -> Any:
-    """What r in a slip zone adds to slip, over 2/pi.
+    """The contribution of r in one slip zone to the slip at a point, divided by 2/pi.
 
-    int r/|w| times the integral over t from 0 to y that the text above gives.
+    It is the integral of r/|w| times the integral over t from 0 to y in the module's docstring.
 
-    there  y, distance of a place from the stick zone
-    here   whether it lies in this slip zone
+    there  y, the distance of the point from the stick zone
+    here   whether the point lies in this slip zone
     """
     root, arc = math.sqrt(there * (there + stuck)), math.asinh(math.sqrt(there / stuck))
     total = 0.0
     for i in range(zone.y.size):
         y = zone.y[i]
-        across = y + stuck
+        y_far = y + stuck
         if here:
-            summed = math.sqrt(y * (there + stuck)) + math.sqrt(there * across)
+            summed = math.sqrt(y * (there + stuck)) + math.sqrt(there * y_far)
             logarithm = -math.log(max(stuck * abs(y - there) / (summed * summed), TINY))
-            smooth = root + (y + across) * arc
+            smooth = root + (y + y_far) * arc
         else:
-            summed = math.sqrt(across * (there + stuck)) + math.sqrt(there * y)
-            logarithm = math.log(summed * summed / (stuck * (across + there)))
-            smooth = (y + across) * arc - root
-        total += zone.weight[i] * zone.r[i] * (logarithm - smooth / math.sqrt(y * across))
+            summed = math.sqrt(y_far * (there + stuck)) + math.sqrt(there * y)
+            logarithm = math.log(summed * summed / (stuck * (y_far + there)))
+            smooth = (y + y_far) * arc - root
+        total += zone.weight[i] * zone.r[i] * (logarithm - smooth / math.sqrt(y * y_far))
     return total
 
 
 @kernel(real(LAW, vector, vector, real, real, real, real))
 def slip_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x: float) -> Any:
-    """How far the surfaces slip at x; NaN outside of one contact, and where slip turns round."""
+    """Slip range at x; NaN outside either contact, and where slip reverses."""
     if not (regime > 0 and -min(cycle[0], cycle[2]) <= x <= min(cycle[1], cycle[3])):
         return math.nan
     if regime == FULL_STICK or -m <= x <= n:

@@ -1,6 +1,6 @@
-"""Functions of one place, kept as Chebyshev series.
+"""Functions of one position, kept as Chebyshev series.
 
-A series is in s, 0 to 1; its terms come from values at the places `chebyshev_place`.
+A series is in s, from 0 to 1; its terms follow from the values at the points `chebyshev_place`.
 """
 
 import math
@@ -11,7 +11,7 @@ import numpy as np
 from ..kernels import kernel, real, record, vector, whole
 
 ANGLES = 64
-"""Nodes of Gauss's rule."""
+"""Number of nodes of Gauss's rule."""
 
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(ANGLES)
 GAUSS, GAUSS_WEIGHTS = (1 + _PLACES) / 2, _WEIGHTS / 2
@@ -38,13 +38,13 @@ TABLE = record(Table, real, real, real, vector)
 
 @kernel(real(whole, whole))
 def chebyshev_place(i: int, count: int) -> float:
-    """The place number i of so many."""
+    """Point number i of `count` Chebyshev points."""
     return (1 + math.cos(math.pi * (i + 0.5) / count)) / 2
 
 
 @kernel(vector(vector))
 def series_of(values: Any) -> Any:
-    """Terms of the series with these values at its places."""
+    """Terms of the series that has these values at its points."""
     count = len(values)
     terms = np.zeros(count)
     for k in range(count):
@@ -57,16 +57,16 @@ def series_of(values: Any) -> Any:
 
 @kernel(real(vector, real))
 def summed(terms: Any, s: float) -> float:
-    """A series at s."""
-    t, this, last = 4 * s - 2, 0.0, 0.0
+    """The sum of a series at s."""
+    t, current, previous = 4 * s - 2, 0.0, 0.0
     for k in range(len(terms) - 1, 0, -1):
-        this, last = terms[k] + t * this - last, this
-    return float(terms[0] + t / 2 * this - last)
+        current, previous = terms[k] + t * current - previous, current
+    return float(terms[0] + t / 2 * current - previous)
 
 
 @kernel(real(real, real, real, whole, whole))
 def table_place(start: float, end: float, near: float, i: int, count: int) -> float:
-    """Where a table is sampled."""
+    """Point number i of `count` at which a table is sampled."""
     s = chebyshev_place(i, count)
     if near > 0:
         return start + near * math.sinh(math.asinh(math.sqrt((end - start) / near)) * s) ** 2
@@ -75,7 +75,7 @@ def table_place(start: float, end: float, near: float, i: int, count: int) -> fl
 
 @kernel(real(TABLE, real))
 def tabled(table: Any, x: float) -> float:
-    """A table's function at x; outside as at the nearer end."""
+    """The function of a table at x; outside the table, its value at the nearer end."""
     y, length = x - table.start, table.end - table.start
     if y <= 0:
         s = 0.0

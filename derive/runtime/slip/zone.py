@@ -1,9 +1,9 @@
 r"""The permanent stick zone [-m, n] of a cycle, and how the cycle slips.
 
-Where slip happens in both half-cycles dq = kappa f (p1 + p2).  With kappa = +1 at both edges
+Where the surfaces slip in both half-cycles, dq = kappa f (p1 + p2).  With kappa = +1 at both edges
 (moderate tension) the zone is the contact at the mean load less dQ/(2 f) and the mean tilt less
-dsigma/(4 f E*).  With opposite signs (large tension) it is solved for in large.py.  Either is exact
-only while both slip zones grow all the way, growth.py.
+dsigma/(4 f E*).  With opposite signs (large tension) it is solved for in large.py.  Either solution
+is exact only while both slip zones grow throughout, which growth.py tests.
 
 A cycle is a vector a1, c1, a2, c2, dQ, dsigma, f; everything is for E* = 1.
 """
@@ -29,7 +29,7 @@ from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .newton import EPS
 
 LEAST_RESOLVED = 1e-6
-"""How far, in parts of the width, rounding of the tilt may move an edge."""
+"""Largest shift of an edge by rounding of the tilt, relative to the width."""
 
 NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = (float(code) for code in range(7))
 """Codes of Regime."""
@@ -37,7 +37,7 @@ NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = (float(code) for c
 
 @kernel(matrix(LAW, vector, vector))
 def ends_of(law: Any, own: Any, cycle: Any) -> Any:
-    """Both contacts: a, c, tilt, load, moment."""
+    """Both contacts, with columns a, c, tilt, load, moment."""
     ends = np.empty((2, 5))
     for i in range(2):
         a, c = cycle[2 * i], cycle[2 * i + 1]
@@ -64,9 +64,10 @@ def slides(ends: Any, cycle: Any) -> Any:
 
 @kernel(truth(matrix))
 def resolved(ends: Any) -> Any:
-    """Whether the tilts tell the edges: not where a flank bears nearly all, and a corner the load.
+    """Whether the tilts determine the edges.
 
-    At a given load the last digit of the tilt moves an edge by some EPS tilt h**2/(2 P).
+    They do not if a flank makes up nearly all of the contact while a corner carries the load.  At a
+    given load the last digit of the tilt moves an edge by about EPS tilt h**2/(2 P).
     """
     for i in range(2):
         width, load = ends[i, A] + ends[i, C], ends[i, LOAD]
@@ -76,34 +77,35 @@ def resolved(ends: Any) -> Any:
 
 
 @kernel(results(3)(LAW, vector, matrix, vector))
-def _large(law: Any, own: Any, way: Any, cycle: Any) -> Any:
-    """Slip to opposite sides, forward at the edge that tension loads more; else MIXED."""
+def _large(law: Any, own: Any, path: Any, cycle: Any) -> Any:
+    """Slip in opposite senses, forward at the edge that tension loads more; otherwise MIXED."""
     sense, cycle = sense_of(cycle), seen(cycle)
-    way = way if sense > 0 else mirrored(way)
-    if slips_at_the_start(way, cycle, -1.0):
+    path = path if sense > 0 else mirrored(path)
+    if slips_at_the_start(path, cycle, -1.0):
         slip = large_slip(law, own, cycle, sense, EXACT)
         m, n = slip.m, slip.n
         if math.isnan(m):
             return m, n, UNSOLVED
         if (
             math.pi * (m + n) * cycle[5] / 8 >= cycle[4]
-            and holds_at_the_start(way, cycle, m, n)
-            and (way.shape[0] == 2 or grows_apart(law, own, way, cycle, sense, m, n))
+            and holds_at_the_start(path, cycle, m, n)
+            and (path.shape[0] == 2 or grows_apart(law, own, path, cycle, sense, m, n))
         ):
             return (m, n, LARGE) if sense > 0 else (n, m, LARGE)
     return math.nan, math.nan, MIXED
 
 
 @kernel(results(2)(LAW, vector, matrix, vector))
-def _overtaken(law: Any, own: Any, way: Any, cycle: Any) -> Any:
-    """m and n where slip reverses for a while at constant loads, but leaves nothing behind.
+def _overtaken(law: Any, own: Any, path: Any, cycle: Any) -> Any:
+    """m and n where slip reverses temporarily at constant loads without a lasting effect.
 
-    Tension a little beyond its threshold turns slip round at one edge, say the right one.  Shear is
-    at friction there already, since the last half-cycle ended so; what slips back, dq = 0, reaches
-    at once as far as pull = 0, to a + n0 = 8 dQ/(pi dsigma), and sticks again at once as the left
-    zone grows.  Slip that then comes in forward as under moderate tension, beyond n0, overtakes it.
+    Tension a little beyond its threshold reverses slip at one edge, say the right one.  The shear
+    there has been at friction since the last half-cycle.  The reversed slip, dq = 0, extends at
+    once to the point where the drive vanishes, a + n0 = 8 dQ/(pi dsigma), and sticks again as soon
+    as the left zone grows.  Forward slip as under moderate tension then comes in beyond n0 and
+    overtakes the reversed slip.
     """
-    m, n = patch(law, own, way, 0, 1, 1.0, cycle)
+    m, n = patch(law, own, path, 0, 1, 1.0, cycle)
     whole = cycle[1] + m if cycle[5] < 0 else cycle[0] + n
     if m <= cycle[0] and n <= cycle[1] and math.pi * abs(cycle[5]) * whole <= 8 * cycle[4]:
         return m, n
@@ -112,7 +114,7 @@ def _overtaken(law: Any, own: Any, way: Any, cycle: Any) -> Any:
 
 @kernel(results(3)(LAW, vector, vector))
 def stick_zone(law: Any, own: Any, cycle: Any) -> Any:
-    """m, n and the regime; of mixed cycles where forward slip overtakes in the end."""
+    """m, n and the regime; for mixed cycles only where forward slip overtakes the reversed slip."""
     ends = ends_of(law, own, cycle)
     if not exists(ends, cycle):
         return math.nan, math.nan, NONE
@@ -120,29 +122,29 @@ def stick_zone(law: Any, own: Any, cycle: Any) -> Any:
         return math.nan, math.nan, SLIDING
     if not resolved(ends):
         return math.nan, math.nan, UNSOLVED
-    way = followed(law, own, ends)
-    last = way.shape[0] - 1
+    path = followed(law, own, ends)
+    last = path.shape[0] - 1
     steady = last == 1
-    if sticks_all_over(way, cycle):
-        m, n = way[0, A], way[0, C]
+    if sticks_all_over(path, cycle):
+        m, n = path[0, A], path[0, C]
         for k in range(1, last + 1):
-            m, n = min(m, way[k, A]), min(n, way[k, C])
+            m, n = min(m, path[k, A]), min(n, path[k, C])
         if m + n > 0:
             return m, n, FULL_STICK
-    if slips_at_the_start(way, cycle, 1.0) and (steady or grows(law, own, way, cycle)):
-        m, n = patch(law, own, way, 0, last, 1.0, cycle)
+    if slips_at_the_start(path, cycle, 1.0) and (steady or grows(law, own, path, cycle)):
+        m, n = patch(law, own, path, 0, last, 1.0, cycle)
         if m + n > 0:
             return m, n, MODERATE
-    m, n, regime = _large(law, own, way, cycle)
+    m, n, regime = _large(law, own, path, cycle)
     if regime != MIXED or not steady:
         return m, n, regime
-    m, n = _overtaken(law, own, way, cycle)
+    m, n = _overtaken(law, own, path, cycle)
     return m, n, MIXED
 
 
 @kernel(LOOP)
 def each_stick_zone(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Rows a1, c1, a2, c2, dQ, dsigma, f; what follows is not read.  out: m, n, regime."""
+    """Rows a1, c1, a2, c2, dQ, dsigma, f; further columns are not read.  out: m, n, regime."""
     law = opened(law)
     for i in range(given.shape[0]):
         out[i, 0], out[i, 1], out[i, 2] = stick_zone(law, own[i], given[i])
