@@ -1,7 +1,7 @@
-"""Settings of Sphinx for the site that `make docs` builds; pages.py lays out what it reads.
+"""Sphinx settings for the website that `make docs` builds; pages.py prepares its input.
 
-Nothing is fetched, neither when the site is built nor when it is read: formulas are MathML, which
-browsers draw by themselves.
+Nothing is downloaded when the website is built or read: formulas are MathML, which browsers render
+without a script.
 """
 
 from docutils import nodes
@@ -23,8 +23,8 @@ html_show_sourcelink = False
 html_copy_source = False
 html_math_renderer = "mathml"
 
-nb_render_markdown_format = "myst"  # what code prints as Markdown holds formulas
-nb_execution_mode = "off"  # the notebooks are kept with their outputs
+nb_render_markdown_format = "myst"  # Markdown that code prints contains formulas
+nb_execution_mode = "off"  # the notebooks are stored with their outputs
 nb_mime_priority_overrides = [
     ("html", "application/vnd.jupyter.widget-view+json", None),
     ("html", "image/svg+xml", 5),
@@ -35,8 +35,8 @@ math_eqref_format = "({number})"
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
 suppress_warnings = [
-    "mystnb.mime_priority",  # a slider has no still picture: its code is shown
-    "misc.highlighting_failure",  # a terminal's output is no Python
+    "mystnb.mime_priority",  # a slider has no static image, so its code is shown
+    "misc.highlighting_failure",  # the output of a terminal is not Python
 ]
 
 
@@ -56,11 +56,11 @@ def _block(self: object, node: nodes.math_block) -> None:
 def _as_written(
     app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]
 ) -> None:
-    """Keep a docstring's lines as they stand: its formulas are Python, not reStructuredText."""
+    """Show a docstring as literal text: its formulas are Python, not reStructuredText."""
     lines[:] = [".. code-block:: text", "", *(f"   {line}" for line in lines), ""]
 
 
 def setup(app: Sphinx) -> None:
-    """Formulas as MathML, docstrings as written."""
+    """Render formulas as MathML, and show docstrings as literal text."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
     app.connect("autodoc-process-docstring", _as_written)

@@ -1,8 +1,8 @@
-"""Lay out what Sphinx reads: `python docs/site/pages.py DIR`, from the root of the repository.
+"""Prepare the input of Sphinx: run `python docs/site/pages.py DIR` in the root of the repository.
 
-The pages keep their places, so that their links lead where they lead in the repository.  Two pages
-are written here: the theory, from formula sheets that are proven in this run, and the reference of
-the functions, which names the modules that Sphinx reads the docstrings of.
+The pages keep their relative paths, so that their links work as they do in the repository.  Two
+pages are written here.  The theory comes from formula sheets that are proven in this run.  The
+reference of the functions names the modules whose docstrings Sphinx reads.
 """
 
 import re
@@ -26,18 +26,18 @@ LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)#:]+)(#[^)]*)?\)")
 
 
 def lay_out(target: Path) -> None:
-    """Write all pages into the directory `target`, which is emptied first."""
+    """Write all pages to the directory `target`, which is deleted first."""
     shutil.rmtree(target, ignore_errors=True)
     sources = [path for pattern in PAGES for path in ROOT.glob(pattern)]
     sources += [ROOT / name for name in ALSO]
     pages = {path.resolve() for path in sources if path.name != "paper.md"}
     for path in sorted(pages):
-        place = target / path.relative_to(ROOT)
-        place.parent.mkdir(parents=True, exist_ok=True)
+        copy = target / path.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
         if path.suffix == ".md":
-            place.write_text(_linked(path, pages))
+            copy.write_text(_linked(path, pages))
         else:
-            shutil.copy(path, place)
+            shutil.copy(path, copy)
     shutil.copy(ROOT / "docs" / "site" / "index.md", target / "index.md")
     shutil.copy(ROOT / "docs" / "site" / "conf.py", target / "conf.py")
     (target / "theory.md").write_text("\n".join(theory()))
@@ -45,7 +45,7 @@ def lay_out(target: Path) -> None:
 
 
 def _linked(path: Path, pages: set[Path]) -> str:
-    """A page's text; a link to what is no page of the site becomes its words."""
+    """Return the text of a page; a link to a file outside the website becomes plain text."""
 
     def kept(match: re.Match[str]) -> str:
         return match[0] if (path.parent / match[2]).resolve() in pages else match[1]
@@ -54,16 +54,19 @@ def _linked(path: Path, pages: set[Path]) -> str:
 
 
 def theory() -> Iterator[str]:
-    """The formulas of some bodies, each with number, meaning, condition, source and proof."""
+    """Yield the theory page: formulas of some bodies with meaning, condition, source and proof."""
     yield "# Theory\n"
     yield (
-        "Every equation of this page is printed from a formula sheet that was derived and proven "
-        "as the page was built; none is typed. `derive show NAME` prints the sheet of any body, "
-        'and the <a href="handbook/index.html">handbook</a> has the sheets of all.\n'
+        "Every equation on this page is printed from a formula sheet. The sheet was derived when "
+        "the page was built, and each formula was proven symbolically or checked to at least 30 "
+        "digits; the line below a formula says which. `derive show NAME` prints the sheet of any "
+        'body, and the <a href="handbook/index.html">handbook</a> contains the sheets of all '
+        "bodies.\n"
     )
     yield (
-        "The contact is $[-a, c]$, the tilt $\\alpha$ is anticlockwise, s is the distance from an "
-        "edge, and $\\Delta Q$ and $\\Delta\\sigma$ are the changes of shear load and bulk tension."
+        "The contact is $[-a, c]$, the tilt $\\alpha$ is positive anticlockwise, and s is the "
+        "distance from an edge. $\\Delta Q$ and $\\Delta\\sigma$ are the changes of the shear load "
+        "and of the bulk tension."
         "\n"
     )
     for name in BODIES:
@@ -79,31 +82,31 @@ def theory() -> Iterator[str]:
             yield f"$$\n{latex_of(symbol)} = {latex_of(expr)}\n$$\n"
         for formula in sheet.values():
             label = f"{name}-{formula.name}".replace("_", "-")
-            yield f"### {_begun(prose(formula.meaning))}\n"
+            yield f"### {_capitalised(prose(formula.meaning))}\n"
             yield f"$$\n{formula.left} = {latex_of(sheet.shown(formula.name))}\n$$ ({label})\n"
-            yield f"`{formula.name}` [{formula.unit}], where `{formula.assumptions}`.\n"
+            yield f"`{formula.name}` [{formula.unit}], valid for `{formula.assumptions}`.\n"
             yield f"- Source: {_plain(formula.source)}."
-            yield f"- {_begun(_plain(str(formula.proof)))}.\n"
+            yield f"- {_capitalised(_plain(str(formula.proof)))}.\n"
 
 
-def _begun(words: str) -> str:
-    """A sentence begins with a capital, unless with a symbol such as P'(c)."""
+def _capitalised(words: str) -> str:
+    """Capitalise the first letter of a sentence, unless it is a symbol such as P'(c)."""
     return f"{words[0].upper()}{words[1:]}" if words[1:2].isalpha() else words
 
 
 def _plain(text: str) -> str:
-    """Words and their formulas, with what Markdown would read as marks made plain."""
+    """Return text and its formulas, with the special characters of Markdown escaped."""
     return re.sub(r"([*_$|\[\]])", r"\\\1", prose(text))
 
 
 def reference() -> Iterator[str]:
-    """The functions of one body, and what all bodies share."""
+    """Yield the reference page: functions of one body, and functions that all bodies share."""
     yield "# Functions, with their docstrings\n"
     yield (
-        "All generated modules have the same functions; they differ in the body's own parameters "
-        "and in the formulas that they evaluate. This page shows the wedge's. `help(hertz.load)` "
-        "shows those of another body, as its page of the "
-        '<a href="handbook/index.html">handbook</a> does.\n'
+        "All generated modules have the same functions. They differ in the parameters of the body "
+        "and in the formulas that they evaluate. This page shows the functions of the wedge. For "
+        "another body, use `help(hertz.load)`, for example, or its page in the "
+        '<a href="handbook/index.html">handbook</a>.\n'
     )
     wedge = import_module("generated.wedge")
     shared = ("K_T", "L_T", "stick_margin")
