@@ -1,16 +1,16 @@
-"""The formula handbook: pages of HTML that need nothing but a browser.
+"""The formula handbook: HTML pages that need only a browser.
 
-    module    in                                 out
+    module    input                              output
     -------   --------------------------------   -----------------------------------------------
-    mathml    LaTeX of the sheet                 MathML, which browsers draw by themselves
-    prose     words of the sheet                 HTML, its powers, roots and signs set
+    mathml    LaTeX of the sheet                 MathML, which browsers can display
+    prose     descriptions in the sheet          HTML with typeset powers, roots and symbols
     picture   curves                             an SVG picture
     curves    a sheet, the text of its module    g(x), and the pressure of some contacts
-    page      a sheet, its Body                  one page; the index of several
-    shelf     pages, a file or a directory       the pages on disk, whole or not at all
+    page      a sheet, its Body                  one page; the index of several pages
+    shelf     pages, a file or a directory       the pages on disk, written completely or not at all
 
-Only the commands read this package.  A page holds its own style, pictures and formulas: nothing is
-fetched when it is viewed.
+Only the commands import this package.  A page contains its own style, pictures and formulas, so
+that nothing is downloaded when it is viewed.
 """
 
 from importlib.util import find_spec

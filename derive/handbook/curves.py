@@ -1,8 +1,8 @@
-"""What a page draws of a body: its profile, and the pressure of some of its contacts.
+"""The pictures on the page of a body: its profile, and the pressure of some contacts.
 
-Lengths are drawn in parts of the half-width a_0 under a load P that is central, pressures in parts
-of the mean pressure P/(2 a_0) there.  The pressure is that of the generated module, imported as it
-was printed.
+Lengths are divided by a_0, the contact half-width under a central load P, and pressures by the
+mean pressure P/(2 a_0) of that contact.  The pressure is computed by the generated module, imported
+from its printed text.
 """
 
 from collections.abc import Iterator
@@ -21,14 +21,18 @@ from derive.symbols import E_star, a, c, x
 
 SAMPLES = 241
 CONTACTS = ((1.0, 0.0, "P"), (0.5, 0.0, "P/2"), (1.0, 0.25, "P, and a moment M = P a₀/4"))
-"""Load in parts of the first, moment in parts of load and half-width, and what is said of them."""
+"""The contacts that are drawn: load over P, moment over load and half-width, and label."""
 
 SKETCHED = 1.5
-"""How far a sketch of a profile reaches, in half-widths."""
+"""The range of x in the sketch of a profile, on either side, in half-widths."""
 
 
 class Pictures(NamedTuple):
-    """Of one body; `drawn_at` says at which numbers, `labels` what the curves of pressure are."""
+    """The pictures of one body.
+
+    labels     the labels of the pressure curves
+    drawn_at   the values of the parameters at which the pictures are drawn
+    """
 
     profile: Markup
     pressure: Markup
@@ -37,7 +41,7 @@ class Pictures(NamedTuple):
 
 
 def pictures(sheet: FormulaSheet, body: Body) -> Pictures:
-    """Drawn at the plain numbers of the module's own examples."""
+    """The pictures of one body, drawn at the values of the examples in the module."""
     half, law = _drawn_at(sheet)
     with imported(body.name, body.text, body.stuck) as module:
         lines = tuple(_pressures(module, half, law))
@@ -53,12 +57,12 @@ def pictures(sheet: FormulaSheet, body: Body) -> Pictures:
 
 
 def profile(sheet: FormulaSheet) -> Markup:
-    """The profile alone, for an index."""
+    """A sketch of the profile alone, for an index."""
     return sketch(f"profile of {sheet.geometry.name}", _profile(sheet, SKETCHED))
 
 
 def _drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:
-    """The half-width, and the modulus and the body's parameters, of the module's own examples."""
+    """The half-width, and E_star and the parameters of the body, in the examples of the module."""
     point = example_of(sheet, sheet["load"].conditions)
     own = {q.name: float(point[q.symbol]) for q in sheet.geometry.parameters}
     return float(max(point[a], point[c])), {"E_star": float(point[E_star]), **own}
@@ -66,14 +70,14 @@ def _drawn_at(sheet: FormulaSheet) -> tuple[float, dict[str, float]]:
 
 def _profile(sheet: FormulaSheet, reach: float) -> Line:
     half, law = _drawn_at(sheet)
-    places = np.linspace(-reach, reach, SAMPLES)
+    positions = np.linspace(-reach, reach, SAMPLES)
     names = [q.symbol for q in sheet.geometry.parameters]
     g = compiled([x, *names], sheet.geometry.g, modules="numpy")
     with np.errstate(all="ignore"):
-        values = g(half * places, *(law[str(n)] for n in names)) / half
-    values = np.broadcast_to(values, places.shape)
-    there = np.isfinite(values)
-    return Line("g", places[there].tolist(), values[there].tolist())
+        values = g(half * positions, *(law[str(n)] for n in names)) / half
+    values = np.broadcast_to(values, positions.shape)
+    finite = np.isfinite(values)
+    return Line("g", positions[finite].tolist(), values[finite].tolist())
 
 
 def _pressures(module: Any, half: float, law: dict[str, float]) -> Iterator[Line]:
@@ -84,9 +88,9 @@ def _pressures(module: Any, half: float, law: dict[str, float]) -> Iterator[Line
             continue
         angle = np.linspace(0, np.pi, SAMPLES)
         h = state.a + state.c
-        places = (state.c - state.a) / 2 - h / 2 * np.cos(angle)
-        p = module.pressure(places, state.a, state.c, **law)
+        positions = (state.c - state.a) / 2 - h / 2 * np.cos(angle)
+        p = module.pressure(positions, state.a, state.c, **law)
         p[[0, -1]] = 0.0
-        there = np.isfinite(p)
-        x_drawn, p_drawn = places[there] / half, 2 * half * p[there] / load
+        finite = np.isfinite(p)
+        x_drawn, p_drawn = positions[finite] / half, 2 * half * p[finite] / load
         yield Line(label, x_drawn.tolist(), p_drawn.tolist())

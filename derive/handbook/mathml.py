@@ -1,4 +1,4 @@
-"""Formulas as browsers draw them, from the LaTeX that the sheet renders."""
+"""Converts the LaTeX of a sheet to MathML, which browsers can display."""
 
 from functools import cache
 
@@ -8,5 +8,5 @@ from markupsafe import Markup
 
 @cache
 def mathml(latex: str, display: str = "block") -> Markup:
-    """One formula; display "inline" for one in a line of text."""
-    return Markup(convert(latex, display=display))  # its input is the notation's, never a user's
+    """One formula as MathML; `display` is "inline" for a formula within a line of text."""
+    return Markup(convert(latex, display=display))  # the LaTeX is never the input of a user

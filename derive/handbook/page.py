@@ -21,11 +21,11 @@ from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet
 
 SHOWN = 40
-"""Lines of a module from which on its code is folded away."""
+"""Number of lines above which the code of a module is collapsed."""
 
 
 class Row(NamedTuple):
-    """One formula as a page shows it."""
+    """One formula in the table of a page."""
 
     name: str
     meaning: str
@@ -39,7 +39,7 @@ class Row(NamedTuple):
 
 
 class Entry(NamedTuple):
-    """One body as the index shows it."""
+    """One body in the index."""
 
     name: str
     title: str
@@ -51,24 +51,26 @@ class Entry(NamedTuple):
 
 
 def proven(sheet: FormulaSheet, body: Body) -> FormulaSheet:
-    """The sheet without the closed forms whose proofs its body does not hold.
+    """The sheet without the closed forms for which its body has no proof.
 
-    The search for them has a limit: it may find now what it did not find as the body was built.
-    All other formulas stay; `page` demands their proofs.
+    The search for closed forms has a time limit, so it may now find forms that it did not find when
+    the body was built.  All other formulas are kept; `page` demands their proofs.
     """
     known = dict(body.proofs)
-    lost = [name for name, formula in sheet.items() if formula.closes and name not in known]
-    if not lost:
+    unproven = [name for name, formula in sheet.items() if formula.closes and name not in known]
+    if not unproven:
         return sheet
-    kept = {name: formula for name, formula in sheet.items() if name not in lost}
-    remark = f"{sheet.remark}  Not proven, and so not shown: {', '.join(lost)}."
+    kept = {name: formula for name, formula in sheet.items() if name not in unproven}
+    remark = f"{sheet.remark}  Not proven, and therefore not shown: {', '.join(unproven)}."
     return replace(sheet, formulas=kept, remark=body.struck or remark)
 
 
 def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
-    """The page of one body; `index`: whether the index of a set lies beside it.
+    """The page of one body.
 
-    Raises NotProven for a formula of the sheet whose proof the body does not hold.
+    index: whether the page belongs to a set with an index, to which it links
+
+    Raises NotProven for a formula of the sheet for which the body has no proof.
     """
     geometry = sheet.geometry
     symbols = [q for q in sheet.quantities if q not in geometry.parameters]
@@ -96,12 +98,12 @@ def page(sheet: FormulaSheet, body: Body, index: bool = False) -> str:
 
 
 def index(entries: Sequence[Entry]) -> str:
-    """The page that leads to all others; the page of `name` is name.html."""
+    """The page with links to all others; the page of a body `name` is name.html."""
     return _templates().get_template("index.html").render(entries=entries, style=_style())
 
 
 def entry(sheet: FormulaSheet, body: Body) -> Entry:
-    """What the index says of a body."""
+    """The entry of a body in the index."""
     geometry = sheet.geometry
     return Entry(
         geometry.name,
@@ -117,7 +119,7 @@ def entry(sheet: FormulaSheet, body: Body) -> Entry:
 def _rows(sheet: FormulaSheet, proofs: Mapping[str, str]) -> Iterator[Row]:
     for name, formula in sheet.items():
         if name not in proofs:
-            raise NotProven(f"{name} of {sheet.geometry.name!r}: no proof came with its body")
+            raise NotProven(f"{name} of {sheet.geometry.name!r}: its body contains no proof of it")
         latex = f"{formula.left} = {latex_of(sheet.shown(name))}"
         conditions = tuple(mathml(latex_of(c), "inline") for c in formula.conditions)
         proof = proofs[name]
@@ -136,12 +138,12 @@ def _rows(sheet: FormulaSheet, proofs: Mapping[str, str]) -> Iterator[Row]:
 
 
 def _code(text: str) -> Markup:
-    """Python with its words in colours; the classes are those of the style."""
-    return Markup(highlight(text, PythonLexer(), HtmlFormatter(nowrap=True)))  # it escapes
+    """Python code as HTML, with the classes that the style colours."""
+    return Markup(highlight(text, PythonLexer(), HtmlFormatter(nowrap=True)))  # escapes the text
 
 
 def _style() -> Markup:
-    """All that pages look like; the code's colours for a light and a dark page."""
+    """The style sheet of all pages, with the colours of code on light and dark pages."""
     own = _templates().get_template("style.css").render()
     light, dark = (
         HtmlFormatter(style=name).get_style_defs(".code") for name in ("default", "github-dark")

@@ -1,4 +1,4 @@
-"""Small pictures of curves as SVG, drawn in the page's own colours."""
+"""Small pictures of curves as SVG, drawn in the colours of the page."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -10,12 +10,12 @@ from markupsafe import Markup, escape
 WIDTH, HEIGHT = 560, 250
 LEFT, RIGHT, TOP, BOTTOM = 62, 14, 14, 40
 TICKS = 5
-"""About as many stand along an axis."""
+"""Approximate number of ticks along an axis."""
 
 
 @dataclass(frozen=True)
 class Line:
-    """One curve: what the legend says of it, and its points."""
+    """One curve: its label in the legend, and its points."""
 
     label: str
     x: Sequence[float]
@@ -23,7 +23,7 @@ class Line:
 
 
 def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float = 0.0) -> Markup:
-    """Curves over one pair of axes; each leaves them where it rises beyond `top`, if given."""
+    """Curves in one pair of axes; a curve is cut off where it rises above `top`, if given."""
     xs = [x for line in lines for x in line.x]
     ys = [min(y, top) if top else y for line in lines for y in line.y]
     low_x, high_x = min(xs), max(xs)
@@ -79,7 +79,7 @@ def sketch(title: str, line: Line) -> Markup:
 
 
 def _below(high: float, line: Line) -> Iterator[list[tuple[float, float]]]:
-    """The stretches of a curve that lie below a height, up to where they cross it.
+    """The parts of a curve that lie below a height, including the points where they cross it.
 
     >>> list(_below(1.0, Line("", [0.0, 2.0, 4.0], [0.0, 2.0, 0.0])))
     [[(0.0, 0.0), (1.0, 1.0)], [(3.0, 1.0), (4.0, 0.0)]]
@@ -99,7 +99,7 @@ def _below(high: float, line: Line) -> Iterator[list[tuple[float, float]]]:
 
 
 def ticks(low: float, high: float) -> list[float]:
-    """Round numbers between two bounds, about TICKS of them.
+    """About TICKS round numbers between two bounds.
 
     >>> ticks(0, 1)
     [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]

@@ -1,4 +1,4 @@
-"""Words of a sheet as a page sets them: powers, roots, indices, Greek letters and signs."""
+"""Typesets the formulas in the descriptions of a sheet: powers, roots, indices, Greek letters."""
 
 import re
 from html import escape
@@ -26,7 +26,7 @@ _SET = (
 
 
 def prose(text: str) -> Markup:
-    """Plain text with its formulas set in HTML.
+    """Plain text as HTML, with its formulas typeset.
 
     >>> print(prose("coefficient of s**(3/2) at x = -a; M = -int p x dx, alpha <= K_N_left"))
     coefficient of s<sup>3/2</sup> at x = −a; M = −∫ p x dx, α ≤ K<sub>N, left</sub>

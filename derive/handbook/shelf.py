@@ -1,4 +1,4 @@
-"""Pages on disk: one file, or a directory of them, whole or not at all."""
+"""Writes one page or a directory of pages, completely or not at all."""
 
 import shutil
 import tempfile
@@ -10,19 +10,19 @@ from derive.exchange import put_in_place
 from derive.files import write_whole
 
 MARK = '<meta name="generator" content="derive '
-"""What a page made by a command of this package holds, so that it may be replaced."""
+"""A tag in every page made by a command of this package; only such pages are replaced."""
 
 
 def put_page(text: str, path: Path) -> None:
-    """Write one page, in place of one made here if there is one.
+    """Write one page; a page made by this package may be replaced.
 
-    Raises BadPage for what must not be replaced or cannot be written.
+    Raises BadPage if the path must not be replaced or cannot be written.
     """
     _demand_reachable(path)
     if path.is_dir():
         raise BadPage(str(path), "is a directory")
     if (path.exists() or path.is_symlink()) and not _is_ours(path):
-        raise BadPage(str(path), "is there already, and no page made here")
+        raise BadPage(str(path), "exists and is not a page made by `derive show --html`")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(text.encode(), path)
@@ -31,9 +31,9 @@ def put_page(text: str, path: Path) -> None:
 
 
 def put_pages(pages: Mapping[str, str], folder: Path) -> None:
-    """Put pages, by their file names, in place of a directory.
+    """Replace a directory by pages, given by their file names.
 
-    Raises BadPage where it holds anything that was not made here, or cannot be written.
+    Raises BadPage if it contains any other file, or cannot be written.
     """
     demand_replaceable(folder)
     try:
@@ -57,21 +57,22 @@ def put_pages(pages: Mapping[str, str], folder: Path) -> None:
 
 
 def demand_replaceable(folder: Path) -> None:
-    """Raise BadPage unless `folder` is absent, empty, or full of pages made here."""
+    """Raise BadPage unless `folder` does not exist, or contains only pages made by this package."""
     _demand_reachable(folder)
     if not folder.exists() and not folder.is_symlink():
         return
     if folder.is_symlink() or not folder.is_dir():
-        raise BadPage(str(folder), "is no directory")
+        raise BadPage(str(folder), "is not a directory")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
-        raise BadPage(str(folder), "is where this command runs")
+        raise BadPage(str(folder), "is the current directory or contains it")
     for path in sorted(folder.iterdir()):
         if not _is_ours(path):
-            raise BadPage(str(folder), f"holds {path.name!r}, which is no page made here")
+            why = f"contains {path.name!r}, which is not a page made by `derive show --html`"
+            raise BadPage(str(folder), why)
 
 
 def _demand_reachable(path: Path) -> None:
-    """Raise BadPage for what can't be a path, such as a name that is too long."""
+    """Raise BadPage for a path that cannot exist, for example because its name is too long."""
     try:
         path.exists()
     except OSError as error:
