@@ -1,8 +1,8 @@
-"""From a finite-element table to slip zones: what `derive edge` does.
+"""Compute slip zones from a finite-element table, for the command `derive edge`.
 
-table   a file as programs export it -> load steps, in SI units
-find    load steps -> coefficients, moves and slip zones of both edges, with their uncertainty
-report  the same as text, as CSV, as a page
+table   reads an exported file and returns its load steps in SI units
+find    computes coefficients, movements and slip zones of both edges, with their uncertainties
+report  writes the results as text, as CSV, or as an HTML page
 
-The mathematics is the runtime's: derive/runtime/edge.
+The mathematics is in derive/runtime/edge.
 """

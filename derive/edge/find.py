@@ -1,6 +1,6 @@
-"""Coefficients, moves and slip zones of both edges from the load steps of a table.
+"""Compute coefficients, movements and slip zones of both edges from the load steps of a table.
 
-The half-cycle leads from the first load step to the last.  Slip zones are told at its end.
+The half-cycle runs from the first load step to the last.  The slip zones are those at its end.
 """
 
 from collections.abc import Sequence
@@ -23,17 +23,18 @@ from derive.runtime.edge import (
 )
 
 INSIDE = 0.5
-"""Pressure at an end of a table, over the largest, that says that contact does not end there."""
+"""If the pressure at an end of the table exceeds this fraction of the largest pressure, the table
+is taken to end inside the contact."""
 
 SIDES = ("left", "right")
 
 PRESSURES, WIDTHS = (1e4, 1e11), (1e-7, 1.0)
-"""Largest pressures and widths between which a table's units are believed [Pa, m]."""
+"""Plausible ranges of the largest pressure [Pa] and of the contact width [m] in a table."""
 
 
 @dataclass(frozen=True)
-class Found:
-    """One edge at one load step."""
+class FittedEdge:
+    """The fit of one edge at one load step."""
 
     step: str
     side: str
@@ -42,11 +43,13 @@ class Found:
 
 @dataclass(frozen=True)
 class Zone:
-    """A slip zone at the end of the half-cycle [m].
+    """A slip zone at the end of the half-cycle.
 
-    error   one standard deviation, of what was fitted
-    series  what one more term would change
-    part    the slip zone over the distance at which the next term matters as much
+    d       the size of the slip zone [m]
+    error   one standard deviation, due to the uncertainty of the fit [m]
+    series  the change that one more term of the series would make [m]
+    order   the order of the series
+    part    the slip zone divided by the distance at which the next term matters as much
     """
 
     side: str
@@ -62,9 +65,9 @@ class Zone:
 
 @dataclass(frozen=True)
 class Findings:
-    """All that a table says; notes are warnings and what is not there."""
+    """All results from a table; the notes are warnings, and reasons for missing results."""
 
-    edges: tuple[Found, ...]
+    edges: tuple[FittedEdge, ...]
     shears: tuple[tuple[str, ShearFit], ...]
     zones: tuple[Zone, ...]
     notes: tuple[str, ...]
@@ -77,17 +80,19 @@ def find(
     dQ: float | None = None,
     dsigma: float | None = None,
 ) -> Findings:
-    """What a table says of both edges.
+    """Evaluate a table for both edges.
 
-    dQ, dsigma: what the loads change by, in place of a shear traction [N/m, Pa].
+    dQ, dsigma: the changes of the loads, if the table has no shear traction [N/m, Pa].
 
-    Raises BadTable for what is no contact.
+    Raises BadTable if the table does not describe a contact.
     """
     notes: list[str] = []
     edges = [edge for step in steps for edge in _edges(step, shown, notes)]
     if not edges:
         raise BadTable(
-            shown, "the table ends inside the contact on both sides", "give nodes up to an edge"
+            shown,
+            "the table ends inside the contact on both sides",
+            "add nodes up to at least one edge",
         )
     first = {e.side: e for e in edges if e.step == steps[0].name}
     last = {e.side: e for e in edges if e.step == steps[-1].name}
@@ -96,19 +101,23 @@ def find(
     if dQ is not None or dsigma is not None:
         if shears:
             raise BadTable(
-                shown, "holds a shear traction, and --dQ or --dsigma say it again", "give one"
+                shown,
+                "the table has a shear traction, and --dQ or --dsigma are given as well",
+                "remove either the shear column or these options",
             )
         if len(last) < 2:
             raise BadTable(
-                shown, "has one edge", "--dQ and --dsigma need both: give a shear column"
+                shown,
+                "the table has only one edge, but --dQ and --dsigma need both",
+                "give a column with the shear traction instead",
             )
         stuck = _from_loads(last, dQ or 0.0, dsigma or 0.0)
     if not stuck and all(np.isnan(e.pressure.edge) for e in last.values()):
         notes.append("no slip zone: neither edge was found")
     elif not stuck:
         notes.append(
-            "no slip zone: the table has no shear traction of a run without slip; give one, or "
-            "--dQ and --dsigma"
+            "no slip zone: the shear traction is missing; add that of a run without slip to the "
+            "table, or give --dQ and --dsigma"
         )
     moves = {side: _move(first.get(side), last[side]) for side in last}
     zones = tuple(
@@ -125,50 +134,56 @@ def find(
         zones = tuple(replace(zone, **none) for zone in zones)  # type: ignore[arg-type]
     for zone in () if slides else zones:
         if np.isnan(zone.d):
-            notes.append(f"{zone.side} edge: slip does not reach in at both ends of the half-cycle")
+            notes.append(
+                f"{zone.side} edge: no slip zone extends inward from the edge at both ends of the "
+                "half-cycle"
+            )
         elif zone.part > 0.3:
             notes.append(
-                f"{zone.side} edge: the slip zone is {zone.part:.1f} of the distance at which the "
-                "next term matters as much: the series does not hold so far in"
+                f"{zone.side} edge: the slip zone is {zone.part:.1f} times the distance at which "
+                "the next term matters as much, so the series is not reliable there"
             )
     return Findings(tuple(edges), tuple(shears), zones, tuple(notes))
 
 
 def _unlikely(step: Step) -> str:
-    """What speaks against the units of a table; "" if nothing does."""
+    """Return a warning if the units of a table are not plausible, or else ""."""
     highest, inside = float(np.max(step.p)), step.x[step.p > 0]
     width = float(np.ptp(inside))
     if PRESSURES[0] <= highest <= PRESSURES[1] and WIDTHS[0] <= width <= WIDTHS[1]:
         return ""
-    return f"pressure rises to {highest:.3g} Pa over a contact of {width:.3g} m: check the units"
+    return (
+        f"the largest pressure is {highest:.3g} Pa and the contact is {width:.3g} m wide: "
+        "check the units"
+    )
 
 
 def _slides(
     steps: Sequence[Step],
-    last: dict[str, Found],
+    last: dict[str, FittedEdge],
     stuck: dict[str, tuple[float, float, float, float]],
     f: float,
 ) -> str:
-    """Why the whole contact slides; "" where it does not, or where that is not known."""
+    """Return why the whole contact slides, or "" if it does not or if this is not known."""
     if len(last) < 2 or len(stuck) < 2:
         return ""
     h = last["right"].pressure.edge - last["left"].pressure.edge
     dQ = np.pi * np.sqrt(h) * (stuck["left"][0] + stuck["right"][0]) / 2
-    holds = f * sum(np.trapezoid(step.p, step.x) for step in (steps[0], steps[-1]))
-    if not abs(dQ) >= holds:
+    capacity = f * sum(np.trapezoid(step.p, step.x) for step in (steps[0], steps[-1]))
+    if not abs(dQ) >= capacity:
         return ""
     return (
-        f"no slip zone: the contact slides, since dQ = {dQ:.3g} N/m and f (P_1 + P_2) is "
-        f"{holds:.3g} N/m"
+        f"no slip zone: the whole contact slides, because dQ = {dQ:.3g} N/m is not below "
+        f"f (P_1 + P_2) = {capacity:.3g} N/m"
     )
 
 
-def _edges(step: Step, shown: str, notes: list[str]) -> list[Found]:
-    """The edges of one load step."""
+def _edges(step: Step, shown: str, notes: list[str]) -> list[FittedEdge]:
+    """Fit the edges of one load step."""
     where = f"load step {step.name}: " if step.name else ""
-    found = []
-    for side, way in zip(SIDES, (1, -1), strict=True):
-        x, p = step.x[::way], step.p[::way]
+    edges = []
+    for side, direction in zip(SIDES, (1, -1), strict=True):
+        x, p = step.x[::direction], step.p[::direction]
         try:
             fit = fit_pressure(x, p)
         except ValueError as error:
@@ -178,14 +193,14 @@ def _edges(step: Step, shown: str, notes: list[str]) -> list[Found]:
             continue
         if fit.warning:
             notes.append(f"{where}{side} edge: {fit.warning}")
-        found.append(Found(step.name, side, fit))
-    return found
+        edges.append(FittedEdge(step.name, side, fit))
+    return edges
 
 
 def _shears(
-    steps: Sequence[Step], last: dict[str, Found], shown: str, notes: list[str]
+    steps: Sequence[Step], last: dict[str, FittedEdge], shown: str, notes: list[str]
 ) -> list[tuple[str, ShearFit]]:
-    """Full stick at both edges, from the change of shear over the half-cycle."""
+    """Fit full stick at both edges to the change of the shear traction over the half-cycle."""
     first, end = steps[0], steps[-1]
     if end.q is None or first.q is None:
         return []
@@ -194,45 +209,47 @@ def _shears(
         if len(first.x) != len(end.x) or np.any(first.x != end.x):
             raise BadTable(
                 shown,
-                "the first and the last load step have shear at different nodes",
-                "give the same nodes, so that its change is known",
+                "the first and the last load step have shear tractions at different nodes",
+                "use the same nodes in both, so that the change is known",
             )
         dq = end.q - first.q
-    found = []
-    for side, way in zip(SIDES, (1, -1), strict=True):
+    shears = []
+    for side, direction in zip(SIDES, (1, -1), strict=True):
         if side not in last or np.isnan(last[side].pressure.edge):
             continue
         fitted = last[side].pressure
         try:
-            fit = fit_stuck_shear(end.x[::way], dq[::way], fitted.edge, fitted.edge_error)
+            fit = fit_stuck_shear(
+                end.x[::direction], dq[::direction], fitted.edge, fitted.edge_error
+            )
         except ValueError as error:
             raise BadTable(shown, f"shear: {error}", "nothing was computed") from None
         if fit.warning:
             notes.append(f"{side} edge, shear: {fit.warning}")
-        found.append((side, fit))
-    return found
+        shears.append((side, fit))
+    return shears
 
 
 def _from_loads(
-    last: dict[str, Found], dQ: float, dsigma: float
+    last: dict[str, FittedEdge], dQ: float, dsigma: float
 ) -> dict[str, tuple[float, float, float, float]]:
-    """K_T and L_T of full stick from the loads, as generated/full_stick.py has them."""
+    """Compute K_T and L_T of full stick from the loads, as in generated/full_stick.py."""
     h = last["right"].pressure.edge - last["left"].pressure.edge
-    off = hypot(last["right"].pressure.edge_error, last["left"].pressure.edge_error)
-    found = {}
+    h_error = hypot(last["right"].pressure.edge_error, last["left"].pressure.edge_error)
+    coefficients = {}
     for side, sign in zip(SIDES, (1, -1), strict=True):
 
         def both(h: float, sign: int = sign) -> tuple[float, float]:
-            pull = sign * dsigma * h / 8
-            return (dQ / np.pi + pull) / h**0.5, (dQ / np.pi - 3 * pull) / (2 * h**1.5)
+            by_tension = sign * dsigma * h / 8
+            return (dQ / np.pi + by_tension) / h**0.5, (dQ / np.pi - 3 * by_tension) / (2 * h**1.5)
 
-        (K_T, L_T), (K_2, L_2) = both(h), both(h + off)
-        found[side] = (K_T, abs(K_2 - K_T), L_T, abs(L_2 - L_T))
-    return found
+        (K_T, L_T), (K_2, L_2) = both(h), both(h + h_error)
+        coefficients[side] = (K_T, abs(K_2 - K_T), L_T, abs(L_2 - L_T))
+    return coefficients
 
 
-def _move(first: Found | None, last: Found) -> float:
-    """How much further an edge reaches at the end."""
+def _move(first: FittedEdge | None, last: FittedEdge) -> float:
+    """Return how much further out an edge is at the end of the half-cycle."""
     if first is None:
         return 0.0
     outward = -1 if last.side == "left" else 1
@@ -241,16 +258,16 @@ def _move(first: Found | None, last: Found) -> float:
 
 def _zone(
     side: str,
-    last: dict[str, Found],
-    first: dict[str, Found],
+    last: dict[str, FittedEdge],
+    first: dict[str, FittedEdge],
     stuck: dict[str, tuple[float, float, float, float]],
     moves: dict[str, float],
     f: float,
 ) -> Zone:
-    """The slip zone of one edge, to the second order where that is the better known."""
+    """Compute the slip zone of one edge, to the second order if that is more certain."""
     fit, (K_T, K_T_error, L_T, L_T_error) = last[side].pressure, stuck[side]
-    theirs = SIDES[1 - SIDES.index(side)]
-    pair = theirs in last and theirs in stuck
+    other_side = SIDES[1 - SIDES.index(side)]
+    pair = other_side in last and other_side in stuck
     values: dict[str, float] = {
         "K_N": fit.K_N,
         "K_T": K_T,
@@ -263,32 +280,34 @@ def _zone(
     then = first[side].pressure if moves[side] else None
 
     def length(order: int, change: dict[str, float]) -> tuple[float, float]:
-        v = values | change
-        before = then and Pressure(then.K_N + v["K_N"] - fit.K_N, then.L_N)
-        L_T_alone: float | None = v["L_T"]
+        used = values | change
+        before = then and Pressure(then.K_N + used["K_N"] - fit.K_N, then.L_N)
+        L_T_alone: float | None = used["L_T"]
         h = other = None
         if pair:
-            them = last[theirs].pressure
-            old = first[theirs].pressure if moves[theirs] else None
-            known = Pressure(old.K_N, old.L_N) if old else None
-            other = OtherEdge(them.K_N, stuck[theirs][0], them.L_N, da=moves[theirs], then=known)
+            their_fit = last[other_side].pressure
+            their_first_fit = first[other_side].pressure if moves[other_side] else None
+            known = Pressure(their_first_fit.K_N, their_first_fit.L_N) if their_first_fit else None
+            other = OtherEdge(
+                their_fit.K_N, stuck[other_side][0], their_fit.L_N, da=moves[other_side], then=known
+            )
             L_T_alone = None
             h = last["right"].pressure.edge - last["left"].pressure.edge
-        found = slip_zone(
-            v["K_N"],
-            v["K_T"],
+        zone = slip_zone(
+            used["K_N"],
+            used["K_T"],
             f=f,
-            L_N=v["L_N"],
+            L_N=used["L_N"],
             L_T=L_T_alone,
-            da=v["da"],
+            da=used["da"],
             h=h,
             order=order,
             then=before,
             other=other,
         )
-        return float(found.d), float(found.error)
+        return float(zone.d), float(zone.error)
 
-    def told(order: int) -> tuple[float, float, float]:
+    def with_errors(order: int) -> tuple[float, float, float]:
         d, series = length(order, {})
         parts = [
             length(order, {name: values[name] + e})[0] - d
@@ -297,13 +316,13 @@ def _zone(
         ]
         return d, float(np.sqrt(np.sum(np.square(parts)))), series
 
-    # the second term counts unless what is fitted makes it less certain than it is worth
-    first_d, first_error, first_series = told(1)
-    d, error, series = told(2)
+    # use the second term unless the uncertainty of the fit outweighs its benefit
+    first_d, first_error, first_series = with_errors(1)
+    d, error, series = with_errors(2)
     order = 2
     if not error < hypot(first_error, first_series):
         d, error, series, order = first_d, first_error, first_series, 1
     width = last["right"].pressure.edge - last["left"].pressure.edge if pair else None
-    over = reach(fit.K_N, K_T, L_N=fit.L_N, L_T=L_T, h=width)
-    part = d / float(over) if over > 0 else nan
+    distance = reach(fit.K_N, K_T, L_N=fit.L_N, L_T=L_T, h=width)
+    part = d / float(distance) if distance > 0 else nan
     return Zone(side, K_T, K_T_error, moves[side], d, error, series, order, part)

@@ -1,9 +1,9 @@
-"""Tables as finite-element programs export them: separators, header lines, units, load steps.
+"""Read tables as exported by finite-element programs: separators, headers, units and load steps.
 
-A table has a line of names above its numbers.  Beside the place along the interface and the
-pressure there may be a shear traction, of a run in which nothing slips, and the load step; several
-columns of pressure are load steps, too.  Other columns are left alone.  Units stand behind the
-names, in brackets, or in a line of their own.
+A table has a line of column names above its numbers.  It must have the position along the
+interface and the pressure.  It may also have the load step, and the shear traction of a run in
+which nothing slips.  Several columns of pressure are several load steps.  Other columns are
+ignored.  Units follow the names, with or without brackets, or are in a separate line.
 """
 
 import csv
@@ -18,7 +18,7 @@ from derive.errors import BadTable
 from derive.files import Unreadable, bytes_of
 
 LARGEST = 20_000_000
-"""Bytes of a file."""
+"""The largest size of a file, in bytes."""
 
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "in": 0.0254}
 STRESSES = {
@@ -38,9 +38,9 @@ NAMES = {
     ),
     "step": ("step", "load step", "loadstep", "time", "frame", "increment", "inc", "substep"),
 }
-"""What columns are called."""
+"""The names by which columns are recognised."""
 
-MEANT = {"x": "the place along the interface", "p": "the contact pressure"}
+MEANT = {"x": "the position along the interface", "p": "the contact pressure"}
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?nan|[+-]?inf(inity)?", re.I)
 _COMMENT = re.compile(r"(#|!|%|//|\*\*)")
@@ -49,14 +49,19 @@ _BEHIND = re.compile(r"(.+?)\s*[_/ ]\s*(\S+)")
 """A name and a unit without brackets, as in x_mm or p / MPa."""
 
 _COUNTED = re.compile(r"(?:(?<=^p)|(?<=^q)|(?<=^dq)|(?<=pressure)|(?<=cpress)| (?:step )?)\d+$")
-"""The number of a load step behind a name; CSHEAR1 and CSHEAR2 are components."""
+"""The number of a load step after a name; CSHEAR1 and CSHEAR2 are components instead."""
 
 _SCALES = {"x": LENGTHS, "p": STRESSES, "q": STRESSES}
 
 
 @dataclass(frozen=True)
 class Step:
-    """One load step: nodes [m], pressure [Pa], shear [Pa] where the table has it."""
+    """One load step.
+
+    x  positions of the nodes [m]
+    p  contact pressure [Pa]
+    q  shear traction [Pa], or None if the table has none
+    """
 
     name: str
     x: np.ndarray
@@ -66,25 +71,28 @@ class Step:
 
 @dataclass(frozen=True)
 class _Lines:
-    """Rows of fields, each with the number of its line."""
+    """Rows of fields, each with its line number; comma: whether numbers have decimal commas."""
 
     rows: tuple[tuple[int, tuple[str, ...]], ...]
     comma: bool
 
 
 def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]:
-    """The load steps of a table, in SI units.
+    """Read the load steps of a table, in SI units.
 
-    units: of x and p, where the table does not say; shear has the pressure's.
+    units: the units of x and p if the table does not give them; the shear traction has the unit
+    of the pressure.
 
     Raises BadTable.
     """
     shown = path.name
     lines = _split(_text(path), shown)
     head, data = _parted(lines, shown)
-    names, found = _header(head, len(data[0][1]), shown)
+    names, units_found = _header(head, len(data[0][1]), shown)
     columns = _columns(names, shown)
-    scale = {what: _unit(what, names, columns, found, units or {}, shown) for what in ("x", "p")}
+    scale = {
+        what: _unit(what, names, columns, units_found, units or {}, shown) for what in ("x", "p")
+    }
     place = _numbers(data, columns["x"][0], names, lines.comma, shown) * scale["x"]
     labels = _labels(data, columns)
     shear = columns.get("q", [])
@@ -93,7 +101,8 @@ def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]
             shown,
             f"there are {len(columns['p'])} columns of pressure"
             + (" and a column of load steps" if labels else f" and {len(shear)} of shear"),
-            "give load steps by columns, each with its shear, or by a column, not both",
+            "either use one pressure column, and at most one shear column, for each load step, or "
+            "name the load steps in a column",
         )
     steps = []
     for number, column in enumerate(columns["p"]):
@@ -106,30 +115,30 @@ def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]
             rows = [i for i, of in enumerate(labels) if of == label] if labels else slice(None)
             name = label or (names[column] if len(columns["p"]) > 1 else "")
             x = place[rows]
-            way = slice(None, None, -1 if np.all(np.diff(x) < 0) else 1)  # from left to right
-            shear_here = None if q is None else q[rows][way]
-            steps.append(Step(name, x[way], p[rows][way], shear_here))
+            order = slice(None, None, -1 if np.all(np.diff(x) < 0) else 1)  # from left to right
+            shear_here = None if q is None else q[rows][order]
+            steps.append(Step(name, x[order], p[rows][order], shear_here))
     return tuple(steps)
 
 
 def _text(path: Path) -> str:
-    """The file as text.
+    """Return the file as text.
 
     Raises BadTable.
     """
     try:
         raw = bytes_of(path, LARGEST)
     except Unreadable as error:
-        raise BadTable(str(path), str(error), "name one table") from error
+        raise BadTable(str(path), str(error), "give the path of one table") from error
     coding = "utf-16" if raw[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
     try:
         text = raw.decode(coding)
     except UnicodeDecodeError:
         text = raw.decode("latin-1")
     if "\0" in text:
-        raise BadTable(path.name, "is no text", "export the table as CSV")
+        raise BadTable(path.name, "the file is not text", "export the table as CSV")
     if not text.strip():
-        raise BadTable(path.name, "is empty", "export nodes and pressures into it")
+        raise BadTable(path.name, "the file is empty", "export nodes and pressures to it")
     return text
 
 
@@ -138,7 +147,7 @@ def _is_number(field: str, comma: bool) -> bool:
 
 
 def _split(text: str, shown: str) -> _Lines:
-    """Lines in fields, by the separator under which most lines hold numbers alone.
+    """Split lines into fields by the separator for which most lines hold only numbers.
 
     Raises BadTable.
     """
@@ -156,9 +165,13 @@ def _split(text: str, shown: str) -> _Lines:
         numbers = sum(_is_number(line, True) for _, line in lines)
         if numbers:
             raise BadTable(
-                shown, "has one column of numbers", "give the nodes' places and the pressure there"
+                shown,
+                "the table has only one column of numbers",
+                "give the positions of the nodes and the pressure there",
             )
-        raise BadTable(shown, "holds no rows of numbers", "export nodes and pressures into it")
+        raise BadTable(
+            shown, "the table has no rows of numbers", "export nodes and pressures to it"
+        )
     return best[1]
 
 
@@ -168,7 +181,10 @@ def _better(
     separator: str,
     comma: bool,
 ) -> tuple[tuple[int, int], _Lines]:
-    """The better of two ways to split lines: more rows of numbers alone, of two numbers or more."""
+    """Return the better of two ways to split lines.
+
+    More rows that consist of two or more numbers are better, and then more rows with any two.
+    """
     rows = tuple((number, _fields(line, separator)) for number, line in lines)
     counts = [(sum(_is_number(f, comma) for f in of), len(of)) for _, of in rows]
     score = sum(n == size > 1 for n, size in counts), sum(n > 1 for n, _ in counts)
@@ -180,7 +196,7 @@ def _fields(line: str, separator: str) -> tuple[str, ...]:
         return tuple(line.split())
     (row,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
     fields = [field.strip() for field in row]
-    while len(fields) > 1 and not fields[-1]:  # programs close lines with a separator
+    while len(fields) > 1 and not fields[-1]:  # some programs end lines with a separator
         fields.pop()
     return tuple(fields)
 
@@ -188,7 +204,7 @@ def _fields(line: str, separator: str) -> tuple[str, ...]:
 def _parted(
     lines: _Lines, shown: str
 ) -> tuple[list[tuple[str, ...]], list[tuple[int, tuple[str, ...]]]]:
-    """The lines above the numbers, and the rows of numbers.
+    """Return the lines above the numbers, and the rows of numbers.
 
     Raises BadTable.
     """
@@ -198,14 +214,14 @@ def _parted(
         if sum(_is_number(field, lines.comma) for field in fields) > 1
     )
     head = [fields for _, fields in lines.rows[:first]]
-    data = [row for row in lines.rows[first:] if row[1] not in head]  # a header that is repeated
+    data = [row for row in lines.rows[first:] if row[1] not in head]  # drop repeated headers
     width = len(data[0][1])
     for number, fields in data:
         if len(fields) != width:
             raise BadTable(
                 shown,
-                f"line {number} has {len(fields)} fields where the lines before have {width}",
-                "give each line the same columns",
+                f"line {number} has {len(fields)} instead of {width} fields",
+                "give every line the same number of columns",
             )
     return head, data
 
@@ -213,7 +229,7 @@ def _parted(
 def _header(
     head: Sequence[tuple[str, ...]], width: int, shown: str
 ) -> tuple[list[str], dict[int, str]]:
-    """Names of the columns, and units by column.
+    """Return the names of the columns, and the units by column.
 
     Raises BadTable.
     """
@@ -224,17 +240,17 @@ def _header(
     if not rest:
         raise BadTable(
             shown,
-            "has no line that names its columns",
+            "the table has no line with column names",
             "write one above the numbers, such as x [mm], p [MPa]",
         )
     names = _joined(rest[-1], width)
     if len(names) != width:
-        commas = ": decimal commas cannot be told from those between columns"
+        commas = " (commas may be decimal commas or separators)"
         raise BadTable(
             shown,
-            f"has {len(names)} names over {width} columns"
+            f"the table has {len(names)} names for {width} columns"
             + (commas if width == 2 * len(names) else ""),
-            "give each column a name; separate by ; where numbers have decimal commas",
+            "give each column a name, and separate columns by ; if numbers have decimal commas",
         )
     for i, name in enumerate(names):
         if found := _UNIT.search(name):
@@ -248,7 +264,7 @@ def _header(
 
 
 def _joined(fields: tuple[str, ...], width: int) -> list[str]:
-    """Names between spaces; a unit in brackets belongs to the name before it."""
+    """Join each unit in brackets, if it is a field by itself, to the name before it."""
     names: list[str] = []
     for field in fields:
         if len(fields) > width and names and _UNIT.fullmatch(field):
@@ -269,44 +285,46 @@ def _key(unit: str) -> str:
 
 
 def _meant(name: str) -> list[str]:
-    """What a column of this name holds."""
+    """Return the quantities that a column of this name may hold."""
     plain = re.sub(r"[^a-z0-9]+", " ", name.lower()).strip()
-    without = _COUNTED.sub("", plain)
+    unnumbered = _COUNTED.sub("", plain)
     return [
         what
-        for what, known in NAMES.items()
-        if plain in known or (what in "pq" and without in known)
+        for what, accepted in NAMES.items()
+        if plain in accepted or (what in "pq" and unnumbered in accepted)
     ]
 
 
 def _columns(names: Sequence[str], shown: str) -> dict[str, list[int]]:
-    """Which columns hold what.
+    """Return the columns of each quantity.
 
     Raises BadTable.
     """
-    found: dict[str, list[int]] = {}
+    columns: dict[str, list[int]] = {}
     for i, name in enumerate(names):
         for what in _meant(name):
-            found.setdefault(what, []).append(i)
+            columns.setdefault(what, []).append(i)
     for what in ("x", "p"):
-        if what not in found:
+        if what not in columns:
             raise BadTable(
                 shown,
-                f"no column is {MEANT[what]}: its names are {', '.join(names)}",
-                f"name one {what!r}, or as programs do: {', '.join(NAMES[what][1:6])}",
+                f"no column has {MEANT[what]}; the column names are {', '.join(names)}",
+                f"name one of them {what!r}, or {', '.join(NAMES[what][1:5])} or {NAMES[what][5]}",
             )
     for what in ("x", "step"):
-        if len(found.get(what, [])) > 1:
-            several = ", ".join(names[i] for i in found[what])
+        if len(columns.get(what, [])) > 1:
+            several = ", ".join(names[i] for i in columns[what])
             raise BadTable(
-                shown, f"{several} may each be {what!r}", f"leave the name {what!r} to one of them"
+                shown,
+                f"each of the columns {several} may be {what!r}",
+                "rename all of them but one",
             )
     doubled = {name for name in names if names.count(name) > 1}
-    if doubled & {names[i] for i in found["p"] + found.get("q", [])}:
+    if doubled & {names[i] for i in columns["p"] + columns.get("q", [])}:
         raise BadTable(
-            shown, f"two columns are called {doubled.pop()!r}", "give each column a name of its own"
+            shown, f"two columns are named {doubled.pop()!r}", "give each column a different name"
         )
-    return found
+    return columns
 
 
 def _unit(
@@ -317,36 +335,41 @@ def _unit(
     given: Mapping[str, str],
     shown: str,
 ) -> float:
-    """What a unit is in SI.
+    """Return the factor that converts a column to SI units.
 
     Raises BadTable.
     """
-    known, such = (LENGTHS, "mm") if what == "x" else (STRESSES, "MPa")
+    known, example = (LENGTHS, "mm") if what == "x" else (STRESSES, "MPa")
     of = [*columns[what], *(columns.get("q", []) if what == "p" else [])]
     own = {_key(found[i]): found[i] for i in of if found.get(i)}
     if what in given:
         asked = _key(given[what])
         if asked in known and any(known[key] != known[asked] for key in own.keys() & known.keys()):
-            said = (
-                f"the table gives {what} in {' and '.join(own.values())}, --unit in {given[what]}"
+            why = (
+                f"the table gives {what} in {' and '.join(own.values())}, but --unit says "
+                f"{given[what]}"
             )
-            raise BadTable(shown, said, "leave --unit out, or mend the table")
+            raise BadTable(shown, why, "remove --unit, or correct the table")
         own = {asked: given[what]}
     if not own:
         raise BadTable(
             shown,
             f"the unit of {names[of[0]]!r} is missing",
-            f"write {names[of[0]]} [{such}] in the line of names, or say --unit {what}={such}",
+            f"write {names[of[0]]} [{example}] above the column, or add --unit {what}={example}",
         )
     if len(own) > 1:
         raise BadTable(
-            shown, f"tractions are given in {' and '.join(own.values())}", "use one unit for all"
+            shown,
+            f"the tractions are given in different units, {' and '.join(own.values())}",
+            "use the same unit for all of them",
         )
     ((key, text),) = own.items()
     if key not in known:
         common = ("m", "mm", "um", "in", "Pa", "MPa", "GPa", "N/mm2", "psi", "ksi")
         allowed = ", ".join(unit for unit in common if _key(unit) in known)
-        raise BadTable(shown, f"{text!r} is no unit of {MEANT[what]}", f"write one of {allowed}")
+        raise BadTable(
+            shown, f"{text!r} is not a known unit of {MEANT[what]}", f"write one of {allowed}"
+        )
     return known[key]
 
 
@@ -357,7 +380,7 @@ def _numbers(
     comma: bool,
     shown: str,
 ) -> np.ndarray:
-    """One column.
+    """Return the numbers of one column.
 
     Raises BadTable.
     """
@@ -370,8 +393,8 @@ def _numbers(
             what = f"{fields[column]!r}" if fields[column] else "nothing"
             raise BadTable(
                 shown,
-                f"line {number} has {what} where {names[column]!r} is a number",
-                "give numbers alone, or leave the line out",
+                f"line {number} has {what} instead of a finite number in column {names[column]!r}",
+                "write a number there, or remove the line",
             )
         values.append(value)
     return np.array(values)
@@ -380,7 +403,7 @@ def _numbers(
 def _labels(
     data: Sequence[tuple[int, tuple[str, ...]]], columns: Mapping[str, Sequence[int]]
 ) -> list[str]:
-    """The load step of each row; none where there is no such column."""
+    """Return the load step of each row, or an empty list if there is no such column."""
     if "step" not in columns:
         return []
     (column,) = columns["step"]
