@@ -1,4 +1,4 @@
-"""Formulas of proven sheets."""
+"""Provide the formulas of a body, each of them proven before use."""
 
 from functools import cache
 
@@ -14,7 +14,7 @@ from derive.sheet import FormulaSheet
 
 
 class Body:
-    """A geometry with its sheet, whose formulas are proven before they are handed out."""
+    """A geometry with its formula sheet, whose formulas are proven before they are returned."""
 
     def __init__(self, geometry: Geometry) -> None:
         self.sheet: FormulaSheet = derive_sheet(geometry)
@@ -22,7 +22,7 @@ class Body:
         self._known: dict[str, Expr] = {}
 
     def formula(self, name: str) -> Expr:
-        """A formula, proven symbolically, else to 30 digits; raises NotProven."""
+        """Return a formula that is proven symbolically or else to 30 digits; raises NotProven."""
         if name not in self._known:
             proof = symbolic_proof(self.sheet, name) or self._routes.proof(name)
             if proof is None or not proof.holds:
@@ -33,12 +33,12 @@ class Body:
 
 @cache
 def of_library(name: str) -> Body:
-    """A body of the library."""
+    """Return a body of the library."""
     return Body(load_geometry(name))
 
 
 def placed(expr: Expr, table: dict[Symbol, Expr]) -> Expr:
-    """A formula with its arguments put in, its angles as plain arcs where they are acute."""
+    """Substitute the arguments of a formula, and write acute angles with atan."""
     return expr.subs(table, simultaneous=True).replace(atan2, _arc)
 
 

@@ -1,8 +1,8 @@
-"""What the equations of a claims file are read with, and how their calls are put in.
+"""Collect what is needed to read the equations of a claims file, and substitute their calls.
 
-Context   a body if there is one, and the variables
-Meant     what the symbols of the source are
-Put       a printed equation with its calls as symbols, and what these stand for
+Context   the body, if there is one, and the variables
+Meant     the meanings of the symbols of the source
+Put       a printed equation with its calls as symbols, and the meanings of these symbols
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -29,14 +29,14 @@ _CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
 
 @dataclass(frozen=True)
 class Context:
-    """What claims are read with: a body if there is one, and the names that are known from it."""
+    """The body of a claim, if there is one, and the variables with their units."""
 
     body: Body | None
     variables: Mapping[str, Expr]
     units: Mapping[Symbol, Dimension]
 
     def followed(self, meant: "Meant") -> Units:
-        """What is known of units."""
+        """Return the known units."""
         known, calls = {**_UNITS, **self.units}, dict[str, Call]()
         if self.sheet is not None:
             known = {**self.sheet.geometry.dimensions, **known}
@@ -51,21 +51,21 @@ class Context:
 
     @property
     def sheet(self) -> FormulaSheet | None:
-        """The formulas of the body."""
+        """The formula sheet of the body, or None."""
         return self.body.sheet if self.body else None
 
     @cached_property
     def parameters(self) -> dict[str, Expr]:
-        """Parameters of the body."""
+        """The parameters of the body by name."""
         return {q.name: q.symbol for q in self.sheet.geometry.parameters} if self.sheet else {}
 
     @cached_property
     def arities(self) -> dict[str, int]:
-        """The body's formulas, with how many arguments each takes."""
+        """The number of arguments of each formula of the body."""
         return {name: len(known.arguments) for name, known in (self.sheet or {}).items()}
 
     def put_in(self, expr: Any) -> Any:
-        """Calls of the sheet's formulas replaced by what they stand for, each proven."""
+        """Replace the calls of the body's formulas by the proven expressions."""
         while calls := expr.atoms(AppliedUndef):
             call = min(calls, key=lambda c: (len(str(c)), str(c)))
             assert self.body is not None
@@ -77,7 +77,7 @@ class Context:
         return expr.doit() if expr.has(Derivative, Limit) else expr
 
     def conditions(self, expr: Expr) -> Iterator[Boolean]:
-        """Where the formulas that are called in an expression are defined."""
+        """Yield the conditions under which the formulas called in an expression are defined."""
         for call in sorted(expr.atoms(AppliedUndef), key=str):
             known = self.sheet[call.func.__name__]  # type: ignore[index]
             table = dict(zip(known.arguments, call.args, strict=True))
@@ -91,12 +91,12 @@ class Context:
 
 @dataclass(frozen=True)
 class Meant:
-    """What the source's symbols are.
+    """The meanings of the symbols of the source.
 
-    written  as the file says it, other symbols put in and calls left as they are
-    ours     in variables alone
-    lost     names of symbols that are defined by themselves
-    needs    names of all symbols that a symbol is written with
+    written  meanings as in the file, with other symbols substituted and calls kept
+    ours     meanings in terms of variables only
+    lost     names of symbols whose definitions are circular
+    needs    for each symbol, the names of all symbols that its definition uses
     """
 
     written: dict[Symbol, Expr]
@@ -105,7 +105,7 @@ class Meant:
     needs: dict[str, set[str]] = field(default_factory=dict)
 
     def without(self, changed: Iterable[str]) -> "Meant":
-        """What stays as it is if some symbols are given another meaning."""
+        """Return the meanings that do not depend on the symbols that are redefined."""
         names = set(changed)
         kept = {n: needs for n, needs in self.needs.items() if n not in names and not needs & names}
         written, ours = (
@@ -117,22 +117,22 @@ class Meant:
 
 @dataclass(frozen=True)
 class Put:
-    """How the calls of a printed equation are put in: each is a symbol in it, printed as a call."""
+    """A printed equation's calls, each of which is represented by a symbol in the equation."""
 
     context: Context
     named: Mapping[Expr, Symbol]
     meaning: Meaning
 
     def stands_for(self, call: Expr, meaning: Meaning) -> Expr:
-        """A call, what its arguments mean put in, written out."""
+        """Return the expression for a call, with the meanings of its arguments substituted."""
         return self.context.put_in(call.xreplace(dict(meaning)))
 
     def called(self, meaning: Meaning) -> Meaning:
-        """What the calls stand for."""
+        """Return the expressions for all calls."""
         return {symbol: self.stands_for(call, meaning) for call, symbol in self.named.items()}
 
     def without_calls(self, side: Expr) -> Expr:
-        """A printed side with calls as symbols; put in where they change along an integral."""
+        """Replace calls by symbols, or by expressions if they depend on an integration variable."""
         for over in integrals(side):
             table = {call: self.stands_for(call, self.meaning) for call in calls_along(over)}
             inside = Integral(over.function.xreplace(table), *over.limits)
@@ -141,7 +141,7 @@ class Put:
 
 
 def as_text(call: Expr) -> str:
-    """A call, a derivative or a limit as it is typed."""
+    """Return a call, a derivative or a limit as a user would type it."""
     if isinstance(call, Derivative):
         (along, times) = call.variable_count[0]
         return f"diff({call.expr}, {along}" + (f", {times})" if times != 1 else ")")
@@ -155,18 +155,18 @@ def as_text(call: Expr) -> str:
 
 
 def integrals(*exprs: Expr) -> list[Integral]:
-    """All integrals in expressions, in an order that does not change."""
+    """Return all integrals in the expressions, in a fixed order."""
     return sorted({over for expr in exprs for over in expr.atoms(Integral)}, key=str)
 
 
 def calls_in(*exprs: Expr) -> list[Expr]:
-    """Calls of the sheet's formulas, and what is computed once they are put in: outermost ones."""
-    found = {call for expr in exprs for call in expr.atoms(*_CALLS)}
-    inner = {call for one in found for call in one.atoms(*_CALLS) - {one}}
-    return sorted(found - inner, key=str)
+    """Return the outermost calls, derivatives, limits and improper integrals."""
+    calls = {call for expr in exprs for call in expr.atoms(*_CALLS)}
+    inner = {call for one in calls for call in one.atoms(*_CALLS) - {one}}
+    return sorted(calls - inner, key=str)
 
 
 def calls_along(over: Integral) -> list[Expr]:
-    """Calls under an integral that change along it."""
+    """Return the calls under an integral that depend on the variable of integration."""
     along = {limit[0] for limit in over.limits}
     return [call for call in calls_in(over.function) if call.free_symbols & along]

@@ -1,6 +1,6 @@
-"""By what the two sides of a false equation differ, where no change of a symbol mends it.
+"""Describe how the two sides of a false equation differ if no correction was found.
 
-Their quotient is looked at: a constant is named, and so is a product of powers of the variables.
+If the ratio of the two sides is a constant times powers of the variables, it is reported.
 """
 
 from collections.abc import Iterator, Mapping
@@ -19,24 +19,25 @@ from derive.paper.values import Undecided, evaluated
 
 _DIGITS = 40
 _SHARED = 25
-"""Digits in which the quotient must be the same everywhere."""
+"""Digits in which the reduced ratio must be the same at all points."""
 _FEW = 6
-"""Points at which powers are measured, or an integral is computed."""
+"""Number of points at which powers are measured; also the limit for claims with integrals."""
 _LEAST = 4
 _STEPS = (mpf(2), mpf("1.125"), mpf("0.875"))
-"""Factors by which a variable is moved, the first that its conditions allow."""
+"""Factors by which a variable is changed; the first one that the conditions allow is used."""
 _NAMED = 18
-"""Digits to which a plain constant must agree."""
+"""Digits to which a constant must agree with its exact form."""
 _ROOTS = {2: "sqrt", 3: "cbrt"}
 _STEEPEST, _LARGEST = 6, 1000
-"""Powers, and whole numbers in a constant, that are plain enough to be named."""
+"""The largest power of a variable, and the largest integer in the exact form of a constant."""
 
 
 @dataclass(frozen=True)
 class Quotient:
-    """Left over right: a constant times powers of variables.
+    """The ratio of left to right side: a constant times powers of variables.
 
-    named: the constant in exact terms, if it is plain; count: points looked at
+    named  the exact form of the constant; empty if none was found
+    count  the number of points that were examined
     """
 
     constant: Value
@@ -45,8 +46,8 @@ class Quotient:
     count: int
 
     @property
-    def told(self) -> str:
-        """As a formula."""
+    def as_text(self) -> str:
+        """The ratio as a formula."""
         factors = [self.named or str(mpmath.nstr(self.constant, 12))]
         if self.named == "1" and self.powers:
             factors = []
@@ -57,32 +58,32 @@ class Quotient:
 
 
 def diagnosis(claim: Claim) -> str:
-    """In words, or nothing."""
+    """Describe the ratio of both sides in words; empty if there is nothing to report."""
     if claim.relation.is_ordered or claim.cases or claim.toward is not None:
         return ""
-    found = quotient(claim)
-    return f"left over right is {found.told} at {found.count} points" if found else ""
+    ratio = quotient(claim)
+    return f"the ratio left/right is {ratio.as_text} at {ratio.count} points" if ratio else ""
 
 
 def quotient(claim: Claim) -> Quotient | None:
-    """Left over right, if it is a constant times powers of the variables at all points."""
+    """Return the ratio of both sides if it is a constant times powers of the variables."""
     with mpmath.workdps(_DIGITS):
         try:
-            return _Quotients(claim).found()
+            return _Quotients(claim).measured()
         except Undecided:
             return None
 
 
 class _Quotients:
-    """The quotient of both sides of one claim, wherever it is a number."""
+    """Measures the ratio of both sides of one claim at points where it is a real number."""
 
     def __init__(self, claim: Claim) -> None:
         self.claim = claim
         table = dict(claim.meaning)
         self.sides = [side.xreplace(table) for side in claim.sides(claim.left, claim.right)]
 
-    def found(self) -> Quotient | None:
-        """The quotient with its powers."""
+    def measured(self) -> Quotient | None:
+        """Return the ratio, or None if it is not of the required form."""
         bases = [(p, v) for p, v in self._at(islice(points(self.claim), _FEW)) if v != 0]
         if (len(bases) < _LEAST and variables(self.claim)) or not bases:
             return None
@@ -111,8 +112,8 @@ class _Quotients:
                 yield point, left / right
 
     def _power(self, symbol: Symbol, bases: list[tuple[Point, Value]]) -> Fraction | None:
-        """By which power of a variable the quotient changes, if by one."""
-        found = set[Fraction]()
+        """Return the power of a variable in the ratio, or None if there is no single power."""
+        powers = set[Fraction]()
         for point, value in bases:
             for step in _STEPS:
                 moved = {**point, symbol: point[symbol] * step}
@@ -126,9 +127,9 @@ class _Quotients:
                 gap = abs(power - mpf(near.numerator) / near.denominator)
                 if gap > mpf(10) ** -_SHARED or abs(near) > _STEEPEST:
                     return None
-                found.add(near)
+                powers.add(near)
                 break
-        return found.pop() if len(found) == 1 else None
+        return powers.pop() if len(powers) == 1 else None
 
     def _is_in_range(self, symbol: Symbol, point: Point) -> bool:
         span = self.claim.ranges.get(symbol)
@@ -146,7 +147,7 @@ def _agree(one: Value, other: Value) -> bool:
 
 
 def named(constant: Value) -> str:
-    """A constant as a rational number, its root, and a power of pi; "" if it is none such.
+    """Write a constant as a rational number times a power of pi or a root of this, or return "".
 
     >>> named(mpmath.mpf(4) / mpmath.pi)
     '4/pi'

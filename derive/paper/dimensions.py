@@ -1,7 +1,8 @@
-"""The units of printed equations: the term that does not fit is named.
+"""Check the units of printed equations and name the term that does not fit.
 
-Units come from the body's sheet and from `unit = ` of variables and symbols.  A symbol of which
-nothing is said may have any, the same in all claims: each equation that fits says something of it.
+Units are taken from the body's formula sheet and from the entries `unit = ...` of variables and
+symbols.  A symbol without a declared unit may have any unit, but the same one in all claims:
+every equation that is consistent adds information about it.
 """
 
 from collections.abc import Callable, Mapping
@@ -33,7 +34,7 @@ from derive.paper.formula import IMPROPER
 from derive.units import NUMBER, Dimension
 
 Call = tuple[tuple[Dimension, ...], Dimension]
-"""The units of a formula's arguments, and its own."""
+"""The units of the arguments of a formula, and the unit of its value."""
 
 
 def _between(improper: Expr) -> Integral:
@@ -42,15 +43,15 @@ def _between(improper: Expr) -> Integral:
 
 
 class _Mismatch(Exception):
-    """Two units that should be one."""
+    """Two units differ that should be equal."""
 
 
 class Units:
-    """What is known of the units of a file.
+    """The known units of a claims file.
 
-    known    of variables, and of symbols whose unit is said
-    meaning  of symbols, as the file writes it
-    calls    of the formulas of the body
+    known    units of variables, and of symbols with a declared unit
+    meaning  meanings of symbols, as written in the file
+    calls    units of the body's formulas and of their arguments
     """
 
     def __init__(
@@ -64,7 +65,7 @@ class Units:
         self._seen: set[Symbol] = set()
 
     def mismatch(self, left: Expr, right: Expr) -> str:
-        """What does not fit in an equation; empty if all does, or may."""
+        """Describe the units that do not fit in an equation; empty if they may all fit."""
         before = dict(self.known), dict(self.solved), set(self._seen)
         try:
             self._same(left, right, "")
@@ -74,7 +75,7 @@ class Units:
         return ""
 
     def _same(self, one: Expr, other: Expr, whole: str) -> Dimension | None:
-        """The unit that two terms share."""
+        """Return the common unit of two terms."""
         first, second = self._of(one), self._of(other)
         if first is None or second is None:
             return first or second
@@ -98,7 +99,7 @@ class Units:
                 if "?" in one + other:
                     by = self._shown(Dimension(*gaps))
                     raise _Mismatch(f"the unit of {what} is {by} times that of {beside}")
-                raise _Mismatch(f"{what} is in {other}, and {beside} in {one}")
+                raise _Mismatch(f"{what} is in {other}, but {beside} is in {one}")
 
     def _shown(self, unit: Dimension) -> str:
         powers = [expand(e).xreplace(self.solved) for e in (unit.pressure, unit.length)]
@@ -106,18 +107,18 @@ class Units:
             return "?"
         return str(Dimension(*powers))
 
-    def _number(self, expr: Expr, taken: str) -> None:
-        """Nothing, or a mismatch where a number is taken and this is none."""
-        found = self._of(expr)
-        if found is not None:
+    def _number(self, expr: Expr, where: str) -> None:
+        """Raise _Mismatch if an expression that must be dimensionless is not."""
+        unit = self._of(expr)
+        if unit is not None:
             try:
-                self._equate(NUMBER, found, str(expr), taken)
+                self._equate(NUMBER, unit, str(expr), where)
             except _Mismatch:
-                unit = self._shown(found)
-                raise _Mismatch(f"{expr} is in {unit}, and {taken} takes a number") from None
+                shown = self._shown(unit)
+                raise _Mismatch(f"{expr} is in {shown}, but {where} must be a number") from None
 
     def _of(self, expr: Expr) -> Dimension | None:
-        """The unit; None of a zero, which has every one."""
+        """Return the unit of an expression, or None for zero, which fits every unit."""
         if expr == 0:
             return None
         if isinstance(expr, Symbol):
@@ -137,41 +138,41 @@ class Units:
             if isinstance(expr, kinds):
                 return read(self, expr)
         for argument in expr.args:
-            self._number(argument, str(expr.func))
+            self._number(argument, f"the argument of {expr.func}")
         return NUMBER
 
     def _of_symbol(self, symbol: Symbol) -> Dimension:
         if symbol not in self.known:
-            meant = self._of(self.meaning[symbol]) if symbol in self.meaning else None
-            self.known[symbol] = meant or Dimension(Dummy(symbol.name), Dummy(symbol.name))
+            own = self._of(self.meaning[symbol]) if symbol in self.meaning else None
+            self.known[symbol] = own or Dimension(Dummy(symbol.name), Dummy(symbol.name))
         elif symbol in self.meaning and symbol not in self._seen:
             self._seen.add(symbol)
-            meant = self._of(self.meaning[symbol])
-            if meant is not None:
-                what = f"{self.meaning[symbol]}, which {symbol} is said to be,"
-                self._equate(self.known[symbol], meant, what, f"{symbol}, by its unit,")
+            own = self._of(self.meaning[symbol])
+            if own is not None:
+                what = f"the meaning {self.meaning[symbol]} of {symbol}"
+                self._equate(self.known[symbol], own, what, f"{symbol} as declared")
         return self.known[symbol]
 
     def _common(self, terms: tuple[Expr, ...], whole: Expr) -> Dimension | None:
-        found, first = None, terms[0]
+        common, first = None, terms[0]
         for term in terms:
             unit = self._of(term)
-            if found is None:
-                found, first = unit, term
+            if common is None:
+                common, first = unit, term
             elif unit is not None:
-                self._equate(found, unit, str(term), f"{first} in {whole}")
-        return found
+                self._equate(common, unit, str(term), f"{first} in {whole}")
+        return common
 
     def _of_call(self, expr: Expr) -> Dimension:
         wanted, own = self.calls[expr.func.__name__]
         for argument, unit in zip(expr.args, wanted, strict=True):
-            found = self._of(argument)
-            if found is not None:
-                self._equate(unit, found, str(argument), f"what {expr.func} takes there")
+            given = self._of(argument)
+            if given is not None:
+                self._equate(unit, given, str(argument), f"this argument of {expr.func}")
         return own
 
     def _of_integral(self, expr: Integral) -> Dimension:
-        total, inner = NUMBER, dict(self.known)
+        total, before = NUMBER, dict(self.known)
         for variable, *ends in expr.limits:
             along = self._common(tuple(ends), expr)
             if along is not None:
@@ -180,8 +181,8 @@ class Units:
         total = total * (self._of(expr.function) or NUMBER)
         for variable, *_ in expr.limits:
             self.known.pop(variable, None)
-            if variable in inner:
-                self.known[variable] = inner[variable]
+            if variable in before:
+                self.known[variable] = before[variable]
         return total
 
     def _of_derivative(self, expr: Derivative) -> Dimension:

@@ -1,6 +1,6 @@
-"""Where an expression is continuous, shown by exact steps; what is not shown is not taken as so.
+"""Show by exact steps that an expression is continuous; without such a proof it is not assumed.
 
-Variables range over what a claim says of them: between two bounds, or over all positive numbers.
+Each variable takes the values that the claim allows: between two bounds, or all positive numbers.
 """
 
 from collections.abc import Mapping
@@ -11,16 +11,16 @@ from derive.paper.claim import SCALE, Range
 from derive.paper.kinks import switches
 
 _MOST_TERMS = 500
-"""Terms of a polynomial whose signs are looked at."""
+"""The largest number of terms in a polynomial whose signs are examined."""
 
 
 def is_continuous(expr: Expr, ranges: Mapping[Symbol, Range]) -> bool:
-    """Whether no modulus, root, logarithm, quotient, ... in it changes sign or branch."""
+    """Whether it is shown that no switch of the expression has a zero in the ranges."""
     return all(_has_one_sign(switch.of, ranges) for switch in switches(expr))
 
 
 def _has_one_sign(expr: Expr, ranges: Mapping[Symbol, Range]) -> bool:
-    """Whether an expression is shown to be nowhere zero."""
+    """Whether an expression is shown to have no zero."""
     if expr.is_positive or expr.is_negative:
         return True
     over_positive = expr.xreplace({s: _from_positive(s, ranges.get(s)) for s in expr.free_symbols})
@@ -28,7 +28,7 @@ def _has_one_sign(expr: Expr, ranges: Mapping[Symbol, Range]) -> bool:
 
 
 def _from_positive(symbol: Symbol, span: Range | None) -> Expr:
-    """The variable by another one that takes all positive numbers."""
+    """Express the variable through another one that takes all positive values."""
     free = Dummy(symbol.name, positive=True)
     if span is None or span == SCALE or span.powers:
         return free if symbol.is_positive else symbol

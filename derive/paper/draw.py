@@ -1,8 +1,10 @@
-"""Where a claim is looked at: random points of its assumptions, the same on every machine.
+"""Choose the points at which a claim is evaluated: random, but the same on every machine.
 
-points    of a moderate size, or spread evenly over a declared range
-further   over many decades, next to the ends of ranges, and on both sides of places where a
-          modulus, a logarithm, a root, ... inside the claim changes
+All points satisfy the conditions of the claim.
+
+points    variables of moderate size, or spread evenly over a declared range
+further   points over many decades, near the ends of ranges, and on both sides of the zeros of
+          a modulus, a logarithm, a root or similar in the claim
 """
 
 import hashlib
@@ -22,36 +24,36 @@ from derive.paper.claim import SCALE, Claim, Point, Range, Relation
 from derive.paper.kinks import Switch, peaked, switches
 
 POINTS = 24
-"""Points at which both sides are compared, before further ones."""
+"""Number of first points at which both sides are compared."""
 LEAST = 20
-"""Points where an integral is in it; below that nothing is decided."""
+"""The same for claims with integrals, and the least number of points for any verdict."""
 DECADES = 6
-"""A positive variable without a range is drawn from 10**-6 to 10**6 at further points."""
+"""At further points, a positive variable without a range is drawn from 10**-6 to 10**6."""
 _FEWER_DECADES = 2
-"""The same where an integral is in it."""
+"""The same for claims with integrals."""
 _WIDE, _AT_ENDS, _CHANGES = 8, 6, 12
 _FEWER_WIDE, _FEWER_AT_ENDS, _FEWER_CHANGES = 3, 2, 4
 _CORNERS, _FEWER_CORNERS = 16, 2
-"""Corners of all ranges together that are looked at."""
+"""The largest number of corners of all ranges that are examined."""
 _TRIES = 300
-"""Points that are drawn for one that meets the conditions of a claim."""
+"""Number of attempts to draw a point that meets the conditions of a claim."""
 _PAST = (0.5, 0.9, 1.1, 2, 6)
-"""Parts of a limit of integration at which other variables are looked at."""
+"""Values of other variables relative to a numerical limit of integration."""
 _MOST_PAST = 15
 _WIDE_PAST = 6
-"""Points over all decades, too, where a limit is a number: the others are no mere scale then."""
+"""Number of points over many decades if a limit is a number, which sets an absolute scale."""
 _CLOSEST = 6
-"""Decades by which a point may be closer to an end of a range than the range is long."""
+"""Points lie as close to an end of a range as 10**-6 of the length of the range."""
 _TOUCHING = 1e-10
-"""The part of the gap of two sides nearby that is none in double precision."""
+"""Two sides touch if their gap is at most this fraction of the gaps next to it."""
 _SWITCHES = 10
-"""Switches of a claim that are looked at."""
+"""The largest number of switches of a claim that are examined."""
 _GRID = 96
-"""Places of a variable at which the sign of a switch is looked at; none is in the middle."""
+"""Number of grid points for the sign of a switch; an even number leaves out the middle."""
 
 
 def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]:
-    """Points of a moderate size; those of the claim, if it has its own."""
+    """Yield the claim's own cases if it has any, or else points of moderate size."""
     if claim.cases:
         yield from ({symbol: mpf(text) for symbol, text in case.items()} for case in claim.cases)
         return
@@ -71,7 +73,7 @@ def is_allowed(claim: Claim, point: Point) -> bool:
     """Whether a point meets the conditions of a claim."""
     try:
         return all(_is_met(each, point) for each in claim.conditions)
-    except (ArithmeticError, TypeError, ValueError):  # no number, or none that is real
+    except (ArithmeticError, TypeError, ValueError):  # undefined, or not real
         return False
 
 
@@ -87,7 +89,7 @@ def _for_a_point(condition: Boolean) -> tuple[Callable[..., bool], list[Symbol]]
 
 
 def further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
-    """Points where a claim that holds at moderate ones may not."""
+    """Yield points at which a claim may fail although it holds at points of moderate size."""
     yield from (point for point in _further(claim, exprs) if is_allowed(claim, point))
 
 
@@ -104,8 +106,8 @@ def _further(claim: Claim, exprs: Iterable[Expr]) -> Iterator[Point]:
     if few:
         yield from _past_limits(claim, symbols, _random(claim, "limits"), exprs)
     if claim.is_inequality and not few:
-        found = _closest(claim, symbols, rng, exprs[0] - exprs[1])
-        yield from (point for point, _ in found)
+        pairs = _closest(claim, symbols, rng, exprs[0] - exprs[1])
+        yield from (point for point, _ in pairs)
     if not (few and claim.family):
         most = _FEWER_CHANGES if few else _CHANGES
         yield from _changes(claim, symbols, rng, exprs, most)
@@ -128,11 +130,11 @@ def _drawn(span: Range, rng: random.Random) -> mpf:
 
 
 def has_integral(claim: Claim) -> bool:
-    """Whether a side, or what a symbol of it means, is an integral."""
+    """Whether a side, or the meaning of one of its symbols, contains an integral."""
     sides = claim.sides(claim.left, claim.right)
     held = set().union(*(side.free_symbols for side in sides))
-    meant = [expr for symbol, expr in claim.meaning.items() if symbol in held]
-    return any(expr.has(Integral) for expr in (*sides, *meant))
+    meanings = [expr for symbol, expr in claim.meaning.items() if symbol in held]
+    return any(expr.has(Integral) for expr in (*sides, *meanings))
 
 
 def _exprs(claim: Claim) -> list[Expr]:
@@ -140,24 +142,24 @@ def _exprs(claim: Claim) -> list[Expr]:
 
 
 def variables(claim: Claim) -> list[Symbol]:
-    """Our symbols that a point must give a number to."""
+    """Return the variables that need a value at every point."""
     sides = claim.sides(claim.left, claim.right)
     held = set().union(*(side.free_symbols for side in sides))
-    found: set[Symbol] = set(claim.ranges)
+    symbols: set[Symbol] = set(claim.ranges)
     for condition in claim.conditions:
-        found |= condition.free_symbols
+        symbols |= condition.free_symbols
     for symbol in held:
-        found |= claim.meaning.get(symbol, symbol).free_symbols
-    return sorted(found - _bound(claim), key=in_order)
+        symbols |= claim.meaning.get(symbol, symbol).free_symbols
+    return sorted(symbols - _bound(claim), key=in_order)
 
 
 def in_order(symbol: Symbol) -> tuple[str, str]:
-    """A key for symbols, of which two may have one name."""
+    """Return a sort key for symbols, of which two may have the same name."""
     return symbol.name, str(symbol.assumptions0)
 
 
 def _bound(claim: Claim) -> set[Symbol]:
-    """Variables of integration; a sheet's own place x is one only where it is integrated over."""
+    """Return the variables of integration, except those for which the claim has a range."""
     integrals = {over for expr in _exprs(claim) for over in expr.atoms(Integral)}
     return {limit[0] for over in integrals for limit in over.limits} - set(claim.ranges)
 
@@ -168,7 +170,7 @@ def _bound(claim: Claim) -> set[Symbol]:
 def _wide(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, few: bool
 ) -> Iterator[Point]:
-    """Variables without a range over many decades."""
+    """Yield points with the variables that have no range spread over many decades."""
     decades = _FEWER_DECADES if few else DECADES
     free = [symbol for symbol in symbols if symbol not in claim.ranges]
     for _ in range((_FEWER_WIDE if few else _WIDE) if free else 0):
@@ -179,7 +181,10 @@ def _wide(
 def _at_ends(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, count: int
 ) -> Iterator[Point]:
-    """Variables next to the ends of their ranges: all high, all low, then as it comes."""
+    """Yield points with variables near the ends of their ranges.
+
+    All are near the upper ends first, then near the lower ends, and then near random ends.
+    """
     limited = [symbol for symbol in symbols if symbol in claim.ranges]
     for n in range(count if limited else 0):
         point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
@@ -194,7 +199,10 @@ def _at_ends(
 def _corners(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, few: bool
 ) -> Iterator[Point]:
-    """All ranges near an end at once; with an integral not those that `_at_ends` sees to."""
+    """Yield points with all variables near ends of their ranges at once.
+
+    For claims with integrals, the two corners that `_at_ends` already covers are left out.
+    """
     limited = [symbol for symbol in symbols if symbol in claim.ranges]
     if not limited or (few and len(limited) < 2):
         return
@@ -210,16 +218,16 @@ def _corners(
 
 
 def _inside(span: Range, share: float, high: bool) -> mpf:
-    """The place of a range that is a share of it away from one of its ends."""
-    place = mpf(1 - share if high else share)
-    value = span.low + place * (mpf(span.high) - span.low)
+    """Return the point of a range at the relative distance `share` from one of its ends."""
+    position = mpf(1 - share if high else share)
+    value = span.low + position * (mpf(span.high) - span.low)
     return mpf(2) ** value if span.powers else value
 
 
 def _past_limits(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr]
 ) -> Iterator[Point]:
-    """Where a limit of integration is a number: variables under the integral around it."""
+    """Yield points with variables of an integrand close to a numerical limit of integration."""
     known = set(symbols)
     wanted = set[tuple[float, Symbol]]()
     for over in set().union(*(expr.atoms(Integral) for expr in exprs)):
@@ -230,15 +238,15 @@ def _past_limits(
         ]
         held = (over.function.free_symbols - {over.limits[-1][0]}) & known
         wanted |= {(float(limit), symbol) for limit in numbers for symbol in held}
-    places = [
+    values = [
         (symbol, part * limit)
         for limit, symbol in sorted(wanted, key=lambda each: (each[0], in_order(each[1])))
         for part in _PAST
         if _may_be(claim, symbol, part * limit)
     ]
-    for symbol, place in places[:_MOST_PAST]:
+    for symbol, value in values[:_MOST_PAST]:
         point = {each: _drawn(_range(claim, each), rng) for each in symbols}
-        yield point | {symbol: mpf(place)}
+        yield point | {symbol: mpf(value)}
     free = [symbol for symbol in symbols if symbol not in claim.ranges]
     for _ in range(_WIDE_PAST if free and wanted else 0):
         point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
@@ -247,50 +255,50 @@ def _past_limits(
         }
 
 
-def _may_be(claim: Claim, symbol: Symbol, place: float) -> bool:
-    """Whether a variable takes a value."""
+def _may_be(claim: Claim, symbol: Symbol, value: float) -> bool:
+    """Whether a variable may take a value."""
     span = claim.ranges.get(symbol)
     if span is None:
-        return place > 0
+        return value > 0
     low, high = (2**span.low, 2**span.high) if span.powers else (span.low, span.high)
-    return low < place < high
+    return low < value < high
 
 
 def _changes(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr], most: int
 ) -> Iterator[Point]:
-    """Pairs of points, with a zero of a switch between them."""
-    found = 0
+    """Yield pairs of points with a zero of a switch between them."""
+    count = 0
     for switch in _looked_at(exprs, symbols):
         of, held = _for_arrays(switch.of)
         for variable in held:
-            if of is None or found >= most:
+            if of is None or count >= most:
                 break
             point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
             grid = _grid(claim.ranges.get(variable))
             between = _sign_change(of, held, variable, point, grid)
             if between is not None:
-                found += 2
+                count += 2
                 yield from _either_side(of, held, variable, point, between, rng)
 
 
 def _peaks(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr], most: int
 ) -> Iterator[Point]:
-    """Points where an exponent or a divisor is stationary along a variable, as at a spike."""
+    """Yield points where an exponent or a divisor is stationary, as at a spike."""
     known = set(symbols)
     inside = {n for expr in exprs for n in peaked(expr) if n.free_symbols <= known}
-    found = 0
+    count = 0
     for inner in sorted(inside, key=lambda n: (len(str(n)), str(n)))[:_SWITCHES]:
         for variable in sorted(inner.free_symbols, key=in_order):
             of, held = _for_arrays(inner.diff(variable))
-            if of is None or variable not in held or found >= most:
+            if of is None or variable not in held or count >= most:
                 continue
             point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
             grid = _grid(claim.ranges.get(variable))
             between = _sign_change(of, held, variable, point, grid)
             if between is not None:
-                found += 1
+                count += 1
                 low, high = _narrowed(of, held, variable, point, between)
                 yield point | {variable: mpf(float(low + high) / 2)}
 
@@ -298,39 +306,39 @@ def _peaks(
 def _bottoms(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, exprs: Iterable[Expr], most: int
 ) -> Iterator[Point]:
-    """Points where the argument of a modulus or a sign is stationary.
+    """Yield points where the argument of a modulus or a sign is stationary.
 
-    It may change its sign between two neighbours of a grid and back.  Along one variable after the
-    other, each staying where it was found.
+    Near such points it may change sign twice between two neighbouring points of a grid.  The
+    variables are treated one after the other, and each keeps the value that was found for it.
     """
-    found = 0
+    count = 0
     for switch in _looked_at(exprs, symbols):
         if switch.kind != "kink" or switch.of.has(Integral):
             continue
         point = {symbol: _drawn(_range(claim, symbol), rng) for symbol in symbols}
         for variable in sorted(switch.of.free_symbols, key=in_order):
             of, held = _for_arrays(switch.of.diff(variable))
-            if of is None or variable not in held or found >= most:
+            if of is None or variable not in held or count >= most:
                 continue
             grid = _grid(claim.ranges.get(variable))
             between = _sign_change(of, held, variable, point, grid)
             if between is not None:
-                found += 1
+                count += 1
                 low, high = _narrowed(of, held, variable, point, between)
                 point = point | {variable: mpf(float(low + high) / 2)}
                 yield point
 
 
 def _looked_at(exprs: Iterable[Expr], symbols: Sequence[Symbol]) -> list[Switch]:
-    """Switches that may change their sign, the shortest first."""
+    """Return the switches that may change their sign, the shortest first."""
     known = set(symbols)
-    found = {
+    candidates = {
         switch
         for expr in exprs
         for switch in switches(expr)
         if switch.of.free_symbols <= known and not switch.of.is_nonzero
     }
-    return sorted(found, key=lambda s: (len(str(s.of)), str(s.of), s.kind))[:_SWITCHES]
+    return sorted(candidates, key=lambda s: (len(str(s.of)), str(s.of), s.kind))[:_SWITCHES]
 
 
 def _grid(span: Range | None) -> Any:
@@ -354,19 +362,19 @@ def _for_arrays(expr: Expr) -> tuple[_OfArrays | None, list[Symbol]]:
 def _values(
     of: _OfArrays, held: Sequence[Symbol], variable: Symbol, point: Point, along: Any
 ) -> Any:
-    """A switch along one variable, in double precision; not a number where it is none."""
+    """Evaluate a switch along one variable in double precision, with NaN if that fails."""
     with np.errstate(all="ignore"):
         try:
-            found = of(*(along if s == variable else float(point[s]) for s in held))
+            values = of(*(along if s == variable else float(point[s]) for s in held))
         except (ArithmeticError, NameError, TypeError, ValueError):
             return np.full(along.shape, np.nan)
-    return np.broadcast_to(np.asarray(found), along.shape)
+    return np.broadcast_to(np.asarray(values), along.shape)
 
 
 def _sign_change(
     of: _OfArrays, held: Sequence[Symbol], variable: Symbol, point: Point, grid: Any
 ) -> tuple[float, float] | None:
-    """Two places of a variable between which a switch changes its sign."""
+    """Return two values of a variable between which a switch changes its sign."""
     values = _values(of, held, variable, point, grid)
     if np.iscomplexobj(values):
         return None
@@ -386,7 +394,7 @@ def _either_side(
     between: tuple[float, float],
     rng: random.Random,
 ) -> Iterator[Point]:
-    """A point on each side of the zero, somewhere between it and the places given."""
+    """Yield a point on each side of the zero, between the zero and the given values."""
     low, _ = _narrowed(of, held, variable, point, between)
     for end in between:
         share = 10 ** rng.uniform(-4, 0)
@@ -400,7 +408,7 @@ def _narrowed(
     point: Point,
     between: tuple[float, float],
 ) -> tuple[float, float]:
-    """Two places next to each other with a change of sign between them."""
+    """Return two neighbouring values with a change of sign between them, by bisection."""
     low, high = between
     for _ in range(60):
         middle = (low + high) / 2
@@ -412,10 +420,10 @@ def _narrowed(
 def _closest(
     claim: Claim, symbols: Sequence[Symbol], rng: random.Random, difference: Expr
 ) -> Iterator[tuple[Point, tuple[Point, ...]]]:
-    """Where the sides of an inequality are next to each other along one variable, or cross.
+    """Yield points where the sides of an inequality are closest along one variable, or cross.
 
-    If they touch there, inside the range, as far as double precision can tell: with a point on
-    either side, near it.
+    If the sides appear to touch there, inside the range, in double precision, each point comes
+    with one nearby point on either side.
     """
     of, held = _for_arrays(difference)
     if of is None or not set(held) <= set(symbols):
@@ -433,41 +441,41 @@ def _closest(
         best = float(heights[n])
         for _ in range(30):
             finer = np.linspace(low, high, 9)
-            found = _values(of, held, variable, point, finer) * sense
-            if not np.all(np.isfinite(found)):
+            finer_heights = _values(of, held, variable, point, finer) * sense
+            if not np.all(np.isfinite(finer_heights)):
                 break
-            m = int(np.argmax(found))
-            low, high, best = finer[max(m - 1, 0)], finer[min(m + 1, 8)], float(found[m])
+            m = int(np.argmax(finer_heights))
+            low, high, best = finer[max(m - 1, 0)], finer[min(m + 1, 8)], float(finer_heights[m])
         inside = 0 < n < len(grid) - 1
         around = np.abs(heights[n - 1 : n + 2]) if inside else np.zeros(1)
-        place = float(low + high) / 2
+        position = float(low + high) / 2
         beside = tuple[Point, ...]()
         if inside and abs(best) <= _TOUCHING * np.max(around):
-            steps = [(float(grid[other]) - place) / 1000 for other in (n - 1, n + 1)]
-            beside = tuple(point | {variable: mpf(place + step)} for step in steps)
-        yield point | {variable: mpf(place)}, beside
+            steps = [(float(grid[other]) - position) / 1000 for other in (n - 1, n + 1)]
+            beside = tuple(point | {variable: mpf(position + step)} for step in steps)
+        yield point | {variable: mpf(position)}, beside
 
 
 def touching(claim: Claim, exprs: Sequence[Expr]) -> Iterator[tuple[Point, tuple[Point, ...]]]:
-    """Points where the sides of an inequality seem to touch, with those beside them."""
+    """Yield points where the sides of an inequality seem to touch, with the points beside them."""
     if claim.cases or has_integral(claim) or not variables(claim):
         return
     rng = _random(claim, "touching")
-    found = _closest(claim, variables(claim), rng, exprs[0] - exprs[1])
-    yield from ((point, beside) for point, beside in found if beside)
+    pairs = _closest(claim, variables(claim), rng, exprs[0] - exprs[1])
+    yield from ((point, beside) for point, beside in pairs if beside)
 
 
 # ------------------------------------------------------------------ in words
 
 
-def spread(found: Sequence[Point]) -> str:
-    """From where to where the variables of points reach, those alike told together."""
-    told: dict[str, list[str]] = {}
-    for symbol in sorted(set().union(*found) if found else set(), key=in_order):
-        values = [point[symbol] for point in found if symbol in point]
+def spread(drawn: Sequence[Point]) -> str:
+    """Return the ranges that the points cover, with variables of equal range grouped together."""
+    names_by_span: dict[str, list[str]] = {}
+    for symbol in sorted(set().union(*drawn) if drawn else set(), key=in_order):
+        values = [point[symbol] for point in drawn if symbol in point]
         span = f"{_short(min(values))} to {_short(max(values))}"
-        told.setdefault(span, []).append(symbol.name)
-    return "; ".join(f"{', '.join(names)} from {span}" for span, names in told.items())
+        names_by_span.setdefault(span, []).append(symbol.name)
+    return "; ".join(f"{', '.join(names)} from {span}" for span, names in names_by_span.items())
 
 
 def _short(value: mpf) -> str:

@@ -123,9 +123,7 @@ def equation(text: str, names: Names, rough: bool = False) -> tuple[Expr, Relati
     start, end = relations[0].span()
     if relations[0].group() == "~" and not rough:
         why = "~ cannot be checked without a limit"
-        remedy = (
-            "add as = 'x -> 0' to the claim, or equate the leading terms with ="
-        )
+        remedy = "add as = 'x -> 0' to the claim, or equate the leading terms with ="
         raise BadFormula(names.where, text, start, why, remedy)
     relation = Relation(_ALIASES.get(relations[0].group(), relations[0].group()))
     left = formula(text[:start], names)

@@ -1,7 +1,7 @@
-"""A geometry file as data: g(x) and the units of its parameters, of which nothing is executed.
+"""Read g(x) and the units of its parameters from a geometry file without executing the file.
 
-In:  the path of a Python file as `derive new` writes it.
-Out: the text of g(x), and each parameter's unit.
+In:  the path of a Python file as written by `derive new`.
+Out: the text of g(x), and the unit of each parameter.
 """
 
 import ast
@@ -11,41 +11,44 @@ from derive.errors import BadGeometryFile
 from derive.files import Unreadable, bytes_of
 
 _LARGEST = 50_000
-"""Bytes of a geometry file."""
+"""The largest size of a geometry file, in bytes."""
 
 
 def profile_of(path: Path) -> tuple[str, dict[str, str]]:
-    """g(x) as text, and the units of its parameters by name.
+    """Return g(x) as text, and the units of its parameters by name.
 
-    Raises BadGeometryFile for what cannot be read without running it.
+    Raises BadGeometryFile if the file cannot be read without executing it.
     """
     try:
         tree = ast.parse(bytes_of(path, _LARGEST))
     except Unreadable as error:
         raise BadGeometryFile(str(path), str(error)) from error
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise BadGeometryFile(str(path), "is no Python") from error
+        raise BadGeometryFile(str(path), "the file is not valid Python") from error
     units, profiles = dict[str, str](), list[str]()
     for statement in tree.body:
         if not isinstance(statement, ast.Assign) or not isinstance(statement.value, ast.Call):
             continue
-        called, target = statement.value, statement.targets[0]
-        if ast.unparse(called.func) == "parameter" and isinstance(target, ast.Name):
-            units[target.id] = _unit(called, target.id, path)
-        elif ast.unparse(called.func) == "Geometry":
-            profiles += [ast.unparse(k.value) for k in called.keywords if k.arg == "g"]
+        call, target = statement.value, statement.targets[0]
+        if ast.unparse(call.func) == "parameter" and isinstance(target, ast.Name):
+            units[target.id] = _unit(call, target.id, path)
+        elif ast.unparse(call.func) == "Geometry":
+            profiles += [ast.unparse(k.value) for k in call.keywords if k.arg == "g"]
     if len(profiles) != 1:
-        raise BadGeometryFile(str(path), "has not one `geometry = Geometry(name, g=...)`")
+        why = "the file does not have exactly one `geometry = Geometry(name, g=...)`"
+        raise BadGeometryFile(str(path), why)
     return profiles[0], units
 
 
-def _unit(called: ast.Call, name: str, path: Path) -> str:
-    """The unit of `name = parameter("name", "meaning", unit="m")`."""
+def _unit(call: ast.Call, name: str, path: Path) -> str:
+    """Return the unit given by `name = parameter("name", "meaning", unit="m")`."""
     try:
-        given = [ast.literal_eval(argument) for argument in called.args]
-        named = {k.arg: ast.literal_eval(k.value) for k in called.keywords}
+        given = [ast.literal_eval(argument) for argument in call.args]
+        named = {k.arg: ast.literal_eval(k.value) for k in call.keywords}
     except ValueError as error:
-        raise BadGeometryFile(str(path), f"computes the words of parameter {name!r}") from error
+        why = f"the arguments of the parameter {name!r} are not all literals"
+        raise BadGeometryFile(str(path), why) from error
     if [*given, named.get("name")][0] != name:
-        raise BadGeometryFile(str(path), f"calls the parameter {name!r} otherwise in Python")
+        why = f"the parameter {name!r} is assigned to a Python variable of another name"
+        raise BadGeometryFile(str(path), why)
     return str(named.get("unit", "m"))

@@ -1,7 +1,9 @@
-"""Where an expression may kink, jump, be infinite or change its branch.
+"""Find where an expression may kink, jump, be infinite or change its branch.
 
-switches    of an expression: others at whose zeros that may happen
-Places      the zeros along one variable, as functions of all other symbols
+A switch of an expression is another expression at whose zeros this may happen.
+
+switches    the switches of an expression
+places      the zeros of the switches along one variable, as functions of all other symbols
 """
 
 from collections.abc import Iterator
@@ -41,18 +43,18 @@ from sympy import (
 from sympy.core.relational import Relational
 
 _HIGHEST = 8
-"""Degree of a polynomial whose roots are computed as such."""
+"""The highest degree of a polynomial whose roots are computed directly."""
 _ROOTS = 2
-"""Roots that are squared away, one after the other."""
+"""The largest number of square roots that are removed by squaring, one after the other."""
 
 
 @dataclass(frozen=True)
 class Switch:
-    """An expression at whose zeros another one may not be smooth.
+    """An expression at whose zeros another expression may not be smooth.
 
-    kind  root   a half-integer power: regular in the root of the distance
-          pole   a negative whole power
-          kink   a modulus, a sign, a condition: smooth on either side
+    kind  root   a half-integer power: smooth in the square root of the distance
+          pole   a negative integer power
+          kink   a modulus, a sign or a condition: smooth on either side
           log    anything else
     """
 
@@ -61,7 +63,7 @@ class Switch:
 
 
 def switches(expr: Expr) -> Iterator[Switch]:
-    """Every switch of an expression, outside the integrals in it."""
+    """Yield every switch of an expression outside the integrals in it."""
     if isinstance(expr, Integral):
         return
     for kind, inner in _own(expr):
@@ -74,7 +76,7 @@ def switches(expr: Expr) -> Iterator[Switch]:
 
 
 def _own(expr: Expr) -> Iterator[tuple[str, Expr]]:
-    """Switches of the outermost step alone."""
+    """Yield the switches of the outermost operation only."""
     if isinstance(expr, Pow):
         yield from _of_power(expr)
     elif isinstance(expr, Abs | sign | Heaviside):
@@ -111,7 +113,7 @@ def _of_power(expr: Expr) -> Iterator[tuple[str, Expr]]:
 
 
 def is_unbounded(expr: Expr, variable: Symbol) -> bool:
-    """Whether a negative power or a tangent of the variable may make it infinite."""
+    """Whether a power or a tangent of the variable may make the expression infinite."""
     return any(
         (isinstance(n, Pow) and not n.exp.is_nonnegative) or isinstance(n, tan)
         for n in expr.atoms(Pow, tan)
@@ -124,11 +126,12 @@ def is_unbounded(expr: Expr, variable: Symbol) -> bool:
 
 @dataclass(frozen=True)
 class Place:
-    """Zeros of one switch along a variable.
+    """The zeros of one switch along a variable.
 
-    of            the switch's expression
-    kind          of the switch, or peak: smooth, but a place where much may happen
-    coefficients  of polynomials that have all its zeros among theirs; empty if none is known
+    of            the expression of the switch
+    kind          the kind of the switch, or peak: smooth, but with rapid changes
+    coefficients  coefficients of polynomials whose zeros include all zeros of the switch; empty
+                  if no such polynomials are known
     """
 
     of: Expr
@@ -138,7 +141,7 @@ class Place:
 
 @cache
 def places(expr: Expr, variable: Symbol) -> tuple[Place, ...]:
-    """Where along a variable an integrand may not be smooth, or peaks."""
+    """Return where along a variable an integrand may not be smooth, or may peak."""
     found: dict[tuple[Expr, str], Place] = {}
     for switch in switches(expr):
         if switch.of.has(variable):
@@ -153,7 +156,7 @@ def places(expr: Expr, variable: Symbol) -> tuple[Place, ...]:
 
 
 def peaked(expr: Expr) -> Iterator[Expr]:
-    """What stands in an exponent, or is divided by."""
+    """Yield the exponents and the divisors of an expression."""
     for node in expr.atoms(Pow, exp, cosh):
         if isinstance(node, Pow):
             if not node.exp.is_nonnegative:
@@ -165,7 +168,7 @@ def peaked(expr: Expr) -> Iterator[Expr]:
 
 
 def _polynomials(expr: Expr, variable: Symbol, roots: int) -> tuple[tuple[Expr, ...], ...]:
-    """Coefficients of polynomials among whose zeros are all of `expr`, roots squared away."""
+    """Return coefficients of polynomials whose zeros include those of `expr`."""
     numerator = fraction(together(expr))[0]
     found = []
     for factor in Mul.make_args(numerator):
@@ -187,7 +190,7 @@ def _polynomials(expr: Expr, variable: Symbol, roots: int) -> tuple[tuple[Expr, 
 
 
 def _squared(expr: Expr, variable: Symbol) -> Expr | None:
-    """p**2 - q**2 w for p + q sqrt(w), w the first of the radicands."""
+    """Return p**2 - q**2 w for an expression p + q sqrt(w), where w is the first radicand."""
     held = [n for n in expr.atoms(Pow) if n.has(variable) and n.exp.is_Rational and n.exp.q == 2]
     if not held:
         return None

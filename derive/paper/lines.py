@@ -1,7 +1,7 @@
-"""Where the claims of a TOML file stand, and the same file with lines of a claim changed.
+"""Find the lines of the claims in a TOML file, and change single lines of a claim.
 
-Only heads and keys that stand at the start of a line are seen; what TOML itself reads of the result
-decides whether a change was made as it was meant.
+Only table headers and keys at the start of a line are recognised.  The caller parses the new text
+as TOML to check that the change is the intended one.
 """
 
 import re
@@ -12,13 +12,16 @@ _TABLE = re.compile(r"\s*\[")
 
 
 def heads(text: str, count: int) -> list[int] | None:
-    """The lines of all [[claims]], counted from 1; None where they cannot be told."""
-    found = [n for n, line in enumerate(text.splitlines(), 1) if _HEAD.match(line)]
-    return found if len(found) == count else None
+    """Return the lines of all [[claims]] headers, counted from 1.
+
+    The result is None if their number is not `count`.
+    """
+    numbers = [n for n, line in enumerate(text.splitlines(), 1) if _HEAD.match(line)]
+    return numbers if len(numbers) == count else None
 
 
 def line_of(text: str, table: str, name: str) -> int | None:
-    """The line of a name in a table of the file, such as [symbols]."""
+    """Return the line of a name in a table of the file, such as [symbols]."""
     inside = False
     for n, line in enumerate(text.splitlines(), 1):
         if _TABLE.match(line):
@@ -29,19 +32,20 @@ def line_of(text: str, table: str, name: str) -> int | None:
 
 
 def with_lines(text: str, count: int, wanted: Mapping[int, str]) -> str | None:
-    """The text with `understood` of claims, by their number from 1; None if it cannot be done.
+    """Set the entry `understood` of claims, which are given by their number from 1.
 
-    A line `understood = ...` is replaced; where there is none, one is written before the blank
-    lines and comments at the claim's end.
+    An existing line `understood = ...` is replaced.  Otherwise a new line is inserted before the
+    blank lines and comments at the end of the claim.  The result is None if the claims cannot be
+    located.
     """
-    at = heads(text, count)
-    if at is None:
+    starts = heads(text, count)
+    if starts is None:
         return None
     lines = text.splitlines(keepends=True)
     if lines and not lines[-1].endswith("\n"):
         lines[-1] += "\n"
     for number in sorted(wanted, reverse=True):
-        start = at[number - 1]
+        start = starts[number - 1]
         end = next((n for n in range(start, len(lines)) if _TABLE.match(lines[n])), len(lines))
         _put(lines, start, end, f"understood = {quoted(wanted[number])}\n")
     return "".join(lines)
@@ -61,6 +65,6 @@ def _put(lines: list[str], start: int, end: int, line: str) -> None:
 
 
 def quoted(text: str) -> str:
-    """A text as TOML's basic string."""
+    """Write a text as a basic string of TOML."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return '"' + escaped.replace("\n", "\\n").replace("\t", "\\t") + '"'

@@ -1,4 +1,4 @@
-"""All that is wrong with a claims file, told in one run."""
+"""Collect all errors of a claims file and report them together."""
 
 from dataclasses import dataclass
 
@@ -7,20 +7,20 @@ from derive.errors import UserError
 
 @dataclass
 class Mistakes(UserError):
-    """Several mistakes of one file, each a message with its place."""
+    """Several errors in one file, each with its location."""
 
     messages: tuple[str, ...]
 
     @property
     def message(self) -> str:
-        """All of them, one under the other."""
-        return "\n".join([f"{len(self.messages)} mistakes", *self.messages])
+        """The number of errors, then all messages, one on each line."""
+        return "\n".join([f"The claims file has {len(self.messages)} errors:", *self.messages])
 
 
-def demand_none(found: list[UserError]) -> None:
-    """Raise what was found: the one mistake itself, or all of them as Mistakes."""
-    messages = tuple(dict.fromkeys(error.message for error in found))
+def demand_none(errors: list[UserError]) -> None:
+    """Raise a single error as it is, and several as Mistakes."""
+    messages = tuple(dict.fromkeys(error.message for error in errors))
     if len(messages) == 1:
-        raise found[0]
+        raise errors[0]
     if messages:
         raise Mistakes(messages)

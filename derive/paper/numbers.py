@@ -1,9 +1,10 @@
-"""Values to 30 digits that are known to be right.
+"""Compute values to 30 digits that are known to be right.
 
-Every value is computed twice, the second time with more digits; digits that both share are digits
-of the value.  Where cancellation leaves too few of them the number of working digits is raised, and
-if that does not help the value is unknown, which is not the same as zero.  Two sides agree if they
-share all digits that are known of both: a difference that stays as the digits grow is one.
+Every value is computed twice, the second time with more working digits.  The digits that both
+results share are the known digits.  If cancellation leaves too few of them, the number of working
+digits is raised; if that does not help, the value is unknown, which is not the same as zero.  Two
+sides agree if they share all known digits.  A difference that persists as the number of digits
+grows is a real difference.
 """
 
 from collections.abc import Callable, Iterator
@@ -24,32 +25,32 @@ DIGITS = 30
 _WORKING = (36, 44, 80)
 """Working digits, tried in this order."""
 _MORE = (160, 240)
-"""Those after them, where no integral is to be computed."""
+"""Further working digits for expressions without integrals."""
 _SHARPEST = 200
-"""Working digits that decide whether a gap beyond them is noise."""
+"""Working digits that decide whether a small gap is rounding noise."""
 _SHARP = (80, 120)
-"""Working digits at which two sides that agree are compared once more, without integrals."""
+"""Working digits at which sides without integrals that agree are compared once more."""
 _ALL = 10**6
-"""Digits that a number shares with itself."""
+"""The number of digits that two equal numbers share."""
 _LAST = 3
-"""Digits by which two sides may share less than is known of either."""
+"""Two sides that agree may share this many digits fewer than are known of them."""
 _NOISE = 12
-"""Digits by which what is left of a sum that vanishes may exceed its last digit."""
+"""The remainder of a vanishing sum may exceed its last digit by this many digits."""
 _MODERATE = 30
-"""Digits before or after the point that a part of a sum may have which is taken to vanish."""
+"""Parts of a vanishing sum may be as large or as small as this power of ten."""
 _COARSE = (16, 24)
 _FEW = 4
-"""Digits: two sides that share no more of them differ."""
+"""Two sides that share at most this many digits differ."""
 _QUICK = 16
-"""Digits by which candidates are told apart at first."""
+"""Working digits for the first comparison of candidates."""
 
 Numbers = Callable[[Care], Point]
-"""What the symbols of two sides are, at the working precision."""
+"""Returns the values of the symbols of two sides at the working precision."""
 
 
 @dataclass(frozen=True)
 class Pair:
-    """Both sides at one point, and how many digits are known of both."""
+    """The values of both sides at one point, and the number of known digits."""
 
     left: Value
     right: Value
@@ -58,17 +59,17 @@ class Pair:
 
     @property
     def digits(self) -> int:
-        """Digits in which both agree."""
+        """The number of digits in which both sides agree."""
         return agreement(self.left, self.right)
 
     @property
     def agree(self) -> bool:
-        """Whether they agree to as many digits as are asked for, and to all that are known."""
+        """Whether both sides agree to the required number of digits and to all known digits."""
         return self.digits >= max(DIGITS, min(self.known, _ALL) - _LAST)
 
 
 def agreement(first: Value, second: Value) -> int:
-    """Digits that two numbers share; two zeros share all of them."""
+    """Return the number of digits that two numbers share; equal numbers share all."""
     size = max(abs(first), abs(second))
     gap = abs(first - second)
     if gap == 0:
@@ -77,7 +78,7 @@ def agreement(first: Value, second: Value) -> int:
 
 
 class _Numbers(dict[Symbol, mpf]):
-    """Numbers for our symbols, and for the source's once they are asked for."""
+    """Values of the variables, and of the source's symbols as soon as they are needed."""
 
     def __init__(self, known: Point, meaning: Meaning, care: Care) -> None:
         super().__init__(known)
@@ -85,45 +86,48 @@ class _Numbers(dict[Symbol, mpf]):
 
     def __missing__(self, symbol: Symbol) -> Value:
         if symbol not in self.meaning:
-            raise Undecided(f"nothing says what {symbol} is")
+            raise Undecided(f"the symbol {symbol} has no meaning")
         self[symbol] = evaluated(self.meaning[symbol], self._known, self._care)
         return self[symbol]
 
 
 def numbers(meaning: Meaning, point: Point, care: Care = Care.TWICE) -> Point:
-    """Numbers for our symbols and for the source's at one point."""
+    """Return the values of the variables and of the source's symbols at one point."""
     return _Numbers(_Numbers(point, {}, care), meaning, care)
 
 
 def _sides(
     left: Expr, right: Expr, value: Numbers, working: int, care: Care = Care.TWICE
 ) -> tuple[Value, Value]:
-    """Both sides, and what they are made of, with so many digits."""
+    """Evaluate both sides with the given number of working digits."""
     with mpmath.workdps(working):
         known = value(care)
         return evaluated(left, known, care), evaluated(right, known, care)
 
 
 def apart(left: Expr, right: Expr, value: Numbers, point: Point) -> Pair | None:
-    """Both sides where a few digits, that do not change with more of them, tell them apart.
+    """Return both sides if a few stable digits show that they differ, or else None.
 
-    Each integral in them has been computed by two rules that agree.
+    Each integral in them is computed by two rules that must agree.
     """
-    found = []
+    results = []
     for working in _COARSE:
-        found.append(_sides(left, right, value, working))
-        if not all(mpmath.isfinite(number) for number in found[-1]) or agreement(*found[-1]) > _FEW:
+        results.append(_sides(left, right, value, working))
+        if (
+            not all(mpmath.isfinite(number) for number in results[-1])
+            or agreement(*results[-1]) > _FEW
+        ):
             return None
-    if any(map(_may_be_lost, (left, right), found[-1])):
+    if any(map(_may_be_lost, (left, right), results[-1])):
         return None
-    stable = all(agreement(*values) > 2 * _FEW for values in zip(*found, strict=True))
-    return Pair(*found[-1], point) if stable else None
+    stable = all(agreement(*values) > 2 * _FEW for values in zip(*results, strict=True))
+    return Pair(*results[-1], point) if stable else None
 
 
 def both(left: Expr, right: Expr, value: Numbers, point: Point, integrals: bool = False) -> Pair:
-    """Both sides with digits that are known to be right; raises Undecided.
+    """Return both sides with digits that are known to be right; raises Undecided.
 
-    integrals: whether one is in the sides, or in what their symbols stand for.
+    integrals: whether the meanings of the symbols contain an integral.
     """
     integrals = integrals or left.has(Integral) or right.has(Integral)
     pair = _computed(left, right, value, point, _WORKING if integrals else _WORKING + _MORE)
@@ -138,45 +142,45 @@ def both(left: Expr, right: Expr, value: Numbers, point: Point, integrals: bool 
 def _computed(
     left: Expr, right: Expr, value: Numbers, point: Point, steps: tuple[int, ...]
 ) -> Pair:
-    sides, found = (left, right), list[tuple[Value, Value]]()
+    sides, results = (left, right), list[tuple[Value, Value]]()
     for working in steps:
-        found.append(_sides(left, right, value, working))
-        if not all(mpmath.isfinite(number) for number in found[-1]):
-            raise Undefined("no finite number")
-        if found[1:] and all(map(_is_known, sides, *found[-2:])):
-            return Pair(*found[-1], point, _shared(*found[-2:]))
-    left_found, right_found = zip(*found, strict=True)
+        results.append(_sides(left, right, value, working))
+        if not all(mpmath.isfinite(number) for number in results[-1]):
+            raise Undefined("a side has no finite value")
+        if results[1:] and all(map(_is_known, sides, *results[-2:])):
+            return Pair(*results[-1], point, _shared(*results[-2:]))
+    left_values, right_values = zip(*results, strict=True)
     values = (
-        _settled(left, left_found, steps, value),
-        _settled(right, right_found, steps, value),
+        _settled(left, left_values, steps, value),
+        _settled(right, right_values, steps, value),
     )
     return Pair(*values, point)
 
 
 def _shared(before: tuple[Value, Value], now: tuple[Value, Value]) -> int:
-    """Digits that are known of both sides."""
+    """Return the number of digits that are known of both sides."""
     return min(agreement(*values) for values in zip(before, now, strict=True))
 
 
 def _sharpened(left: Expr, right: Expr, value: Numbers, pair: Pair) -> Pair:
-    """The pair with more digits, where they can be had; raises Undecided.
+    """Return the pair with more digits if possible; raises Undecided.
 
-    A small difference that more digits do not show is none to go by.
+    A small difference counts only if it is confirmed with more digits.
     """
     if pair.left == 0 or pair.right == 0:
         return pair
     before, now = (_sides(left, right, value, working) for working in _SHARP)
     known = _shared(before, now)
     if known >= DIGITS:
-        found = Pair(*now, pair.point, known)
-        return _held_against_more(left, right, value, found) if found.agree else found
+        sharper = Pair(*now, pair.point, known)
+        return _held_against_more(left, right, value, sharper) if sharper.agree else sharper
     if not pair.agree:
-        raise Undecided(f"both sides share {pair.digits} digits, and no more are known")
+        raise Undecided(f"both sides share {pair.digits} digits, and further digits are not known")
     return pair
 
 
 def _held_against_more(left: Expr, right: Expr, value: Numbers, pair: Pair) -> Pair:
-    """The pair, or one that does not agree: a gap that stays as it is with more digits is one."""
+    """Return the pair, or one that does not agree if the gap persists with more digits."""
     if pair.digits > _SHARP[1] - _NOISE:
         return pair
     more = _sides(left, right, value, _SHARPEST)
@@ -189,46 +193,48 @@ def _held_against_more(left: Expr, right: Expr, value: Numbers, pair: Pair) -> P
 def _demand_grown(pair: Pair) -> None:
     if pair.digits >= DIGITS and not pair.agree:
         raise Undecided(
-            f"both sides agree to {pair.digits} digits, of {min(pair.known, _WORKING[1])} "
-            "that seem to be known of their integrals"
+            f"both sides agree to {pair.digits} digits, but their integrals seem to be known to "
+            f"{min(pair.known, _WORKING[1])} digits"
         )
 
 
 def _demand_same_anew(left: Expr, right: Expr, value: Numbers, pair: Pair) -> None:
-    """Nothing, or Undecided where integrals by other cuts differ by as much as the sides do."""
+    """Raise Undecided if other cuts change the integrals by as much as the sides differ."""
     anew = _sides(left, right, value, _WORKING[1], Care.ANEW)
     if min(map(agreement, (pair.left, pair.right), anew)) < pair.digits + _FEW:
-        raise Undecided(f"integrals are not known beyond the {pair.digits} digits of agreement")
+        raise Undecided(f"the integrals are not known beyond the {pair.digits} digits of agreement")
 
 
 def _is_known(side: Expr, before: Value, now: Value) -> bool:
-    """Whether enough digits of a side are right."""
+    """Whether enough digits of a side are known to be right."""
     return agreement(before, now) >= DIGITS and not _may_be_lost(side, now)
 
 
 def _may_be_lost(side: Expr, now: Value) -> bool:
-    """Whether a zero may be all that cancellation left of a number."""
+    """Whether a computed zero may be the result of complete cancellation."""
     return bool(now == 0) and side.has(Add, Integral, Symbol)
 
 
-def _settled(side: Expr, found: tuple[Value, ...], steps: tuple[int, ...], value: Numbers) -> Value:
-    """The last of the values if it is known, zero if the side vanishes; raises Undecided."""
-    if _is_known(side, *found[-2:]):
-        return found[-1]
-    shrinks = all(abs(v) < mpf(10) ** (_NOISE - d) for v, d in zip(found, steps, strict=True))
+def _settled(
+    side: Expr, values: tuple[Value, ...], steps: tuple[int, ...], value: Numbers
+) -> Value:
+    """Return the last value if it is known, or zero if the side vanishes; raises Undecided."""
+    if _is_known(side, *values[-2:]):
+        return values[-1]
+    shrinks = all(abs(v) < mpf(10) ** (_NOISE - d) for v, d in zip(values, steps, strict=True))
     if not shrinks or _is_extreme(side, value):
-        raise Undecided(f"cancellation leaves fewer than {DIGITS} digits of {steps[-1]}")
+        raise Undecided(f"cancellation leaves fewer than {DIGITS} of {steps[-1]} working digits")
     return mpf(0)
 
 
 def _is_extreme(side: Expr, value: Numbers) -> bool:
-    """Whether a part is so large, or so small, that a number could be lost beside it."""
+    """Whether a part is so large or so small that rounding could hide another part."""
     less, more = (_sizes(side, value, working) for working in _WORKING[:2])
     floor = mpf(10) ** (_NOISE - _WORKING[0])
     return any(
         size != 0
         and abs(mpmath.log10(size)) > _MODERATE
-        and not (size <= floor and agreement(size, again) < _FEW)  # noise, and no number
+        and not (size <= floor and agreement(size, again) < _FEW)  # rounding noise
         for size, again in zip(less, more, strict=True)
     )
 
@@ -246,7 +252,7 @@ def _free(side: Expr) -> list[Symbol]:
 
 
 def _parts(side: Expr, numbers: Point) -> Iterator[mpf]:
-    """Sizes of an expression and all parts of it; under an integral, at one place inside."""
+    """Yield the sizes of an expression and its parts; an integrand is evaluated at one point."""
     yield abs(evaluated(side, numbers))
     if not isinstance(side, Integral):
         for part in side.args:
@@ -255,12 +261,12 @@ def _parts(side: Expr, numbers: Point) -> Iterator[mpf]:
     variable, low, high = side.limits[-1]
     yield from (*_parts(low, numbers), *_parts(high, numbers))
     ends = evaluated(low, numbers), evaluated(high, numbers)
-    place = ends[0] + (ends[1] - ends[0]) * mpf(3) / 8
-    yield from _parts(integrand(side), {**numbers, variable: place})
+    position = ends[0] + (ends[1] - ends[0]) * mpf(3) / 8
+    yield from _parts(integrand(side), {**numbers, variable: position})
 
 
 def near(left: Expr, right: Expr, value: Numbers) -> bool:
-    """Whether both sides may be equal, by a few digits."""
+    """Whether both sides may be equal, judged by a few digits."""
     with mpmath.workdps(_QUICK):
         numbers = value(Care.QUICK)
         try:

@@ -1,8 +1,9 @@
-"""One integral in numbers, computed twice by rules that share no node; or no number at all.
+"""Compute one integral numerically by two rules that share no node, or give no value at all.
 
-The interval is cut where the integrand may not be smooth.  Each part is computed to the working
-precision by a rule that tells its error, and the whole once more in double precision, by Gauss's
-rule on many panels: a feature that the few nodes of the first rule pass by shows in the second.
+The interval is cut at points where the integrand may not be smooth.  Each part is computed to the
+working precision by a rule that estimates its error.  The whole integral is then computed again in
+double precision by Gauss's rule on many panels, which reveals features that fall between the few
+nodes of the first rule.
 """
 
 from collections.abc import Callable, Sequence
@@ -21,103 +22,105 @@ Value: TypeAlias = mpf | mpc
 Along: TypeAlias = Callable[[mpf], Value]
 
 GUARD = 10
-"""Digits that an integrand has beyond its integral, where nothing cancels."""
+"""Extra digits for the integrand, sufficient if nothing cancels."""
 _SPARE = 5
-"""Digits of the working precision that an integral may lack."""
+"""Digits of the working precision by which an integral may fall short."""
 _TRUSTED = 0.6
-"""The part of the working digits that a rule must claim for the last word it has."""
+"""The fraction of the working digits that the error estimate must guarantee in the end."""
 _SECOND = 1e-6
-"""What both rules may differ by, as a part of the integral of the modulus."""
+"""The largest difference between the two rules, relative to the integral of the modulus."""
 _NEAR = (mpf(10) ** -9, mpf(10) ** -13)
-"""Distances from a place, as parts of an interval, at which the growth towards it is measured."""
+"""Distances from a point, relative to the interval, at which the growth towards it is measured."""
 _STEEPEST = 0.97
-"""The power of one over the distance from which on an integral is taken to diverge."""
+"""An integral is taken to diverge if the integrand grows by a higher power of 1/distance."""
 
 
 class NotComputed(Exception):
-    """No number that can be trusted comes out of a quadrature."""
+    """A quadrature gives no reliable value."""
 
 
 @dataclass(frozen=True)
 class Cut:
-    """A place inside or at an end of the interval, and what happens there.
+    """A point of the interval at which it is cut, and the behaviour of the integrand there.
 
-    kinds: those of derive.paper.kinks; several may coincide.
+    kinds: as in derive.paper.kinks; several may coincide.
     """
 
-    place: mpf
+    position: mpf
     kinds: frozenset[str]
 
 
-def cuts(start: mpf, end: mpf, found: Sequence[tuple[mpf, str]], more: bool) -> list[Cut]:
-    """Both ends and all places between, in their order; a further place in each part if asked.
+def cuts(start: mpf, end: mpf, known: Sequence[tuple[mpf, str]], more: bool) -> list[Cut]:
+    """Return both ends and all points between them in order.
 
-    Places that agree to two thirds of the working digits are one.
+    Points that agree to two thirds of the working digits are merged.  If `more` is true, a further
+    cut is added inside each part.
     """
     apart = (end - start) * mpf(10) ** (-2 * mpmath.mp.dps // 3)
-    made = [Cut(start, frozenset()), Cut(end, frozenset())]
-    for place, kind in sorted(found):
-        if not start - apart <= place <= end + apart:
+    collected = [Cut(start, frozenset()), Cut(end, frozenset())]
+    for position, kind in sorted(known):
+        if not start - apart <= position <= end + apart:
             continue
-        for n, cut in enumerate(made):
-            if abs(cut.place - place) <= apart:
-                made[n] = Cut(cut.place, cut.kinds | {kind})
+        for n, cut in enumerate(collected):
+            if abs(cut.position - position) <= apart:
+                collected[n] = Cut(cut.position, cut.kinds | {kind})
                 break
         else:
-            made.append(Cut(place, frozenset({kind})))
-    made.sort(key=lambda cut: cut.place)
+            collected.append(Cut(position, frozenset({kind})))
+    collected.sort(key=lambda cut: cut.position)
     if more:
-        share = mpf(4427) / 10000
-        made += [
-            Cut(one.place + share * (other.place - one.place), frozenset({"peak"}))
-            for one, other in pairwise(made)
+        fraction = mpf(4427) / 10000
+        collected += [
+            Cut(one.position + fraction * (other.position - one.position), frozenset({"peak"}))
+            for one, other in pairwise(collected)
         ]
-        made.sort(key=lambda cut: cut.place)
-    return made
+        collected.sort(key=lambda cut: cut.position)
+    return collected
 
 
 def demand_no_pole(along: Along, parts: Sequence[Cut], variable: str) -> None:
-    """Nothing, or NotComputed where the integrand grows like one over the distance, or faster."""
+    """Raise NotComputed if the integrand grows like 1/distance, or faster, towards a cut."""
     for one, other in pairwise(parts):
-        length = other.place - one.place
+        length = other.position - one.position
         for cut, sense in ((one, 1), (other, -1)):
             if cut.kinds <= {"kink", "peak"}:
                 continue
             sizes = []
-            for share in _NEAR:
+            for fraction in _NEAR:
                 try:
-                    sizes.append(abs(along(cut.place + sense * share * length)))
+                    sizes.append(abs(along(cut.position + sense * fraction * length)))
                 except (ArithmeticError, ValueError):
                     sizes.append(mpmath.inf)
-            near, nearer = sizes
-            if near == 0 or nearer == 0:
+            far, near = sizes
+            if far == 0 or near == 0:
                 continue
-            grown = mpmath.log10(nearer / near) / mpmath.log10(_NEAR[0] / _NEAR[1])
+            grown = mpmath.log10(near / far) / mpmath.log10(_NEAR[0] / _NEAR[1])
             if not mpmath.isfinite(grown) or grown > _STEEPEST:
-                where = mpmath.nstr(cut.place, 6)
+                where = mpmath.nstr(cut.position, 6)
                 raise NotComputed(
                     f"the integral diverges: its integrand has a pole at {variable} = {where} "
-                    "(no principal value is taken)"
+                    "(write pv if a principal value is meant)"
                 )
 
 
 def integral(along: Along, parts: Sequence[Cut], steep: bool) -> Value:
-    """The integral to the working precision; raises NotComputed."""
-    found = [_part(along, *ends, steep) for ends in pairwise(parts)]
-    size = sum(abs(value) for value, _, _ in found) + sum(size for _, _, size in found)
-    error = sum(error for _, error, _ in found)
+    """Return the integral to the working precision; raises NotComputed."""
+    pieces = [_part(along, *ends, steep) for ends in pairwise(parts)]
+    size = sum(abs(value) for value, _, _ in pieces) + sum(size for _, _, size in pieces)
+    error = sum(error for _, error, _ in pieces)
     if error > size * mpf(10) ** (-_TRUSTED * mpmath.mp.dps):
-        raise NotComputed("a quadrature does not converge")
-    return sum(value for value, _, _ in found)
+        raise NotComputed("the numerical integration does not converge")
+    return sum(value for value, _, _ in pieces)
 
 
 def _part(along: Along, one: Cut, other: Cut, steep: bool) -> tuple[Value, mpf, mpf]:
-    """Value, error and size from end to end, with s = start + (end - start) sin(t)**2.
+    """Return value, error and size of one part, with s = start + (end - start) sin(t)**2.
 
-    Where roots vanish or are infinite at both ends, the integrand is then even and periodic, and
-    plain midpoints converge geometrically; else Gauss's nodes, or those that crowd at the ends.
+    If square roots vanish or are infinite at both ends, the integrand is even and periodic in t,
+    and the midpoint rule converges geometrically.  Otherwise Gauss's nodes are used, or nodes that
+    are clustered at the ends.
     """
-    start, end = one.place, other.place
+    start, end = one.position, other.position
     size = _size(along, start, end)
     kinds = one.kinds | other.kinds
     if one.kinds == other.kinds == {"root"}:
@@ -133,14 +136,14 @@ def _part(along: Along, one: Cut, other: Cut, steep: bool) -> tuple[Value, mpf, 
 
 
 def _size(along: Along, start: mpf, end: mpf) -> mpf:
-    """About the integral of the modulus."""
+    """Estimate the integral of the modulus."""
     shares = (mpf("0.137"), mpf("0.391"), mpf("0.618"), mpf("0.853"))
     return (end - start) * sum(_modulus(along, start + (end - start) * s) for s in shares) / 4
 
 
-def _modulus(along: Along, place: mpf) -> mpf:
+def _modulus(along: Along, position: mpf) -> mpf:
     try:
-        value = abs(along(place))
+        value = abs(along(position))
     except (ZeroDivisionError, ValueError):
         return mpf(0)
     return value if mpmath.isfinite(value) else mpf(0)
@@ -167,7 +170,7 @@ def _agree(first: Value, second: Value, digits: float) -> bool:
 
 @cache
 def _nodes(count: int, digits: int) -> list[tuple[mpf, mpf]]:
-    """sin(t)**2 and 2 sin(t) cos(t) dt at midpoints of [0, pi/2]."""
+    """Return sin(t)**2 and 2 sin(t) cos(t) dt at the midpoints of [0, pi/2]."""
     with mpmath.workdps(digits + GUARD):
         step = mpmath.pi / (2 * count)
         angles = [(k + mpf(1) / 2) * step for k in range(count)]
@@ -175,20 +178,20 @@ def _nodes(count: int, digits: int) -> list[tuple[mpf, mpf]]:
 
 
 def _gauss(along: Along, start: mpf, end: mpf) -> tuple[Value, mpf]:
-    found: tuple[Value, mpf] = mpmath.quad(
+    value_and_error: tuple[Value, mpf] = mpmath.quad(
         _by_angle(along, start, end, mpmath.mp.dps + GUARD),
         [mpf(0), mpmath.pi / 2],
         method=gauss_legendre,
         error=True,
     )
-    return found
+    return value_and_error
 
 
 def _crowded(along: Along, start: mpf, end: mpf, size: mpf, steep: bool) -> tuple[Value, mpf]:
-    """Nodes that crowd at both ends; twice the digits where the integrand is infinite there."""
+    """Use nodes clustered at both ends, with twice the digits if the integrand may be infinite."""
     digits = mpmath.mp.dps * (2 if steep else 1) + GUARD
     unit = size or mpf(1)
-    around = _by_angle(lambda place: along(place) / unit, start, end, digits)
+    around = _by_angle(lambda position: along(position) / unit, start, end, digits)
     value, error = mpmath.quad(around, [mpf(0), mpmath.pi / 2], method="tanh-sinh", error=True)
     return value * unit, error * unit
 
@@ -202,7 +205,7 @@ def _by_angle(along: Along, start: mpf, end: mpf, digits: int) -> Along:
             except (ZeroDivisionError, ValueError):
                 value = mpmath.inf
             if not mpmath.isfinite(value):
-                return mpf(0)  # the very end, where the node has no weight
+                return mpf(0)  # at the end point itself, where the weight is zero
             return 2 * (end - start) * sine * cosine * value
 
     return around
@@ -211,42 +214,42 @@ def _by_angle(along: Along, start: mpf, end: mpf, digits: int) -> Along:
 # ------------------------------------------------------------------ the second value
 
 Array: TypeAlias = Any
-"""Of floats or of complex numbers."""
+"""An array of floats or of complex numbers."""
 
 _PANELS, _ORDER = 256, 8
 _FEW_PANELS = 24
 _DIGITS = 30
-"""Working digits of those few."""
+"""Working digits of the rule with few panels."""
 
 
 def demand_second(
     value: Value, along: Along, at_once: Callable[[Array], Array] | None, parts: Sequence[Cut]
 ) -> None:
-    """Nothing, or NotComputed where the integral by other nodes is another number.
+    """Raise NotComputed unless a rule with other nodes confirms the value.
 
-    at_once: the integrand in double precision, of an array; none if there is no such function.
-    Where double precision does not do, fewer nodes are taken at more digits.
+    at_once: the integrand as a function of arrays in double precision, or None if there is none.
+    If double precision is not sufficient, fewer nodes are used with more digits.
     """
     if at_once is not None and _is_confirmed(value, _in_double(at_once, parts)):
         return
     second = _in_digits(along, parts)
     if second is None:
-        raise NotComputed("a quadrature has no second value to be held against")
+        raise NotComputed("an integral could not be confirmed by a second rule")
     if not _is_confirmed(value, second):
-        raise NotComputed("two quadratures of one integral differ")
+        raise NotComputed("two integration rules give different values of one integral")
 
 
 def _is_confirmed(value: Value, second: tuple[Value, mpf] | None) -> bool:
-    """Whether a second value is near enough, by the integral of the modulus."""
+    """Whether a second value is close enough, relative to the integral of the modulus."""
     return second is not None and bool(abs(value - second[0]) <= _SECOND * second[1])
 
 
 def _in_double(at_once: Callable[[Array], Array], parts: Sequence[Cut]) -> tuple[Value, mpf] | None:
-    """The integral, and that of the modulus, in double precision."""
+    """Return the integral and the integral of the modulus, in double precision."""
     squares, weights = _panels(_PANELS)
     total, modulus = 0j, 0.0
     for one, other in pairwise(parts):
-        start, length = float(one.place), float(other.place - one.place)
+        start, length = float(one.position), float(other.position - one.position)
         with np.errstate(all="ignore"):
             values = at_once(start + length * squares) * (weights * length)
         if not np.all(np.isfinite(values)):
@@ -257,15 +260,15 @@ def _in_double(at_once: Callable[[Array], Array], parts: Sequence[Cut]) -> tuple
 
 
 def _in_digits(along: Along, parts: Sequence[Cut]) -> tuple[Value, mpf] | None:
-    """The same with fewer nodes and a few more digits."""
+    """Return the same two integrals with fewer nodes and slightly higher precision."""
     squares, weights = _panels(_FEW_PANELS)
     total, modulus = mpf(0), mpf(0)
     with mpmath.workdps(_DIGITS):
         for one, other in pairwise(parts):
-            length = other.place - one.place
+            length = other.position - one.position
             for square, weight in zip(squares, weights, strict=True):
                 try:
-                    part = along(one.place + length * mpf(square)) * mpf(weight) * length
+                    part = along(one.position + length * mpf(square)) * mpf(weight) * length
                 except (ArithmeticError, ValueError):
                     return None
                 total += part
@@ -275,7 +278,7 @@ def _in_digits(along: Along, parts: Sequence[Cut]) -> tuple[Value, mpf] | None:
 
 @cache
 def _panels(count: int) -> tuple[Array, Array]:
-    """sin(t)**2 and its differential at Gauss's nodes of equal panels of [0, pi/2]."""
+    """Return sin(t)**2 and its differential at Gauss's nodes on equal panels of [0, pi/2]."""
     nodes, weights = np.polynomial.legendre.leggauss(_ORDER)
     half = np.pi / (4 * count)
     middles = half * (2 * np.arange(count) + 1)

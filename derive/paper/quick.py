@@ -1,4 +1,4 @@
-"""A few digits of an expression in no time, to tell candidates apart that are far from right."""
+"""Evaluate an expression quickly to a few digits, to reject candidates that are clearly wrong."""
 
 import cmath
 from collections.abc import Callable, Mapping
@@ -9,11 +9,11 @@ from sympy import Abs, Add, Expr, Mul, Pow, Symbol, acos, asin, atan, cos, exp, 
 
 
 class Unknown(Exception):
-    """No rule for a function, or no number at this place."""
+    """There is no rule for a function, or no value at this point."""
 
 
 def approximately(expr: Expr, numbers: Mapping[Symbol, complex]) -> complex:
-    """`expr` in double precision; raises Unknown."""
+    """Evaluate `expr` in double precision; raises Unknown."""
     try:
         return _value(expr, numbers)
     except (ZeroDivisionError, OverflowError, ValueError, KeyError) as error:
@@ -35,7 +35,7 @@ def _value(expr: Expr, numbers: Mapping[Symbol, complex]) -> complex:
 def _constant(expr: Expr) -> complex:
     try:
         return complex(expr)
-    except TypeError as error:  # a sum of SymPy's that is no number in the end
+    except TypeError as error:  # SymPy could not reduce the expression to a number
         raise Unknown(str(expr)) from error
 
 

@@ -1,17 +1,18 @@
-"""Equations that a slip of the pen could have made of the right one.
+"""Generate equations that differ from a printed one by a likely misprint.
 
-    kind       what is tried
+    kind       changes that are tried
     --------   ------------------------------------------------------------------
-    sign       of the whole, and of every term
-    factor     2, 3, 4, 8, sqrt 2, pi and 2 pi, or one over them, on the whole; 2, 4, pi on a term
-    swap       one symbol for another, everywhere or in one place, or both exchanged;
-               one over it; the mean of it and another
-    exponent   of every power: its sign, twice, half, 3/2 and 2/3 of it, one more, one less;
-               a root over a symbol, a sum or the whole
-    term       one left out, one too many
-    modulus    one left out, one about the whole
+    sign       opposite sign of the whole expression, of each term and of each function
+    factor     2, 3, 4, 8, sqrt 2, pi and 2 pi, or their reciprocals, on the whole expression;
+               2, pi and 4, or their reciprocals, on a term
+    swap       one symbol replaced by another, everywhere or in one place; two symbols exchanged;
+               a symbol replaced by its reciprocal, or by the mean of it and another symbol
+    exponent   of every power: opposite sign, multiplied by 2, 1/2, 3/2 or 2/3, plus or minus one;
+               2, 1/2 or -1 on a symbol; a square root of a sum or of the whole expression
+    term       one term removed, or one symbol added
+    modulus    one modulus removed, or one added around the whole expression
 
-No knowledge of the paper is in here.
+The changes do not depend on the paper.
 """
 
 from collections.abc import Iterable, Iterator
@@ -21,7 +22,7 @@ from itertools import chain, permutations
 from sympy import Abs, Add, Expr, Integral, Mul, Number, Pow, Rational, S, Symbol, pi, sqrt
 
 KINDS = ("sign", "factor", "swap", "exponent", "term", "modulus")
-"""In the order in which they are tried."""
+"""The kinds of changes, in the order of preference."""
 
 _FACTORS = tuple(f for n in (S(2), pi, S(4), S(3), 2 * pi, S(8), sqrt(2)) for f in (n, 1 / n))
 _OF_A_TERM = _FACTORS[:6]
@@ -37,19 +38,19 @@ class Edit:
 
 
 def edits(expr: Expr, swaps: Iterable[Symbol] = ()) -> Iterator[Edit]:
-    """All that is tried on one side; each differs from `expr`, none comes twice."""
+    """Yield all changes of one side; each differs from `expr` and from all others."""
     return _distinct(expr, _all(expr, tuple(swaps)))
 
 
 def plain_edits(expr: Expr, swaps: Iterable[Symbol] = ()) -> Iterator[Edit]:
-    """Those few that are tried together with another: signs, swaps, factors on the whole."""
-    found = (_signs(expr), _swapped(expr, tuple(swaps)), _whole_factors(expr))
-    return _distinct(expr, chain(*found))
+    """Yield the changes that are tried in pairs: signs, swaps and factors on the whole."""
+    groups = (_signs(expr), _swapped(expr, tuple(swaps)), _whole_factors(expr))
+    return _distinct(expr, chain(*groups))
 
 
-def _distinct(expr: Expr, found: Iterable[Edit]) -> Iterator[Edit]:
+def _distinct(expr: Expr, candidates: Iterable[Edit]) -> Iterator[Edit]:
     seen = {expr}
-    for edit in found:
+    for edit in candidates:
         if edit.expr not in seen and not edit.expr.has(S.NaN, S.ComplexInfinity):
             seen.add(edit.expr)
             yield edit
@@ -67,7 +68,7 @@ def _all(expr: Expr, swaps: tuple[Symbol, ...]) -> Iterator[Edit]:
 
 
 def _places(expr: Expr, kind: type) -> list[Expr]:
-    """Parts of one kind, in an order that does not change from run to run."""
+    """Return the parts of one type, in an order that is the same in every run."""
     return sorted(expr.atoms(kind), key=lambda part: (len(str(part)), str(part)))
 
 
@@ -85,8 +86,8 @@ def _signs(expr: Expr) -> Iterator[Edit]:
 
 
 def _functions(expr: Expr) -> list[Expr]:
-    found = [n for n in _walk(expr) if n.is_Function or isinstance(n, Integral)]
-    return sorted(set(found), key=str)
+    functions = [n for n in _walk(expr) if n.is_Function or isinstance(n, Integral)]
+    return sorted(set(functions), key=str)
 
 
 def _walk(expr: Expr) -> Iterator[Expr]:
@@ -172,7 +173,7 @@ def _terms(expr: Expr, swaps: tuple[Symbol, ...]) -> Iterator[Edit]:
 
 
 def _moduli(expr: Expr) -> Iterator[Edit]:
-    yield Edit("modulus", "about the whole", Abs(expr))
+    yield Edit("modulus", "around the whole", Abs(expr))
     for modulus in _places(expr, Abs):
         for sign in (1, -1):
             inside = sign * modulus.args[0]

@@ -1,8 +1,9 @@
-r"""Which symbols a statement in LaTeX holds, how they are spelled there, and what to call them.
+r"""Find the symbols in a LaTeX statement, and propose a name for each.
 
-A letter with all that is hung on it is one symbol: K_{N,c}, E^*, \Delta Q, q_1^{(asy)}(x).
-A letter before one symbol in parentheses, before a list, or with a prime, is a function of them
-and is one symbol too: p(x) and p(x, c) are two.  A person sees every spelling in the draft.
+A letter with all its indices and accents is one symbol: K_{N,c}, E^*, \Delta Q, q_1^{(asy)}(x).
+A letter followed by a symbol, or a list of symbols, in parentheses is a function, which is one
+symbol as well; p(x) and p(x, c) are two different symbols.  The draft lists every spelling, so
+that the user can check it.
 """
 
 import re
@@ -28,7 +29,7 @@ PROPOSALS = {
     "alpha": ("tilt(a, c)", "angle of tilt", "rad"),
     "a": ("", "left edge of the contact at x = -a, or half-width", "m"),
     "b": ("", "a length of the profile, or half-width", "m"),
-    "c": ("", "right edge of the contact, or of the stick zone", "m"),
+    "c": ("", "right edge of the contact, or right end of the stick zone", "m"),
     "m": ("", "left end of the stick zone", "m"),
     "n": ("", "right end of the stick zone", "m"),
     "d": ("", "size of a slip zone, or half-width of the stick zone", "m"),
@@ -49,13 +50,13 @@ PROPOSALS = {
     "K_N": ("K_N_left(a, c)", "coefficient of sqrt(s) in the pressure", "Pa/sqrt(m)"),
     "K_T": ("", "coefficient of 1/sqrt(s) in the shear traction", "Pa*sqrt(m)"),
     "p": ("pressure(x, a, c)", "contact pressure", "Pa"),
-    "p_0": ("", "largest contact pressure", ""),
+    "p_0": ("", "maximum contact pressure", ""),
     "q": ("", "shear traction", "Pa"),
     "g": ("", "profile of the body", "m"),
     "g_prime": ("", "slope of the profile", "rad"),
     "F": ("punch(s, s)", "weight of the flat punches", "Pa"),
     "P_prime": ("load_rate(a, c)", "slope of the contact law at fixed tilt", "Pa"),
-    "a_prime": ("edge_ratio(a, c)", "left edge against right at fixed tilt", "-"),
+    "a_prime": ("edge_ratio(a, c)", "change of the left edge over that of the right one", "-"),
     "dQ": ("", "small change of the shear load", "N/m"),
     "dP": ("", "small change of the normal load", "N/m"),
     "dM": ("", "small change of the moment", "N"),
@@ -67,12 +68,12 @@ PROPOSALS = {
     "E_at_chi": ("elliptic_e(chi**2)", "complete elliptic integral of the second kind", "-"),
     "K_at_chi": ("elliptic_k(chi**2)", "complete elliptic integral of the first kind", "-"),
 }
-"""What the toolkit's own vocabulary suggests: a formula of the body if any, words, and a unit."""
+"""Proposals for common symbols: a formula of the body if there is one, a meaning, and a unit."""
 
 
 @dataclass(frozen=True)
 class Proposal:
-    """What a symbol may be, as a draft proposes it."""
+    """The formula, the meaning and the unit that a draft proposes for a symbol."""
 
     formula: str = ""
     meaning: str = ""
@@ -80,13 +81,14 @@ class Proposal:
 
 
 def proposal(name: str) -> Proposal:
-    """What a symbol may be, by its name or the name without index and arguments."""
+    """Return the proposal for a name, with or without its index and arguments."""
     stem = name.partition("_at_")[0]
     for known in (name, stem, re.sub(r"_(?:[0-9itABZS]|asy|LHS|RHS|star|[ac])(?=_|$)", "", stem)):
         if known in PROPOSALS:
             formula, words, unit = PROPOSALS[known]
             exact = known == name or name.removeprefix(known) in ("_at_x", "_at_c")
-            unit = "" if unit == "rad" and known not in (name, stem) else unit  # alpha_1 is any
+            # an indexed angle, such as alpha_1, may be any quantity
+            unit = "" if unit == "rad" and known not in (name, stem) else unit
             return Proposal(formula if exact else "", words, unit)
     return Proposal()
 
@@ -97,22 +99,25 @@ _LONGEST_BEFORE = 90
 
 
 def described(text: str) -> dict[str, str]:
-    r"""What the text says of symbols, LaTeX without blanks -> words: "normal load, $P$"."""
-    found = dict[str, str]()
+    r"""Find descriptions of symbols in the text, such as "normal load, $P$".
+
+    The keys of the result are LaTeX without spaces and braces.
+    """
+    descriptions = dict[str, str]()
     for each in re.finditer(r"(?<![\\$])\$([^$]{1,40})\$", text):
         after = re.match(_AFTER, text[each.end() : each.end() + _LONGEST_BEFORE])
         start = max(0, each.start() - _LONGEST_BEFORE)
         before = re.search(_BEFORE, text[start : each.start()])
         words = after[1] if after else before[1] if before else ""
         if words:
-            found.setdefault(_bare(each[1]), " ".join(words.split()))
-    return found
+            descriptions.setdefault(_bare(each[1]), " ".join(words.split()))
+    return descriptions
 
 
-def words_for(spelled: str, said: Mapping[str, str]) -> str:
-    """What the text says of a symbol, its arguments and ways to write braces left aside."""
+def words_for(spelled: str, descriptions: Mapping[str, str]) -> str:
+    """Return the description of a symbol, regardless of its arguments and braces."""
     bare = _bare(spelled)
-    return said.get(bare, "") or said.get(re.sub(r"\(.*\)$", "", bare), "")
+    return descriptions.get(bare, "") or descriptions.get(re.sub(r"\(.*\)$", "", bare), "")
 
 
 def _bare(latex: str) -> str:
@@ -120,40 +125,40 @@ def _bare(latex: str) -> str:
 
 
 def spellings(latex: str) -> dict[str, str]:
-    """LaTeX of every symbol of a statement -> a name for it."""
+    """Return a name for the LaTeX of every symbol in a statement."""
     tokens = [re.sub(r"\s", "", token) for token in _TOKEN.findall(latex)]
     integrated = r"\int" in tokens or r"\pvint" in tokens
-    found, place = dict[str, str](), 0
-    while place < len(tokens):
-        end, name = _symbol(tokens, place)
-        if tokens[place] == r"\dd" and integrated:
-            place += 1
+    names, position = dict[str, str](), 0
+    while position < len(tokens):
+        end, name = _symbol(tokens, position)
+        if tokens[position] == r"\dd" and integrated:
+            position += 1
             continue
         if name and usable(name):
-            found[_spelled(tokens[place:end])] = name
-        place = max(end, place + 1)
-    return found
+            names[_spelled(tokens[position:end])] = name
+        position = max(end, position + 1)
+    return names
 
 
 def _plain_ones(latex: str) -> Iterator[tuple[str, bool]]:
-    """Symbols that are printed without arguments, and whether parentheses follow."""
-    tokens, place = [re.sub(r"\s", "", token) for token in _TOKEN.findall(latex)], 0
-    while place < len(tokens):
-        end, name = _symbol(tokens, place)
+    """Yield the symbols printed without arguments, and whether a parenthesis follows."""
+    tokens, position = [re.sub(r"\s", "", token) for token in _TOKEN.findall(latex)], 0
+    while position < len(tokens):
+        end, name = _symbol(tokens, position)
         if name and "_at_" not in name:
-            yield _spelled(tokens[place:end]), tokens[end : end + 1] == ["("]
-        place = max(end, place + 1)
+            yield _spelled(tokens[position:end]), tokens[end : end + 1] == ["("]
+        position = max(end, position + 1)
 
 
 def standing_alone(latex: str) -> set[str]:
-    """Symbols that are printed without arguments and without parentheses behind them."""
+    """Return the symbols that are printed without arguments and without following parentheses."""
     return {own for own, follows in _plain_ones(latex) if not follows}
 
 
 def unclear_call(latex: str, spelled: Mapping[str, str], alone: Collection[str]) -> str:
-    """A symbol that is a function wherever it stands else, before what may be its argument or not.
+    """Return a symbol for which it is unclear whether the parentheses after it are its argument.
 
-    Empty if there is none.
+    Such a symbol is a function wherever else it occurs.  The result is empty if there is none.
     """
     functions = {own.partition("(")[0] for own, name in spelled.items() if "_at_" in name}
     unclear = functions - set(alone)
@@ -168,45 +173,45 @@ def _spelled(tokens: Sequence[str]) -> str:
     return text
 
 
-def _symbol(tokens: Sequence[str], place: int) -> tuple[int, str]:
-    """Where the symbol that starts here ends, and its name; no name if none starts here."""
-    if place >= len(tokens):
-        return place, ""
-    head = tokens[place]
+def _symbol(tokens: Sequence[str], position: int) -> tuple[int, str]:
+    """Return the end and the name of the symbol that starts here; without one the name is ""."""
+    if position >= len(tokens):
+        return position, ""
+    head = tokens[position]
     if head == r"\frac":
-        return _derivative(tokens, place)
-    if head in (r"\dd", r"\Delta") and place + 1 < len(tokens):
-        end, name = _symbol(tokens, place + 1)
-        if name and tokens[place + 1] not in (r"\dd", r"\Delta", r"\frac"):
+        return _derivative(tokens, position)
+    if head in (r"\dd", r"\Delta") and position + 1 < len(tokens):
+        end, name = _symbol(tokens, position + 1)
+        if name and tokens[position + 1] not in (r"\dd", r"\Delta", r"\frac"):
             return end, ("d" if head == r"\dd" else "Delta_") + name
     if head in _ACCENTS:
-        inner, end = _group(tokens, place + 1)
+        inner, end = _group(tokens, position + 1)
         stop, name = _symbol(inner, 0)
         if not name or stop != len(inner):
-            return place, ""
+            return position, ""
         end, name = _hung(tokens, end, f"{name}_{_ACCENTS[head]}")
         return _called(tokens, end, name)
     if not (len(head) == 1 and head.isalpha()) and head not in _GREEK:
-        return place, ""
-    if head == r"\Gamma" and tokens[place + 1 : place + 2] == ["("]:
-        return place, ""
-    name, place = head.removeprefix("\\"), place + 1
-    place, name = _hung(tokens, place, name)
-    return _called(tokens, place, name)
+        return position, ""
+    if head == r"\Gamma" and tokens[position + 1 : position + 2] == ["("]:
+        return position, ""
+    name, position = head.removeprefix("\\"), position + 1
+    position, name = _hung(tokens, position, name)
+    return _called(tokens, position, name)
 
 
-def _hung(tokens: Sequence[str], place: int, name: str) -> tuple[int, str]:
-    """Indices, primes, stars and words in the exponent."""
-    while place < len(tokens):
-        if tokens[place] == "'":
-            name, place = f"{name}_prime", place + 1
+def _hung(tokens: Sequence[str], position: int, name: str) -> tuple[int, str]:
+    """Read the indices, primes, stars and words that follow a letter."""
+    while position < len(tokens):
+        if tokens[position] == "'":
+            name, position = f"{name}_prime", position + 1
             continue
-        if tokens[place] not in "_^":
+        if tokens[position] not in "_^":
             break
-        inner, end = _group(tokens, place + 1)
+        inner, end = _group(tokens, position + 1)
         words = [t.removeprefix("\\") for t in inner if t not in "(),"]
         plain = bool(words) and all(word.isalnum() for word in words)
-        if tokens[place] == "_" and plain:
+        if tokens[position] == "_" and plain:
             name = f"{name}_{_index(inner)}"
         elif inner == ["*"]:
             name = f"{name}_star"
@@ -216,8 +221,8 @@ def _hung(tokens: Sequence[str], place: int, name: str) -> tuple[int, str]:
             name = f"{name}_{''.join(words)}"
         else:
             break
-        place = end
-    return place, name
+        position = end
+    return position, name
 
 
 def _index(inner: Sequence[str]) -> str:
@@ -225,26 +230,26 @@ def _index(inner: Sequence[str]) -> str:
     return "_".join(filter(None, parts))
 
 
-def _group(tokens: Sequence[str], place: int) -> tuple[list[str], int]:
-    """What stands in the brackets here, or the one token, and where that ends."""
-    if place >= len(tokens):
-        return [], place
-    closing = {"{": "}", "(": ")"}.get(tokens[place])
+def _group(tokens: Sequence[str], position: int) -> tuple[list[str], int]:
+    """Return the content of the brackets here, or one token, and where it ends."""
+    if position >= len(tokens):
+        return [], position
+    closing = {"{": "}", "(": ")"}.get(tokens[position])
     if closing is None:
-        return [tokens[place]], place + 1
+        return [tokens[position]], position + 1
     depth = 0
-    for end in range(place, len(tokens)):
-        depth += (tokens[end] == tokens[place]) - (tokens[end] == closing)
+    for end in range(position, len(tokens)):
+        depth += (tokens[end] == tokens[position]) - (tokens[end] == closing)
         if depth == 0:
-            return list(tokens[place + 1 : end]), end + 1
+            return list(tokens[position + 1 : end]), end + 1
     return [], len(tokens)
 
 
-def _called(tokens: Sequence[str], place: int, name: str) -> tuple[int, str]:
-    """The name with its arguments, if it is printed as a function of them."""
-    if place >= len(tokens) or tokens[place] != "(":
-        return place, name
-    inner, end = _group(tokens, place)
+def _called(tokens: Sequence[str], position: int, name: str) -> tuple[int, str]:
+    """Add the arguments to a name if it is printed as a function."""
+    if position >= len(tokens) or tokens[position] != "(":
+        return position, name
+    inner, end = _group(tokens, position)
     arguments, depth = [list[str]()], 0
     for token in inner:
         depth += (token in "({") - (token in ")}")
@@ -252,34 +257,38 @@ def _called(tokens: Sequence[str], place: int, name: str) -> tuple[int, str]:
             arguments.append([])
         else:
             arguments[-1].append(token)
-    one = [
+    symbols = [
         (1, argument[0]) if len(argument) == 1 and argument[0].isdigit() else _symbol(argument, 0)
         for argument in arguments
     ]
-    alone = all(n and e == len(a) for a, (e, n) in zip(arguments, one, strict=True))
+    alone = all(n and e == len(a) for a, (e, n) in zip(arguments, symbols, strict=True))
     if not alone or not inner:
-        return place, name
-    return end, f"{name}_at_{'_'.join(n for _, n in one)}"
+        return position, name
+    return end, f"{name}_at_{'_'.join(n for _, n in symbols)}"
 
 
-def _derivative(tokens: Sequence[str], place: int) -> tuple[int, str]:
-    """A quotient of two differentials, which may be second ones."""
-    over, middle = _group(tokens, place + 1)
-    under, end = _group(tokens, middle)
-    if not over or not under or {over[0], under[0]} - {r"\dd", r"\partial"}:
-        return place, ""
+def _derivative(tokens: Sequence[str], position: int) -> tuple[int, str]:
+    """Read a quotient of two differentials, such as dP/dc or its second derivative."""
+    numerator, middle = _group(tokens, position + 1)
+    denominator, end = _group(tokens, middle)
+    if not numerator or not denominator or {numerator[0], denominator[0]} - {r"\dd", r"\partial"}:
+        return position, ""
     order = ""
-    if over[1:2] == ["^"]:
-        inner, after = _group(over, 2)
-        order, over = "".join(inner), [over[0], *over[after:]]
-        count = 1 if under[-2:] == ["^", order] else 3
-        if not order.isdigit() or under[-count - 1 :][:1] != ["^"] or order not in under[-count:]:
-            return place, ""
-        under = under[: -count - 1]
+    if numerator[1:2] == ["^"]:
+        inner, after = _group(numerator, 2)
+        order, numerator = "".join(inner), [numerator[0], *numerator[after:]]
+        count = 1 if denominator[-2:] == ["^", order] else 3
+        if (
+            not order.isdigit()
+            or denominator[-count - 1 :][:1] != ["^"]
+            or order not in denominator[-count:]
+        ):
+            return position, ""
+        denominator = denominator[: -count - 1]
     names = []
-    for part in (over, under):
+    for part in (numerator, denominator):
         stop, name = _symbol(part, 1)
         if not name or stop != len(part):
-            return place, ""
+            return position, ""
         names.append(name)
     return end, f"d{order}{names[0]}_d{names[1]}{order}"

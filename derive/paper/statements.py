@@ -1,10 +1,10 @@
-r"""The statements of one display: what is for the eye is left out, chains and lists are cut.
+r"""Split a display into statements: layout commands are dropped, chains and lists are divided.
 
 a = b = c          a = b and a = c
 a < b = c          a < b and b = c
-u, v   u and v     u and v, where each has a relation of its own
-\pm, \mp           the equation with the upper signs, then with the lower ones
-u for v            u, under the condition v; an inequality after an equation is one, too
+u, v   u and v     u and v, if each has its own relation
+\pm, \mp           the equation with the upper signs, then with the lower signs
+u for v            u under the condition v; an inequality after an equation is also a condition
 """
 
 import re
@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from derive.errors import BadFormula
 
 _MOST = 20_000
-"""Characters of a display."""
+"""The largest number of characters in a display."""
 _DEEPEST = 60
 _TOKEN = re.compile(
     r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|\s+|.", re.DOTALL
@@ -66,10 +66,10 @@ _CLOSED = _CLOSING | {r"\end{cases}"}
 class Statement:
     """One statement of a display.
 
-    latex      left, relation and right in plain LaTeX
-    why        why it cannot be compared; empty if it may be
+    latex      left side, relation and right side in plain LaTeX
+    why        the reason why it cannot be compared; empty if it can
     is_rough   whether it is printed as an approximation
-    condition  what follows "for", "as", "if", in LaTeX; empty where there is none
+    condition  the LaTeX after "for", "as" or "if"; empty if there is no condition
     """
 
     latex: str
@@ -79,17 +79,18 @@ class Statement:
 
 
 def statements(where: str, latex: str) -> list[Statement]:
-    """All statements of a display; raises BadFormula where its brackets do not fit."""
+    """Return all statements of a display; raise BadFormula if its brackets do not match."""
     if len(latex) > _MOST:
-        raise BadFormula(where, latex[:80], 80, f"the display is longer than {_MOST}", "split it")
+        why = f"the display has more than {_MOST} characters"
+        raise BadFormula(where, latex[:80], 80, why, "split it")
     tokens = _differentials(_derivatives(_over(_bare(_tokens(_plain(latex))))))
     depths = _depths(where, tokens)
     if inner := next((t for t in tokens if t.startswith(r"\begin") and t not in _OPENING), ""):
-        return [Statement(latex, f"{inner} inside a display is not read: write it as text")]
+        return [Statement(latex, f"{inner} inside a display is not supported: write it as text")]
     if _OPERATOR in tokens:
-        why = "d/dx before what it is of is not read: write it as text, diff(f, x)"
+        why = "d/dx before its operand is not supported: write it as text, diff(f, x)"
         return [Statement(latex, why)]
-    found = list[Statement]()
+    collected = list[Statement]()
     parts = list[tuple[list[str], list[str]]]()
     for part in _listed(tokens, depths):
         relations = set(part) & _RELATIONS
@@ -100,12 +101,12 @@ def statements(where: str, latex: str) -> list[Statement]:
         else:
             parts.append(_without_condition(part))
     for part, condition in parts:
-        found += _chain(part, condition)
-    return [signed for each in found for signed in _signs(each)]
+        collected += _chain(part, condition)
+    return [signed for each in collected for signed in _signs(each)]
 
 
 def _plain(latex: str) -> str:
-    """The text without what does not count, words as commands."""
+    """Remove layout commands from the text, and replace words by commands."""
     text = _CASES.sub(_marked_cases, latex)
     for kind in _SPLIT.findall(text):
         text = text.replace(rf"\end{{{kind}}}", " ")
@@ -119,20 +120,20 @@ def _plain(latex: str) -> str:
     return re.sub(_DROPPED, " ", text)
 
 
-def _marked_cases(found: re.Match[str]) -> str:
-    rows = re.sub(r"(?<!\\)\\\\(?:\[[^\]]*\])?", r" \\caserow ", found[2])
+def _marked_cases(match: re.Match[str]) -> str:
+    rows = re.sub(r"(?<!\\)\\\\(?:\[[^\]]*\])?", r" \\caserow ", match[2])
     cells = re.sub(r"(?<!\\)&", r" \\casecol ", rows)
     return rf"\begin{{cases}}{cells}\end{{cases}}"
 
 
-def _dashed(found: re.Match[str]) -> str:
-    r"""-\!\!\!\int is a principal value; a minus before an integral stays one."""
-    return r"\pvint" if r"\!" in found[0] else found[0]
+def _dashed(match: re.Match[str]) -> str:
+    r"""Read -\!\!\!\int as a principal value, but keep an ordinary minus before an integral."""
+    return r"\pvint" if r"\!" in match[0] else match[0]
 
 
-def _word(found: re.Match[str]) -> str:
-    inner = found[1].strip()
-    before = found.string[: found.start()].rstrip()
+def _word(match: re.Match[str]) -> str:
+    inner = match[1].strip()
+    before = match.string[: match.start()].rstrip()
     if inner == "d":
         return r"\dd "
     if inner == "sgn":
@@ -148,23 +149,23 @@ def _word(found: re.Match[str]) -> str:
 
 
 def _tokens(text: str) -> list[str]:
-    found = [t for t in _TOKEN.findall(text) if "\n" in t or not t.isspace()]
-    made = ["\n" if t.isspace() else _ALIKE.get(t, re.sub(r"\s", "", t)) for t in found]
-    for place, token in enumerate(made[:-1]):
-        if token == r"\pvword" and made[place + 1] == r"\int":
-            made[place + 1] = r"\pvint"
-    return [token for token in made if token != r"\pvword"]
+    tokens = [t for t in _TOKEN.findall(text) if "\n" in t or not t.isspace()]
+    cleaned = ["\n" if t.isspace() else _ALIKE.get(t, re.sub(r"\s", "", t)) for t in tokens]
+    for index, token in enumerate(cleaned[:-1]):
+        if token == r"\pvword" and cleaned[index + 1] == r"\int":
+            cleaned[index + 1] = r"\pvint"
+    return [token for token in cleaned if token != r"\pvword"]
 
 
 def _bare(tokens: list[str]) -> list[str]:
-    """The tokens without braces about all of them."""
+    """Remove braces that enclose all tokens."""
     while tokens[:1] == ["{"] and _end(tokens, 0, 1) == len(tokens) - 1:
         tokens = tokens[1:-1]
     return tokens
 
 
 def _derivatives(tokens: list[str]) -> list[str]:
-    r"""\frac{d P}{d a} and dP/da as \frac{\dd P}{\dd a}; d/dx alone as what nobody knows."""
+    r"""Write \frac{d P}{d a} and dP/da as \frac{\dd P}{\dd a}, and mark a separate d/dx."""
     made, differentials = list[str](), (["d"], [r"\dd"])
     for token in tokens:
         made.append(token)
@@ -174,21 +175,21 @@ def _derivatives(tokens: list[str]) -> list[str]:
             if over in differentials and under in differentials:
                 frac = [r"\frac", "{", r"\dd", made[start + 1], "}", "{", r"\dd", token, "}"]
                 made[start:] = frac
-    for place, token in enumerate(made):
-        if token not in _FRACTIONS or made[place + 1 : place + 2] != ["{"]:
+    for index, token in enumerate(made):
+        if token not in _FRACTIONS or made[index + 1 : index + 2] != ["{"]:
             continue
-        middle = _end(made, place + 1, 1)
+        middle = _end(made, index + 1, 1)
         below = middle + 2
         if made[middle + 1 : below] != ["{"] or made[below : below + 1] not in differentials:
             continue
-        if made[place + 2] in ("d", r"\dd"):
-            made[place + 2] = _OPERATOR if middle - place == 3 else r"\dd"
+        if made[index + 2] in ("d", r"\dd"):
+            made[index + 2] = _OPERATOR if middle - index == 3 else r"\dd"
             made[below] = r"\dd"
     return made
 
 
 def _over(tokens: list[str]) -> list[str]:
-    r"""{a \over b} as \frac{a}{b}."""
+    r"""Write {a \over b} as \frac{a}{b}."""
     while r"\over" in tokens:
         at = tokens.index(r"\over")
         start, end = _end(tokens, at, -1), _end(tokens, at, 1)
@@ -198,7 +199,7 @@ def _over(tokens: list[str]) -> list[str]:
 
 
 def _end(tokens: list[str], at: int, step: int) -> int:
-    """The brace that encloses a place, before or behind it; the end of the text without one."""
+    """Find the enclosing brace before or after a position, or else the end of the text."""
     opened, closed = ("{", "}") if step > 0 else ("}", "{")
     depth, at = 0, at + step
     while 0 <= at < len(tokens):
@@ -210,16 +211,16 @@ def _end(tokens: list[str], at: int, step: int) -> int:
 
 
 def _differentials(tokens: list[str]) -> list[str]:
-    r"""A plain d before the variable of an integral as \dd, and \dd out of a numerator."""
+    r"""Write d before a variable of integration as \dd, and move \dd out of numerators."""
     integrals = sum(token in (r"\int", r"\pvint") for token in tokens)
     if not integrals:
         return tokens
     if not any(t == r"\dd" and not _is_in_fraction(tokens, n) for n, t in enumerate(tokens)):
         made = list[str]()
-        for place, token in enumerate(tokens):
-            after = tokens[place + 1 : place + 2]
+        for index, token in enumerate(tokens):
+            after = tokens[index + 1 : index + 2]
             is_one = integrals and token == "d" and bool(after) and _may_be_variable(after[0])
-            if is_one and r"\int" in [t.replace("pv", "") for t in tokens[:place]]:
+            if is_one and r"\int" in [t.replace("pv", "") for t in tokens[:index]]:
                 token, integrals = r"\dd", integrals - 1
             made.append(token)
         tokens = made
@@ -227,7 +228,7 @@ def _differentials(tokens: list[str]) -> list[str]:
 
 
 def _is_in_fraction(tokens: list[str], at: int) -> bool:
-    r"""Whether \dd stands first above or below a fraction bar, as in a derivative."""
+    r"""Whether \dd is first above or below a fraction bar, as in a derivative."""
     before = tokens[at - 2 : at]
     return before[:1] in ([r"\frac"], ["}"]) and before[1:] == ["{"]
 
@@ -237,40 +238,44 @@ def _may_be_variable(token: str) -> bool:
 
 
 def _out_of_numerators(tokens: list[str]) -> list[str]:
-    r"""\frac{g \dd s}{h} as \frac{g}{h} \dd s."""
-    for place in range(len(tokens) - 1, -1, -1):
-        if tokens[place] not in _FRACTIONS or tokens[place + 1 : place + 2] != ["{"]:
+    r"""Write \frac{g \dd s}{h} as \frac{g}{h} \dd s."""
+    for index in range(len(tokens) - 1, -1, -1):
+        if tokens[index] not in _FRACTIONS or tokens[index + 1 : index + 2] != ["{"]:
             continue
-        middle = _end(tokens, place + 1, 1)
-        over, end = tokens[place + 2 : middle], _end(tokens, middle + 1, 1)
+        middle = _end(tokens, index + 1, 1)
+        over, end = tokens[index + 2 : middle], _end(tokens, middle + 1, 1)
         if over[-2:-1] != [r"\dd"] or tokens[middle + 1 : middle + 2] != ["{"]:
             continue
         if tokens[middle + 2 : middle + 3] == [r"\dd"]:
             continue
-        head, under = tokens[: place + 2], tokens[middle : end + 1]
+        head, under = tokens[: index + 2], tokens[middle : end + 1]
         tokens = [*head, *(over[:-2] or ["1"]), *under, *over[-2:], *tokens[end + 1 :]]
     return tokens
 
 
 def _depths(where: str, tokens: list[str]) -> list[int]:
-    """How deep in brackets each token stands."""
-    depth, deep = 0, list[int]()
+    """Return the nesting depth of each token in brackets."""
+    depth, depths = 0, list[int]()
     for token in tokens:
         depth -= token in _CLOSED
-        deep.append(depth)
+        depths.append(depth)
         depth += token in _OPENING
         if depth < 0 or depth > _DEEPEST:
             text = " ".join(tokens)
-            why = "a bracket closes nothing" if depth < 0 else "brackets are nested too deep"
-            raise BadFormula(where, text[:80], 0, why, "mend the brackets")
+            why = (
+                "a closing bracket matches nothing"
+                if depth < 0
+                else "brackets are nested too deeply"
+            )
+            raise BadFormula(where, text[:80], 0, why, "correct the brackets")
     if depth:
         text = " ".join(tokens)
-        raise BadFormula(where, text[:80], 0, "a bracket is not closed", "mend the brackets")
-    return deep
+        raise BadFormula(where, text[:80], 0, "a bracket is not closed", "correct the brackets")
+    return depths
 
 
 def _listed(tokens: list[str], depths: list[int]) -> list[list[str]]:
-    """The parts of a list; a new row goes on where it begins with a sign or has no relation."""
+    """Divide a list; a row without a relation, or with a sign first, continues the one before."""
     parts: list[list[str]] = [[]]
     for token, depth in zip(tokens, depths, strict=True):
         cut = token in (",", ";", r"\andword", "\n")
@@ -278,15 +283,15 @@ def _listed(tokens: list[str], depths: list[int]) -> list[list[str]]:
             parts.append(["\n"] if token == "\n" else [])
         elif token != "\n":
             parts[-1].append(token)
-    made = list[list[str]]()
+    rows = list[list[str]]()
     for part in parts:
         row, inside = part[:1] == ["\n"], part[1:] if part[:1] == ["\n"] else part
         goes_on = row and inside and (inside[0] in {"+", "-", *_RELATIONS} or not _has(inside))
-        if goes_on and made:
-            made[-1] += inside
+        if goes_on and rows:
+            rows[-1] += inside
         elif inside:
-            made.append(inside)
-    return [part[:-1] if part[-1] == "." else part for part in made]
+            rows.append(inside)
+    return [part[:-1] if part[-1] == "." else part for part in rows]
 
 
 def _has(part: list[str]) -> bool:
@@ -294,7 +299,7 @@ def _has(part: list[str]) -> bool:
 
 
 def _without_condition(part: list[str]) -> tuple[list[str], list[str]]:
-    """What stands before the first word outside brackets, and what behind it."""
+    """Return the tokens before and after the first word outside brackets."""
     depth = 0
     for at, token in enumerate(part):
         depth += (token in _OPENING) - (token in _CLOSED)
@@ -305,7 +310,7 @@ def _without_condition(part: list[str]) -> tuple[list[str], list[str]]:
 
 
 def _chain(part: list[str], condition: list[str]) -> list[Statement]:
-    """The statements of a chain of relations, whose equal sides all stand against the first."""
+    """Return the statements of a chain of relations; equal sides are compared with the first."""
     sides, between, depth = [list[str]()], list[str](), 0
     for token in part:
         depth += (token in _OPENING) - (token in _CLOSED)
@@ -314,7 +319,7 @@ def _chain(part: list[str], condition: list[str]) -> list[Statement]:
             sides.append([])
         else:
             sides[-1].append(token)
-    made, first = list[Statement](), 0
+    collected, first = list[Statement](), 0
     for n, relation in enumerate(between):
         if n and not (relation == "=" == between[n - 1]):
             first = n
@@ -325,13 +330,13 @@ def _chain(part: list[str], condition: list[str]) -> list[Statement]:
         text = _joined([*left, rough or relation, *right])
         why = ""
         if not left or not right or rough in (r"\to", r"\propto"):
-            why, rough = "this is no equation with two sides", ""
-        made.append(Statement(text, why, bool(rough), _joined(condition)))
-    return made
+            why, rough = "this is not an equation with two sides", ""
+        collected.append(Statement(text, why, bool(rough), _joined(condition)))
+    return collected
 
 
 def _without_dots(side: list[str]) -> list[str]:
-    """A side without dots for higher terms."""
+    """Remove the dots that stand for higher-order terms."""
     dots = re.sub(r"\+ (?:\. ?\. ?\.|\\(?:l|c|)dots)(?= |$)", "", " ".join(side))
     return dots.split() if dots != " ".join(side) else side
 
@@ -341,7 +346,7 @@ def _joined(tokens: list[str]) -> str:
 
 
 def _signs(statement: Statement) -> list[Statement]:
-    r"""Both readings of \pm and \mp."""
+    r"""Return both readings of \pm and \mp."""
     if not re.search(r"\\(?:pm|mp)(?![A-Za-z])", statement.latex):
         return [statement]
     made = []

@@ -1,4 +1,4 @@
-"""An expression and a point in, its value at the working precision out; integrals by quadrature."""
+"""Evaluate an expression at a point to the working precision, with integrals by quadrature."""
 
 from collections.abc import Callable, Mapping
 from enum import Enum
@@ -35,29 +35,29 @@ from derive.paper.quadrature import (
 )
 
 _INSIDE = 3
-"""The ends of an integral are evaluated to so many times the digits of the integral."""
+"""The ends of an integral are evaluated with this many times the digits of the integral."""
 _LARGEST = 4096
-"""Bits of the exponent that the argument of a function may have: exp(exp(exp(9))) has more."""
+"""The largest binary exponent of a function's argument; exp(exp(exp(9))) exceeds it."""
 _FARTHEST = 2**20
-"""The same of a value."""
+"""The largest magnitude of the binary exponent of a value."""
 _LOOKED_AT = 257
-"""Places where the sign of a switch is looked at if its zeros are not known."""
+"""Number of points at which the sign of a switch is sampled if its zeros are not known."""
 
 
 class Undecided(Exception):
-    """Digits were lost faster than they could be added, or no number came out at all."""
+    """No reliable value was obtained, for example because too many digits were lost."""
 
 
 class Undefined(Undecided):
-    """No number comes out here, as of a division by zero; other places may have one."""
+    """There is no value at this point, for example after a division by zero."""
 
 
 class Care(Enum):
-    """How an integral is computed.
+    """How carefully an integral is computed.
 
     QUICK    once
-    TWICE    with a second value to be held against
-    ANEW     the same, with other cuts
+    TWICE    once, and confirmed by a second rule
+    ANEW     as TWICE, with additional cuts
     """
 
     QUICK = 0
@@ -66,30 +66,32 @@ class Care(Enum):
 
 
 def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf], care: Care = Care.TWICE) -> Value:
-    """`expr` at the working precision; raises Undecided."""
+    """Evaluate `expr` at the working precision; raises Undecided."""
     function, held, integrals = _compiled(expr)
     given = [numbers[symbol] for symbol in held]
     try:
-        found = [_quadrature(each, numbers, care) for each in integrals]
-        value = +mpmath.mpmathify(function(*given, *found))  # pi itself has no digits as yet
+        integral_values = [_quadrature(each, numbers, care) for each in integrals]
+        value = +mpmath.mpmathify(
+            function(*given, *integral_values)
+        )  # + turns constants into numbers
     except NotComputed as error:
         raise Undecided(str(error)) from error
     except (ArithmeticError, ValueError) as error:
-        raise Undefined(f"no number comes out ({type(error).__name__}: {error})") from error
+        raise Undefined(f"there is no value ({type(error).__name__}: {error})") from error
     except (MemoryError, TypeError) as error:
-        raise Undecided(f"no number comes out ({type(error).__name__}: {error})") from error
+        raise Undecided(f"there is no value ({type(error).__name__}: {error})") from error
     if mpmath.isfinite(value) and value != 0 and abs(mpmath.mag(value)) > _FARTHEST:
-        raise Undecided("a number is too large or too small to go on with")
+        raise Undecided("a number is too large or too small for the computation")
     return value
 
 
 @cache
 def _compiled(expr: Expr) -> tuple[Callable[..., Value], list[Symbol], list[Integral]]:
     if expr.has(zoo, nan, oo):
-        raise Undecided(f"{expr} is no number")
+        raise Undecided(f"{expr} is infinite or undefined")
     outer = [i for i in expr.atoms(Integral) if not _is_inner(i, expr)]
     integrals = sorted(outer, key=str)
-    stand_ins = {found: Dummy("I") for found in integrals}
+    stand_ins = {each: Dummy("I") for each in integrals}
     plain = expr.xreplace(stand_ins)
     held = sorted(plain.free_symbols - set(stand_ins.values()), key=str)
     plain = plain.replace(
@@ -99,7 +101,7 @@ def _compiled(expr: Expr) -> tuple[Callable[..., Value], list[Symbol], list[Inte
     try:
         function = lambdify([*held, *stand_ins.values()], plain, modules=[_BOUNDED, "mpmath"])
     except PrintMethodNotImplementedError as error:
-        raise Undecided(f"no way is known to compute {expr}") from error
+        raise Undecided(f"{expr} cannot be computed numerically") from error
     return function, held, integrals
 
 
@@ -111,12 +113,12 @@ _power = Function("_power")
 
 
 def _bounded(function: Callable[[Value], Value]) -> Callable[[Value], Value]:
-    """The function, where its argument is of a size that it can be computed for."""
+    """Wrap a function so that it raises NotComputed if its argument is too large."""
 
     def of(value: Value) -> Value:
         value = mpmath.mpmathify(value)
         if mpmath.isfinite(value) and value != 0 and mpmath.mag(value) > _LARGEST:
-            raise NotComputed("a number is too large to go on with")
+            raise NotComputed("a number is too large for the computation")
         return function(value)
 
     return of
@@ -127,7 +129,7 @@ def _bounded_power(base: Value, exponent: Value) -> Value:
     if base == 0 or base == 1 or exponent == 0:
         return base**exponent
     if mpmath.mag(exponent) + mpmath.mag(mpmath.mag(base) or 1) > _LARGEST:
-        raise NotComputed("a power is too large to go on with")
+        raise NotComputed("a power is too large for the computation")
     return base**exponent
 
 
@@ -143,7 +145,7 @@ _KNOWN: dict[tuple[Integral, tuple[mpf, ...], int, Care], Value | NotComputed] =
 
 
 def _quadrature(over: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Value:
-    """An integral, kept by what it depends on; factors free of the variable stand outside."""
+    """Compute an integral, with constant factors taken out, and cache it by its parameters."""
     factor, core = _separated(over)
     held = sorted(core.free_symbols, key=str)
     key = (core, tuple(numbers[symbol] for symbol in held), mpmath.mp.dps, care)
@@ -152,10 +154,10 @@ def _quadrature(over: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Va
             _KNOWN[key] = _computed(core, numbers, care)
         except NotComputed as error:
             _KNOWN[key] = error
-    found = _KNOWN[key]
-    if isinstance(found, NotComputed):
-        raise NotComputed(str(found))
-    return evaluated(factor, numbers) * found
+    known = _KNOWN[key]
+    if isinstance(known, NotComputed):
+        raise NotComputed(str(known))
+    return evaluated(factor, numbers) * known
 
 
 @cache
@@ -166,22 +168,25 @@ def _separated(over: Integral) -> tuple[Expr, Integral]:
 
 
 def integrand(over: Integral) -> Expr:
-    """What the outermost integral is over: SymPy writes nested ones as one with several limits."""
+    """Return the integrand of the outermost integral.
+
+    SymPy writes nested integrals as one integral with several limits.
+    """
     return Integral(over.function, *over.limits[:-1]) if len(over.limits) > 1 else over.function
 
 
 def _computed(core: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Value:
     variable, low, high = core.limits[-1]
     inside = integrand(core)
-    with mpmath.workdps(_INSIDE * mpmath.mp.dps):  # or a root would not vanish at its end
+    with mpmath.workdps(_INSIDE * mpmath.mp.dps):  # so that roots vanish at the ends
         start, end = evaluated(low, numbers), evaluated(high, numbers)
         if isinstance(start, mpc) or isinstance(end, mpc):
-            raise NotComputed("an end of an integral is no real number")
+            raise NotComputed("an end of an integral is not a real number")
         if start == end:
             return mpf(0)
         sense, (start, end) = (1, (start, end)) if start < end else (-1, (end, start))
-        found = _zeros(inside, variable, numbers, start, end)
-        parts = cuts(start, end, found, care == Care.ANEW)
+        zeros = _zeros(inside, variable, numbers, start, end)
+        parts = cuts(start, end, zeros, care == Care.ANEW)
     along = _integrand(inside, variable, numbers)
     steep = is_unbounded(inside, variable)
     if steep:
@@ -196,13 +201,13 @@ def _computed(core: Integral, numbers: Mapping[Symbol, mpf], care: Care) -> Valu
 def _integrand(expr: Expr, variable: Symbol, numbers: Mapping[Symbol, mpf]) -> Along:
     function, held, inner = _compiled(expr)
     if inner:
-        return lambda place: evaluated(expr, {**numbers, variable: place})
+        return lambda position: evaluated(expr, {**numbers, variable: position})
     given = [None if symbol == variable else numbers[symbol] for symbol in held]
-    spot = held.index(variable) if variable in held else None
+    index = held.index(variable) if variable in held else None
 
-    def at(place: mpf) -> Value:
-        if spot is not None:
-            given[spot] = place
+    def at(position: mpf) -> Value:
+        if index is not None:
+            given[index] = position
         return +mpmath.mpmathify(function(*given))
 
     return at
@@ -211,7 +216,7 @@ def _integrand(expr: Expr, variable: Symbol, numbers: Mapping[Symbol, mpf]) -> A
 def _at_once(
     expr: Expr, variable: Symbol, numbers: Mapping[Symbol, mpf]
 ) -> Callable[[Any], Any] | None:
-    """The integrand of an array of places, in double precision."""
+    """Return the integrand as a function of an array of points, in double precision."""
     import numpy as np
 
     function, held = _for_arrays(expr)
@@ -225,7 +230,7 @@ def _at_once(
     def at(places_: Any) -> Any:
         try:
             values = function(*(places_ if value is None else value for value in plain))
-        except NameError:  # a function that NumPy has not
+        except NameError:  # a function that NumPy does not provide
             values = np.nan
         return np.broadcast_to(np.asarray(values), places_.shape)
 
@@ -243,26 +248,26 @@ def _for_arrays(expr: Expr) -> tuple[Callable[..., Any] | None, list[Symbol]]:
         return None, held
 
 
-# ------------------------------------------------------------------ places on the way
+# ------------------------------------------------------------------ points where to cut
 
 
 def _zeros(
     inside: Expr, variable: Symbol, numbers: Mapping[Symbol, mpf], start: mpf, end: mpf
 ) -> list[tuple[mpf, str]]:
-    """Where on the way the integrand may not be smooth."""
-    found = []
+    """Return the points between the ends where the integrand may not be smooth."""
+    zeros = []
     for place in places(inside, variable):
         if place.coefficients:
             for coefficients in place.coefficients:
                 values = [evaluated(each, numbers) for each in coefficients]
-                found += [(root, place.kind) for root in _roots(values)]
+                zeros += [(root, place.kind) for root in _roots(values)]
         else:
-            found += [(z, place.kind) for z in _looked_for(place, variable, numbers, start, end)]
-    return found
+            zeros += [(z, place.kind) for z in _looked_for(place, variable, numbers, start, end)]
+    return zeros
 
 
 def _roots(coefficients: list[Value]) -> list[mpf]:
-    """Real roots of a polynomial; of two that are as good as one, both."""
+    """Return the real roots of a polynomial, including both roots of a nearly real pair."""
     while coefficients and coefficients[0] == 0:
         coefficients = coefficients[1:]
     if any(isinstance(value, mpmath.mpc) for value in coefficients) or len(coefficients) < 2:
@@ -274,7 +279,7 @@ def _roots(coefficients: list[Value]) -> list[mpf]:
     try:
         roots = mpmath.polyroots(coefficients, maxsteps=200, extraprec=2 * mpmath.mp.prec)
     except mpmath.libmp.NoConvergence:
-        raise NotComputed("where an integrand is not smooth is not known") from None
+        raise NotComputed("the points where an integrand is not smooth are not known") from None
     largest = max(abs(root) for root in roots)
     near = mpf(10) ** (-mpmath.mp.dps // 4) * largest
     return [mpmath.re(root) for root in roots if abs(mpmath.im(root)) <= near]
@@ -292,7 +297,7 @@ def _of_square(first: mpf, second: mpf, third: mpf) -> list[mpf]:
 def _looked_for(
     place: Place, variable: Symbol, numbers: Mapping[Symbol, mpf], start: mpf, end: mpf
 ) -> list[mpf]:
-    """Where a switch changes its sign, by looking at many places."""
+    """Find the points where a switch changes its sign by sampling it."""
     along = _integrand(place.of, variable, numbers)
     at_once = _at_once(place.of, variable, numbers)
 
@@ -306,17 +311,17 @@ def _looked_for(
     step = (end - start) / (_LOOKED_AT - 1)
     grid = [start + step * n for n in range(_LOOKED_AT)]
     signs = _signs(at_once, grid) or _slowly(real, grid)
-    found = []
+    zeros = []
     for n, (one, other) in enumerate(pairwise(signs)):
         if one == 0:
-            found.append(grid[n])
+            zeros.append(grid[n])
         elif one is not None and other is not None and one * other < 0:
-            found.append(_bisected(real, grid[n], grid[n + 1]))
-    return found
+            zeros.append(_bisected(real, grid[n], grid[n + 1]))
+    return zeros
 
 
 def _signs(at_once: Callable[[Any], Any] | None, grid: list[mpf]) -> list[float | None] | None:
-    """A switch at many places in double precision; none where a number is not real."""
+    """Evaluate a switch at many points in double precision; None if its values are not real."""
     import numpy as np
 
     if at_once is None:
@@ -337,4 +342,4 @@ def _bisected(real: Callable[[mpf], mpf | None], low: mpf, high: mpf) -> mpf:
     try:
         return mpmath.findroot(real, (low, high), solver="anderson", verify=False)
     except (ArithmeticError, ValueError, TypeError):
-        raise NotComputed("where an integrand is not smooth is not known") from None
+        raise NotComputed("the points where an integrand is not smooth are not known") from None

@@ -1,9 +1,9 @@
-"""Claim in, finding out: the verdict, computed, with what it rests on.
+"""Compute the verdict on a claim, with the evidence for it.
 
-The order of the questions: do both sides agree at random points?  If they do, is the difference
-zero symbolically?  If they do not, does a map of signs that the source excludes elsewhere mend it,
-and which change of the printed equation makes it true?  A repaired equation is judged as the
-printed one was: the same points, the same steps.
+The questions are asked in this order.  Do both sides agree at random points?  If so, is their
+difference zero symbolically?  If not, does a sign convention that the source excludes elsewhere
+make the claim true, and which change of the printed equation makes it true?  A corrected equation
+is judged like the printed one, at the same points and by the same steps.
 """
 
 from collections import Counter
@@ -51,21 +51,21 @@ from derive.paper.zero import constant, vanishes, vanishes_at
 Result = TypeVar("Result")
 
 _SCREENED = 3
-"""Points at which a repair is looked at before it is judged in full."""
+"""Number of points at which a correction is screened before it is judged in full."""
 _MORE_DRAWN = 4
-"""How often points are drawn anew where a side was no real number."""
+"""How often more points are drawn if a side was not a real number."""
 _OFF = 6
-"""Points on either side of a bound."""
+"""Number of points on either side of a bound."""
 
 
 @dataclass(frozen=True)
 class Judged:
-    """What is known of two sides.
+    """The result of comparing two sides.
 
-    verdict  holds, numerical, fails or unchecked
-    why      in words
-    pairs    both sides at the points looked at
-    one_side_real  points at which one side is real; none if the other one is, too, anywhere
+    verdict        holds, numerical, by definition, fails or unchecked
+    why            the reason in words
+    pairs          both sides at the points that were examined
+    one_side_real  the number of points if exactly one side was real at each of them, else 0
     """
 
     verdict: Verdict
@@ -81,9 +81,9 @@ class Judged:
 
 @dataclass(frozen=True)
 class Repair:
-    """An equation that is true in the printed one's place.
+    """A true equation that corrects the printed one.
 
-    also: other changes that make it true, in words.
+    also: other changes that passed the screening, in words.
     """
 
     left: Expr
@@ -99,13 +99,13 @@ class Repair:
 class Finding:
     """A claim with its verdict.
 
-    judged      the printed equation as it stands
-    convention  the map of signs under which it holds, if there is one
-    under       the same equation judged under that map
+    judged      the result for the equation as printed
+    convention  the sign convention under which the claim holds, if there is one
+    under       the result for the same equation under that convention
     repair      the corrected equation, if one was found
-    tried       how many repairs of each kind were looked at
-    stopped     why the search for them came to no end, if it did not
-    diagnosis   by what both sides differ, where no repair was found
+    tried       the number of corrections of each kind that were tried
+    stopped     the reason why the search for a correction was not completed, if any
+    diagnosis   how both sides differ, if no correction was found
     """
 
     claim: Claim
@@ -120,17 +120,17 @@ class Finding:
 
     @property
     def as_expected(self) -> bool:
-        """Whether a person has looked at this verdict before; what is right surprises nobody."""
+        """Whether the verdict equals the expected one; without one, whether the claim is true."""
         wanted = self.claim.expected
         return self.verdict == wanted if wanted else self.judged.good
 
 
 def check(claim: Claim) -> Finding:
-    """The verdict of one claim; what stops its judging makes it unchecked, with the reason."""
+    """Return the verdict on one claim; if the work is interrupted, it is `unchecked`."""
     if claim.unchecked:
         return Finding(claim, Verdict.UNCHECKED, Judged(Verdict.UNCHECKED, claim.unchecked))
     if claim.defined:
-        why = "the file says what its symbols are in these words: nothing is compared"
+        why = "the file defines its symbols by this very equation, so nothing is compared"
         return Finding(claim, Verdict.DEFINITION, Judged(Verdict.DEFINITION, why))
     judged, stopped = _attempted(claim, lambda look: judge_as_printed(claim, look))
     if judged is None:
@@ -140,41 +140,41 @@ def check(claim: Claim) -> Finding:
     finding, stopped = _attempted(claim, lambda look: _mended(claim, judged, look))
     finding = finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
     if finding.repair is None and finding.convention is None:
-        told, _ = _attempted(claim, lambda look: diagnosis(claim))
-        return replace(finding, diagnosis=told or "")
+        difference, _ = _attempted(claim, lambda look: diagnosis(claim))
+        return replace(finding, diagnosis=difference or "")
     return finding
 
 
 def _nowhere_real(claim: Claim, judged: Judged) -> Finding | None:
-    """A claim with a side that is real nowhere, and the other everywhere, if a change mends it."""
+    """Correct a claim with one side that is never real while the other always is, if possible."""
     if judged.verdict != Verdict.UNCHECKED or not judged.one_side_real:
         return None
     finding, _ = _attempted(claim, lambda look: _mended(claim, judged, look))
     if finding is None or (finding.repair is None and finding.convention is None):
         return None
-    why = f"one side is real at all {judged.one_side_real} points drawn, the other at none"
+    why = f"one side is real at all {judged.one_side_real} points and the other at none of them"
     return replace(finding, judged=Judged(Verdict.FAILS, why))
 
 
 def _no_clock() -> None:
-    """Looks at no clock: there is no limit."""
+    """Do nothing, because there is no time limit."""
 
 
 def _attempted(claim: Claim, work: Callable[[LookAtClock], Result]) -> tuple[Result | None, str]:
-    """What comes of work within the claim's time, or why nothing does."""
+    """Return the result of `work` within the claim's time limit, or the reason for its absence."""
     try:
         with within(claim.seconds) if claim.seconds is not None else nullcontext(_no_clock) as look:
             return work(look), ""
     except LimitReached:
-        return None, f"not done within {claim.seconds:g} s"
+        return None, f"not finished within {claim.seconds:g} s"
     except RecursionError:
-        return None, "stopped: an expression is nested too deep"
-    except Exception as error:  # SymPy's own, for one claim among many
+        return None, "stopped because an expression is nested too deeply"
+    except Exception as error:  # an error in SymPy must not stop the other claims
         return None, f"stopped by {type(error).__name__}: {error}"
 
 
 def judge_as_printed(claim: Claim, look: LookAtClock = _no_clock) -> Judged:
-    """The printed sides under the claim's own meaning; constants to the digits printed."""
+    """Judge the printed sides with the claim's own meanings; printed constants may be rounded."""
     judged = judge(claim, claim.left, claim.right, claim.meaning, look)
     if judged.verdict == Verdict.FAILS and claim.rounded is not None and claim.toward is None:
         return _to_the_digits(claim, claim.rounded) or judged
@@ -182,7 +182,7 @@ def judge_as_printed(claim: Claim, look: LookAtClock = _no_clock) -> Judged:
 
 
 def _mended(claim: Claim, judged: Judged, look: LookAtClock) -> Finding:
-    """A claim that fails, with its repair and the map of signs that makes it true."""
+    """Return the finding for a false claim, with a correction and a convention if they exist."""
     repair, tried = repaired(claim, look)
     for convention in claim.conventions:
         meaning = {**claim.meaning, **convention.meaning}
@@ -196,7 +196,7 @@ def _mended(claim: Claim, judged: Judged, look: LookAtClock) -> Finding:
 def judge(
     claim: Claim, left: Expr, right: Expr, meaning: Meaning, look: LookAtClock = _no_clock
 ) -> Judged:
-    """Two sides under a meaning, at all points and, if they agree there, symbolically."""
+    """Judge two sides with given meanings, at all points and, if they agree, symbolically."""
     left, right = claim.sides(left, right)
     judging = _Judging(claim, left, right, meaning, look)
     try:
@@ -206,7 +206,7 @@ def judge(
 
 
 def _to_the_digits(claim: Claim, rounded: Rounded) -> Judged | None:
-    """What holds if the constant is one that rounds to the printed one; None if it does not."""
+    """Return a result if the exact constant rounds to the printed one, or else None."""
     ratio = quotient(claim)
     if ratio is None or mpmath.im(ratio.constant) != 0 or ratio.powers or ratio.constant <= 0:
         return None
@@ -214,18 +214,18 @@ def _to_the_digits(claim: Claim, rounded: Rounded) -> Judged | None:
     true = printed * ratio.constant**rounded.power
     if abs(true - printed) > mpf(rounded.half.p) / rounded.half.q:
         return None
-    told = f"{mpmath.nstr(printed, 8)} is {mpmath.nstr(true, 12)} at {ratio.count} points"
-    return Judged(Verdict.NUMERICAL, f"true to the digits printed: {told}")
+    rounding = f"{mpmath.nstr(printed, 8)} stands for {mpmath.nstr(true, 12)}"
+    return Judged(Verdict.NUMERICAL, f"true with rounding at {ratio.count} points: {rounding}")
 
 
 class _Judging:
-    """Two sides under one meaning, point by point.
+    """Compares two sides with given meanings, point by point.
 
-    found     what was found so far
-    equal     whether both sides are shown to be equal everywhere; None if nobody has asked
-    left_out  points at which no number came out
-    unreal    points at which a side is not real, and the sides differ: no counter-example
-    one_sided  those of them at which the other side is
+    found      the values of both sides so far
+    equal      whether both sides are shown to be equal everywhere; None before this is tested
+    left_out   number of points without a value
+    unreal     number of points where the sides differ and one is not real; no counter-examples
+    one_sided  number of those points at which the other side is real
     """
 
     def __init__(
@@ -239,7 +239,7 @@ class _Judging:
         self.integrals = has_integral(claim)
 
     def whole(self) -> Judged:
-        """The verdict; raises Undecided."""
+        """Return the verdict; raises Undecided."""
         for point in self._first_points():
             try:
                 stands = self._stands_at(self._pair(point))
@@ -253,7 +253,7 @@ class _Judging:
             alone = self.one_sided if not self.found and self.one_sided == self.unreal else 0
             return replace(judged, one_side_real=alone)
         if not self.found:
-            return self._judged(Verdict.UNCHECKED, "a side is no real number")
+            return self._judged(Verdict.UNCHECKED, "a side is not a real number")
         for point in further(self.claim, self._in_ours()):
             try:
                 stands = self._stands_at(self._pair(point))
@@ -266,7 +266,7 @@ class _Judging:
             for point, beside in touching(self.claim, self._in_ours()):
                 pair, *others = (self._pair(each) for each in (point, *beside))
                 if all(_gap(pair) < _gap(other) for other in others):
-                    why = f"the sides touch, or nearly so: {_example(pair)}"
+                    why = f"the sides touch or nearly touch: {_example(pair)}"
                     return self._judged(Verdict.UNCHECKED, why)
         if self.claim.is_inequality and not all(pair.agree for pair in self.found):
             return self._judged(Verdict.NUMERICAL, f"true {self._where()}")
@@ -277,19 +277,19 @@ class _Judging:
         return self._proven()
 
     def _too_few(self) -> str:
-        """Why no more points could be looked at."""
-        told = [f"both sides are real numbers at {len(self.found)} points only"]
+        """Explain why there are too few points."""
+        reasons = [f"both sides are real numbers at only {len(self.found)} points"]
         if self.unreal:
-            told.append(f"one is not real at {self.unreal}")
+            reasons.append(f"a side is not real at {self.unreal} points")
         if self.left_out:
-            told.append(f"no number comes out at {self.left_out}")
+            reasons.append(f"there is no value at {self.left_out} points")
         if self.claim.conditions:
             listed = " and ".join(map(str, self.claim.conditions))
-            told.append(f"points were asked for where {listed}")
-        return f"{', '.join(told)}: say where the variables are, by low, high and require"
+            reasons.append(f"the points must satisfy {listed}")
+        return f"{', '.join(reasons)}: restrict the variables with low, high and require"
 
     def _first_points(self) -> Iterator[Point]:
-        """Points of a moderate size; more of them where a side was no real number."""
+        """Yield points of moderate size, and more of them if a side was not a real number."""
         yield from points(self.claim)
         if (self.unreal or self.left_out) and not self.claim.cases:
             for n in range(_MORE_DRAWN):
@@ -298,7 +298,7 @@ class _Judging:
                         yield point
 
     def limit(self, toward: tuple[Expr, Expr]) -> Judged:
-        """Whether left over right tends to 1, or their difference is of the order printed."""
+        """Judge whether the ratio tends to 1, or whether the difference has the printed order."""
         table = dict(self.meaning)
         sides = [side.xreplace(table) for side in (self.left, self.right)]
         approaching = Approach(self.claim, sides, toward)
@@ -306,7 +306,7 @@ class _Judging:
         return self._judged(Verdict(verdict), why)
 
     def _pair(self, point: Point, meaning: Meaning | None = None) -> Pair:
-        """Both sides at one point; a printed integral is written in our symbols first."""
+        """Return both sides at one point; integrals are first expressed in the variables."""
         self.look()
         meaning = self.meaning if meaning is None else meaning
         left, right = self.left, self.right
@@ -332,12 +332,12 @@ class _Judging:
             self.found.append(pair)
             return pair.agree
         if relation.is_strict and pair.agree and not self._are_equal_at(pair.point):
-            raise Undecided("which side is the larger is beyond all digits")
+            raise Undecided("the available digits do not show which side is larger")
         self.found.append(pair)
         return _is_met(relation, pair)
 
     def _are_equal_at(self, point: Point) -> bool:
-        """Whether both sides are shown to be equal: at one point, or everywhere."""
+        """Whether both sides are shown to be equal at one point or everywhere."""
         left, right = self._in_ours()
         if self.equal is None:
             self.equal = bool(vanishes(left - right, _ranges(self.claim)))
@@ -345,7 +345,7 @@ class _Judging:
         return self.equal or vanishes_at(left - right, exact)
 
     def _off_the_bound(self, bound: Bound) -> str:
-        """Where the printed relation says something else than it should, if anywhere."""
+        """Describe where the printed relation is wrong near the bound; empty if it is right."""
         relation = self.claim.relation
         for entries, met, word in ((bound.allowed, True, "false"), (bound.beyond, False, "true")):
             meaning = {**self.meaning, **entries}
@@ -364,31 +364,31 @@ class _Judging:
         worst = min(min(pair.digits, pair.known) for pair in self.found)
         agree = f"both sides agree to {min(worst, 2 * DIGITS)} digits {self._where()}"
         if self.claim.reached is not None:
-            agree += f"; off the bound the relation is right on both sides at {_OFF} points each"
+            agree += f"; the relation is right at {_OFF} points on either side of the bound"
         left, right = self._in_ours()
         try:
             how = vanishes(left - right, _ranges(self.claim))
             apart_by = None if how else constant(left - right)
         except LimitReached:
-            why = f"{agree}; no proof within {self.claim.seconds:g} s"
+            why = f"{agree}; no proof was found within {self.claim.seconds:g} s"
             return self._judged(Verdict.NUMERICAL, why)
         if how:
             return self._judged(Verdict.HOLDS, f"{how}; {agree}")
         if apart_by is not None:
-            return self._judged(Verdict.FAILS, f"left less right is {apart_by}")
+            return self._judged(Verdict.FAILS, f"left minus right is {apart_by}")
         return self._judged(Verdict.NUMERICAL, agree)
 
     def _where(self) -> str:
-        """How many points were looked at, and from where to where they reach."""
+        """Describe the number of points that were examined and the ranges that they cover."""
         count = len(self.found)
         if not variables(self.claim):
-            return "as they stand, without a variable"
-        told = spread([pair.point for pair in self.found])
+            return "without any variables"
+        ranges = spread([pair.point for pair in self.found])
         if self.claim.cases:
             return f"in {count} {'case' if count == 1 else 'cases'}"
-        left_out = f"; no number at {self.left_out} more" if self.left_out else ""
-        left_out += f"; a side is not real at {self.unreal} more" if self.unreal else ""
-        return f"at {count} points" + (f" ({told}{left_out})" if told else "")
+        left_out = f"; no value at {self.left_out} more points" if self.left_out else ""
+        left_out += f"; a side is not real at {self.unreal} more points" if self.unreal else ""
+        return f"at {count} points" + (f" ({ranges}{left_out})" if ranges else "")
 
     def _fails(self) -> Judged:
         return self._judged(Verdict.FAILS, _example(self.found[-1]))
@@ -406,14 +406,14 @@ def _gap(pair: Pair) -> mpf:
 
 
 def _is_met(relation: Relation, pair: Pair) -> bool:
-    """Whether a relation is true of two numbers."""
+    """Whether a relation is true for two numbers."""
     if pair.agree:
         return not relation.is_strict
     if not relation.is_ordered:
         return False
     difference = pair.left - pair.right
     if mpmath.im(difference) != 0:
-        raise Undecided("complex numbers are neither above nor below each other")
+        raise Undecided("complex numbers cannot be ordered")
     below = relation in (Relation.BELOW, Relation.AT_MOST)
     return bool(mpmath.re(difference) < 0) == below
 
@@ -421,19 +421,20 @@ def _is_met(relation: Relation, pair: Pair) -> bool:
 def _example(pair: Pair) -> str:
     where = ", ".join(f"{symbol} = {mpmath.nstr(v, 6)}" for symbol, v in pair.point.items())
     left, right = mpmath.nstr(pair.left, 12), mpmath.nstr(pair.right, 12)
-    told = f"left {left}, right {right}"
+    text = f"left = {left}, right = {right}"
     if left == right:
-        told += f", left less right {mpmath.nstr(pair.left - pair.right, 3)}"
-    return told + (f" at {where}" if where else "")
+        text += f", left minus right = {mpmath.nstr(pair.left - pair.right, 3)}"
+    return text + (f" at {where}" if where else "")
 
 
-# ------------------------------------------------------------------ what it should have been
+# ------------------------------------------------------------------ corrections
 
 
 def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None, Counter[str]]:
-    """The plainest change that makes the claim true, and what was tried.
+    """Return the simplest change that makes the claim true, and the numbers of changes tried.
 
-    One change at a time; where none does, two, a sign or a swap before any other.
+    Single changes are tried first.  If none is sufficient, pairs of changes are tried, of which
+    the first is a sign or a swap.
     """
     if claim.is_inequality:
         return _other_relation(claim, look)
@@ -457,10 +458,11 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
 
 
 def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
-    """Whether a corrected equation rests on more than digits which it may only seem to share.
+    """Whether the evidence is sufficient for a corrected equation.
 
-    1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4: what fades like that must be proven,
-    and so must a printed sign, which is zero at a place that no point may meet.
+    Agreement in digits may mislead: 1 + tanh(10**6*(v - 5)) is zero to all digits for v < 4.
+    Equations with such functions must be proven, and so must those with sign functions, which
+    vanish at points that may never be drawn.
     """
     if claim.relation.is_ordered or has_integral(claim) or claim.toward:
         return judged.good
@@ -472,7 +474,7 @@ def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:
 
 
 def _may_fade(expr: Expr) -> bool:
-    """Whether a part may be below all digits and yet not zero."""
+    """Whether a part may be nonzero but too small to appear in any digit."""
     powers = (power.exp for power in expr.atoms(Pow))
     return expr.has(exp, HyperbolicFunction) or any(
         not each.is_number or abs(each) > _STEEP for each in powers
@@ -480,11 +482,11 @@ def _may_fade(expr: Expr) -> bool:
 
 
 _STEEP = 16
-"""Exponents from which on a power may be too small to count."""
+"""Powers with larger exponents may be too small to appear in any digit."""
 
 
 def _other_relation(claim: Claim, look: LookAtClock) -> tuple[Repair | None, Counter[str]]:
-    """Whether the sides of an inequality are equal, or the other way round."""
+    """Correct an inequality by an equation or by the opposite inequality, if one is true."""
     tried: Counter[str] = Counter()
     relations = (Relation.EQUAL, claim.relation.turned)
     for relation in relations if claim.left != claim.right else ():
@@ -515,7 +517,7 @@ def _single(claim: Claim) -> Iterator[Candidate]:
 
 
 def _double(claim: Claim) -> Iterator[Candidate]:
-    """Two changes, one of them a sign or a swap of the whole equation's symbols."""
+    """Yield pairs of changes of the right side, of which the first is a sign or a swap."""
     firsts = [e for e in plain_edits(claim.right, claim.swaps) if e.kind in ("sign", "swap")]
     for first in firsts[:_FIRSTS]:
         for second in plain_edits(first.expr, claim.swaps):
@@ -525,11 +527,11 @@ def _double(claim: Claim) -> Iterator[Candidate]:
 
 
 _FIRSTS = 12
-"""First changes from which a second is tried."""
+"""The largest number of first changes that are combined with a second one."""
 
 
 class _Screen:
-    """Candidates at a few points, where all that they share is computed once."""
+    """Tests candidates at a few points; the values that they share are computed only once."""
 
     def __init__(self, claim: Claim) -> None:
         self.claim = claim
@@ -538,7 +540,7 @@ class _Screen:
         self.integrals = has_integral(claim)
 
     def fits(self, left: Expr, right: Expr) -> bool:
-        """Whether a candidate agrees at the screen's points; near its limit, if it has one."""
+        """Whether a candidate agrees at the points, or near the limit of a claim that has one."""
         if self.claim.toward is not None:
             return judge(self.claim, left, right, self.claim.meaning).good
         left, right = self.claim.sides(left, right)
@@ -566,11 +568,11 @@ class _Screen:
 
 
 def check_all(claims: tuple[Claim, ...]) -> list[Finding]:
-    """The verdict of every claim, in their order."""
+    """Return the findings for all claims in order."""
     return [check(claim) for claim in claims]
 
 
 def _exactly(value: mpf) -> Rational:
-    """A number as the fraction that it is in binary, in SymPy's own integers."""
+    """Return the exact value of a binary number as a SymPy rational."""
     above, below = to_rational(value._mpf_)
     return Rational(int(above), int(below))

@@ -90,9 +90,9 @@ def test_a_geometry_file_is_a_body_and_is_not_executed(
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("geometry = 3", "has not one `geometry = Geometry"),
-        ("(", "is no Python"),
-        (GEOMETRY.replace('"half"', '"b"'), "calls the parameter 'half' otherwise"),
+        ("geometry = 3", "does not have exactly one `geometry = Geometry"),
+        ("(", "is not valid Python"),
+        (GEOMETRY.replace('"half"', '"b"'), "the parameter 'half' is assigned to a Python variable"),
         (GEOMETRY.replace("x**2", "__import__('os').getcwd()"), "__import__"),
     ],
 )
@@ -221,7 +221,7 @@ def test_what_cannot_be_given(tmp_path: Path, given: str) -> None:
 def test_by_what_both_sides_differ(tmp_path: Path, printed: str, diagnosis: str) -> None:
     found = told(tmp_path, printed)
     assert found["verdict"] == "fails"
-    assert f"left over right is {diagnosis} at" in (found["diagnosis"] or "")
+    assert f"the ratio left/right is {diagnosis} at" in (found["diagnosis"] or "")
 
 
 @pytest.mark.parametrize(

@@ -187,7 +187,7 @@ def test_a_draft_asks_where_it_is_not_sure(tmp_path: Path) -> None:
     done = run(str(written(tmp_path, PHYSICS)), "--draft", str(new), "--inline")
     assert done.exit_code == 0, done.output
     assert "p is a function elsewhere" in done.output
-    assert "d/dx before what it is of is not read" in done.output
+    assert "d/dx before its operand is not supported" in done.output
     data = tomllib.loads(new.read_text())
     claims = {claim["label"]: claim for claim in data["claims"]}
     assert claims["one"]["understood"] == "p_at_x = P/2*sign(x)"
@@ -239,5 +239,5 @@ def test_a_file_that_cannot_be_drafted(text: str, part: str, tmp_path: Path) -> 
 
 
 def test_brackets_that_do_not_fit() -> None:
-    with pytest.raises(BadFormula, match="closes nothing"):
+    with pytest.raises(BadFormula, match="matches nothing"):
         statements("here", "a = b)")

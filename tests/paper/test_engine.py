@@ -302,7 +302,7 @@ def test_a_proof_that_takes_too_long_leaves_the_numbers(monkeypatch: pytest.Monk
     monkeypatch.setattr("derive.paper.verdict.vanishes", slow)
     finding = check(claim(a, b, meaning={a: u, b: u}, seconds=3.0))
     assert finding.verdict == Verdict.NUMERICAL
-    assert "no proof within 3 s" in finding.judged.why
+    assert "no proof was found within 3 s" in finding.judged.why
 
 
 def test_a_number_is_counted_once() -> None:

@@ -228,7 +228,7 @@ def test_branches_where_neither_side_is_real_do_not_count(tmp_path: Path) -> Non
     assert judged(tmp_path, "a*sqrt(1 - b) = a*sqrt(1 - b)").verdict == Verdict.HOLDS
     hidden = judged(tmp_path, "sqrt(w - 2) = 2*sqrt(w - 2)")
     assert hidden.verdict == Verdict.UNCHECKED
-    assert "one is not real at " in evidence(hidden)
+    assert "a side is not real at " in evidence(hidden)
 
 
 def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
@@ -348,7 +348,7 @@ def test_a_verdict_that_takes_too_long_is_none(tmp_path: Path) -> None:
     began = monotonic()
     finding = judged(tmp_path, slow, "seconds = 0.05\n" + HEAD)
     assert finding.verdict == Verdict.UNCHECKED
-    assert "not done within 0.05 s" in evidence(finding)
+    assert "not finished within 0.05 s" in evidence(finding)
     assert monotonic() - began < 5
 
 
@@ -357,7 +357,7 @@ def test_a_search_that_takes_too_long_leaves_the_verdict(tmp_path: Path) -> None
     printed = "integral(sign(sin(5*s)), s, 0, 3) = 18*pi/5 - 3 - 12*pi/5 - pi"
     finding = judged(tmp_path, printed, "seconds = 2\n" + HEAD)
     assert finding.verdict == Verdict.FAILS
-    assert "the search for a correction: not done within 2 s" in evidence(finding)
+    assert "the search for a correction: not finished within 2 s" in evidence(finding)
     assert monotonic() - began < 10
 
 

@@ -546,7 +546,7 @@ def test_all_mistakes_are_told_at_once(tmp_path: Path) -> None:
     )
     done = run(written(tmp_path, text))
     assert (done.exit_code, done.stdout) == (2, "")
-    assert "6 mistakes" in done.stderr
+    assert "6 errors" in done.stderr
     for place in (":5: variable 'k'", ":7, symbols", ":9: claim 'area'", ":14, claim 'next'"):
         assert f"claims.toml{place}" in done.stderr
 
