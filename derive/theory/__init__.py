@@ -1,18 +1,18 @@
 """The mechanics of one half-plane contact, stage by stage; each module imports only earlier ones.
 
-frame        what a kink brings: its angle, its root, its logarithm
+frame        the contribution of a kink: its angle, its root, its logarithm
 ring         expressions as polynomials over the rationals, in FLINT
-algebra      one form for each formula, and an exact answer to "is it zero"
-moments      I_k(a, c), the integrals that equilibrium is made of
+algebra      a common form for formulas, and an exact test whether one is zero
+moments      I_k(a, c), the integrals from which equilibrium follows
 equilibrium  tilt from I_0 = 0, load and moment from I_1 and I_2
 pressure     p(x) inside the contact
-contact_law  P'(c) along fixed tilt, F(c), and the inverses (P, M), (P, alpha) -> (a, c)
-edges        K_N by two routes, the series of p at an edge
-segments     the same of polynomials between kinks, as sums over the parts of a contact
-superposition  P, M, p, K_N and L_N as integrals of g'', of a body of any shape
-special      terms of g' whose integrals are special functions: one rule a kind of term
-closed_forms  what those rules and the polynomials of g' make together
-stick        full stick and its edges, what keeps an edge from slipping, the stick zone
-slip         slip zones by series in their length, to any order
-edge         slip and shear next to an edge alone, from its coefficients
+contact_law  inverses of the contact law: (P, M) -> (a, c, alpha) and (P, alpha) -> (a, c, M)
+edges        K_N by two routes, P'(c) and a'(c) at fixed tilt, the series of p at an edge
+segments     formulas of piecewise polynomial bodies as sums over the parts of a contact
+superposition  P, M, p, K_N and L_N as integrals of g'', for a body of any profile
+special      terms of g' whose integrals are special functions: one rule for each kind of term
+closed_forms  closed forms from these rules and from the polynomial terms of g'
+stick        full stick and its edge coefficients, the stick margin, and the stick zone
+slip         slip zones as series in the changes of the loads, to any order
+edge         slip and shear traction next to a single edge, from its coefficients
 """

@@ -1,9 +1,9 @@
-"""Bringing formulas into a common form, and deciding whether one is zero.
+"""Bring formulas into a common form, and decide whether a formula is zero.
 
-All closed forms are rational functions of a, c, x, the parameters and the symbols of the kinks.  A
-kink that every contact spans has w_j**2 = (a + x_j)(c - x_j).  One that a contact can leave has
-w_j = 0 then, so that only w_j**3 = (a + x_j)(c - x_j) w_j holds throughout.  In that ring "is it
-zero" has an exact answer.
+All closed forms are rational functions of a, c, x, the parameters and the symbols of the kinks.  If
+every contact spans a kink, then w_j**2 = (a + x_j)(c - x_j).  If a contact can leave the kink, then
+w_j can be zero, and only w_j**3 = (a + x_j)(c - x_j) w_j always holds.  In this ring it can be
+decided exactly whether an expression is zero.
 """
 
 from sympy import (
@@ -28,7 +28,7 @@ def reduced(expr: Expr, frame: Frame) -> Expr:
 
 
 def tidy(expr: Expr, frame: Frame) -> Expr:
-    """`expr` as it is printed: factored, or collected by the kinks' symbols if that is shorter."""
+    """`expr` in the form that is printed: factored, or collected by kink symbols if shorter."""
     if frame.is_long:
         linear = _collected_linear(expr, frame)
         if linear is not None:
@@ -39,11 +39,11 @@ def tidy(expr: Expr, frame: Frame) -> Expr:
 
 
 def is_zero(expr: Expr, frame: Frame) -> bool:
-    """Whether `expr` vanishes identically in the ring; exact, never a guess.
+    """Whether `expr` vanishes identically in the ring; the answer is exact.
 
-    Every root is a generator whose square is known and every denominator is multiplied up, so that
-    polynomials remain: one for each product of the kinks' symbols and the roots, which are
-    independent.  Each is zero or not.
+    Every root is a generator whose square is known, and every denominator is multiplied out.  Only
+    polynomials remain: one for each product of the kinks' symbols and the roots.  These products
+    are independent, so `expr` is zero if all of these polynomials are.
     """
     squares = {k.w: k.left * k.right for k in frame.kinks}
     ring = Ring([expr, *squares.values()])
@@ -63,7 +63,7 @@ def _symbols(frame: Frame) -> list[Symbol]:
 
 
 def _collected(quotient: Expr, frame: Frame) -> Expr:
-    """Each coefficient of theta_j and w_j factored by itself."""
+    """Factor each coefficient of theta_j and w_j separately."""
     numerator, denominator = fraction(quotient)
     symbols = [s for s in _symbols(frame) if numerator.has(s)]
     if not symbols:
@@ -77,9 +77,9 @@ def _collected(quotient: Expr, frame: Frame) -> Expr:
 
 
 def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
-    """Each coefficient of theta_j and w_j factored by itself; None where they are not linear.
+    """Factor each coefficient of theta_j and w_j separately; None if they do not occur linearly.
 
-    Without a common denominator, which would take far longer for a long body.
+    A common denominator is avoided, because it would take much longer for a long body.
     """
     symbols = _symbols(frame)
     stand_ins = stand_ins_for_roots(expr)
@@ -91,7 +91,7 @@ def _collected_linear(expr: Expr, frame: Frame) -> Expr | None:
 
 
 def _low_power(expr: Expr, frame: Frame) -> Expr:
-    """A polynomial in w_j of degree one, of degree two where a contact can leave the kink."""
+    """A polynomial in w_j of degree one, or of degree two if a contact can leave the kink."""
     for k in frame.kinks:
         if expr.has(k.w):
             expr = sum(

@@ -1,10 +1,10 @@
-r"""Tilt, load, moment, K_N and L_N in closed form where g' is a sum of terms that have a rule.
+r"""Tilt, load, moment, K_N and L_N in closed form if g' is a sum of terms that have a rule.
 
-Each piece's g' is written as a sum of polynomials times special terms.  A polynomial may change at
-every kink; an exponential or the root of a quadratic must be the same on all pieces; a power must
-act from its own place outwards, to the end of the body.  What the polynomials carry is known; the
-rules of `special` give the rest.  One term without a rule leaves all integrals of the body as they
-are.
+On each piece, g' is written as a sum of polynomials times special terms.  A polynomial may change
+at every kink.  An exponential, or the root of a quadratic, must be the same on all pieces.  A power
+must extend from its own position to the end of the body.  The integrals of the polynomials are
+known, and the rules of `special` provide the others.  If a single term has no rule, all formulas of
+the body remain integrals.
 """
 
 from collections.abc import Callable
@@ -39,12 +39,12 @@ from derive.theory.special import WEIGHTS, Exponential, Power, Root, Special
 
 
 class NoRule(Exception):
-    """A term of g', in words, that no rule integrates."""
+    """A term of g', as text, for which there is no rule."""
 
 
 @dataclass
 class Parts:
-    """g' piece by piece: its polynomials, and the polynomial factors of each special term."""
+    """g' on each piece: a polynomial, and the polynomial factor of each special term."""
 
     polynomials: list[Expr]
     special: dict[Special, list[Expr]] = field(default_factory=dict)
@@ -59,9 +59,9 @@ class Parts:
 
 
 def closed_forms(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
-    """Every formula for which `special` has weights; `look` is called between the steps.
+    """All formulas for which `special` has weights; `look` is called between the steps.
 
-    Raises NoRule for a term that has none.
+    Raises NoRule for a term that has no rule.
     """
     parts = read_parts(frame)
     wholes: dict[Special, Expr] = {}
@@ -83,7 +83,7 @@ def closed_forms(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
 
 
 def read_parts(frame: Frame) -> Parts:
-    """g' as polynomials and special terms.
+    """Write g' as polynomials and special terms.
 
     Raises NoRule.
     """
@@ -97,7 +97,7 @@ def read_parts(frame: Frame) -> Parts:
 
 
 def _read(frame: Frame, term: Expr) -> tuple[Special | None, Expr]:
-    """One term as a special one and its polynomial factor."""
+    """Split a term into a special term and its polynomial factor."""
     polynomial, special = S.One, []
     for base, exponent in term.as_powers_dict().items():
         power = base**exponent
@@ -119,7 +119,7 @@ def _read(frame: Frame, term: Expr) -> tuple[Special | None, Expr]:
 
 
 def _as_one_power(powers: list[tuple[Expr, Expr]]) -> tuple[Expr, list[tuple[Expr, Expr]]]:
-    """(-x)**k/x as -(-x)**(k - 1): integer powers of a multiple of another power's base."""
+    """Combine powers whose bases are multiples of each other: (-x)**k/x is -(-x)**(k - 1)."""
     (base, exponent), *others = sorted(powers, key=lambda p: bool(p[1].is_integer))
     leaves, left = S.One, []
     for other, power in others:
@@ -132,7 +132,7 @@ def _as_one_power(powers: list[tuple[Expr, Expr]]) -> tuple[Expr, list[tuple[Exp
 
 
 Found = tuple[Special, Expr] | None
-"""A special term and the factor that it leaves; None where a rule does not apply."""
+"""A special term and the remaining factor; None if a rule does not apply."""
 
 
 def _power(frame: Frame, base: Expr, exponent: Expr) -> Found:
@@ -149,7 +149,7 @@ def _power(frame: Frame, base: Expr, exponent: Expr) -> Found:
         return None
     side, place = (1 if beta.is_positive else -1), simplify(-delta / beta)
     at_ends = [s for s, end in zip((1, -1), frame.slope.domain, strict=True) if _same(end, place)]
-    if exponent.is_integer:  # a pole: it has no real side
+    if exponent.is_integer:  # a pole, which is real on both sides
         if not at_ends:
             return None
         side = at_ends[0]
@@ -157,7 +157,7 @@ def _power(frame: Frame, base: Expr, exponent: Expr) -> Found:
 
 
 def _same(end: Expr, place: Expr) -> bool:
-    """Whether the body ends at a place."""
+    """Whether an end of the body lies at a point."""
     return bool(simplify(end - place) == 0)
 
 
@@ -191,9 +191,9 @@ _RULES: tuple[Callable[[Frame, Expr, Expr], Found], ...] = (_power, _exponential
 
 
 def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
-    """The factor of a special term, which is the same wherever the term may act.
+    """The factor of a special term, which must be the same wherever the term can occur.
 
-    Raises NoRule where it is not.
+    Raises NoRule if it is not.
     """
     acts = [True] * len(factors)
     if isinstance(term, Power) and not term.outside:
@@ -209,11 +209,11 @@ def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
     return whole
 
 
-# ------------------------------------------------------------------ what the polynomials carry
+# ------------------------------------------------------------------ integrals of the polynomials
 
 
 def _of_polynomials(frame: Frame, pieces: list[Expr], look: LookAtClock) -> dict[str, Expr]:
-    """The polynomials' part of every formula, in the angles and roots of the kinks."""
+    """The contribution of the polynomials to every formula, by angles and roots of the kinks."""
     base = pieces[sum(k.kink.side < 0 for k in frame.kinks)]
     steps = zip(frame.kinks, pairwise(pieces), strict=True)
     jumps = [expand((right - left) * k.kink.side) for k, (left, right) in steps]

@@ -1,11 +1,12 @@
 r"""From loads to the contact: (P, M) -> (a, c, alpha) and (P, alpha) -> (a, c, M) in closed form.
 
-The natural unknowns are the width h and the middle mid, for M/P holds mid to the first power
-wherever a closed inverse is known.  A body whose flanks are straight and meet in one corner is
-better served by the corner's angle: mid = x_1 -/+ (h/2) cos(theta_1) and w_1 = (h/2) sin(theta_1).
+The natural unknowns are the width h and the midpoint mid, because M/P contains mid only to the
+first power wherever a closed inverse is known.  For a body with straight flanks that meet in one
+corner, the angle of the corner is the better unknown: mid = x_1 -/+ (h/2) cos(theta_1) and
+w_1 = (h/2) sin(theta_1).
 
-Where no closed inverse is found the result is None; nothing is guessed and nothing times out: the
-equations tried are of first or second degree, so that the answer is the same on every machine.
+If no closed inverse is found, the result is None.  Only equations of first or second degree are
+tried, without guesses or time limits, so that the result is the same on every machine.
 """
 
 from dataclasses import dataclass
@@ -78,7 +79,7 @@ def _smooth_at_tilt(frame: Frame, tilt: Expr, load: Expr, arm: Expr) -> Inverse 
 
 
 def _where(of_edges: Expr, value: Expr, load: Expr, frame: Frame) -> tuple[Expr, Expr] | None:
-    """Middle and half-width of the contact under P in which `of_edges` also has its value."""
+    """Midpoint and half-width of the contact under P for which `of_edges` equals `value`."""
     to_middle = _in_middle_and_width(frame)
     middle = _root_of_first_degree(of_edges.subs(to_middle) - value, _mid)
     if middle is None:
@@ -88,10 +89,11 @@ def _where(of_edges: Expr, value: Expr, load: Expr, frame: Frame) -> tuple[Expr,
 
 
 def _corner_at_tilt(corner: KinkFrame, tilt: Expr, load: Expr, arm: Expr) -> Inverse | None:
-    """One corner between straight flanks, by half its angle.
+    """Contact of one corner between straight flanks, by half of the corner's angle.
 
-    From (1 - cos u)/sin u = tan(u/2): the edge on the jump's side lies (h/2) sin(theta_1) times
-    tan(theta_1/2) from the corner, the other the same over the tangent.
+    Since (1 - cos u)/sin u = tan(u/2), the edge on the side of the jump lies at the distance
+    (h/2) sin(theta_1) tan(theta_1/2) from the corner, and the other edge at the distance
+    (h/2) sin(theta_1)/tan(theta_1/2).
     """
     angle = _root_of_first_degree(tilt - alpha, corner.theta)
     if angle is None:
@@ -116,7 +118,7 @@ def _corner_at_tilt(corner: KinkFrame, tilt: Expr, load: Expr, arm: Expr) -> Inv
 
 
 def _in_middle_and_width(frame: Frame) -> dict[Expr, Expr]:
-    """a, c and the roots in terms of mid and h."""
+    """a, c and the roots of the kinks in terms of mid and h."""
     table: dict[Expr, Expr] = {a: _h / 2 - _mid, c: _h / 2 + _mid}
     for k in frame.kinks:
         table[k.w] = sqrt(_h**2 / 4 - (k.kink.position - _mid) ** 2)
@@ -124,12 +126,12 @@ def _in_middle_and_width(frame: Frame) -> dict[Expr, Expr]:
 
 
 def _angles(frame: Frame) -> dict[Expr, Expr]:
-    """theta_j from its sine 2 w_j/h and its cosine, both of which the loads give directly."""
+    """theta_j by its sine 2 w_j/h and its cosine, which both follow directly from the loads."""
     return {k.theta: atan2(k.w, k.kink.side * (k.kink.position - _mid)) for k in frame.kinks}
 
 
 def _root_of_first_degree(expr: Expr, unknown: Symbol) -> Expr | None:
-    """The root of `expr` = 0 if it is linear in `unknown` and free of the width."""
+    """The root of `expr` = 0 if `expr` is linear in `unknown` and the root is free of the width."""
     expr = expand(simplify(expr))
     if not expr.is_polynomial(unknown):
         return None
@@ -139,7 +141,7 @@ def _root_of_first_degree(expr: Expr, unknown: Symbol) -> Expr | None:
 
 
 def _half_width(load: Expr) -> Expr | None:
-    """h/2 > 0 at which load(h) = P, if the load is C h, C h**2 or C sqrt(h**2 + D)."""
+    """The h/2 > 0 with load(h) = P, if the load is C h, C h**2 or C sqrt(h**2 + D)."""
     if load.is_polynomial(_h):
         terms = Poly(load, _h).terms()
         if len(terms) == 1 and terms[0][0][0] in (1, 2):
@@ -156,5 +158,5 @@ def _half_width(load: Expr) -> Expr | None:
 
 
 def _opened_roots(expr: Expr) -> Expr:
-    """`expr` with every root that can be written without one written so."""
+    """`expr` with every square root replaced by its simplified form."""
     return expr.replace(lambda n: n.is_Pow and n.exp == S.Half, lambda n: sqrt(simplify(n.base)))

@@ -1,23 +1,23 @@
-r"""An edge alone: slip and shear next to it, from the series of pressure and full stick.
+r"""Slip and shear traction next to a single edge, from the series of pressure and full stick.
 
 At a distance s from the edge, far from the other one,
 
     p = sqrt(s) (K_N + L_N s + N_N s**2),   full-stick dq = (K_T + L_T s + N_T s**2)/sqrt(s).
 
-Slip reaches D in.  With t = s - D the distance from there, the bounded change of shear is
+The slip zone has the length D.  With t = s - D, the bounded change of the shear traction is
 
     dq = f (p_1 + p_2) - sqrt(t) R(t),   R a polynomial:
 
-both parts are free of strain where nothing slips.  Where s is large against D this must be the
-full-stick change.  `matched` expands both in powers of 1/t.  Positive powers of t give R.  What
-multiplies t**(-1/2) gives the slip zone.  Each contact of the half-cycle has its own D, so that an
-edge which moves needs nothing more.
+Neither part has a strain where nothing slips.  For s much larger than D, dq must equal the
+full-stick change.  `matched` expands both in powers of 1/t: positive powers of t determine R, and
+the coefficient of t**(-1/2) determines the slip zone.  Each contact of the half-cycle has its own
+D, so that nothing more is needed for an edge that moves.
 
-The pressure grows as the edge moves on: with K_N(b) that of the contact whose edge lies at b, the
-pressure at x is int_x^edge K_N(b)/(2 sqrt(b - x)) db, so that K_N(b) follows from the series.
+The pressure grows as the edge advances.  Let K_N(b) be that of the contact whose edge lies at b.
+The pressure at x is int_x^edge K_N(b)/(2 sqrt(b - x)) db, so that K_N(b) follows from the series.
 
-A contact of known width h whose other edge does not slip adds f K_N D**2/(8 h) to what drives slip:
-theory.slip with one slip zone, `width_term`.
+If the contact has the width h and its other edge does not slip, f K_N D**2/(8 h) is added to the
+load that drives slip: `width_term`, from theory.slip with one slip zone.
 """
 
 from collections.abc import Sequence
@@ -33,17 +33,17 @@ t = Symbol("t", positive=True)
 
 
 def beyond(power: Expr, D: Expr, terms: int) -> list[tuple[Expr, Expr]]:
-    """(t + D)**power as (power of t, coefficient), where t is large against D."""
+    """Terms of (t + D)**power for t much larger than D: (power of t, coefficient)."""
     return [(power - j, binomial(power, j) * D**j) for j in range(terms)]
 
 
 def matched(
     pressures: Sequence[tuple[Sequence[Expr], Expr]], shear: Sequence[Expr]
 ) -> tuple[Expr, list[Expr]]:
-    """What vanishes for the slip zone, over K_T's, and the coefficients of R(t).
+    """The condition for the slip zone, an expression that vanishes, and the coefficients of R(t).
 
-    pressures: of each contact f times the coefficients K_N, L_N, ..., and the length of slip in it
-    shear: coefficients K_T, L_T, ...; D is that of the first contact
+    pressures: for each contact, f times the coefficients K_N, L_N, ..., and its slip length
+    shear: the coefficients K_T, L_T, ...; their D is that of the first contact
 
     >>> from sympy import symbols
     >>> K_N, K_T, D = symbols("K_N K_T D")
@@ -64,10 +64,10 @@ def matched(
 
 
 def grown(coefficients: Sequence[Expr], move: Expr) -> list[Expr]:
-    """The pressure's coefficients of the contact whose edge reaches less far by `move`.
+    """Coefficients of the pressure of a contact whose edge has advanced less, by `move`.
 
-    K_N(b) is a polynomial in how much less far the edge lies; each power of that, carried through
-    the integral, gives one power of s.
+    K_N(b) is a polynomial in the distance of this edge from the actual one.  The integral turns
+    each power of this distance into one power of s.
     """
     share = [gamma(k + 1) * gamma(HALF) / gamma(k + 3 * HALF) / 2 for k in range(len(coefficients))]
     K_N = sum(
@@ -77,7 +77,7 @@ def grown(coefficients: Sequence[Expr], move: Expr) -> list[Expr]:
 
 
 def width_term() -> Expr:
-    """What a width h adds to what drives slip, in the second order, over f K_N D**2.
+    """Second-order contribution of a width h to the load that drives slip, over f K_N D**2.
 
     >>> width_term()
     1/(8*(a + c))
@@ -102,9 +102,9 @@ def width_term() -> Expr:
 
 
 def work(K_N: Expr, D: Expr, E_star: Expr) -> Expr:
-    """Friction's work a cycle, per unit depth, to the first order; constant loads.
+    """Frictional work per cycle and unit depth, to first order, for constant loads.
 
-    2 int_0^D f p times the slip range ds.
+    It is 2 int_0^D f p times the slip range ds.
 
     >>> from sympy import symbols
     >>> work(*symbols("K_N D E_star"))

@@ -1,12 +1,13 @@
 r"""The pressure next to an edge: K_N by two routes, and the series to any order.
 
-Route 1 (Mossakovskii): along fixed tilt, K_N,right = (2/pi) P'(c)/sqrt(a + c) and
+Route 1 (Mossakovskii): at fixed tilt, K_N,right = (2/pi) P'(c)/sqrt(a + c) and
 K_N,left = K_N,right / a'(c).
-Route 2: expand p itself.  With s the distance inward, w = sqrt(s) sqrt(h - s), and from
+Route 2: expand p itself.  Let s be the distance from the edge, inward, so that
+w = sqrt(s) sqrt(h - s).  From
 
     dL_j/dx = -w_j / (2 (x - x_j) w(x))
 
-each logarithm is an integral of a binomial series; no limit is needed.
+each logarithm is the integral of a binomial series, and no limit is needed.
 """
 
 from enum import Enum
@@ -21,7 +22,7 @@ from derive.theory.ring import powers_of
 
 
 class Edge(Enum):
-    """An edge of the contact: where it is, and which direction is inward."""
+    """An edge of the contact: its position, and the inward direction."""
 
     LEFT = (-a, 1)
     RIGHT = (c, -1)
@@ -33,12 +34,12 @@ class Edge(Enum):
 
     @property
     def inward(self) -> int:
-        """+1 where inward is to the right."""
+        """+1 if inward is to the right, -1 if it is to the left."""
         return int(self.value[1])
 
 
 def pressure_series(frame: Frame, edge: Edge, terms: int) -> list[Expr]:
-    """[K_N, L_N, ...] with p = sqrt(s) (K_N + L_N s + ...) at a distance s inward of `edge`."""
+    """[K_N, L_N, ...], where p = sqrt(s) (K_N + L_N s + ...) at a distance s from `edge`."""
     at = edge.position + edge.inward * s
     smooth = _taylor(smooth_part(frame).subs(x, at), terms)
     total = _product(smooth, _root_series(Rational(1, 2), terms), terms)
@@ -81,10 +82,10 @@ def _logarithm_series(kink: KinkFrame, edge: Edge, terms: int) -> list[Expr]:
 
 
 def edge_ratio(frame: Frame, tilt: Expr) -> Expr:
-    """a'(c) along fixed tilt, -(d alpha/dc)/(d alpha/da)."""
+    """a'(c) at fixed tilt, -(d alpha/dc)/(d alpha/da)."""
     return tidy(-frame.diff(tilt, c) / frame.diff(tilt, a), frame)
 
 
 def load_rate(frame: Frame, load: Expr, ratio: Expr) -> Expr:
-    """P'(c) along fixed tilt."""
+    """P'(c) at fixed tilt."""
     return tidy(frame.diff(load, c) + frame.diff(load, a) * ratio, frame)

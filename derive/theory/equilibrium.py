@@ -1,7 +1,8 @@
 r"""Tilt, load and moment of the contact [-a, c].
 
-I_0 = 0 keeps the pressure bounded at both edges; it is linear in the tilt, so alpha is explicit.
-The tilt drops out of I_1 - mid I_0, so the load needs no tilt at all; the moment needs it once.
+I_0 = 0 keeps the pressure bounded at both edges.  It is linear in the tilt, so that alpha is given
+explicitly.  I_1 - mid I_0 does not contain the tilt, so that the load does not need it.  The moment
+needs the tilt once.
 """
 
 from sympy import Expr, pi
@@ -23,7 +24,7 @@ def load(frame: Frame) -> Expr:
 
 
 def moment(frame: Frame) -> Expr:
-    """M(a, c) = -(E*/2) (I_2 - mid I_1), the tilt included."""
+    """M(a, c) = -(E*/2) (I_2 - mid I_1), including the tilt."""
     alpha = -slope_moment(0, frame) / pi
     first, second = (slope_moment(k, frame) + alpha * full_moment(k) for k in (1, 2))
     return tidy(-E_star / 2 * (second - mid * first), frame)

@@ -1,19 +1,19 @@
-r"""What a kink adds to the formulas: its angle, its root, its logarithm.
+r"""The contribution of a kink to the formulas: its angle, its root, its logarithm.
 
-With x = mid + (h/2) cos(theta) the contact is the half circle 0 < theta < pi, and a kink at x_j
-cuts it.  All formulas are rational in three symbols per kink:
+With x = mid + (h/2) cos(theta), the contact becomes the half circle 0 < theta < pi, and a kink at
+x_j divides it.  All formulas are rational in three symbols per kink:
 
-    theta_j  the angle of that part of the contact in which the jump acts,
-             2 atan( sqrt(c - x_j) / sqrt(a + x_j) ) for a jump on the right of the kink
+    theta_j  the angle of the part of the contact in which the jump acts,
+             2 atan( sqrt(c - x_j) / sqrt(a + x_j) ) if this part lies to the right of the kink
     w_j      sqrt((a + x_j)(c - x_j))
     L_j      (1/2) log |(sqrt u_j + sqrt v_j) / (sqrt u_j - sqrt v_j)|,
              u_j = (c - x_j)(a + x),  v_j = (a + x_j)(c - x)
 
-A square root of a quadratic q(x) in g' brings four: its values at both edges, and the parameter and
-the characteristic of its elliptic integrals.
+The square root of a quadratic q(x) in g' adds four symbols: its values at both edges, and the
+parameter and the characteristic of its elliptic integrals.
 
-A kink outside the contact has theta_j = 0 or pi and w_j = L_j = 0: its roots are clipped at zero,
-so that one formula also serves a contact that has left the kink.
+A kink outside the contact has theta_j = 0 or pi and w_j = L_j = 0.  Its roots are clipped at zero,
+so that the same formula also holds for a contact that has left the kink.
 """
 
 from dataclasses import dataclass
@@ -25,8 +25,8 @@ from derive.profile import Kink, Slope
 from derive.symbols import a, c, h, w, x
 
 _FEW_TERMS = 5
-"""Terms of g' up to which a body of one kink is written over one denominator, the shorter form.
-With more terms, each with its own length, the contact law takes half a minute to reduce."""
+"""Largest number of terms of g' for which a body with one kink is written over one denominator,
+which is shorter.  With more terms, each with its own length, this would take half a minute."""
 
 
 @dataclass(frozen=True)
@@ -62,38 +62,38 @@ class KinkFrame:
         return c - self.kink.position
 
     def clip(self, distance: Expr) -> Expr:
-        """A distance to the kink; zero once the contact has left it."""
+        """The distance to the kink, or zero if the contact has left the kink."""
         return Max(0, distance) if self.clipped else distance
 
     @property
     def angle(self) -> Expr:
-        """The definition of theta_j."""
+        """Definition of theta_j."""
         near, far = (self.right, self.left) if self.kink.side > 0 else (self.left, self.right)
         return 2 * atan2(sqrt(self.clip(near)), sqrt(self.clip(far)))
 
     @property
     def root(self) -> Expr:
-        """The definition of w_j."""
+        """Definition of w_j."""
         return sqrt(self.clip(self.left) * self.clip(self.right))
 
     @property
     def u(self) -> Expr:
-        """Vanishes at the left edge."""
+        """u_j, which vanishes at the left edge."""
         return self.clip(self.right) * (a + x)
 
     @property
     def v(self) -> Expr:
-        """Vanishes at the right edge."""
+        """v_j, which vanishes at the right edge."""
         return self.clip(self.left) * (c - x)
 
     @property
     def logarithm(self) -> Expr:
-        """The definition of L_j."""
+        """Definition of L_j."""
         return _logarithm(self.u, self.v)
 
     @property
     def logarithm_in_words(self) -> dict[Symbol, Expr]:
-        """The definition of L_j by two more symbols, u_j and v_j."""
+        """Definition of L_j by two more symbols, u_j and v_j."""
         u, v = symbols(f"u_{self.kink.number} v_{self.kink.number}", nonnegative=True)
         return {self.L: _logarithm(u, v), u: self.u, v: self.v}
 
@@ -111,12 +111,12 @@ class RootFrame:
 
     @cached_property
     def left(self) -> Symbol:
-        """The root's value at the left edge."""
+        """Value of the root at the left edge."""
         return Symbol(f"q_left_{self.number}", positive=True)
 
     @cached_property
     def right(self) -> Symbol:
-        """The root's value at the right edge."""
+        """Value of the root at the right edge."""
         return Symbol(f"q_right_{self.number}", positive=True)
 
     @cached_property
@@ -126,12 +126,12 @@ class RootFrame:
 
     @cached_property
     def n(self) -> Symbol:
-        """Characteristic of the third one."""
+        """Characteristic of the elliptic integral of the third kind."""
         return Symbol(f"n_{self.number}", real=True)
 
     @property
     def definitions(self) -> dict[Symbol, Expr]:
-        """All four; m and n in terms of the values at the edges."""
+        """Definitions of all four symbols; m and n in terms of the values at the edges."""
         square = diff(self.quadratic, x, 2) / 2 * h**2
         return {
             self.left: sqrt(self.quadratic.subs(x, -a)),
@@ -154,16 +154,16 @@ class Frame:
 
     @cached_property
     def kinks(self) -> tuple[KinkFrame, ...]:
-        """One frame for each kink; clipped unless every contact must span the kink.
+        """One frame for each kink; it is clipped unless every contact must span the kink.
 
-        A single kink between two straight flanks is always spanned: without it nothing presses.
+        A single kink between two straight flanks is always spanned, since only a kink carries load.
         """
         always_spanned = len(self.slope.kinks) == 1 and all(p.straight for p in self.slope.pieces)
         return tuple(KinkFrame(kink, clipped=not always_spanned) for kink in self.slope.kinks)
 
     @cached_property
     def is_long(self) -> bool:
-        """Whether sums over one denominator are far longer than the separate terms."""
+        """Whether sums over a common denominator are much longer than the separate terms."""
         slope = self.slope
         if len(slope.kinks) != 1 or not slope.is_polynomial:
             return len(slope.kinks) > 1
@@ -172,7 +172,7 @@ class Frame:
 
     @cached_property
     def definitions(self) -> dict[Symbol, Expr]:
-        """The definition of each symbol of the frame."""
+        """Definition of each symbol of the frame."""
         pairs = [
             pair
             for k in self.kinks
@@ -190,11 +190,11 @@ class Frame:
         return expr.xreplace(self.definitions)
 
     def diff(self, expr: Expr, edge: Symbol) -> Expr:
-        """Derivative along the edge a or c, by the chain rule; free of 1/w_j.
+        """Derivative with respect to the edge a or c, by the chain rule; free of 1/w_j.
 
         From cos(theta_j) = (x_j - mid)/(h/2):  d theta_j/dc = w_j/(h (c - x_j)) and
-        d theta_j/da = -w_j/(h (a + x_j)) where the jump acts on the right, the opposite on the
-        left; d w_j/dc = w_j/(2 (c - x_j)),  d w_j/da = w_j/(2 (a + x_j));
+        d theta_j/da = -w_j/(h (a + x_j)) if the jump acts on the right, with opposite signs if it
+        acts on the left; d w_j/dc = w_j/(2 (c - x_j)),  d w_j/da = w_j/(2 (a + x_j));
         d L_j/dc = w_j (a + x)/(2 h w (c - x_j)),  d L_j/da = w_j (c - x)/(2 h w (a + x_j)).
         """
         total = _rate(expr, edge)
@@ -208,7 +208,7 @@ class Frame:
 
 
 def _rate(expr: Expr, symbol: Symbol) -> Expr:
-    """The derivative of a sum of products; SymPy's own visits every factor of every term.
+    """Derivative of a sum of products; SymPy's own function visits every factor of every term.
 
     >>> from sympy.abc import s, t
     >>> _rate(s**2 * t + s, t)

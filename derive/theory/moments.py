@@ -1,11 +1,11 @@
-r"""I_k(a, c) = int_{-a}^{c} s^k g'(s)/w(s) ds: what equilibrium is made of.
+r"""I_k(a, c) = int_{-a}^{c} s^k g'(s)/w(s) ds, the integrals from which equilibrium follows.
 
-The powers obey one recursion.  From d/ds (s^(k-1) w) = (-k s^k + (2k-1) mid s^(k-1)
-+ (k-1) a c s^(k-2))/w, over any part of the contact,
+The integrals of the powers obey a single recursion.  From d/ds (s^(k-1) w) =
+(-k s^k + (2k-1) mid s^(k-1) + (k-1) a c s^(k-2))/w, for any part of the contact,
 
-    k J_k = (2k-1) mid J_{k-1} + (k-1) a c J_{k-2} - [s^(k-1) w],     J_0 = angle of the part,
+    k J_k = (2k-1) mid J_{k-1} + (k-1) a c J_{k-2} - [s^(k-1) w],     J_0 = angle of the part.
 
-and w vanishes at both edges, so that only a kink leaves a bracket.
+Since w vanishes at both edges, only a kink contributes to the bracket.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ def full_moment(k: int) -> Expr:
 
 
 def kink_moment(k: int, kink: KinkFrame) -> Expr:
-    """int s^k / w ds over that part of the contact in which the kink's jump acts."""
+    """int s^k / w ds over the part of the contact in which the kink's jump acts."""
     return _recursion(k, kink.theta, at=kink.kink.position, bracket=-kink.kink.side * kink.w)
 
 
@@ -53,7 +53,7 @@ def slope_moment(k: int, frame: Frame) -> Expr:
 
 
 def polynomial_moment(k: int, frame: Frame, base: Expr, jumps: Sequence[Expr]) -> Expr:
-    """I_k of a polynomial, and of another one for each kink where its jump acts."""
+    """I_k of a polynomial, plus that of another one for each kink, over the part where it acts."""
     total = weighted(x**k * base)
     for kink, jump in zip(frame.kinks, jumps, strict=True):
         total += weighted(x**k * jump, kink)

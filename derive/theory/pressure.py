@@ -1,11 +1,11 @@
 r"""p(x) inside the contact.
 
 p(x) = (E*/2 pi) w(x) int (g'(s) - g'(x)) / ((s - x) w(s)) ds.  Dividing each polynomial by (s - x)
-leaves moments, gathered in R(x), and one principal value a kink,
+leaves moments, which are collected in R(x), and one principal value for each kink,
 
     w(x) PV int_{x_j}^{c} ds / ((s - x) w(s)) = 2 L_j(x),
 
-so that p(x) = (E*/2) [ w(x) R(x) + (2/pi) sum_j side_j D_j(x) L_j(x) ].
+so that p(x) = (E*/2) [ w(x) R(x) + (2/pi) sum_j side_j D_j(x) L_j(x) ], where D_j is the jump.
 """
 
 from functools import lru_cache

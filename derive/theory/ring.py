@@ -1,12 +1,13 @@
-r"""Expressions as polynomials over the rationals, in FLINT: exact, and far faster than by SymPy.
+r"""Expressions as polynomials over the rationals, in FLINT: exact, and much faster than in SymPy.
 
-Anything but a sum, product or power is a generator: a symbol, pi, a function.  Two more kinds come
-with one relation each,
+Everything except a sum, product or power is a generator: a symbol, pi, or a function.  Two more
+kinds of generators each come with one relation,
 
     root      r = base**(1/q),  r**q = base
     inverse   v = 1/base,       v base = 1
 
-so that base**(n + k/q), 0 <= k < q, is base**n r**k.  Any expression is a polynomial in all these.
+so that base**(n + k/q), 0 <= k < q, is base**n r**k.  Any expression is a polynomial in these
+generators.
 """
 
 from collections import Counter
@@ -37,9 +38,9 @@ Polynomial = fmpq_mpoly
 class Ring:
     """The polynomials in the generators of some expressions.
 
-    first     generators by which monomials are ordered before all others
-    roots     of each root the exponent and the base
-    inverses  what is divided by, each behind those that it holds itself
+    first     generators that are ordered before all others in monomials
+    roots     exponent and base of each root
+    inverses  bases that occur in denominators; each follows the ones that it contains
     """
 
     def __init__(self, exprs: Iterable[Expr], first: Sequence[Expr] = ()) -> None:
@@ -82,7 +83,7 @@ class Ring:
     # ------------------------------------------------------------------ to polynomials
 
     def polynomial(self, expr: Expr) -> Polynomial:
-        """An expression whose generators are known."""
+        """The polynomial of an expression whose generators are known."""
         if expr not in self._known:
             self._known[expr] = self._converted(expr)
         return self._known[expr]
@@ -105,12 +106,12 @@ class Ring:
             return self.polynomial(base if power >= 0 else 1 / base) ** abs(power)
         return self._ring.gen(self._places["inverse", base]) ** -power
 
-    # ------------------------------------------------------------------ rewriting them
+    # ------------------------------------------------------------------ rewriting polynomials
 
     def apart(
         self, polynomial: Polynomial, generators: Sequence[object]
     ) -> dict[tuple[int, ...], Polynomial]:
-        """The coefficients of the powers of some generators; they contain none of these."""
+        """Coefficients of the powers of some generators; they contain none of these generators."""
         places = [self._places[g] for g in generators if g in self._places]
         parts: dict[tuple[int, ...], dict[tuple[int, ...], fmpq]] = {}
         for monomial, coefficient in polynomial.to_dict().items():
@@ -124,7 +125,7 @@ class Ring:
     def lowered(
         self, polynomial: Polynomial, generator: Expr, exponent: int, value: Expr, least: int = 0
     ) -> Polynomial:
-        """With generator**exponent = value, while at least the power `least` is left."""
+        """Replace generator**exponent by `value` as long as the power stays at least `least`."""
         if generator not in self._places:
             return polynomial
         symbol, total = self.polynomial(generator), self._ring.constant(0)
@@ -136,7 +137,7 @@ class Ring:
     def cleared(
         self, polynomial: Polynomial, bases: Iterable[Expr]
     ) -> tuple[Polynomial, dict[Expr, int]]:
-        """A polynomial times the lowest powers of `bases` that leave no inverse, and these."""
+        """Multiply by the lowest powers of `bases` that remove all inverses; return these too."""
         powers = {}
         for base in sorted(bases, key=self.inverses.index, reverse=True):
             highest = polynomial.degrees()[self._places["inverse", base]]
@@ -147,10 +148,10 @@ class Ring:
                 polynomial = sum(lifted, self._ring.constant(0))
         return polynomial, powers
 
-    # ------------------------------------------------------------------ and back
+    # ------------------------------------------------------------------ back to expressions
 
     def factored(self, polynomial: Polynomial) -> Expr:
-        """As SymPy's factor writes it; its atoms are symbols and numbers such as pi."""
+        """The form that SymPy's factor returns; its atoms are symbols and numbers such as pi."""
         above, below = self.cleared(polynomial, self.inverses)
         if above.is_zero():
             return S.Zero
@@ -166,7 +167,7 @@ class Ring:
         return number * product
 
     def written(self, polynomial: Polynomial) -> Expr:
-        """As a sum of products."""
+        """The polynomial as a sum of products."""
         return Add(
             *(
                 Mul(
@@ -181,7 +182,8 @@ class Ring:
 def _factors(expr: Expr) -> Iterator[tuple[Expr, int]]:
     """base**(n + k/q) as n times its base and k times its root, base**(n k) as n times base**k.
 
-    The root of a whole number is one of its primes: sqrt(6) is sqrt(2) sqrt(3), and no generator.
+    The root of an integer is split into roots of primes: sqrt(6) is sqrt(2) sqrt(3), which is not a
+    generator of its own.
     """
     base, exponent = expr.as_base_exp()
     if base.is_Integer and base > 1 and not base.is_prime and exponent.is_Rational:
@@ -205,7 +207,7 @@ def factored(expr: Expr) -> Expr:
         return factor(expr)
     found = ring.factored(ring.polynomial(expr.xreplace(stand_ins)))
     if any(total.has(*stand_ins.values()) for total in found.atoms(Add) if stand_ins):
-        return factor(expr)  # whose roots may be powers of each other
+        return factor(expr)  # here roots may be powers of each other
     return found.xreplace({stand_in: root for root, stand_in in stand_ins.items()})
 
 
@@ -216,7 +218,7 @@ def stand_ins_for_roots(expr: Expr) -> dict[Expr, Symbol]:
 
 
 def linear_parts(expr: Expr, symbols: Sequence[Symbol]) -> dict[Expr, Expr] | None:
-    """Constant term and coefficient of each symbol, factored; None where `expr` is not linear."""
+    """Factored constant term and coefficient of each symbol; None if `expr` is not linear."""
     ring = _of_quotient(expr)
     if ring is None or any(base.has(*symbols) for base in ring.inverses if symbols):
         return None
@@ -229,15 +231,15 @@ def linear_parts(expr: Expr, symbols: Sequence[Symbol]) -> dict[Expr, Expr] | No
 
 
 def powers_of(symbol: Symbol, polynomial: Expr) -> dict[int, Expr]:
-    """The coefficient of each power of a symbol, expanded."""
+    """Expanded coefficient of each power of a symbol."""
     ring = Ring([polynomial], [symbol])
     parts = ring.apart(ring.polynomial(polynomial), [symbol])
     return {power: ring.written(part) for (power,), part in parts.items()}
 
 
 def _of_quotient(expr: Expr) -> Ring | None:
-    """The ring of a quotient of polynomials, None for anything else; monomials in SymPy's order."""
+    """The ring of a quotient of polynomials, in SymPy's order; None for any other expression."""
     atoms = expr.atoms(Symbol, NumberSymbol)
-    atoms |= {S.Exp1 for power in expr.atoms(exp) if power.exp.is_Rational}  # exp(-1) hides it
+    atoms |= {S.Exp1 for power in expr.atoms(exp) if power.exp.is_Rational}  # exp(-1) contains it
     ring = Ring([expr], Poly(Add(*atoms)).gens if atoms else ())
     return None if {*ring.atoms} != atoms or expr.has(Float) else ring

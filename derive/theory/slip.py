@@ -1,17 +1,17 @@
-r"""How far slip reaches in, order by order, from the pressure next to the edges.
+r"""The length of the slip zones, order by order, from the pressure next to the edges.
 
-The two conditions of stick.py hold with p1 and p2 as they are.  Over a slip zone of length d, and
-with p = K s**(1/2) + L s**(3/2) + ... at a distance s from the edge, their integrals are series in
-d/h_s, h_s the width of the stick zone:
+The two conditions of stick.py hold for any p1 and p2.  At a distance s from the edge,
+p = K s**(1/2) + L s**(3/2) + ...  Over a slip zone of length d, the integrals in the conditions are
+series in d/h_s, where h_s is the width of the stick zone:
 
     near = int_0^d p sqrt((h_s + d - s)/(d - s)) ds = sqrt(h_s) pi (K d/2 + 3 L d**2/8 + ...) + ...
     far  = int_0^d p sqrt((d - s)/(h_s + d - s)) ds = pi K d**2/(8 sqrt(h_s)) + ...,
 
-each term from int_0^d s**(i + 1/2) (d - s)**(j - 1/2) ds, a beta function.  Each contact of the
-cycle has its own edges, its own d and its own K, L, ..., so that varying loads need nothing more.
-An order counts powers of the loads' changes: d, dQ, dsigma and the motion of the edges are of
-order one.  `conditions` cuts both conditions behind an order; solved as they stand they are closer
-than the powers written out, which `terms` gives for constant loads.
+Each term follows from int_0^d s**(i + 1/2) (d - s)**(j - 1/2) ds, a beta function.  Each contact of
+the cycle has its own edges, d and K, L, ..., so that nothing more is needed for varying loads.  The
+order counts powers of the load changes: d, dQ, dsigma and the motion of the edges are of order one.
+`conditions` truncates both conditions after an order.  Solving these is more accurate than using
+the explicit powers, which `terms` gives for constant loads.
 """
 
 from collections.abc import Sequence
@@ -43,18 +43,18 @@ d_left, d_right = symbols("d_left d_right", positive=True)
 K_T_left, K_T_right = symbols("K_T_left K_T_right", real=True)
 kappa_left, kappa_right = symbols("kappa_left kappa_right", real=True)
 senses = kappa_left, kappa_right
-"""Of slip: +1 forward, -1 backward."""
+"""Directions of slip: +1 forward, -1 backward."""
 D_left, D_right, rho, width = symbols("D_left D_right rho h", positive=True)
-"""Slip zones of order 1, K_N kappa at the right edge over that at the left, contact width."""
+"""Slip zones of order 1; K_N kappa at the right edge over that at the left edge; contact width."""
 
 
 def coefficients(side: str, order: int) -> tuple[Symbol, ...]:
-    """K_N, L_N and the next coefficients of the pressure at one edge."""
+    """K_N, L_N and the following coefficients of the pressure at one edge."""
     return symbols(f"C_{side}_0:{order}", positive=True)
 
 
 def stuck_edge(edge: Edge) -> Symbol:
-    """K_T of full stick at an edge, as it stands in the series."""
+    """K_T of full stick at an edge, as it appears in the series."""
     return K_T_left if edge is Edge.LEFT else K_T_right
 
 
@@ -71,7 +71,7 @@ def far(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
 def _series(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int, shift: int) -> Expr:
     """int_0^d p (stuck + d - s)**(1/2 - shift) (d - s)**(shift - 1/2) ds, truncated after `order`.
 
-    The first power by the binomial series in (d - s)/stuck.
+    The first power is expanded as a binomial series in (d - s)/stuck.
     """
     power = HALF - shift
     return sum(
@@ -94,7 +94,7 @@ def _beta(i: int, j: int) -> Expr:
 
 
 def conditions(order: int) -> tuple[Expr, Expr]:
-    """What vanishes at the left and right end of the stick zone, for constant loads.
+    """Expressions that vanish at the left and right end of the stick zone, for constant loads.
 
     Both are divided by pi sqrt(h), so that the loads enter only through K_T and dsigma.
     """
@@ -111,7 +111,7 @@ def conditions(order: int) -> tuple[Expr, Expr]:
 
 @cache
 def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-    """The slip zones at constant loads as sums: terms of order 1, 2, ... at the left and the right.
+    """Terms of order 1, 2, ... of the slip zones at constant loads, at the left and the right edge.
 
     >>> from derive.theory.slip import terms
     >>> terms(1)
@@ -135,13 +135,14 @@ def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
 
 
 def ratios(side: str, order: int) -> tuple[Symbol, ...]:
-    """The second and the next coefficients of the pressure at one edge over its K_N."""
+    """Second and following coefficients of the pressure at one edge, divided by its K_N."""
     return symbols(f"c_{side}_1:{order}", real=True)
 
 
 def terms_in_ratios(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-    """`terms` by the slip zones of order 1: few, since tension follows from both K_T.
+    """`terms` in terms of the slip zones of order 1.
 
+    The terms are short because the tension follows from both K_T:
     K_T_left - K_T_right = dsigma sqrt(h)/4.
 
     >>> first, second = terms_in_ratios(2)[0]
@@ -168,9 +169,9 @@ def terms_in_ratios(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
 
 
 def slip_zone(edge: Edge, pull: Expr, K_N: Expr) -> Expr:
-    """The slip zone at `edge` to the first order, whatever the sense of slip.
+    """The slip zone at `edge` to first order, for either direction of slip.
 
-    pull: pi sqrt(h) K_T.
+    pull: pi sqrt(h) K_T, the load that drives slip.
     """
     kappa = senses[edge is Edge.RIGHT]
     (first,) = terms(1)[edge is Edge.RIGHT]
@@ -179,10 +180,10 @@ def slip_zone(edge: Edge, pull: Expr, K_N: Expr) -> Expr:
 
 
 def pressure_next(rate: Expr, order: int, K: Expr) -> Expr:
-    r"""The coefficient that follows C_order, whose derivative as the edge alone moves is `rate`.
+    r"""The coefficient after C_order; `rate` is the derivative of C_order as only the edge moves.
 
-    An edge that moves by dc adds K sqrt(h - s)/(2 sqrt(h) sqrt(s)) dc to the pressure: by powers of
-    s, C_k' + (k + 3/2) C_(k+1) = (K/2) binomial(1/2, k + 1) (-1/h)**(k + 1).
+    An edge that moves by dc adds K sqrt(h - s)/(2 sqrt(h) sqrt(s)) dc to the pressure.  Comparing
+    powers of s gives C_k' + (k + 3/2) C_(k+1) = (K/2) binomial(1/2, k + 1) (-1/h)**(k + 1).
     """
     k = order
     grown = K / 2 * binomial(HALF, k + 1) * (-1 / h) ** (k + 1)

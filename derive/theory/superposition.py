@@ -1,17 +1,17 @@
-r"""Every convex body as a superposition of wedges: integrals for a body of any shape.
+r"""Every convex body as a superposition of wedges: integrals for a body of any profile.
 
-A corner at s where g' rises by J presses with (E*/pi) J L(x, s); a curved piece is a row of
-corners, J = g''(s) ds.  So with w = sqrt((a + xi)(c - xi)),
+A corner at s where g' rises by J contributes the pressure (E*/pi) J L(x, s).  A curved piece is a
+continuous row of corners with J = g''(s) ds.  With w = sqrt((a + xi)(c - xi)),
 
     P = (E*/2) int g'' w dxi,     M = -(E*/4) int g'' w (xi + mid) dxi,
-    K_right = (E*/(pi sqrt(h))) int g'' w/(c - xi) dxi,     K_left alike with (a + xi),
+    K_right = (E*/(pi sqrt(h))) int g'' w/(c - xi) dxi,     K_left likewise with (a + xi).
 
-and nothing is subtracted in P, p and K on a convex body.  The second coefficient is a finite part,
+For a convex body, nothing is subtracted in P, p and K.  The second coefficient is a finite part,
 
     L_right = -E* g''(c)/(4 sqrt(h))
               + (E*/(6 pi h**(3/2))) int (g''(xi) - g''(c)) w (3 h - (a + xi))/(c - xi)**2 dxi,
 
-the first term being that of a parabola.
+whose first term is that of a parabola.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ from derive.theory.edges import Edge
 from derive.theory.frame import Frame, KinkFrame
 
 xi = Symbol("xi", real=True)
-"""The variable of integration; x is where the pressure is wanted."""
+"""The variable of integration; x is the point at which the pressure is computed."""
 
 root = sqrt((a + xi) * (c - xi))
 """w at xi."""
@@ -72,7 +72,7 @@ def second_coefficient(frame: Frame, edge: Edge) -> Expr:
 
 
 def _to(edge: Edge, place: Expr) -> Expr:
-    """Distance from an edge to a place."""
+    """Distance from an edge to a point."""
     return c - place if edge is Edge.RIGHT else a + place
 
 
@@ -97,12 +97,12 @@ def _pressed(
 
 
 def _steps(frame: Frame, at: Callable[[KinkFrame], Expr]) -> Expr:
-    """The corners' jumps, weighted."""
+    """The sum of the corners' jumps, each times a weight."""
     return sum((k.kink.step * at(k) for k in frame.kinks if k.kink.is_corner), S.Zero)
 
 
 def _over(frame: Frame, integrand: Callable[[Piece], Expr], low: Expr = -a, high: Expr = c) -> Expr:
-    """An integral over the pieces, each as far as it lies between low and high."""
+    """An integral over all pieces, each limited to the interval from low to high."""
     total = S.Zero
     for piece in frame.slope.pieces:
         start = low if piece.lower == -oo else Max(low, Min(piece.lower, high))
