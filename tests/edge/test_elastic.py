@@ -28,5 +28,5 @@ def test_dundurs_by_hand() -> None:
 
 def test_what_is_no_elastic_body() -> None:
     assert np.all(np.isnan(E_star([-1.0, 1.0, 1.0, np.inf], [0.3, 0.6, -1.0, 0.3])))
-    with pytest.raises(ValueError, match="go together"):
+    with pytest.raises(ValueError, match="given together"):
         E_star(1.0, 0.3, 2.0)

@@ -175,5 +175,5 @@ def test_an_edge_elsewhere_is_refused() -> None:
     x = np.linspace(0, 1, 40)
     with pytest.raises(ValueError, match="does not lie next to"):
         fit_stuck_shear(x, np.ones(40), -0.5)
-    with pytest.raises(ValueError, match="numbers of metres"):
+    with pytest.raises(ValueError, match="numbers in metres"):
         fit_stuck_shear(x, np.ones(40), np.nan)

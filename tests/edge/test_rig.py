@@ -170,7 +170,7 @@ def test_a_long_slip_zone_and_full_stick_are_warned_of() -> None:
 def test_a_rig_in_words() -> None:
     wished = Edge(1.0, 0.1, L_N=-0.2, L_T=0.01)
     words = describe(match(wished, hertz, f=F, E_star=1.0, R=1.0))
-    assert "not met: L_N (left) is -0.125 where -0.2 is wished" in words
+    assert "not met: L_N (left) is -0.125 instead of -0.2" in words
     assert "met: K_N (left), K_T (left), da (left), L_T (left)" in words
     assert "slip zone" in words and "R = 1" in words and " %" in words
 
@@ -179,15 +179,15 @@ def test_a_rig_in_words() -> None:
     ("edge", "given", "words"),
     [
         (Edge(-1.0, 0.1), {}, "K_N must be positive"),
-        (Edge(1.0, np.nan), {}, "K_T must be one number"),
-        (Edge(1.0, np.ones(2)), {}, "K_T must be one number"),  # type: ignore[arg-type]
+        (Edge(1.0, np.nan), {}, "K_T must be one finite number"),
+        (Edge(1.0, np.ones(2)), {}, "K_T must be one finite number"),  # type: ignore[arg-type]
         (Edge(1.0, 0.1, side="top"), {}, "side must be 'left' or 'right'"),
         (Edge(1.0, 0.1), {"f": 0.0}, "f must be positive"),
-        (Edge(1.0, 0.1), {"R": None}, "R must be one number"),
+        (Edge(1.0, 0.1), {"R": None}, "R must be one finite number"),
         (Edge(1.0, 0.1), {"S": 2.0}, "parameters are R; got R, S"),
         (Edge(1.0, 0.1), {"free": "R"}, "parameters are none; got R"),
         (Edge(1.0, 0.1), {"free": "b"}, "free must be one of R; got 'b'"),
-        (Edge(1.0, 0.1, da=3.0), {}, "no load of this body does"),
+        (Edge(1.0, 0.1, da=3.0), {}, "no load moves the edge"),
         (Edges(Edge(1.0, 0.1), Edge(2.0, 0.1)), {}, "match one edge alone"),
     ],
 )

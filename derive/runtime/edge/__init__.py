@@ -1,10 +1,10 @@
-"""The edge of a contact without its geometry: what generated/edge.py publishes.
+"""The edge of a contact without its geometry, as published by generated/edge.py.
 
-zone     slip zone from coefficients: an edge alone, with the width, with the other edge
-near     tractions, slip and friction's work next to an edge
+zone     the slip zone from coefficients: of an edge alone, with the width, or with the other edge
+near     tractions, slip and work of friction next to an edge
 fit      coefficients from nodal pressures, from full-stick shear, from reaction forces
 elastic  the composite modulus
-rig      loads of a body that give its edge what another contact's has
+rig      loads of a body whose edge then matches the edge of another contact
 both     both edges by the conditions of ../slip/series.py, compiled
 """
 

@@ -1,4 +1,4 @@
-"""Both edges of one contact, each by its coefficients: the conditions of ../slip/series.py."""
+"""Both edges of one contact, given by their coefficients: the conditions of ../slip/series.py."""
 
 import math
 
@@ -9,9 +9,9 @@ from ..types import Array
 
 @kernel(nothing(matrix, real, matrix))
 def each_pair(given: Array, order: Array, out: Array) -> None:
-    """Slip zone of the first edge, of rows h, f, both K_T, both moves, and the pressures.
+    """Slip zone of the first edge, for rows of h, f, both K_T, both moves, and the pressures.
 
-    Pressures now of the first edge and of the other one, then those before.
+    The pressures are those of the first edge and of the other one now, then those before.
     """
     for i in range(given.shape[0]):
         row = given[i]
@@ -33,5 +33,5 @@ def each_pair(given: Array, order: Array, out: Array) -> None:
             (row[12], row[13], row[14]),
             (row[15], row[16], row[17]),
         )
-        pull, pull_2 = math.pi * root * K_T, math.pi * root * K_T_2
-        out[i, 0], _ = beside_edges(of, f, h, pull, pull_2, int(order))
+        drive, drive_2 = math.pi * root * K_T, math.pi * root * K_T_2
+        out[i, 0], _ = beside_edges(of, f, h, drive, drive_2, int(order))

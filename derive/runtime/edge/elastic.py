@@ -1,4 +1,4 @@
-"""The composite modulus of two bodies in plane strain, and whether shear and pressure separate."""
+"""The composite modulus of two bodies in plane strain, and whether shear and pressure decouple."""
 
 import warnings
 from typing import Any
@@ -9,11 +9,11 @@ from ..arrays import evaluated, real
 from ..types import Array
 
 SEPARATE = 1e-9
-"""Dundurs' beta up to which bodies count as similar."""
+"""Largest value of Dundurs' beta up to which bodies count as similar."""
 
 
 class EdgeWarning(UserWarning):
-    """A number that may be used, and what is to be known of it."""
+    """Warns of a limitation of a result that can still be used."""
 
 
 def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
@@ -26,14 +26,14 @@ def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
     E, nu : array_like
         Young's modulus [Pa] and Poisson's ratio [-] of one body.
     E_2, nu_2 : array_like, optional
-        Of the other one; the same if not given, either both or none.
+        Those of the other body; equal to the first if omitted.  Give both or neither.
 
     Returns
     -------
     ndarray
-        E* [Pa]. NaN unless E > 0 and -1 < nu <= 1/2. Warns (EdgeWarning) where Dundurs' beta is
-        not zero: what is derived here holds for similar bodies, in which shear does not change
-        the pressure.
+        E* [Pa]. NaN unless E > 0 and -1 < nu <= 1/2. Warns (EdgeWarning) if Dundurs' beta is not
+        zero, because the formulas of this package hold for similar bodies, in which shear does
+        not change the pressure.
 
     Notes
     -----
@@ -45,7 +45,9 @@ def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
     '1.154e+11'
     """
     if (E_2 is None) != (nu_2 is None):
-        raise ValueError("E_2 and nu_2 go together: give both, or none for similar bodies")
+        raise ValueError(
+            "E_2 and nu_2 must be given together: give both, or neither for similar bodies"
+        )
     given = {"E": real(E, "E"), "nu": real(nu, "nu")}
     if E_2 is None:
         return evaluated(lambda E, nu: 1 / (2 * _compliance(E, nu)), given, None, 65_536)
@@ -53,8 +55,8 @@ def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
     beta = np.abs(dundurs(E, nu, E_2, nu_2))
     if np.any(beta > SEPARATE):
         warnings.warn(
-            f"Dundurs' beta is {np.nanmax(beta):.3g}, not 0: pressure and shear act on each other, "
-            "which the formulas of similar bodies leave out; beta/f tells how much",
+            f"Dundurs' beta is {np.nanmax(beta):.3g}, not 0: pressure and shear affect each other, "
+            "which the formulas for similar bodies neglect; beta/f measures the effect",
             EdgeWarning,
             stacklevel=2,
         )
@@ -67,7 +69,7 @@ def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
 
 
 def dundurs(E: Array, nu: Array, E_2: Array, nu_2: Array) -> Array:
-    """Dundurs' second parameter beta, in plane strain; 0 where pressure and shear separate.
+    """Dundurs' second parameter beta in plane strain; 0 if pressure and shear decouple.
 
         beta = (E* /2) ((1 - 2 nu)(1 + nu)/E - (1 - 2 nu_2)(1 + nu_2)/E_2)
 
@@ -79,7 +81,8 @@ def dundurs(E: Array, nu: Array, E_2: Array, nu_2: Array) -> Array:
     Returns
     -------
     ndarray
-        Beta [-], between -1/2 and 1/2; its sign changes with the bodies. NaN where E_star is.
+        Beta [-], between -1/2 and 1/2; its sign changes if the bodies are exchanged. NaN where
+        E_star is NaN.
 
     Notes
     -----
@@ -102,6 +105,6 @@ def dundurs(E: Array, nu: Array, E_2: Array, nu_2: Array) -> Array:
 
 
 def _compliance(E: Any, nu: Any) -> Any:
-    """(1 - nu**2)/E; NaN for what is no elastic body."""
+    """(1 - nu**2)/E; NaN where E or nu is not that of an elastic body."""
     exists = (E > 0) & np.isfinite(E) & (nu > -1) & (nu <= 0.5)
     return np.where(exists, (1 - nu**2) / E, np.nan)

@@ -1,20 +1,20 @@
-r"""Coefficients of an edge from numbers: nodal pressures, and the shear of a run without slip.
+r"""Coefficients of an edge from nodal pressures, and from the shear of a run without slip.
 
-Next to an edge p**2 = K_N**2 s + 2 K_N L_N s**2 + ... is a polynomial: its root is the edge.  With
-the edge known, full-stick dq sqrt(s) = K_T + L_T s + ... is one.
+Next to an edge p**2 = K_N**2 s + 2 K_N L_N s**2 + ... is a polynomial, whose root is the edge.
+Once the edge is known, full-stick dq sqrt(s) = K_T + L_T s + ... is another polynomial.
 
-The first node under pressure belongs to the element in which contact ends, and is left out; that
-the edge lies between it and the node before is one more datum.  Polynomials of degree 1 to 3 are
-fitted to all stretches that begin behind it.  The scatter of the nodes is known from short cubics
-all over the contact, two thirds of which may meet kinks; what the mesh is off by next to the edge
-comes to it.  The stretch and degree are those of the
-least
+The first node under pressure belongs to the element in which the contact ends, and is left out.
+The edge lies between this node and the node before it, which is used as an additional datum.
+Polynomials of degree 1 to 3 are fitted to all stretches of nodes that begin after that node.  The
+scatter of the nodes is estimated from short cubics all over the contact, at most two thirds of
+which are assumed to meet kinks.  The error of the mesh next to the edge is added to the scatter.
+The stretch and the degree are those that minimise
 
     misfit**2 + 2 (coefficients + nodes left out)
 
-(Akaike's criterion, a node left out being one more parameter).  The result is that of one degree
-more on the same stretch.  Its error adds to the scatter what this degree has changed, in place of
-the term that is still missing.
+(Akaike's criterion, in which a node left out counts as one more parameter).  The result is that of
+one degree more on the same stretch.  Its error combines the scatter with the change due to this
+degree, as an estimate of the next term.
 """
 
 import math
@@ -27,49 +27,53 @@ from ..arrays import real
 from ..types import Array, Edges
 
 DEGREES = (1, 2, 3)
-"""Of p**2."""
+"""Degrees of p**2."""
 
 STUCK = (0, 1, 2)
-"""Of dq sqrt(s)."""
+"""Degrees of dq sqrt(s)."""
 
 SPAN, LOCAL = 6, 3
-"""Nodes in a short stretch that shows the scatter, and the degree that fits it."""
+"""Number of nodes in a short stretch from which the scatter is estimated, and the degree fitted to
+it."""
 
 SHARE, EXPECTED = 1 / 3, 0.4055
-"""Of such stretches at least these meet no kink; that quantile of a mean of two squares."""
+"""Least fraction of the short stretches that meet no kink, and the quantile at this fraction of the
+mean of two squared standard normal numbers."""
 
 BRACKET = 0.35
-"""Standard deviation of the edge, over the element it lies in, with its middle."""
+"""Standard deviation of the edge from the middle of the element it lies in, over the element's
+size."""
 
 MESH, DECAY = 0.05, 2.5
-"""What a mesh is off by next to an edge, in parts: MESH (element/s)**DECAY.  Measured on the equal
-elements of tests/reference, which are off by 6 % at s = 1, 0.6 % at 2 and 0.1 % at 5 elements."""
+"""Relative error of a mesh next to an edge: MESH (element/s)**DECAY.  Measured on the equal
+elements of tests/reference, whose error is 6 % at s = 1, 0.6 % at 2 and 0.1 % at 5 elements."""
 
 AWAY = 1.5
-"""Elements by which an edge may miss that middle."""
+"""Largest distance, in elements, of an edge from that middle."""
 
 LEAST = 12
-"""Nodes between an edge and half the contact, or the largest pressure, that leave a choice.  With
-fewer, errors that happen to come out small are false."""
+"""Least number of nodes between an edge and the middle of the contact, or the largest pressure,
+that leaves a choice of stretches.  With fewer nodes, errors that are small by chance are
+misleading."""
 
 POOR = 0.075
-"""An error of K, in parts of it, that deserves a warning: half of all draws of a normal
-distribution lie within two thirds of it, 5 %."""
+"""Relative error of K above which a warning is given: half of all draws of a normal distribution
+lie within two thirds of it, 5 %."""
 
 WORST = 3.0
-"""Misfit over scatter, both squared, above which no stretch shows the square root."""
+"""Squared misfit over squared scatter above which no stretch shows the square root."""
 
 
 class PressureFit(NamedTuple):
     """An edge from nodal pressures.  Errors are one standard deviation.
 
-    edge, K_N, L_N  where it lies [m], coefficients [Pa/sqrt(m), Pa/m**(3/2)], s inward
-    edge_error, K_N_error, L_N_error  of these
-    nodes, stretch  how many nodes were used, and how far from the edge they reach [m]
-    degree          of p**2
-    misfit          of what was used, over the scatter; about 1 if all is well
-    why             why this stretch, in words
-    warning         what speaks against the result, in words; "" if nothing does
+    edge, K_N, L_N  position [m], coefficients [Pa/sqrt(m), Pa/m**(3/2)] for s inward
+    edge_error, K_N_error, L_N_error  errors of these
+    nodes, stretch  number of nodes used, and their largest distance from the edge [m]
+    degree          degree of p**2
+    misfit          misfit of the nodes used, over the scatter; about 1 if the fit is good
+    why             why this stretch was chosen, in words
+    warning         reasons to doubt the result, in words; "" if there are none
     """
 
     edge: float
@@ -87,9 +91,11 @@ class PressureFit(NamedTuple):
 
 
 class ShearFit(NamedTuple):
-    """Full stick next to an edge.  Errors are one standard deviation; the rest as in PressureFit.
+    """Full stick next to an edge.  Errors are one standard deviation.
 
     K_T, L_T  coefficients of 1/sqrt(s) and sqrt(s) [Pa sqrt(m), Pa/sqrt(m)], signed as dq
+
+    The other fields are as in PressureFit.
     """
 
     K_T: float
@@ -105,7 +111,7 @@ class ShearFit(NamedTuple):
 
 
 class _Fit(NamedTuple):
-    """A polynomial over a stretch: what it says, its covariance, misfit squared."""
+    """A polynomial fitted to a stretch: derived values, their covariance, squared misfit."""
 
     degree: int
     used: int
@@ -123,29 +129,29 @@ class _Chosen(NamedTuple):
 
 
 def fit_pressure(x: Array, p: Array) -> PressureFit:
-    """The edge nearer to the first point, K_N and L_N, from nodal pressures.
+    """The edge nearer to the first node, with K_N and L_N, from nodal pressures.
 
     Parameters
     ----------
     x : array_like
-        Nodes along the interface, all in one direction [m].
+        Positions of the nodes along the interface, increasing or decreasing [m].
     p : array_like
-        Contact pressure there, zero outside the contact [Pa].
+        Contact pressure at the nodes, zero outside the contact [Pa].
 
     Returns
     -------
     PressureFit
-        NaN, and a warning that says why, where no stretch shows the square root.
+        NaN, with a warning that gives the reason, if no stretch shows the square root.
 
     Raises
     ------
     ValueError
-        For what is no table of one contact.
+        If the arguments are not a table of one contact.
 
     Notes
     -----
-    Nodes outside the contact may be left out; then the next one is taken to lie as far off as
-    the nodes of the contact do.
+    Nodes outside the contact may be omitted.  The distance to the next node is then assumed to be
+    that between the first two nodes of the contact.
 
     Examples
     --------
@@ -157,12 +163,15 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
     x, p = _table(x, p, "p")
     if np.any(p < 0):
         raise ValueError(
-            f"pressure must not be negative; it is at {np.sum(p < 0)} of {len(p)} nodes: give "
-            "compression as positive, and 0 outside the contact"
+            f"pressure must not be negative; it is negative at {np.sum(p < 0)} of {len(p)} nodes: "
+            "give compression as positive, and 0 outside the contact"
         )
     inside = np.flatnonzero(p > 0)
     if len(inside) == 0:
-        raise ValueError("pressure is zero at all nodes: there is no contact")
+        raise ValueError(
+            "pressure is zero at all nodes, so there is no contact: give a table with positive "
+            "pressures"
+        )
     first, last = inside[0], inside[-1]
     if len(inside) < last - first + 1:
         gap = x[first : last + 1][p[first : last + 1] == 0][0]
@@ -184,8 +193,8 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
     slope = y[0] ** 2 / (z[0] - middle)
     places = np.concatenate([[middle], z])
     squares = np.concatenate([[0.0], y**2])
-    coarse = MESH * y * (element / (z - middle)) ** DECAY
-    sd = np.concatenate([[slope * BRACKET * element], 2 * y * np.hypot(scatter, coarse)])
+    mesh_error = MESH * y * (element / (z - middle)) ** DECAY
+    sd = np.concatenate([[slope * BRACKET * element], 2 * y * np.hypot(scatter, mesh_error)])
 
     def edge_of(b: Any, covariance: Any, length: float) -> Any:
         return _root(b, covariance, length, middle, AWAY * element)
@@ -193,8 +202,8 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
     found = _chosen(places, squares, sd, DEGREES, 1, edge_of)
     if found is None:
         return _no_pressure(
-            "no stretch shows the square root: too coarse a mesh, a kink next to the edge, or a "
-            "complete contact",
+            "no stretch of nodes shows the square root: the mesh is too coarse, a kink lies next "
+            "to the edge, or the contact is complete",
             half,
         )
     (edge, K_N, L_N), errors = found.values, found.errors
@@ -217,32 +226,32 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
 
 
 def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -> ShearFit:
-    """K_T and L_T of an edge, from the change of shear of a run in which nothing slips.
+    """K_T and L_T of an edge, from the change of shear traction in a run without slip.
 
     Parameters
     ----------
     x : array_like
-        Nodes along the interface, all in one direction [m].
+        Positions of the nodes along the interface, increasing or decreasing [m].
     dq : array_like
-        Change of shear there, of a bonded contact or of one that sticks [Pa].
+        Change of the shear traction at the nodes, in a bonded or fully stuck contact [Pa].
     edge : float
-        Where the edge nearer to the first node lies, as fit_pressure finds it [m].
+        Position of the edge nearer to the first node, as returned by fit_pressure [m].
     edge_error : float, optional
-        How well that is known [m].
+        Standard deviation of this position [m].
 
     Returns
     -------
     ShearFit
-        NaN, and a warning that says why, where no stretch shows the root.
+        NaN, with a warning that gives the reason, if no stretch shows the square root.
 
     Raises
     ------
     ValueError
-        For what is no table, and for an edge that does not lie next to it.
+        If the arguments are not a table, or if the edge does not lie next to its first node.
 
     Notes
     -----
-    Nodes beyond the edge, and that of the element in which contact ends, are left out.
+    Nodes outside the edge, and the node of the element in which the contact ends, are left out.
 
     Examples
     --------
@@ -254,7 +263,10 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
     x, dq = _table(x, dq, "dq")
     edge, edge_error = float(edge), float(edge_error)
     if not (math.isfinite(edge) and edge_error >= 0 and math.isfinite(edge_error)):
-        raise ValueError(f"edge and edge_error must be numbers of metres; got {edge}, {edge_error}")
+        raise ValueError(
+            "edge and edge_error must be finite numbers in metres, edge_error not negative; got "
+            f"{edge}, {edge_error}"
+        )
     sense = 1.0 if x[-1] > x[0] else -1.0
     s = sense * (x - edge)
     spacing = float(np.median(np.diff(s)))
@@ -262,7 +274,7 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
     if s[0] > 3 * spacing or not np.any(s > 0):
         raise ValueError(
             f"the edge at {edge:.6g} does not lie next to the first of the nodes, {x[0]:.6g} to "
-            f"{x[-1]:.6g}"
+            f"{x[-1]:.6g}: give the nodes from this edge inward"
         )
     s, dq = s[within][1:], dq[within][1:]
     if len(s) < SPAN + 2:
@@ -273,16 +285,19 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
     y = dq * np.sqrt(s)
     level = np.full(len(y), float(np.median(np.abs(y))))
     half = max(len(y) // 2, SPAN)
-    coarse = MESH * (spacing / s[:half]) ** DECAY
-    sd = np.hypot(_scatter(s, y, level), coarse) * level[:half]
+    mesh_error = MESH * (spacing / s[:half]) ** DECAY
+    sd = np.hypot(_scatter(s, y, level), mesh_error) * level[:half]
     found = _chosen(s[:half], y[:half], sd, STUCK, 0, _ends)
     if found is None:
-        return _no_shear("no stretch shows the root: too coarse a mesh, or no full stick", half)
+        return _no_shear(
+            "no stretch of nodes shows the square root: the mesh is too coarse, or there is slip",
+            half,
+        )
     values, errors = np.array(found.values), np.array(found.errors)
     if edge_error > 0:
-        by = min(edge_error, 0.9 * float(s[0]))
-        at = [_fit_ends(s, dq, sign * by, found) for sign in (-1, 1)]
-        errors = np.hypot(errors, np.abs(at[1] - at[0]) / 2 * (edge_error / by))
+        shift = min(edge_error, 0.9 * float(s[0]))
+        shifted = [_fit_ends(s, dq, sign * shift, found) for sign in (-1, 1)]
+        errors = np.hypot(errors, np.abs(shifted[1] - shifted[0]) / 2 * (edge_error / shift))
     warning = _warning(half, found.misfit, abs(errors[0] / values[0]), "K_T")
     return ShearFit(
         float(values[0]),
@@ -299,7 +314,7 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
 
 
 def K_N_from_loads(P: Array, M: Array, a: Array, c: Array) -> Edges:
-    """K_N at both edges from reaction forces at two neighbouring loads; a contact of any body.
+    """K_N at both edges of any body's contact, from reaction forces at two neighbouring loads.
 
         K_N dedge = 2 (dP +/- 4 (dM + mid dP)/h)/(pi sqrt(h)), the upper sign at the left edge
 
@@ -315,17 +330,17 @@ def K_N_from_loads(P: Array, M: Array, a: Array, c: Array) -> Edges:
     Returns
     -------
     Edges
-        left [Pa/sqrt(m)], right [Pa/sqrt(m)], of the contact between both. NaN at an edge that
-        does not move.
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)], for the contact midway between the two. NaN at an
+        edge that does not move.
 
     Raises
     ------
     ValueError
-        Unless there are two loads.
+        Unless each argument holds two loads.
 
     Notes
     -----
-    Each argument holds the two loads along its last axis; the others broadcast.
+    Each argument holds the two loads along its last axis; the other axes broadcast.
 
     Examples
     --------
@@ -337,7 +352,10 @@ def K_N_from_loads(P: Array, M: Array, a: Array, c: Array) -> Edges:
     given = [np.asarray(real(v, name)) for v, name in ((P, "P"), (M, "M"), (a, "a"), (c, "c"))]
     if any(v.ndim == 0 or v.shape[-1] != 2 for v in given):
         shapes = ", ".join(str(v.shape) for v in given)
-        raise ValueError(f"P, M, a and c hold two loads along their last axis; got {shapes}")
+        raise ValueError(
+            "P, M, a and c must each hold two loads along their last axis; their shapes are "
+            f"{shapes}"
+        )
     (dP, dM, da, dc) = (v[..., 1] - v[..., 0] for v in given)
     at_a, at_c = (v.mean(-1) for v in given[2:])
     with np.errstate(all="ignore"):
@@ -348,16 +366,16 @@ def K_N_from_loads(P: Array, M: Array, a: Array, c: Array) -> Edges:
     return Edges(left, right)
 
 
-# ---------------------------------------------------------------- the choice
+# ---------------------------------------------------------------- choice of stretch and degree
 
 
 def _chosen(
-    places: Any, y: Any, sd: Any, degrees: tuple[int, ...], known: int, says: Any
+    places: Any, y: Any, sd: Any, degrees: tuple[int, ...], known: int, evaluate: Any
 ) -> _Chosen | None:
-    """What the best stretch and degree say, with one degree more.
+    """The values from the best stretch and degree, with one degree more.
 
-    known: data at the beginning that are no nodes.
-    says: (coefficients, covariance, length) -> values and covariance, None where there is nothing.
+    known: number of data at the beginning that are not nodes.
+    says: (coefficients, covariance, frame) -> values and their covariance, or None.
     """
     origin, length = places[known], float(places[-1] - places[known])
     u = (places - origin) / length
@@ -372,15 +390,17 @@ def _chosen(
         target = y[rows] / sd[rows]
         inverse = np.linalg.inv(r)
         b = inverse @ (q.T @ target)
-        off = target - weighted @ b
-        said = says(b, inverse @ inverse.T, (origin, length))
-        return said and _Fit(degree, count, said[0], said[1], float(off @ off))
+        residual = target - weighted @ b
+        evaluated = evaluate(b, inverse @ inverse.T, (origin, length))
+        return evaluated and _Fit(
+            degree, count, evaluated[0], evaluated[1], float(residual @ residual)
+        )
 
     shortest = 2 if known else 3
     nodes = len(places) - known
-    found = [fit(k, n) for k in degrees for n in range(k + shortest, nodes + 1)]
+    fits = [fit(k, n) for k in degrees for n in range(k + shortest, nodes + 1)]
     ranked = sorted(
-        (one for one in found if one),
+        (one for one in fits if one),
         key=lambda one: one.misfit + 2 * (one.degree + nodes - one.used),
     )
     for one in ranked:
@@ -398,28 +418,28 @@ def _chosen(
 
 
 def _t(nodes: int) -> float:
-    """Half of what covers 95 %, in standard deviations, where the scatter is known from nodes."""
+    """Half of the two-sided 95 % quantile of Student's t for a scatter estimated from `nodes`."""
     freedom = max(nodes - 2, 3)
     return (1.960 + 2.372 / freedom + 2.823 / freedom**2 + 2.556 / freedom**3) / 2
 
 
 def _scatter(places: Any, y: Any, level: Any) -> float:
-    """Standard deviation of y over `level`, from short stretches that cubics fit."""
-    found = []
+    """Standard deviation of y over `level`, from cubics fitted to short stretches."""
+    variances = []
     for i in range(len(places) - SPAN + 1):
         part = slice(i, i + SPAN)
         u = (places[part] - places[i]) / (places[i + SPAN - 1] - places[i])
         q, _ = np.linalg.qr(np.vander(u, LOCAL + 1) / level[part, None])
-        off = y[part] / level[part]
-        off = off - q @ (q.T @ off)
-        found.append(off @ off / (SPAN - LOCAL - 1))
-    squared = float(np.quantile(found, SHARE)) / EXPECTED
-    # rounding of the table, at least
+        residual = y[part] / level[part]
+        residual = residual - q @ (q.T @ residual)
+        variances.append(residual @ residual / (SPAN - LOCAL - 1))
+    squared = float(np.quantile(variances, SHARE)) / EXPECTED
+    # at least the rounding of the table
     return math.sqrt(squared) + 1e-13 * float(np.max(np.abs(y) / level))
 
 
 def _root(b: Any, covariance: Any, frame: Any, middle: float, away: float) -> Any:
-    """Edge, K_N and L_N of p**2 = sum b u**j, and their covariance; None where it has no edge."""
+    """Edge, K_N and L_N of p**2 = sum b u**j, and their covariance; None if there is no edge."""
     origin, length = frame
     first, second, third = (polynomial.polyder(b, k) for k in (1, 2, 3))
     u = (middle - origin) / length
@@ -449,7 +469,7 @@ def _root(b: Any, covariance: Any, frame: Any, middle: float, away: float) -> An
 
 
 def _ends(b: Any, covariance: Any, frame: Any) -> Any:
-    """Value and slope at the edge, s = 0, of sum b u**j."""
+    """Value and slope of sum b u**j at the edge, s = 0, and their covariance."""
     origin, length = frame
     u = -origin / length
     powers = u ** np.arange(len(b), dtype=float)
@@ -459,19 +479,19 @@ def _ends(b: Any, covariance: Any, frame: Any) -> Any:
 
 
 def _fit_ends(s: Any, dq: Any, at: float, like: _Chosen) -> Any:
-    """K_T and L_T with the edge elsewhere, over the same stretch."""
+    """K_T and L_T for another position of the edge, over the same stretch."""
     places = s[: like.used] - at
     b = polynomial.polyfit(places, dq[: like.used] * np.sqrt(places), like.degree)
     return np.array([b[0], b[1]])
 
 
-# ---------------------------------------------------------------- words
+# ---------------------------------------------------------------- tables and messages
 
 
 def _table(x: Any, values: Any, name: str) -> tuple[Any, Any]:
-    """Both columns as numbers, in one direction.
+    """Both columns as numbers, with x increasing or decreasing.
 
-    Raises ValueError for what is no table.
+    Raises ValueError if they are not a table.
     """
     x, values = np.asarray(real(x, "x")), np.asarray(real(values, name))
     if x.ndim != 1 or values.shape != x.shape:
@@ -480,44 +500,45 @@ def _table(x: Any, values: Any, name: str) -> tuple[Any, Any]:
             f"{values.shape}"
         )
     if len(x) < 2:
-        raise ValueError(f"x and {name} must hold several nodes; got {len(x)}")
+        raise ValueError(f"x and {name} must hold at least two nodes; got {len(x)}")
     for column, label in ((x, "x"), (values, name)):
         if not np.all(np.isfinite(column)):
             at = np.flatnonzero(~np.isfinite(column))[0]
-            raise ValueError(f"{label} is {column[at]} at node {at + 1}: give numbers alone")
+            raise ValueError(f"{label} is {column[at]} at node {at + 1}: give finite numbers only")
     steps = np.diff(x)
     if np.any(steps == 0):
         at = np.flatnonzero(steps == 0)[0]
         raise ValueError(f"two nodes lie at x = {x[at]:.6g}: give each node once")
     if not (np.all(steps > 0) or np.all(steps < 0)):
         at = np.flatnonzero(np.sign(steps) != np.sign(steps[0]))[0]
-        raise ValueError(f"x turns round behind node {at + 1}: sort the nodes along x")
+        raise ValueError(f"x changes its direction after node {at + 1}: sort the nodes along x")
     return x, values
 
 
 def _why(found: _Chosen, what: str, nodes: int) -> str:
     return (
-        f"{what} follows a polynomial of degree {found.degree - 1} over {found.used} of {nodes} "
-        f"nodes to {found.misfit:.2g} of its scatter; degree {found.degree} is used"
+        f"{what} fits a polynomial of degree {found.degree - 1} over {found.used} of {nodes} nodes "
+        f"with a misfit of {found.misfit:.2g} times its scatter; degree {found.degree} is used"
     )
 
 
 def _warning(nodes: int, misfit: float, part: float, name: str) -> str:
-    """What speaks against a result."""
-    said = []
+    """Reasons to doubt a result."""
+    reasons = []
     if nodes < LEAST:
-        said.append(
-            f"{nodes} nodes between the edge and the middle leave little choice of a stretch, "
-            "so that errors may be larger than stated: use a finer mesh"
+        reasons.append(
+            f"there are only {nodes} nodes between the edge and the middle of the contact, and "
+            "errors may be larger than stated: use a finer mesh"
         )
     if misfit**2 > WORST:
-        said.append(
-            f"no stretch shows the square root (misfit {misfit:.1f} times the scatter): too coarse "
-            "a mesh, a kink next to the edge" + (", or slip" if name == "K_T" else "")
+        reasons.append(
+            f"no stretch of nodes shows the square root (misfit {misfit:.1f} times the scatter): "
+            "the mesh is too coarse, or there is a kink"
+            + (" or slip next to the edge" if name == "K_T" else " next to the edge")
         )
     if not part < POOR:
-        said.append(f"{name} is known only to {100 * part:.0f} %")
-    return "; ".join(said)
+        reasons.append(f"{name} is known only to {100 * part:.0f} %")
+    return "; ".join(reasons)
 
 
 def _no_pressure(why: str, nodes: int) -> PressureFit:

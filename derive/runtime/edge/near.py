@@ -1,15 +1,16 @@
-r"""Tractions, slip and friction's work next to an edge, by the series of zone.py, of an edge alone.
+r"""Tractions, slip and work of friction next to an edge alone, by the series of zone.py.
 
 With t = s - d the distance from the slip zone (derive/theory/edge.py)
 
     dq = f (p_1 + p_2) - sqrt(t) R(t)   where it sticks,   dq = f (p_1 + p_2)   where it slips,
     slip range = (2/E*) int_0^(d - s) sqrt(u) R(-u) du,
 
-times the sense of slip, R the polynomial that makes dq full stick's far from the edge.  A partial
-half-cycle obeys the same with what it has changed by so far.
+times the sense of slip, where the polynomial R makes dq tend to full stick far from the edge.  A
+part of a half-cycle obeys the same equations with the change up to that point.
 
-Shear itself follows where the normal loads stay.  What Q and sigma leave when they first rise is
-half the change under twice of both, as slip then holds f p and not 2 f p.
+The shear traction itself is known if the normal loads are constant.  The first loading to Q and
+sigma produces half of the change under twice these loads, because friction in the slip zone is then
+f p and not 2 f p.
 """
 
 import math
@@ -22,10 +23,11 @@ from ..types import Array
 from .zone import CASES, Coefficients, _demand_order, _numbers, length, shifted
 
 BEYOND = ((1.0, 3 / 2, 15 / 8), (1.0, 5 / 2), (1.0,))
-"""binomial(k + 1/2, k - m), of C_k d**(k - m) in the coefficient of t**m in R, k = m, m + 1, ..."""
+"""binomial(k + 1/2, k - m), the factor of C_k d**(k - m) in the coefficient of t**m in R, for k =
+m, m + 1, ..."""
 
 STUCK = ((1.0, 3 / 2), (1.0,), ())
-"""binomial(k - 1/2, k - 1 - m), of the full-stick coefficients, k = m + 1, ..."""
+"""binomial(k - 1/2, k - 1 - m), the factor of the full-stick coefficients, for k = m + 1, ..."""
 
 WORK = tuple(
     tuple(math.gamma(k + 1.5) * math.gamma(m + 2.5) / math.gamma(k + m + 4) for m in range(3))
@@ -35,11 +37,11 @@ WORK = tuple(
 
 
 class Tractions(NamedTuple):
-    """At a place next to an edge, at one instant [Pa].
+    """Tractions at a point next to an edge, at one instant [Pa].
 
     p   pressure
-    q   shear; NaN where it depends on how the loads came there
-    dq  change of shear since the loads last turned
+    q   shear traction; NaN where it depends on the path of the loads
+    dq  change of the shear traction since the last reversal of the loads
     """
 
     p: Array
@@ -48,14 +50,14 @@ class Tractions(NamedTuple):
 
 
 class Peak(NamedTuple):
-    """Where shear is largest over a cycle, its distance from the edge [m], and the shear [Pa]."""
+    """The largest shear traction over a cycle [Pa] and its distance from the edge [m]."""
 
     s: Array
     q: Array
 
 
 class _Edge(NamedTuple):
-    """Coefficients of one edge, those beyond the order zero."""
+    """Coefficients of one edge; those beyond the order are zero."""
 
     now: Coefficients
     shear: Coefficients
@@ -72,21 +74,21 @@ def _read(n: dict[str, Any], order: int) -> _Edge:
 
 
 def _order(asked: Any, given: dict[str, Any]) -> int:
-    """The order asked for, or the highest that the coefficients allow."""
+    """The order asked for, or the highest one that the coefficients allow."""
     pairs = (("L_N", "L_T"), ("N_N", "N_T"))
     known = [all(given[name] is not None for name in pair) for pair in pairs]
     return _demand_order(asked, 1 + known[0] + all(known))
 
 
 def _pressure(coefficients: Coefficients, s: Any) -> Any:
-    """The series of the pressure; zero outside the contact."""
+    """The pressure by its series; zero outside the contact."""
     inside = np.maximum(s, 0.0)
     powers = sum(C * inside**k for k, C in enumerate(coefficients))
     return np.sqrt(inside) * powers
 
 
 class _Half(NamedTuple):
-    """A half-cycle so far: slip zones and pressures in both its contacts, and R of what sticks."""
+    """A half-cycle up to an instant: slip zones and pressures in both contacts, and R."""
 
     d: Any
     d_before: Any
@@ -100,7 +102,7 @@ def _half(edge: _Edge, share: Any = 1.0) -> _Half:
     now = shifted(edge.now, (1 - share) * edge.da)
     before = shifted(edge.now, edge.da)
     moved, lag = share * edge.da, (1 - share) * edge.da
-    # the same full-stick change, told by the distance from the edge of that instant
+    # the same full-stick change, as a function of the distance from the edge at that instant
     V = edge.shear
     V = (V[0] + (V[1] / 2) * lag + (3 / 8) * V[2] * lag**2, V[1] + (3 / 2) * V[2] * lag, V[2])
     V = (share * V[0], share * V[1], share * V[2])
@@ -119,7 +121,7 @@ def _half(edge: _Edge, share: Any = 1.0) -> _Half:
 
 
 def _change(edge: _Edge, half: _Half, s: Any) -> Any:
-    """How much shear has changed, s the distance from the edge of the contact then."""
+    """The change of the shear traction; s is the distance from the edge at that instant."""
     t = np.maximum(s - half.d, 0.0)
     stuck = np.sqrt(t) * sum(R * t**m for m, R in enumerate(half.stuck))
     slides = _pressure(half.now, s) + _pressure(half.before, s - half.d + half.d_before)
@@ -127,12 +129,12 @@ def _change(edge: _Edge, half: _Half, s: Any) -> Any:
 
 
 def _scaled(edge: _Edge, factor: Any) -> _Edge:
-    """The same under so many times the change of shear."""
+    """The same edge under `factor` times the change of shear."""
     return edge._replace(shear=tuple(factor * V for V in edge.shear))
 
 
 def _reversed(edge: _Edge) -> _Edge:
-    """The half-cycle that leads back, as seen from the contact where it ends."""
+    """The reverse half-cycle, seen from the contact where it ends."""
     V, lag = edge.shear, edge.da
     V = (V[0] + V[1] / 2 * lag + 3 / 8 * V[2] * lag**2, V[1] + 3 / 2 * V[2] * lag, V[2])
     back: Any = tuple(-one for one in V)
@@ -155,29 +157,30 @@ def tractions(
     back: bool = False,
     mean: Array = 0.0,
 ) -> Tractions:
-    """Pressure and shear next to an edge alone, at any instant of the steady cycle.
+    """Pressure and shear traction next to an edge alone, at any instant of the steady cycle.
 
-        where it slips   dq = f (p_1 + p_2), over the sense of slip
-        where it sticks  dq = f (p_1 + p_2) - sqrt(s - d) R(s - d), full stick's far from the edge
+        where it slips   dq = f (p_1 + p_2), times the sense of slip
+        where it sticks  dq = f (p_1 + p_2) - sqrt(s - d) R(s - d), which tends to full stick far
+            from the edge
 
     Parameters
     ----------
     s : array_like
-        Distance inward from the edge as it lies where the shear is highest [m].
+        Distance inward from the position of the edge at the highest shear load [m].
     K_N, K_T, f, L_N, L_T, N_N, N_T, da, order : array_like
         As in slip_zone.
     share : array_like, optional
-        Of the half-cycle, 0 at its start to 1 at its end; all loads go straight.
+        Part of the half-cycle, 0 at its start to 1 at its end; all loads change linearly.
     back : bool, optional
-        The half-cycle that lowers the shear instead of that which raises it.
+        Whether to take the half-cycle that lowers the shear load, not the one that raises it.
     mean : array_like, optional
-        Mean of K_T over the cycle; Q and sigma came to it from nothing [Pa sqrt(m)].
+        Mean of K_T over the cycle, to which Q and sigma rose from zero [Pa sqrt(m)].
 
     Returns
     -------
     Tractions
-        p [Pa], q [Pa], dq [Pa].  NaN where slip_zone is; q too where the edge moves and does
-        not slip at s. Good where s is small against `reach`.
+        p [Pa], q [Pa], dq [Pa].  NaN where slip_zone is; q is also NaN where the edge moves and
+        the surfaces do not slip at s. Accurate where s is small compared with `reach`.
 
     Notes
     -----
@@ -193,16 +196,16 @@ def tractions(
     order = _order(order, coefficients)
     given = _numbers(dict(s=s, **coefficients, da=da, share=share, mean=mean), dict(f=f))
 
-    def found(**n: Any) -> Any:
+    def evaluate(**n: Any) -> Any:
         s, share, mean = n["s"], n["share"], n["mean"]
         share = np.where((share >= 0) & (share <= 1), share, np.nan)
         rising = _read(n, order)
         edge = _reversed(rising) if back else rising
-        lies = (share if back else 1 - share) * rising.da  # the edge at this instant
+        position = (share if back else 1 - share) * rising.da  # of the edge at this instant
         half = _half(edge, share)
-        p, dq = _pressure(half.now, s - lies), _change(edge, half, s - lies)
-        stays = rising.da == 0
-        still = _scaled(rising, np.where(stays, 1.0, np.nan))
+        p, dq = _pressure(half.now, s - position), _change(edge, half, s - position)
+        constant = rising.da == 0
+        still = _scaled(rising, np.where(constant, 1.0, np.nan))
         whole = _change(still, _half(still), s)
         first = _scaled(still, 2 * np.abs(mean / rising.shear[0]) + 1)
         first_change = _change(first, _half(first), s) / 2
@@ -210,11 +213,11 @@ def tractions(
         lowest = np.where(leads, first_change - whole, -first_change)
         q = np.where(back, lowest + whole, lowest) + dq
         slides = np.where(edge.shear[0] < 0, -1.0, 1.0) * edge.f * p
-        q = np.where(s - lies <= half.d, slides, q)
-        shown = p + 0 * half.d  # nothing where there is no slip zone
+        q = np.where(s - position <= half.d, slides, q)
+        shown = p + 0 * half.d  # NaN where there is no slip zone
         return shown, q, dq
 
-    result: Tractions = evaluated(found, given, Tractions, CASES)
+    result: Tractions = evaluated(evaluate, given, Tractions, CASES)
     return result
 
 
@@ -232,14 +235,14 @@ def slip_range(
     da: Array = 0.0,
     order: int | None = None,
 ) -> Array:
-    """How far the surfaces slip to and fro in a cycle, next to an edge alone.
+    """Slip range of a cycle next to an edge alone.
 
         (2/E*) int_0^(d - s) sqrt(u) R(-u) du; order 1: (8 f K_N/(3 E*)) (d - s)**(3/2)
 
     Parameters
     ----------
     s : array_like
-        Distance inward from the edge as it lies where the shear is highest [m].
+        Distance inward from the position of the edge at the highest shear load [m].
     E_star : array_like
         Composite modulus, see E_star() [Pa].
     K_N, K_T, f, L_N, L_T, N_N, N_T, da, order : array_like
@@ -248,8 +251,8 @@ def slip_range(
     Returns
     -------
     ndarray
-        The slip range [m]; 0 where it sticks. NaN where slip_zone is, and for places that leave
-        contact.
+        The slip range [m]; 0 where the surfaces stick. NaN where slip_zone is, and at points that
+        leave the contact during the cycle.
 
     Notes
     -----
@@ -264,14 +267,14 @@ def slip_range(
     order = _order(order, coefficients)
     given = _numbers(dict(s=s, **coefficients, da=da), dict(f=f, E_star=E_star))
 
-    def found(**n: Any) -> Any:
+    def evaluate(**n: Any) -> Any:
         edge = _read(n, order)
         half = _half(edge)
         u = np.maximum(half.d - n["s"], 0.0)
         slip = sum(R * (-1) ** m * u ** (m + 1.5) / (m + 1.5) for m, R in enumerate(half.stuck))
         return np.where(n["s"] >= np.maximum(edge.da, 0.0), 2 / n["E_star"] * slip, np.nan)
 
-    return evaluated(found, given, None, CASES)
+    return evaluated(evaluate, given, None, CASES)
 
 
 def work(
@@ -286,7 +289,7 @@ def work(
     N_T: Array = None,
     order: int | None = None,
 ) -> Array:
-    """Friction's work next to an edge alone, a cycle and unit depth; constant normal loads.
+    """Work of friction next to an edge alone, per cycle and unit depth, at constant normal loads.
 
         2 int_0^d f p times the slip range ds; order 1: pi f**2 K_N**2 d**3/(3 E*)
 
@@ -315,7 +318,7 @@ def work(
     order = _order(order, coefficients)
     given = _numbers(coefficients, dict(f=f, E_star=E_star))
 
-    def found(**n: Any) -> Any:
+    def evaluate(**n: Any) -> Any:
         edge = _read(n, order)
         half = _half(edge)
         total = sum(
@@ -325,7 +328,7 @@ def work(
         )
         return 4 * edge.f / n["E_star"] * total
 
-    return evaluated(found, given, None, CASES)
+    return evaluated(evaluate, given, None, CASES)
 
 
 def peak(
@@ -340,22 +343,22 @@ def peak(
     order: int | None = None,
     mean: Array = 0.0,
 ) -> Peak:
-    """The largest shear of the cycle next to an edge alone; constant normal loads.
+    """The largest shear traction of a cycle next to an edge alone, at constant normal loads.
 
-        f p(s) where the slip of the highest load ends, s = d if mean = 0; nearer to the edge q = f
-        p, the largest q/p there is
+        f p(s) at the end of the slip zone of the highest load, s = d if mean = 0; nearer to the
+            edge q = f p, where q/p is largest
 
     Parameters
     ----------
     K_N, K_T, f, L_N, L_T, N_N, N_T, order : array_like
         As in slip_zone.
     mean : array_like, optional
-        Mean of K_T over the cycle; Q and sigma came to it from nothing [Pa sqrt(m)].
+        Mean of K_T over the cycle, to which Q and sigma rose from zero [Pa sqrt(m)].
 
     Returns
     -------
     Peak
-        s [m], q [Pa], q over the sense of slip there. NaN where slip_zone is.
+        s [m], q [Pa], positive in the sense of slip there. NaN where slip_zone is.
 
     Notes
     -----
@@ -371,19 +374,19 @@ def peak(
     order = _order(order, coefficients)
     given = _numbers(dict(**coefficients, mean=mean), dict(f=f))
 
-    def found(**n: Any) -> Any:
+    def evaluate(**n: Any) -> Any:
         edge = _read(n, order)
         half = _half(_scaled(edge, 2 * np.abs(n["mean"] / edge.shear[0]) + 1))
         return half.d, edge.f * _pressure(half.now, half.d)
 
-    result: Peak = evaluated(found, given, Peak, CASES)
+    result: Peak = evaluated(evaluate, given, Peak, CASES)
     return result
 
 
 def reach(
     K_N: Array, K_T: Array, *, L_N: Array = None, L_T: Array = None, h: Array = None
 ) -> Array:
-    """The distance from the edge over which the next term matters as much as the first.
+    """The distance from the edge at which the next term of the series equals the first.
 
         the least of |K_N/L_N|, |K_T/L_T| and h, of those given
 
@@ -395,8 +398,8 @@ def reach(
     Returns
     -------
     ndarray
-        The distance [m]: the first order's error is about d over it, in parts of d. NaN if
-        neither L_N, L_T nor h is given.
+        The distance [m]; the relative error of a first-order slip zone d is about d over it. NaN
+        if neither L_N, L_T nor h is given.
 
     Notes
     -----
@@ -409,10 +412,10 @@ def reach(
     """
     given = _numbers(dict(K_N=K_N, K_T=K_T, L_N=L_N, L_T=L_T), dict(h=h))
 
-    def found(**n: Any) -> Any:
+    def evaluate(**n: Any) -> Any:
         pairs = (("K_N", "L_N"), ("K_T", "L_T"))
         known = [np.abs(n[one] / n[two]) for one, two in pairs if two in n]
         known += [n["h"]] if "h" in n else []
         return np.minimum.reduce(np.broadcast_arrays(*known)) if known else np.nan
 
-    return evaluated(found, given, None, CASES)
+    return evaluated(evaluate, given, None, CASES)

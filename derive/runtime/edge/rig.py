@@ -1,17 +1,17 @@
-r"""Loads of a body whose edge is that of another contact: a rig for a prototype.
+r"""Loads of a body whose edge then matches the edge of another contact: a rig for a prototype.
 
-Slip next to an edge depends to the first order on K_N, K_T, f and the move of the edge alone.  A
-body under P and M has two numbers free, a and c, and so a rig can be given
+To the first order, slip next to an edge depends only on K_N, K_T, f and the move of the edge.  The
+contact of a body under P and M has two free numbers, a and c, so that a rig can match
 
-    one edge     K_N by the width, at M = 0; the move by dP, at dM = 0; K_T by dQ; L_T, if wished,
-                 by dQ and dsigma together; L_N, if wished, by a parameter of the body left free
+    one edge     K_N by the width, at M = 0; the move by dP, at dM = 0; K_T by dQ; if requested, L_T
+                 by dQ and dsigma together, and L_N by a free parameter of the body
     both edges   both K_N by P and M; both moves by dP and dM; both K_T by dQ and dsigma
 
-What is left over differs one order further: L_N and L_T, the width, and the other edge.  Some
-wishes exclude each other: a cylinder has one K_N at both edges, and L_N = -K_N/(2 h) there.
+The remaining differences are one order higher: L_N and L_T, the width, and the other edge.  Some
+requests exclude each other: a cylinder has the same K_N at both edges, and L_N = -K_N/(2 h) there.
 
-All of a body comes from its functions of (a, c), which are explicit, so that one damped Newton's
-method in log h, mid/h and the logarithm of the free parameter serves all of them.
+The body enters only by its functions of (a, c), which are explicit.  One damped Newton's method in
+log h, mid/h and the logarithm of the free parameter therefore serves all bodies.
 """
 
 import inspect
@@ -27,22 +27,22 @@ from .zone import slip_zone
 SIDES = ("left", "right")
 
 WIDTHS = np.geomspace(1e-9, 1e6, 121)
-"""Widths of the contact at which the search begins [m]."""
+"""Widths of the contact from which the search starts [m]."""
 
 LEANS = np.linspace(-0.45, 0.45, 7)
-"""Middles over widths at which it begins."""
+"""Positions of the middle, over the width, from which the search starts."""
 
 FREE = np.geomspace(1e-6, 1e6, 37)
-"""Values of a free parameter at which it begins."""
+"""Values of a free parameter from which the search starts."""
 
 STARTS, STEPS = 16, 60
-"""Places from which Newton's method begins at most, and its steps."""
+"""Largest number of starting points of Newton's method, and of its steps."""
 
 CLOSE = 1e-8
-"""What is left of a wish that counts as met, in parts."""
+"""Relative deviation below which a request counts as met."""
 
 WIDE = 0.2
-"""A slip zone over the width above which an edge is not alone."""
+"""Slip zone over contact width above which an edge is not independent of the other one."""
 
 
 class Edge(NamedTuple):
@@ -50,8 +50,9 @@ class Edge(NamedTuple):
 
     K_N  coefficient of sqrt(s) in the pressure [Pa/sqrt(m)]
     K_T  coefficient of 1/sqrt(s) in the full-stick change of shear, signed [Pa sqrt(m)]
-    da   how much further the edge reaches than at the other end of the half-cycle [m]
-    L_N, L_T  of s**(3/2) and s**(1/2) [Pa/m**(3/2), Pa/sqrt(m)]; None: not known, or not wished
+    da   how much further out the edge is than at the other end of the half-cycle [m]
+    L_N, L_T  coefficients of s**(3/2) and s**(1/2) [Pa/m**(3/2), Pa/sqrt(m)]; None if not known or
+         not requested
     side "left" or "right"
     """
 
@@ -64,19 +65,19 @@ class Edge(NamedTuple):
 
 
 class Rig(NamedTuple):
-    """Loads of a rig, and what its edges have.  describe() tells it in words.
+    """Loads of a rig, and the resulting data of its edges.  describe() gives them in words.
 
     P, M            at the end of the half-cycle that raises Q [N/m, N]
-    dQ, dsigma, dP, dM  by how much more than at its start [N/m, Pa, N/m, N]
-    parameters      of the body, the free one among them
+    dQ, dsigma, dP, dM  changes over this half-cycle [N/m, Pa, N/m, N]
+    parameters      of the body, including the free one
     first, second   Contact at the start and at the end of the half-cycle
-    edges           Edges of Edge: what both edges of the rig have
+    edges           Edges of Edge: the data of both edges of the rig
     d               Edges: exact slip zones at `second` [m]; NaN where none is known
-    regime          a code of Regime, as of stick_zone
-    met, missed     wishes that are met, and those that are not, in words
-    next_order      by what part the rig's slip zone differs through L_N and L_T, Edges; NaN where
-                    these are not known or no wish is
-    warning         what speaks against the loads, in words; "" if nothing does
+    regime          a code of Regime, as returned by stick_zone
+    met, missed     requests that are met, and those that are not, in words
+    next_order      Edges: relative change of the rig's slip zone due to L_N and L_T; NaN where they
+                    are not known or nothing was requested
+    warning         reasons against these loads, in words; "" if there are none
     """
 
     P: float
@@ -113,33 +114,31 @@ def match(
     Parameters
     ----------
     edge : Edge or Edges
-        An Edge, and M = dM = 0; or a body's Edges(left, right) of two, for both edges.
+        One Edge, matched at M = dM = 0; or a body's Edges(left, right) of two Edge objects.
     module : module
         The body: a generated module, such as generated.hertz.
     f : float
-        Coefficient of friction, of both contacts [-].
+        Coefficient of friction of both contacts [-].
     E_star : float
         Composite modulus of the rig [Pa].
     free : str, optional
-        The name of a parameter to be found, too, so that L_N is met.
+        The name of a parameter that is determined as well, so that L_N is met.
     **parameters : float
-        Parameters of the body, but for the free one.
+        All parameters of the body except the free one.
 
     Returns
     -------
     Rig
-        Its warning says what is wrong with the rig's loads, if anything.
+        The loads; its warning gives the reasons against them, if any.
 
     Raises
     ------
     ValueError
-        Where the wishes cannot be met, and says which.
+        If the requests cannot be met; the message names them.
 
-    Notes
-    -----
-    All are numbers.  L_T is met by dsigma where it is given; else dsigma = 0, for one edge.
-    Loads that shear the other way are turned, so that dQ >= 0: slip is the same, of the other
-    sense. Where a body can do it in several ways, the widest contact is taken.
+    Notes ----- All arguments are numbers.  L_T, if given, is met by dsigma; otherwise dsigma = 0
+    for one edge. If the shear load would fall, all its signs are reversed so that dQ >= 0: slip is
+    the same, in the opposite sense. If a body has several solutions, the widest contact is taken.
 
     Examples
     --------
@@ -150,27 +149,32 @@ def match(
     """
     law = _law(module, free, parameters)
     f, E_star = _positive(f, "f"), _positive(E_star, "E_star")
-    wished = _wishes(edge)
+    requested = _requests(edge)
     body = _Body(module, E_star, law, free)
-    if free and all(one.L_N is None for one in wished.values()):
-        raise ValueError(f"free={free!r} is found by L_N: give L_N of an edge, or {free} itself")
-    a, c, own = _contact(body, wished)
+    if free and all(one.L_N is None for one in requested.values()):
+        raise ValueError(
+            f"free={free!r} is determined from L_N: give L_N of an edge, or {free} itself"
+        )
+    a, c, own = _contact(body, requested)
     second = body.contact(a, c, own)
-    first = _before(body, second, own, wished)
-    dQ, dsigma = _shear(a + c, wished)
+    first = _before(body, second, own, requested)
+    dQ, dsigma = _shear(a + c, requested)
     P, M, P_1, M_1 = (of(at) for at in (second, first) for of in (body.load(own), body.moment(own)))
-    one = len(wished) == 1
-    turned = dQ < 0
-    if turned:
+    one = len(requested) == 1
+    is_reversed = dQ < 0
+    if is_reversed:
         dQ, dsigma = -dQ, 0.0 - dsigma
     friction = dict(f=f, E_star=E_star, **own)
     zone = module.stick_zone(first, second, dQ, dsigma, **friction)
     d = Edges(float(second.a - zone.m), float(second.c - zone.n))
     regime = int(zone.regime)
-    edges = _edges(body, first, second, own, dQ, dsigma, -1.0 if turned else 1.0)
-    met, missed = _told(edges, wished, a + c)
-    parts = [_next_order(wished.get(side), had, f) for side, had in zip(SIDES, edges, strict=True)]
-    warning = _warning(Regime(regime), d, a + c, dQ, f * (P + P_1), [*wished])
+    edges = _edges(body, first, second, own, dQ, dsigma, -1.0 if is_reversed else 1.0)
+    met, missed = _compared(edges, requested, a + c)
+    parts = [
+        _next_order(requested.get(side), actual, f)
+        for side, actual in zip(SIDES, edges, strict=True)
+    ]
+    warning = _warning(Regime(regime), d, a + c, dQ, f * (P + P_1), [*requested])
     M, dM = (0.0, 0.0) if one else (M, M - M_1)
     return Rig(
         P,
@@ -193,7 +197,7 @@ def match(
 
 
 def describe(rig: Rig) -> str:
-    """A rig in words and numbers, a line each; SI units.
+    """A rig in words and numbers, one item per line, in SI units.
 
     >>> from generated import hertz
     >>> rig = match(Edge(2.5e10, 2e6), hertz, f=0.5, E_star=115e9, R=0.1)
@@ -209,10 +213,11 @@ def describe(rig: Rig) -> str:
         f"contact: from [{-rig.first.a:.6g}, {rig.first.c:.6g}] m to "
         f"[{-rig.second.a:.6g}, {rig.second.c:.6g}] m",
     ]
-    for side, had, d, part in zip(SIDES, rig.edges, rig.d, rig.next_order, strict=True):
+    for side, actual, d, part in zip(SIDES, rig.edges, rig.d, rig.next_order, strict=True):
         lines.append(
-            f"{side} edge: K_N = {had.K_N:.6g}, L_N = {had.L_N:.4g}, K_T = {had.K_T:.6g}, "
-            f"L_T = {had.L_T:.4g}, moves by {had.da:.4g} m, slip zone {d:.6g} m"
+            f"{side} edge: K_N = {actual.K_N:.6g}, L_N = {actual.L_N:.4g}, "
+            f"K_T = {actual.K_T:.6g}, L_T = {actual.L_T:.4g}, moves by {actual.da:.4g} m, "
+            f"slip zone {d:.6g} m"
         )
         if math.isfinite(part):
             lines.append(f"    its L_N and L_T change the slip zone by {100 * part:+.2g} %")
@@ -222,7 +227,7 @@ def describe(rig: Rig) -> str:
     return "\n".join(lines)
 
 
-# ---------------------------------------------------------------- what is given
+# ---------------------------------------------------------------- arguments
 
 
 def _law(module: Any, free: str | None, parameters: Mapping[str, Any]) -> dict[str, float]:
@@ -239,7 +244,10 @@ def _law(module: Any, free: str | None, parameters: Mapping[str, Any]) -> dict[s
     asked = [name for name in names if name != free]
     if set(asked) != set(parameters):
         given = ", ".join(parameters) or "none"
-        raise ValueError(f"the body's parameters are {', '.join(asked) or 'none'}; got {given}")
+        raise ValueError(
+            f"the body's parameters are {', '.join(asked) or 'none'}; got {given}: give each of "
+            "them once"
+        )
     return {name: _positive(parameters[name], name) for name in asked}
 
 
@@ -249,7 +257,7 @@ def _number(value: Any, name: str) -> float:
     except (TypeError, ValueError):
         number = math.nan
     if not math.isfinite(number):
-        raise ValueError(f"{name} must be one number; got {value!r:.60}")
+        raise ValueError(f"{name} must be one finite number; got {value!r:.60}")
     return number
 
 
@@ -260,28 +268,28 @@ def _positive(value: Any, name: str) -> float:
     return number
 
 
-def _wishes(edge: Any) -> dict[str, Edge]:
-    """What each edge is to have, as numbers."""
+def _requests(edge: Any) -> dict[str, Edge]:
+    """The data requested of each edge, as numbers."""
     pair = hasattr(edge, "left") and hasattr(edge, "right")  # Edges of any package
     given = dict(zip(SIDES, edge, strict=True)) if pair else {getattr(edge, "side", None): edge}
     for side, one in given.items():
         if not isinstance(one, Edge):
-            raise TypeError(f"edge must be an Edge, or Edges(left, right) of two; got {one!r:.60}")
+            raise TypeError(f"edge must be an Edge, or Edges of two of them; got {one!r:.60}")
         if side not in SIDES:
             raise ValueError(f"side must be 'left' or 'right'; got {side!r:.40}")
         _positive(one.K_N, "K_N")
-    named = {
+    values_of = {
         side: {name: v for name, v in one._asdict().items() if name != "side" and v is not None}
         for side, one in given.items()
     }
     return {
         str(side): Edge(**{name: _number(v, name) for name, v in values.items()}, side=str(side))
-        for side, values in named.items()
+        for side, values in values_of.items()
     }
 
 
 class _Body(NamedTuple):
-    """A module and its parameters; the free one stands at the end of what is looked for."""
+    """A module and its parameters; the free parameter is the last of the unknowns."""
 
     module: Any
     E_star: float
@@ -289,11 +297,11 @@ class _Body(NamedTuple):
     free: str | None
 
     def own(self, value: Any) -> dict[str, Any]:
-        """All parameters."""
+        """All parameters, with this value of the free one."""
         return self.law | ({self.free: value} if self.free else {})
 
     def of(self, name: str, a: Any, c: Any, own: Mapping[str, Any]) -> Any:
-        """One of the body's functions at (a, c)."""
+        """A function of the body at (a, c)."""
         return getattr(self.module, name)(a, c, E_star=self.E_star, **own)
 
     def contact(self, a: float, c: float, own: Mapping[str, float]) -> Contact:
@@ -301,34 +309,34 @@ class _Body(NamedTuple):
         return Contact(a, c, float(self.module.tilt(a, c, **own)))
 
     def load(self, own: Mapping[str, float]) -> Callable[[Contact], float]:
-        """P of a contact."""
+        """The load P as a function of the contact."""
         return lambda at: float(self.of("load", at.a, at.c, own))
 
     def moment(self, own: Mapping[str, float]) -> Callable[[Contact], float]:
-        """M of a contact."""
+        """The moment M as a function of the contact."""
         return lambda at: float(self.of("moment", at.a, at.c, own))
 
 
 # ---------------------------------------------------------------- the contact
 
 
-def _contact(body: _Body, wished: Mapping[str, Edge]) -> tuple[float, float, dict[str, float]]:
-    """The widest contact whose edges are as wished, and the body's parameters."""
+def _contact(body: _Body, requested: Mapping[str, Edge]) -> tuple[float, float, dict[str, float]]:
+    """The widest contact whose edges are as requested, and the body's parameters."""
 
-    def off(u: Any) -> Any:
-        """What is left of the wishes, the last axis; u are log h, mid/h, log of what is free."""
+    def residual(u: Any) -> Any:
+        """Residuals of the requests (last axis); u is log h, mid/h, log of the free parameter."""
         h, lean = np.exp(u[..., 0]), u[..., 1]
         a, c = h * (0.5 - lean), h * (0.5 + lean)
         own = body.own(np.exp(u[..., 2])) if body.free else body.law
         K_N = body.of("K_N", a, c, own)
-        rows = [np.log(getattr(K_N, side) / one.K_N) for side, one in wished.items()]
-        if len(wished) == 1:
+        rows = [np.log(getattr(K_N, side) / one.K_N) for side, one in requested.items()]
+        if len(requested) == 1:
             rows.append(body.of("moment", a, c, own) / (body.of("load", a, c, own) * h))
         if body.free:
             L_N = body.of("L_N", a, c, own)
             rows += [
                 (getattr(L_N, side) - one.L_N) * h / one.K_N
-                for side, one in wished.items()
+                for side, one in requested.items()
                 if one.L_N is not None
             ]
         return np.stack(np.broadcast_arrays(*rows), -1)
@@ -336,11 +344,11 @@ def _contact(body: _Body, wished: Mapping[str, Edge]) -> tuple[float, float, dic
     axes = [np.log(WIDTHS), LEANS, *([np.log(FREE)] if body.free else [])]
     with np.errstate(all="ignore"):
         grid = np.stack(np.meshgrid(*axes, indexing="ij"), -1)
-        found = [_solved(off, grid[at]) for at in _lowest(np.sum(off(grid) ** 2, -1))]
+        found = [_solved(residual, grid[at]) for at in _lowest(np.sum(residual(grid) ** 2, -1))]
     known = [one for one in found if one[1] < CLOSE]
     if not known:
-        raise ValueError(_impossible(body, wished, found))
-    # the widest; of those as wide the one that leans least
+        raise ValueError(_impossible(body, requested, found))
+    # the widest contact; among equally wide ones the one closest to symmetric
     u, _ = max(known, key=lambda one: (round(one[0][0], 6), -abs(one[0][1])))
     h, lean = math.exp(u[0]), float(u[1])
     own = {k: float(v) for k, v in body.own(math.exp(u[-1])).items()}
@@ -348,7 +356,7 @@ def _contact(body: _Body, wished: Mapping[str, Edge]) -> tuple[float, float, dic
 
 
 def _lowest(cost: Any) -> list[tuple[int, ...]]:
-    """Places on a grid that lie no higher than their neighbours, the lowest first."""
+    """Points of a grid that lie no higher than their neighbours, the lowest first."""
     cost = np.where(np.isfinite(cost), cost, np.inf)
     least = np.isfinite(cost)
     for axis in range(cost.ndim):
@@ -364,42 +372,43 @@ def _lowest(cost: Any) -> list[tuple[int, ...]]:
     return [tuple(map(int, places[i])) for i in order[:STARTS]]
 
 
-def _solved(off: Callable[[Any], Any], u: Any) -> tuple[Any, float]:
-    """Newton's method with steps that are halved until they help; u, and the largest thing left.
+def _solved(function: Callable[[Any], Any], u: Any) -> tuple[Any, float]:
+    """Newton's method, in which steps are halved until they help; u, and the largest residual.
 
-    Where wishes leave a direction open, as of a cylinder that rolls, it is not gone into.
+    If the requests leave a direction undetermined, as for a cylinder that rolls, u does not move in
+    it.
     """
-    left = off(u)
+    residual = function(u)
     for _ in range(STEPS):
         small = 1e-6 * np.eye(len(u))
-        rates = np.stack([(off(u + one) - off(u - one)) / 2e-6 for one in small], -1)
+        rates = np.stack([(function(u + one) - function(u - one)) / 2e-6 for one in small], -1)
         if not np.all(np.isfinite(rates)):
             break
-        step = np.linalg.lstsq(rates, -left, rcond=1e-8)[0]
+        step = np.linalg.lstsq(rates, -residual, rcond=1e-8)[0]
         step *= min(1.0, 1.0 / max(np.max(np.abs(step)), 1e-300))
         for _ in range(30):
-            trial = off(u + step)
-            if np.sum(trial**2) < np.sum(left**2):
+            trial = function(u + step)
+            if np.sum(trial**2) < np.sum(residual**2):
                 break
             step = step / 2
         else:
             break
-        u, left = u + step, trial
-    return u, float(np.max(np.abs(left)))
+        u, residual = u + step, trial
+    return u, float(np.max(np.abs(residual)))
 
 
-def _impossible(body: _Body, wished: Mapping[str, Edge], found: Any) -> str:
-    """Which wishes exclude each other, and what comes nearest."""
+def _impossible(body: _Body, requested: Mapping[str, Edge], found: Any) -> str:
+    """The message that names requests that exclude each other, and the nearest solution."""
     name = body.module.__name__.rpartition(".")[2]
-    asks = [f"K_N = {one.K_N:.6g} at the {side} edge" for side, one in wished.items()]
+    requests = [f"K_N = {one.K_N:.6g} at the {side} edge" for side, one in requested.items()]
     if body.free:
-        asks += [
+        requests += [
             f"L_N = {one.L_N:.6g} at the {side} edge"
-            for side, one in wished.items()
+            for side, one in requested.items()
             if one.L_N is not None
         ]
-    told = f"no contact of {name}{' with M = 0' if len(wished) == 1 else ''} has "
-    told += " and ".join(asks)
+    message = f"no contact of {name}{' with M = 0' if len(requested) == 1 else ''} has "
+    message += " and ".join(requests)
     if found:
         u, _ = min(found, key=lambda one: one[1])
         h, own = math.exp(u[0]), body.own(math.exp(u[-1]))
@@ -408,23 +417,23 @@ def _impossible(body: _Body, wished: Mapping[str, Edge], found: Any) -> str:
         near = [
             f"{name} = {float(getattr(body.of(name, a, c, own), side)):.6g} at the {side} edge"
             for name in names
-            for side in wished
+            for side in requested
         ]
-        if len(wished) == 1:
+        if len(requested) == 1:
             near.append(f"M = {float(body.of('moment', a, c, own)):.6g}")
-        told += f"; the nearest has {', '.join(near)}"
-    if len(wished) == 2:
-        return told + ": match one edge alone, or take a body whose edges may differ so"
+        message += f"; the nearest has {', '.join(near)}"
+    if len(requested) == 2:
+        return message + ": match one edge alone, or use a body whose edges can differ this way"
     if body.free:
-        return told + f": give {body.free} in place of L_N, or take another body"
-    return told + ": take other parameters, or another body"
+        return message + f": give {body.free} in place of L_N, or use another body"
+    return message + ": use other parameters, or another body"
 
 
 def _before(
-    body: _Body, now: Contact, own: Mapping[str, float], wished: Mapping[str, Edge]
+    body: _Body, now: Contact, own: Mapping[str, float], requested: Mapping[str, Edge]
 ) -> Contact:
-    """The contact at the start of the half-cycle: its edges reach less far by their moves."""
-    moves = {side: one.da for side, one in wished.items()}
+    """The contact at the start of the half-cycle, whose edges are less far out by their moves."""
+    moves = {side: one.da for side, one in requested.items()}
     if not any(moves.values()):
         return now
     if len(moves) == 2:
@@ -435,8 +444,8 @@ def _before(
     load = float(body.of("load", a, c, own))
     if not (a + c > 0 and load > 0):
         raise ValueError(
-            f"the edge moves by {max(moves.values()):.6g} m, which no load of this body does with "
-            f"a contact of {now.a + now.c:.6g} m: take a larger body"
+            f"no load moves the edge of this body by {max(moves.values()):.6g} m at a contact "
+            f"width of {now.a + now.c:.6g} m: use a larger body"
             + (", or match one edge alone" if len(moves) == 2 else "")
         )
     return body.contact(a, c, own)
@@ -445,14 +454,14 @@ def _before(
 def _beside(
     body: _Body, now: Contact, own: Mapping[str, float], side: str, move: float
 ) -> tuple[float, float]:
-    """Edges of the contact without a moment whose edge on one side reaches less far."""
+    """Edges of the contact without a moment whose edge on one side is less far out by `move`."""
     h, near = now.a + now.c, (now.a if side == "left" else now.c) - move
 
     def edges(u: Any) -> tuple[Any, Any]:
         far = np.exp(u[..., 0]) - near
         return (near, far) if side == "left" else (far, near)
 
-    def off(u: Any) -> Any:
+    def residual(u: Any) -> Any:
         a, c = edges(u)
         at = body.of("moment", a, c, own) / (body.of("load", a, c, own) * h)
         return np.reshape(at, (*np.shape(u)[:-1], 1))
@@ -460,24 +469,24 @@ def _beside(
     if not h - 2 * move > 0:
         return math.nan, math.nan
     with np.errstate(all="ignore"):
-        u, left = _solved(off, np.array([math.log(h - 2 * move)]))
+        u, left = _solved(residual, np.array([math.log(h - 2 * move)]))
     a, c = edges(u)
     return (float(a), float(c)) if left < CLOSE else (math.nan, math.nan)
 
 
-# ---------------------------------------------------------------- shear, and what comes of it
+# ---------------------------------------------------------------- shear, and the resulting edges
 
 
-def _shear(h: float, wished: Mapping[str, Edge]) -> tuple[float, float]:
+def _shear(h: float, requested: Mapping[str, Edge]) -> tuple[float, float]:
     """dQ and dsigma: sqrt(h) K_T = dQ/pi +- dsigma h/8, 2 h**(3/2) L_T = dQ/pi -+ 3 dsigma h/8."""
-    if len(wished) == 2:
-        left, right = (math.sqrt(h) * wished[side].K_T for side in SIDES)
+    if len(requested) == 2:
+        left, right = (math.sqrt(h) * requested[side].K_T for side in SIDES)
         return math.pi * (left + right) / 2, 4 * (left - right) / h
-    ((side, one),) = wished.items()
-    force, pull = math.sqrt(h) * one.K_T, 0.0
+    ((side, one),) = requested.items()
+    force, tension = math.sqrt(h) * one.K_T, 0.0
     if one.L_T is not None:
-        pull = (force - 2 * h**1.5 * one.L_T) / 4
-    return math.pi * (force - pull), 8 * pull / h * (1 if side == "left" else -1)
+        tension = (force - 2 * h**1.5 * one.L_T) / 4
+    return math.pi * (force - tension), 8 * tension / h * (1 if side == "left" else -1)
 
 
 def _edges(
@@ -489,57 +498,64 @@ def _edges(
     dsigma: float,
     sense: float,
 ) -> Edges:
-    """What both edges have, K_T and L_T in the prototype's sense."""
+    """The data of both edges, with K_T and L_T in the prototype's sense."""
     at = second.a, second.c
     K_N, L_N = (body.of(name, *at, own) for name in ("K_N", "L_N"))
     K_T, L_T = (of(*at, sense * dQ, sense * dsigma) for of in (body.module.K_T, body.module.L_T))
     moves = Edges(second.a - first.a, second.c - first.c)
     rows = zip(K_N, K_T, moves, L_N, L_T, SIDES, strict=True)
-    had = [Edge(*map(float, row[:-1]), side=row[-1]) for row in rows]  # type: ignore[misc, arg-type]
-    return Edges(*had)
+    two = [Edge(*map(float, row[:-1]), side=row[-1]) for row in rows]  # type: ignore[misc, arg-type]
+    return Edges(*two)
 
 
-def _told(
-    edges: Edges, wished: Mapping[str, Edge], h: float
+def _compared(
+    edges: Edges, requested: Mapping[str, Edge], h: float
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Wishes that are met, and those that are not."""
+    """Requests that are met, and those that are not."""
     met, missed = [], []
-    for side, one in wished.items():
-        had = getattr(edges, side)
-        sizes = {"K_N": had.K_N, "K_T": had.K_T, "da": h, "L_N": had.K_N / h, "L_T": had.K_T / h}
+    for side, one in requested.items():
+        actual = getattr(edges, side)
+        sizes = {
+            "K_N": actual.K_N,
+            "K_T": actual.K_T,
+            "da": h,
+            "L_N": actual.K_N / h,
+            "L_T": actual.K_T / h,
+        }
         for name, size in sizes.items():
-            asked, is_there = getattr(one, name), getattr(had, name)
-            if asked is None:
+            target, value = getattr(one, name), getattr(actual, name)
+            if target is None:
                 continue
             where = f"{name} ({side})"
-            if abs(is_there - asked) <= CLOSE * max(abs(asked), abs(size)):
+            if abs(value - target) <= CLOSE * max(abs(target), abs(size)):
                 met.append(where)
             else:
-                missed.append(f"{where} is {is_there:.6g} where {asked:.6g} is wished")
+                missed.append(f"{where} is {value:.6g} instead of {target:.6g}")
     return tuple(met), tuple(missed)
 
 
-def _next_order(wished: Edge | None, had: Edge, f: float) -> float:
-    """By what part the slip zone differs through L_N and L_T, each edge taken alone."""
-    if wished is None or wished.L_N is None or wished.L_T is None:
+def _next_order(requested: Edge | None, actual: Edge, f: float) -> float:
+    """Relative change of the slip zone due to L_N and L_T, each edge taken alone."""
+    if requested is None or requested.L_N is None or requested.L_T is None:
         return math.nan
 
     def d(of: Edge) -> float:
         found = slip_zone(of.K_N, of.K_T, f=f, L_N=of.L_N, L_T=of.L_T, da=of.da)
         return float(found.d)
 
-    return d(had) / d(wished) - 1
+    return d(actual) / d(requested) - 1
 
 
-def _warning(regime: Regime, d: Edges, h: float, dQ: float, holds: float, sides: list[str]) -> str:
-    """What speaks against the loads."""
-    said = {
-        Regime.SLIDING: f"the rig slides: dQ = {dQ:.6g} N/m, and f (P_1 + P_2) is {holds:.6g}",
+def _warning(regime: Regime, d: Edges, h: float, dQ: float, limit: float, sides: list[str]) -> str:
+    """Reasons against the loads."""
+    warning = {
+        Regime.SLIDING: f"the rig slides: dQ = {dQ:.6g} N/m reaches f (P_1 + P_2) = {limit:.6g}",
         Regime.FULL_STICK: "nothing slips",
-        Regime.MIXED: "slip reverses within a half-cycle, or an edge sticks: no exact slip zone",
+        Regime.MIXED: "slip reverses within a half-cycle, or an edge sticks: the slip zone is not "
+        "exact",
         Regime.LARGE: "",
         Regime.MODERATE: "",
     }.get(regime, "no stick zone was found")
-    if not said and max(getattr(d, side) for side in sides) > WIDE * h:
-        said = "the slip zone is a large part of the contact: the edge is not alone"
-    return said
+    if not warning and max(getattr(d, side) for side in sides) > WIDE * h:
+        warning = "the slip zone is a large part of the contact: the other edge affects it"
+    return warning

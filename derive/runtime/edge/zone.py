@@ -1,17 +1,18 @@
-r"""How far slip reaches in at an edge, from the series of pressure and full stick next to it.
+r"""The slip zone at an edge, from the series of pressure and full-stick shear next to it.
 
 At a distance s from the edge
 
     p = K_N s**(1/2) + L_N s**(3/2) + N_N s**(5/2),
     full-stick dq = K_T s**(-1/2) + L_T s**(1/2) + N_T s**(3/2).
 
-An edge alone: with f (p_1 + p_2) of the contacts at both ends of the half-cycle, slip zones d_1 and
-d_2, the bounded change of shear passes into that of full stick where (derive/theory/edge.py)
+For an edge alone, take f (p_1 + p_2) of the contacts at both ends of the half-cycle, with slip
+zones d_1 and d_2.  The bounded change of shear tends to that of full stick if
+(derive/theory/edge.py)
 
     sum f (K_N d/2 + 3 L_N d**2/8 + 5 N_N d**3/16) = |K_T| + L_T d/2 + 3 N_T d**2/8,
 
-L_T and N_T over the sense of slip.  A contact of width h adds sum f K_N d**2/(16 h) to the right of
-it.  With the other edge known both obey the conditions of ../slip/series.py.
+with L_T and N_T taken in the sense of slip.  A contact of width h adds sum f K_N d**2/(16 h) to the
+right-hand side.  If the other edge is known, both edges obey the conditions of ../slip/series.py.
 """
 
 from typing import Any, NamedTuple
@@ -23,32 +24,32 @@ from ..body import kernel_of
 from ..types import Array
 
 PRESSURE = (1 / 2, 3 / 8, 5 / 16)
-"""binomial(k + 1/2, k + 1), of C_k d**(k + 1)."""
+"""binomial(k + 1/2, k + 1), the factor of C_k d**(k + 1)."""
 
 SHEAR = (1.0, 1 / 2, 3 / 8)
-"""binomial(k - 1/2, k), of the full-stick coefficients times d**k."""
+"""binomial(k - 1/2, k), the factor of the full-stick coefficients times d**k."""
 
 GROWN = (1.0, 2 / 3, 8 / 15)
-"""B(k + 1, 1/2)/2, of b**k in K_N(b) that becomes s**(k + 1/2) in the pressure."""
+"""B(k + 1, 1/2)/2, the factor of b**k in K_N(b) that gives s**(k + 1/2) in the pressure."""
 
 STEPS = 60
-"""Newton's steps at most."""
+"""Largest number of Newton's steps."""
 
 CASES = 65_536
-"""Cases solved in one piece."""
+"""Number of cases solved in one piece."""
 
 Coefficients = tuple[Any, Any, Any]
 
 
 class SlipZone(NamedTuple):
-    """Length of a slip zone, and by how much the next term would change it [m]."""
+    """Length of a slip zone, and its change by the next term of the series [m]."""
 
     d: Array
     error: Array
 
 
 class Pressure(NamedTuple):
-    """p = K_N s**(1/2) + L_N s**(3/2) + N_N s**(5/2) next to an edge; None is not known."""
+    """p = K_N s**(1/2) + L_N s**(3/2) + N_N s**(5/2) next to an edge; None means not known."""
 
     K_N: Array
     L_N: Array = None
@@ -56,12 +57,12 @@ class Pressure(NamedTuple):
 
 
 class OtherEdge(NamedTuple):
-    """What slip_zone may know of the other edge; signs as at its own.
+    """The other edge as slip_zone takes it; signs as at that edge.
 
-    K_N, L_N, N_N  of the pressure
-    K_T   of the full-stick change
-    da    how much further it reaches than at the other end of the half-cycle
-    then  Pressure next to it at the other end of the half-cycle
+    K_N, L_N, N_N  coefficients of the pressure
+    K_T   coefficient of the full-stick change of shear
+    da    how much further out the edge is than at the other end of the half-cycle
+    then  Pressure next to this edge at the other end of the half-cycle
     """
 
     K_N: Array
@@ -87,13 +88,13 @@ def slip_zone(
     then: Pressure | None = None,
     other: OtherEdge | None = None,
 ) -> SlipZone:
-    """Slip zone at an edge from its coefficients, whatever the body.
+    """Slip zone at an edge from its coefficients, for any body.
 
         order 1: d = |K_T|/(f K_N) + da/2
-        order 2, with L_N and L_T: f K_N d + (3/4) f L_N d**2 = |K_T| + (L_T/2) d, more where da is
-            not zero; h adds f K_N d**2/(8 h) on the right
-        order 3, with N_N and N_T too, without h
-        with h and the other edge: both conditions of a body's slip_zones; L_T is theirs
+        order 2, with L_N and L_T: f K_N d + (3/4) f L_N d**2 = |K_T| + (L_T/2) d, with further
+            terms where da is not zero; h adds f K_N d**2/(8 h) on the right
+        order 3, with N_N and N_T as well, without h
+        with h and the other edge: both conditions of a body's slip_zones, which determine L_T
 
     Parameters
     ----------
@@ -108,28 +109,28 @@ def slip_zone(
     L_T, N_T : array_like, optional
         Coefficients of s**(1/2) and s**(3/2) in the change [Pa/sqrt(m), Pa/m**(3/2)].
     da : array_like, optional
-        How much further the edge reaches than at the other end of the half-cycle [m].
+        How much further out the edge is than at the other end of the half-cycle [m].
     h : array_like, optional
-        Width of the contact, where it is known [m].
+        Width of the contact, if it is known [m].
     order : int, optional
-        1, 2 or 3; the highest that the coefficients allow if not given.
+        1, 2 or 3; by default the highest order that the coefficients allow.
     then : Pressure, optional
-        Pressure next to the edge at the other end of the half-cycle; what follows from K_N,
-        L_N, N_N and da if not given.
+        Pressure next to the edge at the other end of the half-cycle; by default it follows from
+        K_N, L_N, N_N and da.
     other : OtherEdge, optional
-        OtherEdge; needs h.
+        The other edge of the contact; needs h.
 
     Returns
     -------
     SlipZone
-        d [m], error [m].  error: what one more term changes; where no more is known, what the
-        last one changed; NaN at order 1 where nothing else is known. NaN unless K_N, f and h
-        are positive and slip reaches in at both contacts of the half-cycle.
+        d [m], error [m].  error is the change by one more term; if no further coefficients are
+        known, it is the change by the last term, and NaN at order 1. NaN unless K_N, f and h are
+        positive and slip occurs in both contacts of the half-cycle.
 
     Raises
     ------
     ValueError
-        For an order that the coefficients do not allow, and for coefficients given twice.
+        If the coefficients do not allow the order, or if coefficients are given twice.
 
     Notes
     -----
@@ -170,17 +171,17 @@ def slip_zone(
     return found
 
 
-def _error(found: list[Any], order: int) -> Any:
-    """What the next term changes, or what the last one did."""
-    if order < len(found):
-        return np.abs(found[order] - found[order - 1])
+def _error(zones: list[Any], order: int) -> Any:
+    """The change by the next term, or else by the last one."""
+    if order < len(zones):
+        return np.abs(zones[order] - zones[order - 1])
     if order > 1:
-        return np.abs(found[order - 1] - found[order - 2])
-    return np.full(np.shape(found[0]), np.nan)
+        return np.abs(zones[order - 1] - zones[order - 2])
+    return np.full(np.shape(zones[0]), np.nan)
 
 
 def _demand_order(order: Any, most: int) -> int:
-    """Raises TypeError for what is no whole number, ValueError for an order that is not allowed."""
+    """Raise TypeError unless the order is a whole number, ValueError unless it is allowed."""
     if order is None:
         return most
     if isinstance(order, bool) or not isinstance(order, int | np.integer):
@@ -189,19 +190,19 @@ def _demand_order(order: Any, most: int) -> int:
         allowed = "1" if most == 1 else f"1 to {most}"
         raise ValueError(
             f"order must be {allowed} with the coefficients given; got {order}: order 2 needs L_N "
-            "and L_T, order 3 N_N and N_T, too; with the other edge each coefficient of both "
-            "pressures, and of `then` where the edges move"
+            "and L_T, and order 3 also needs N_N and N_T; with `other`, these coefficients are "
+            "needed for the pressures at both edges, and for `then` if the edges move"
         )
     return int(order)
 
 
 def _terms(pressure: Pressure | OtherEdge) -> int:
-    """How many coefficients of a pressure are known."""
+    """The number of known coefficients of a pressure."""
     return 1 if pressure.L_N is None else 2 if pressure.N_N is None else 3
 
 
 def _numbers(given: dict[str, Any], positive: dict[str, Any], then: Any = None) -> dict[str, Any]:
-    """All that is given as float64, what must be positive NaN where it is not."""
+    """All arguments as float64; those that must be positive become NaN unless they are."""
     if then is not None:
         given = given | {f"then.{name}": value for name, value in then._asdict().items()}
     numbers = {name: real(v, name) for name, v in given.items() if v is not None}
@@ -210,16 +211,16 @@ def _numbers(given: dict[str, Any], positive: dict[str, Any], then: Any = None) 
 
 
 def _before(now: Coefficients, n: dict[str, Any], move: Any) -> Coefficients:
-    """The pressure at the other end of the half-cycle: as given, or as it follows."""
+    """The pressure at the other end of the half-cycle: as given, or as derived from that now."""
     if "then.K_N" in n:
         return n["then.K_N"], n.get("then.L_N", 0.0), n.get("then.N_N", 0.0)
     return shifted(now, move)
 
 
 def shifted(pressure: Coefficients, move: Any) -> Coefficients:
-    """The coefficients of the contact whose edge reaches less far by `move`, alone.
+    """The coefficients of the contact, of an edge alone, whose edge is less far out by `move`.
 
-    K_N(b) = K_N + (3/2) L_N b + (15/8) N_N b**2 of the edge that reaches less far by b.
+    K_N(b) = K_N + (3/2) L_N b + (15/8) N_N b**2 for an edge that is less far out by b.
     """
     k_0, k_1, k_2 = (C / share for C, share in zip(pressure, GROWN, strict=True))
     moved = (k_0 + k_1 * move + k_2 * move**2, k_1 + 2 * k_2 * move, k_2)
@@ -235,9 +236,9 @@ def length(
     order: int,
     h: Any = np.inf,
 ) -> Any:
-    """The slip zone of an edge alone to an order, as seen from the contact now.
+    """The slip zone of an edge alone to an order, seen from the contact now.
 
-    Newton's method from the shortest slip zone there can be, at which friction holds too little.
+    Newton's method starts from the shortest possible slip zone, where friction is too small.
     """
     K_T = np.abs(shear[0])
     if order == 1:
@@ -249,24 +250,24 @@ def length(
         [f * (C - (one[0] / (6 * h) if k == 1 else 0.0)) for k, C in enumerate(one[:order])]
         for one in (now, before)
     ]
-    least = np.maximum(da, 0.0)
-    d = np.array(np.broadcast_arrays(least, K_T, f, *now, *before)[0], float)
-    start, _ = _off(d, da, holds, drives)
+    shortest = np.maximum(da, 0.0)
+    d = np.array(np.broadcast_arrays(shortest, K_T, f, *now, *before)[0], float)
+    start, _ = _excess(d, da, holds, drives)
     for _ in range(STEPS):
-        value, rate = _off(d, da, holds, drives)
+        value, rate = _excess(d, da, holds, drives)
         step = np.where(value == 0, 0.0, value / rate)
         d = d - step
         if not np.any(np.abs(step) > 4e-16 * np.abs(d)):
             break
-    off, rate = _off(d, da, holds, drives)
+    excess, rate = _excess(d, da, holds, drives)
     done = np.abs(step) <= 1e-12 * np.abs(d)
-    exists = (now[0] > 0) & (before[0] > 0) & (d >= least) & (start <= 0) & done
-    exists &= (rate > 0) & np.isfinite(off)
+    exists = (now[0] > 0) & (before[0] > 0) & (d >= shortest) & (start <= 0) & done
+    exists &= (rate > 0) & np.isfinite(excess)
     return np.where(exists, d, np.nan)
 
 
-def _off(d: Any, da: Any, holds: Any, drives: Any) -> Any:
-    """By how much friction holds more than drives, and its rate with d."""
+def _excess(d: Any, da: Any, holds: Any, drives: Any) -> Any:
+    """Friction less the drive, and its rate with d."""
     value, rate = -drives[0], 0.0
     for one, reach in zip(holds, (d, d - da), strict=True):
         for k, C in enumerate(one):
@@ -295,12 +296,13 @@ def _with_other(
     then: Any,
     other: OtherEdge,
 ) -> SlipZone:
-    """The conditions of both edges, as a body's slip_zones solves them."""
+    """The conditions of both edges, solved as in a body's slip_zones."""
     if h is None:
-        raise ValueError("the other edge is of use with the width alone: give h, too")
+        raise ValueError("`other` can only be used with the width of the contact: give h, too")
     if L_T is not None or N_T is not None:
         raise ValueError(
-            "L_T and N_T follow from h and K_T of both edges: leave them out, or leave `other` out"
+            "L_T and N_T must not be given with `other`, because they follow from h and K_T of "
+            "both edges: leave them out, or leave `other` out"
         )
     own = Pressure(K_N, L_N, N_N)
     moves = bool(np.any(np.asarray(da) != 0) or np.any(np.asarray(other.da) != 0))
@@ -308,7 +310,7 @@ def _with_other(
     befores = [side for side in (then, other.then) if side is not None]
     most = min([most, *map(_terms, befores)])
     if moves and len(befores) < 2:
-        most = min(most, 2)  # beyond that the pressure before does not follow from that now
+        most = min(most, 2)  # at order 3 the pressure before does not follow from that now
     order = _demand_order(asked, most)
     given = _numbers(dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, da=da), dict(f=f, h=h), then)
     alias = _numbers(other._replace(then=None)._asdict(), {}, other.then)
@@ -331,7 +333,7 @@ def _with_other(
 
 
 def _rows(n: dict[str, Any]) -> list[Any]:
-    """h, f, K_T and the moves of both edges; pressures of both now, and of both before."""
+    """h, f, K_T and the moves of both edges; pressures of both edges now, and of both before."""
     theirs = {name.removeprefix("other."): v for name, v in n.items() if name.startswith("other.")}
     h, sides = n["h"], (n, theirs)
     now = [(s["K_N"], s.get("L_N", 0.0), s.get("N_N", 0.0)) for s in sides]

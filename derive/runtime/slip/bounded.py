@@ -172,7 +172,7 @@ def friction(law: Any, own: Any, cycle: Any, sense: float, kappa: float, also: f
 
 @kernel(real(FRICTION, whole, real))
 def pressure_at(of: Any, end: int, x: float) -> Any:
-    """p in the first contact (end = 0) or the second (end = 2); a corner's infinite p counts as 0."""
+    """p in the first (end = 0) or second (end = 2) contact; a corner's infinite p counts as 0."""
     a, c = of.cycle[end], of.cycle[end + 1]
     p = of.pressure(x, a, c, of.own) if of.sense > 0 else of.pressure(-x, c, a, of.own)
     return p if p < math.inf else 0.0

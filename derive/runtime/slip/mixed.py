@@ -186,7 +186,7 @@ def _width(of: Any) -> float:
 
 @kernel(vector(matrix))
 def _eliminated(rows: Any) -> Any:
-    """The solution of linear equations by Gaussian elimination; the last column is the right side."""
+    """The solution of linear equations by Gaussian elimination; the right side comes last."""
     count = len(rows)
     for k in range(count):
         pivot = k
@@ -424,7 +424,7 @@ def _half_cycle(of: Any, middle: float, begun: Any, count: int) -> Any:
 
 @kernel(truth(FRICTION, STATE))
 def _is_sound(of: Any, state: Any) -> bool:
-    """Whether shear stays within friction where points stick again, and is not driven on elsewhere."""
+    """Whether shear stays within friction where points stick again, and is not driven on."""
     table, count, most, excess = state.gain.table, len(state.gain.table.terms), 0.0, 0.0
     places = np.array([table_place(state.n, table.end, 0.0, i, count) for i in range(count)])
     twice = friction_limits(of, places)
