@@ -30,7 +30,7 @@ else:
     COMPILED = not numba.config.DISABLE_JIT
 
 PATIENCE = 0.7
-"""Seconds before the user is told of a compilation; loading from disk takes a hundredth of that."""
+"""Seconds after which the user is told of a compilation; loading from disk takes a hundredth."""
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 

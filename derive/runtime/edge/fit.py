@@ -5,7 +5,7 @@ Once the edge is known, full-stick dq sqrt(s) = K_T + L_T s + ... is another pol
 
 The first node under pressure belongs to the element in which the contact ends, and is left out.
 The edge lies between this node and the node before it, which is used as an additional datum.
-Polynomials of degree 1 to 3 are fitted to all stretches of nodes that begin after that node.  The
+Polynomials of degree 1 to 3 are fitted to all stretches that begin after the first node.  The
 scatter of the nodes is estimated from short cubics all over the contact, at most two thirds of
 which are assumed to meet kinks.  The error of the mesh next to the edge is added to the scatter.
 The stretch and the degree are those that minimise

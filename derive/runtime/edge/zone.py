@@ -342,8 +342,8 @@ def _rows(n: dict[str, Any]) -> list[Any]:
         if "then.K_N" in side:
             before.append(_before((K, L, N), side, 0.0))
             continue
-        # an edge grows by flat punches, its own and the other's: dp/da = K_N sqrt(h - s)/(2
-        # sqrt(h s)), at the other edge K_N sqrt(s)/(2 h)
+        # a move of either edge adds the pressure of a flat punch: dp/da = K_N sqrt(h - s)/(2
+        # sqrt(h s)) at the edge that moves, and K_N sqrt(s)/(2 h) at the other edge
         K_before = K + (1.5 * L + K / (4 * h)) * side["da"]
         K_before = K_before - opposite["K_N"] / (2 * h) * opposite["da"]
         before.append((K_before, L, N))

@@ -36,7 +36,8 @@ from .quadrature import slip_nodes
 from .tables import TABLE, Table, tabled
 
 SMALL = 1e-9
-"""Newton's method ends after a step below this, relative to the slip zone: the next is rounding."""
+"""Newton's method ends after a step below this, relative to the slip zone, because the next step is
+below rounding."""
 
 ROUGH = 1e-7
 """The same for the coarsest rule, whose own error is larger."""
@@ -45,7 +46,8 @@ STEPS = 40
 """Largest number of Newton's steps for one rule; a solution takes two to eight."""
 
 MET = 1e-7
-"""Largest residual of a solution, relative to the drive; at a break, steps may get small before."""
+"""Largest residual of a solution, relative to the drive: at a break, steps may also become small
+without reaching a solution."""
 
 LONGEST = 2.0
 """Longest Newton step in the logarithm of a slip zone over the stick zone."""

@@ -5,8 +5,8 @@ sticks and the loads change in proportion, its right end is driven by dQ - pi ds
 which vanishes at a width m + n = H = 8 dQ/(pi dsigma).  Between the moderate and the large regime a
 half-cycle has three phases:
 
-1. With slip as in large tension both ends recede until m + n = H, where n reaches its minimum. 2.
-The right edge sticks again, from n outward.  The new end is not loaded, so that m + n = H remains:
+1. With slip as in large tension both ends recede until m + n = H, where n reaches its minimum.
+2. The right edge sticks again, from n outward.  The new end is not loaded, so that m + n = H holds:
 
        dq/dlambda = (dsigma/4) sqrt((H - t)/t),    t = x + m,
 
@@ -27,8 +27,8 @@ by iteration, in tables of more and more terms, until m and n converge.
 
 Shear must not be driven further where it has been at friction since the last half-cycle: on the
 left, and on the right where nothing was gained.  In phase 1 its rate changes sign at mid + H/2,
-where mid is the middle of the current stick zone: at n when the phase ends, and at no such point
-when it begins.
+where mid is the middle of the current stick zone.  This point is n when the phase ends, and lies in
+neither of these regions when the phase begins.
 
 In phases 1 and 3 slip grows as bounded.py describes; in phase 3 the gain is subtracted.
 """
