@@ -1,19 +1,19 @@
-"""Pictures of contacts and of their cycles, by matplotlib.
+"""Pictures of contacts and of their cycles, drawn with matplotlib.
 
-    module      draws
+    module      content
     ---------   --------------------------------------------------------------------
-    style       the look that all pictures share, applied in a context
-    measure     what stands on an axis: a symbol and its unit, or a ratio
-    given       what cannot be drawn, refused with one clear error
-    tractions   pressure; shear, and its change over a half-cycle; slip and the friction's work
+    style       the style of all pictures, applied in a context
+    measure     the units of axes: a symbol and its unit, or a ratio
+    given       checks of the input, which raise one clear error
+    tractions   pressure; shear traction and its change over a half-cycle; slip, frictional work
     zones       stick and slip over a cycle, or over a parameter
-    histories   any load history: stick and slip over time, shear, slip, friction's work, a film
-    live        the same under sliders, in a notebook
-    series      how far the series of the slip zones are off, against their size
+    histories   any load history: stick and slip over time, shear, slip, frictional work, animation
+    live        contact, tractions and slip zones of a cycle, controlled by sliders in a notebook
+    series      errors of the series of the slip zones, over the size of the zones
 
-A generated module and its constants are passed in, as in ``pressures(wedge, states, ...)``; this
-package reads no body itself.  Every function draws into the Axes that it is given, or into new
-ones, and returns them.
+A generated module and its constants are passed as arguments, for example
+``pressures(wedge, states, ...)``; this package reads no body itself.  Every function draws into the
+Axes that are passed in, or into new ones, and returns them.
 """
 
 from importlib.util import find_spec

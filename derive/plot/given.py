@@ -1,4 +1,4 @@
-"""Checks of what is given to a picture: one clear error for each thing that cannot be drawn."""
+"""Checks of the arguments of a picture; each mistake raises one clear error."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,51 +9,51 @@ from derive.plot.measure import Array
 
 
 def demand_contact(name: str, state: Any) -> None:
-    """A Contact with two edges; name: what the caller calls it."""
+    """Demand a single Contact with finite edges; `name` is that of the argument."""
     if not (hasattr(state, "a") and hasattr(state, "c")):
         raise ValueError(
-            f"{name} is {state!r}, which is no Contact; give what `contact` returns, such as "
+            f"{name} is {state!r}, which is not a Contact; give a result of `contact`, such as "
             "body.contact(P, M, ...)"
         )
     shape = np.broadcast(state.a, state.c).shape
     if shape:
         raise ValueError(
-            f"{name} holds contacts in the shape {shape}, and one is drawn: give one of them, such "
-            "as Contact(*(v[0] for v in state))"
+            f"{name} contains contacts in the shape {shape}, but only one can be drawn; select one "
+            "of them, for example by Contact(*(v[0] for v in state))"
         )
     if not (np.isfinite(state.a) and np.isfinite(state.c)):
         raise ValueError(
-            f"{name} is no contact: its edges are NaN, as under a load that is not positive or a "
-            "moment that the body cannot take; give a contact whose a and c are numbers"
+            f"{name} has edges that are NaN, for example because the load is not positive or the "
+            "body cannot carry the moment; give a contact whose a and c are finite"
         )
 
 
 def demand_contact_of(name: str, body: Any, state: Any, constants: dict[str, float]) -> None:
-    """A Contact of this body and these constants, as far as its pressure and its tilt tell."""
+    """Demand a Contact whose edges and tilt agree with this body and these constants."""
     demand_contact(name, state)
     own = {key: value for key, value in constants.items() if key != "E_star"}
     tilt, stated = float(body.tilt(state.a, state.c, **own)), float(state.alpha)
     if np.isnan(tilt):
-        found = f"it cannot touch from {-state.a:g} to {state.c:g} m"
+        why = f"the body cannot touch from {-state.a:g} to {state.c:g} m"
     elif np.isfinite(stated) and stated and abs(tilt - stated) > 1e-6 * max(abs(tilt), abs(stated)):
-        found = f"over these edges it is tilted by {tilt:g}, and {name} by {stated:g}"
+        why = f"its edges require a tilt of {tilt:g} rad, but its tilt is {stated:g} rad"
     else:
         return
     raise ValueError(
-        f"{name} is no contact of {body.__name__.rpartition('.')[2]} with these constants: "
-        f"{found}; give what its own `contact` returns for the same constants"
+        f"{name} is not a contact of {body.__name__.rpartition('.')[2]} with these constants: "
+        f"{why}; give a result of `contact` of this body for the same constants"
     )
 
 
 def demand_contacts(states: Sequence[Any], labels: Sequence[str]) -> None:
-    """At least one Contact, and a label for each or none."""
-    if hasattr(states, "a"):  # a Contact is a tuple itself: a likely mistake
+    """Demand a sequence of at least one Contact, and either no labels or one for each."""
+    if hasattr(states, "a"):  # a likely mistake, because a Contact is itself a tuple
         raise ValueError(
-            "states is one Contact; give a list of what `contact` returns, such as "
+            "states is a single Contact; give a list of results of `contact`, such as "
             "[body.contact(P, M, ...)]"
         )
     if not len(states):
-        raise ValueError("states is empty; give a list of one Contact or more")
+        raise ValueError("states is empty; give a list of at least one Contact")
     for i, state in enumerate(states):
         demand_contact(f"states[{i}]", state)
     if labels and len(labels) != len(states):
@@ -63,44 +63,44 @@ def demand_contacts(states: Sequence[Any], labels: Sequence[str]) -> None:
 
 
 def demand_numbers(**given: Array) -> None:
-    """Numbers drawn one at a time, by the caller's names for them."""
+    """Demand finite numbers, not arrays; the keywords are the names of the arguments."""
     for name, value in given.items():
         if np.ndim(value) or not np.isfinite(value):
-            what = f"values in the shape {np.shape(value)}" if np.ndim(value) else f"{value}"
+            what = f"an array of the shape {np.shape(value)}" if np.ndim(value) else f"{value}"
             raise ValueError(
-                f"{name} is {what}; one half-cycle is drawn at a time: give a number, and a map "
-                "over many by `sweep`"
+                f"{name} is {what}, but only one half-cycle can be drawn; give a finite number, or "
+                "draw a map of many half-cycles with `sweep`"
             )
 
 
 def demand_signs(dQ: float, f: float) -> None:
-    """A half-cycle that raises the shear load, and friction."""
+    """Demand a half-cycle that does not lower the shear load, and a positive friction."""
     if dQ < 0:
         raise ValueError(
-            f"dQ is {dQ:g}; a half-cycle that raises the shear load is drawn: exchange its ends, "
-            "and with them the sign of dsigma"
+            f"dQ is {dQ:g}, but only a half-cycle that raises the shear load can be drawn; "
+            "exchange its ends, and change the sign of dsigma accordingly"
         )
     if f <= 0:
         raise ValueError(f"f is {f:g}; give a coefficient of friction above 0")
 
 
 def demand_row(name: str, values: Array) -> None:
-    """The values along an axis: two or more, in one row."""
+    """Demand at least two finite values in an array of one dimension."""
     shape = np.shape(values)
     if len(shape) != 1 or shape[0] < 2:
         raise ValueError(
-            f"{name} has the shape {shape}; a map needs two values or more, in one row: give an "
-            "array of one dimension, such as np.linspace(0, 1, 101)"
+            f"{name} has the shape {shape}; give an array of one dimension with at least two "
+            "values, such as np.linspace(0, 1, 101)"
         )
     if not np.all(np.isfinite(values)):
-        raise ValueError(f"{name} holds NaN or infinite values; give finite ones")
+        raise ValueError(f"{name} contains NaN or infinite values; give finite values only")
 
 
 def demand_fitting(shape: tuple[int, ...], **given: Array) -> None:
-    """Each one value for all, or one for each place along the axis."""
+    """Demand a single value, or one for each value along the axis, for every argument."""
     for name, value in given.items():
         if np.shape(value) not in ((), (1,), shape):
             raise ValueError(
-                f"{name} has the shape {np.shape(value)} where {shape[0]} values stand along the "
-                "axis: give one number, or one for each of them"
+                f"{name} has the shape {np.shape(value)}, but there are {shape[0]} values along "
+                "the axis; give one number, or one for each of these values"
             )

@@ -1,6 +1,7 @@
-"""Any load history: its stick-slip map, shear and slip at chosen instants, work, and a film.
+"""Any load history: its stick-slip map, shear and slip at chosen instants, work and animation.
 
-What is drawn is what `history` of a generated module returns, for one history and a row of places.
+The pictures show the result of `history` of a generated module, for one history and an array of
+positions.
 """
 
 from collections.abc import Sequence
@@ -19,43 +20,49 @@ from derive.plot.tractions import band, key_above, typical
 from derive.plot.zones import AREAS, key, widened
 
 STILL = 1e-9
-"""Slip below this fraction of the largest counts as none."""
+"""Slip below this fraction of the largest slip is treated as zero."""
 
 KINDS = {"stick": STICK, "forward slip": FORWARD, "reverse slip": REVERSE}
 
 
 def _demand_history(history: Any, x: Array) -> None:
-    """One history, with shear and slip at the places of a row."""
+    """Demand one history, with shear and slip at the positions x."""
     if not (hasattr(history, "slip") and hasattr(history, "intervals")):
-        raise ValueError(f"history is {history!r:.60}, no History; give what `history` returns")
+        raise ValueError(
+            f"history is {history!r:.60}, which is not a History; give a result of `history`"
+        )
     if np.ndim(history.a) != 1:
         raise ValueError(
-            f"one history is drawn at a time, its instants in one row; got the shape "
-            f"{np.shape(history.a)}: choose one of them, as in History(*(v[0] for v in history))"
+            f"history has the shape {np.shape(history.a)}, but only one history can be drawn; "
+            "select one of them, for example by History(*(v[0] for v in history))"
         )
     demand_row("x", x)
     if np.shape(history.slip) != (np.size(history.a), np.size(x)):
-        given = "none" if history.slip is None else f"those of the shape {np.shape(history.slip)}"
+        shape = np.shape(history.slip)
+        given = "no slip" if history.slip is None else f"slip of the shape {shape}"
         raise ValueError(
-            f"shear and slip at the {np.size(x)} places of x are drawn, and history holds {given}: "
+            f"history contains {given}, but slip at the {np.size(x)} positions of x is needed; "
             "give the same x to `history`"
         )
 
 
 def _times(history: Any, time: Array | None) -> Array:
-    """Time of every instant; 0, 1, 2, ... unless it is given."""
+    """The time of every instant; 0, 1, 2, ... by default."""
     at = (
         np.arange(np.size(history.a), dtype=float)
         if time is None
         else np.asarray(time, dtype=float)
     )
     if at.shape != np.shape(history.a):
-        raise ValueError(f"{np.size(history.a)} instants need as many times; got {at.shape}")
+        raise ValueError(
+            f"time has the shape {at.shape}; give one time for each of the {np.size(history.a)} "
+            "instants"
+        )
     return at
 
 
 def _steps(history: Any) -> Array:
-    """How far each place slips in each interval between instants."""
+    """The slip at each position in each interval between two instants."""
     return np.diff(history.slip, axis=0)
 
 
@@ -68,15 +75,17 @@ def slip_map(
     length: Measure | None = None,
     legend: bool = True,
 ) -> Axes:
-    """Where the contact sticks and in which direction it slips; position upward, time to the right.
+    """Draw a map of stick and of the direction of slip, with position over time.
 
-    Each interval between two instants is coloured by its slip, so that any number of
-    stick intervals is seen.
+    Each interval between two instants is coloured by its slip, so that any number of stick zones
+    can be seen.
 
-    history  what `history` of a generated module returns, for one history
-    x        the places that it was given, in one row; some two hundred make a smooth map
-    time     of each instant; 0, 1, 2, ... unless it is given
-    length   what x is divided by; the unit that suits, unless it is given
+    history  a result of `history` of a generated module, for one history
+    x        the positions that were given to `history`; about two hundred make a smooth map
+    time     the time of each instant; 0, 1, 2, ... by default
+    axes     Axes to draw into; new ones by default
+    length   the unit of x; a suitable one by default
+    legend   whether to draw a legend
     """
     _demand_history(history, x)
     at, x = _times(history, time), np.asarray(x, dtype=float)
@@ -105,9 +114,9 @@ def slip_map(
             rasterized=True,
             zorder=0.5,
         )
-        for border, beyond in ((low, least - margin), (high, greatest + margin)):
-            axes.fill_between(at, border, beyond, color="white", linewidth=0, zorder=0.6)
-            axes.plot(at, border, color="#555555", linewidth=1.0)
+        for edge, beyond in ((low, least - margin), (high, greatest + margin)):
+            axes.fill_between(at, edge, beyond, color="white", linewidth=0, zorder=0.6)
+            axes.plot(at, edge, color="#555555", linewidth=1.0)
         for number, name in enumerate(KINDS):
             if np.any(shown & (kind == number).T):
                 axes.fill_between([], [], [], label=name, **AREAS[name])
@@ -129,9 +138,11 @@ def slip_map(
 
 
 def _bounds(body: ModuleType, history: Any, x: Array, f: float, constants: Any) -> Array:
-    """f p at all places and instants; NaN at a corner, where it is infinite."""
+    """f p at all positions and instants; NaN at a corner, where p is infinite."""
     if not f > 0:
-        raise ValueError(f"f is {f}; give the coefficient of friction that `history` was given")
+        raise ValueError(
+            f"f is {f}; give the positive coefficient of friction that was given to `history`"
+        )
     p = body.pressure(np.asarray(x), history.a[:, None], history.c[:, None], **constants)
     return np.where(np.isfinite(p), f * p, np.nan)
 
@@ -149,25 +160,31 @@ def instants(
     stress: Measure | None = None,
     **constants: float,
 ) -> Sequence[Axes]:
-    """Shear at chosen instants above, within the friction bounds; slip so far below.
+    """Draw shear traction and friction bounds at chosen instants, and below them the slip so far.
 
-    Slip is drawn where the bodies touch at all instants: elsewhere they move freely in between.
+    Slip is drawn only where the bodies touch at all instants, because they move freely elsewhere.
 
-    body       a generated module
-    history, x as for `slip_map`
-    at         numbers of the instants, from 0; -1 is the last one
-    labels     what the legend says of each; their numbers, unless they are given
-    axes       two Axes, or None for new ones
-    length     what x is divided by; the unit that suits, unless it is given
-    stress     what shear is divided by
-    constants  E_star and the body's own parameters
+    body        a generated module
+    history, x  see `slip_map`
+    at          indices of the instants, starting at 0; -1 is the last one
+    labels      labels of the instants in the legend; their indices by default
+    f           coefficient of friction, as given to `history`
+    axes        two Axes to draw into; new ones by default
+    length      the unit of x; a suitable one by default
+    stress      the unit of the shear traction; a suitable one by default
+    constants   E_star and the parameters of the body
     """
     _demand_history(history, x)
     x, count = np.asarray(x, dtype=float), np.size(history.a)
     if not len(at) or not all(-count <= i < count for i in at):
-        raise ValueError(f"at is {list(at)}; give numbers of instants, of which there are {count}")
+        raise ValueError(
+            f"at is {list(at)}; give at least one index from {-count} to {count - 1}, because "
+            f"history has {count} instants"
+        )
     if labels and len(labels) != len(at):
-        raise ValueError(f"{len(labels)} labels are given for {len(at)} instants")
+        raise ValueError(
+            f"{len(labels)} labels are given for {len(at)} instants; give one for each, or none"
+        )
     bound = _bounds(body, history, x, f, constants)
     chosen = [bound[i] for i in at]
     touching = (x >= -np.min(history.a)) & (x <= np.min(history.c))
@@ -193,12 +210,12 @@ def instants(
 def friction_work(
     body: ModuleType, history: Any, x: Array, *, f: float, **constants: float
 ) -> Array:
-    """Friction's work at every place, per area [J/m²].
+    """The frictional work per unit area at every position [J/m²].
 
         sum of f (p_1 + p_2)/2 |slip_2 - slip_1| over all intervals between two instants
 
-    That is exact while slip goes one way between two instants and the pressure is constant.
-    Arguments are those of `instants`.
+    The sum is exact if, between two instants, slip has one direction and the pressure is constant.
+    For the arguments, see `instants`.
     """
     _demand_history(history, x)
     bound = _bounds(body, history, x, f, constants)
@@ -218,9 +235,11 @@ def work(
     label: str | None = None,
     **constants: float,
 ) -> Axes:
-    """Friction's work of the whole history along x, as by `friction_work`.
+    """Draw the frictional work of the whole history over x; see `friction_work`.
 
-    Arguments are those of `instants`.
+    label      the label of the curve in a legend
+
+    For the other arguments, see `instants`.
     """
     done = friction_work(body, history, x, f=f, **constants)
     length, joule = length or unit(x, "m"), unit(done, "J/m²")
@@ -245,18 +264,18 @@ def film(
     stress: Measure | None = None,
     **constants: float,
 ) -> FuncAnimation:
-    """A film of the shear within the friction bounds, one frame for each instant.
+    """Make an animation of the shear traction and the friction bounds, with a frame per instant.
 
-    Its `save` writes a GIF, `to_jshtml` makes a player for a notebook.
+    The method `save` of the result writes a GIF, and `to_jshtml` makes a player for a notebook.
 
-    interval   milliseconds a frame
+    interval   the duration of a frame in milliseconds
 
-    Arguments are those of `instants`, and `time` that of `slip_map`.
+    For the other arguments, see `instants`, and for `time`, see `slip_map`.
     """
     _demand_history(history, x)
     at, bound = _times(history, time), _bounds(body, history, x, f, constants)
     length, stress = length or unit(x, "m"), stress or unit(typical(np.ravel(bound)), "Pa")
-    place, highest = length(x), 1.15 * float(np.nanmax(typical(stress(np.ravel(bound)))))
+    position, highest = length(x), 1.15 * float(np.nanmax(typical(stress(np.ravel(bound)))))
     step = np.vstack([np.zeros(np.size(x)), _steps(history)])
     most = np.max(np.abs(step), initial=0.0, where=np.isfinite(step))
     with style():
@@ -266,25 +285,25 @@ def film(
         (upper,) = axes.plot([], [], label=r"$\pm f\,p$", **grey)
         (lower,) = axes.plot([], [], **grey)
         (shear,) = axes.plot([], [], color=COLOURS["vermilion"], linewidth=2, label="$q$")
-        ways = [
+        areas = [
             axes.fill_between([], [], [], label=name, zorder=0.5, **AREAS[name])
             for name in ("forward slip", "reverse slip")
         ]
-        word = axes.text(0.98, 0.04, "", transform=axes.transAxes, ha="right")
+        caption = axes.text(0.98, 0.04, "", transform=axes.transAxes, ha="right")
         axes.set(xlabel=length.label("x"), ylabel=stress.label("q"))
-        axes.set(xlim=(place.min(), place.max()), ylim=(-highest, highest))
+        axes.set(xlim=(position.min(), position.max()), ylim=(-highest, highest))
         key_above(axes)
 
     def draw(i: int) -> list[Any]:
         with style():
-            upper.set_data(place, stress(bound[i]))
-            lower.set_data(place, -stress(bound[i]))
-            shear.set_data(place, stress(history.q[i]))
-            for way, sign in zip(ways, (1, -1), strict=True):
+            upper.set_data(position, stress(bound[i]))
+            lower.set_data(position, -stress(bound[i]))
+            shear.set_data(position, stress(history.q[i]))
+            for area, sign in zip(areas, (1, -1), strict=True):
                 slips = (sign * step[i] > STILL * most) & (bound[i] > 0)
-                way.set_data(place, -stress(bound[i]), stress(bound[i]), where=slips)
-            word.set_text(f"instant {i}" if time is None else f"$t$ = {at[i]:.3g}")
-        return [upper, lower, shear, *ways, word]
+                area.set_data(position, -stress(bound[i]), stress(bound[i]), where=slips)
+            caption.set_text(f"instant {i}" if time is None else f"$t$ = {at[i]:.3g}")
+        return [upper, lower, shear, *areas, caption]
 
     figure: Any = axes.figure
     return FuncAnimation(figure, draw, frames=np.size(history.a), interval=interval, blit=False)

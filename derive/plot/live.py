@@ -1,6 +1,6 @@
-"""Sliders for the loads: contact, tractions and slip zones move at once, in a notebook.
+"""Sliders for the loads in a notebook, with a picture of contact, tractions and slip zones.
 
-`Live` draws, and knows nothing of sliders; `sliders` puts them beside its picture.
+`Live` draws the picture and does not depend on the sliders; `sliders` adds them to the picture.
 """
 
 from importlib.util import find_spec
@@ -19,14 +19,14 @@ from derive.plot.tractions import peak
 from derive.plot.zones import regime_in_words, senses
 
 PLACES = 241
-"""Points along the contact; few enough to draw without delay."""
+"""Number of points along the contact, small enough to draw without delay."""
 
 STEPS = 200
-"""Steps of a slider from nothing to the largest load."""
+"""Number of steps of a slider from zero to the largest load."""
 
 
 class Loads(NamedTuple):
-    """What the sliders set: [N/m], [N], [N/m], [Pa], [-]."""
+    """The values that the sliders set, in N/m, N, N/m, Pa and 1."""
 
     P: float
     M: float
@@ -36,13 +36,14 @@ class Loads(NamedTuple):
 
 
 class Live:
-    """A picture of a steady cycle at constant normal loads that is redrawn in place.
+    """A picture of a steady cycle under constant normal loads, which can be redrawn in place.
 
     body       a generated module
-    largest    the largest loads; the axes hold the contact under their P and M, of either sign
-    constants  E_star and the body's own parameters
+    largest    the largest loads; the axes show the contact under their P and M, of either sign
+    constants  E_star and the parameters of the body
 
-    What reaches further, such as a contact under M and little P, takes the axes along.
+    The axes are moved or widened for a contact beyond their limits, such as one under M and a
+    small P.
     """
 
     def __init__(self, body: ModuleType, largest: Loads, **constants: float) -> None:
@@ -53,14 +54,14 @@ class Live:
         if not np.any(np.isfinite(farthest.a)):
             raise ValueError(
                 f"there is no contact under largest.P = {largest.P:g} and largest.M = "
-                f"{largest.M:g} of either sign: give loads that the body can take"
+                f"{largest.M:g} of either sign; give loads that the body can carry"
             )
         self.reach = 1.04 * float(np.nanmax([farthest.a, farthest.c]))
         self.top = 1.6 * largest.P / float(np.nanmin(farthest.a + farthest.c))
         self.length, self.stress = unit(self.reach, "m"), unit(self.top, "Pa")
         with style():
             self.figure = Figure(figsize=(8.4, 4.6), dpi=90)
-            # The axes stay in place: a new layout takes longer than drawing them.
+            # The layout is fixed, because computing a new one takes longer than drawing the axes.
             self.figure.set_layout_engine("none")
             self.canvas = FigureCanvasAgg(self.figure)
             self.below = self.figure.add_axes((0.09, 0.11, 0.89, 0.42))
@@ -69,7 +70,7 @@ class Live:
             self._prepare()
 
     def _prepare(self) -> None:
-        """Axes and artists; `show` gives the artists their data, and the axes their limits."""
+        """Create the artists; `show` sets their data and the limits of the axes."""
         self.above.set(ylabel=self.stress.label("p"))
         self.below.set(xlabel=self.length.label("x"), ylabel=self.stress.label(r"\Delta q"))
         (self.pressure,) = self.above.plot([], [], color=COLOURS["blue"])
@@ -84,7 +85,7 @@ class Live:
         ]
 
     def show(self, loads: Loads) -> str:
-        """Draw the cycle under these loads; returns one line that describes it."""
+        """Draw the cycle under these loads, and return a description of it in one line."""
         state = self.body.contact(loads.P, loads.M, **self.constants)
         law = {"f": loads.f, **self.constants}
         zone = self.body.stick_zone(state, state, loads.dQ, loads.dsigma, **law)
@@ -104,9 +105,9 @@ class Live:
         return self._described(state, zone, loads)
 
     def _hold(self, state: Any, p: Array, f: float) -> None:
-        """Limits of the axes: those of the largest loads, moved or widened to hold what is drawn.
+        """Set the limits of the axes to those of the largest loads.
 
-        The peak at a corner is cut off.
+        They are moved or widened if the contact is outside them.  The peak at a corner is cut off.
         """
         low, high = -self.reach, self.reach
         if np.isfinite(state.a):
@@ -118,27 +119,27 @@ class Live:
         height = 1.08 * peak(p)
         upper, lower = max(self.top, height), max(self.top, 2 * f * height)
         self.above.set_ylim(0, float(self.stress(upper)))
-        self.below.set_ylim(*(way * float(self.stress(lower)) for way in (-1, 1)))
+        self.below.set_ylim(*(sign * float(self.stress(lower)) for sign in (-1, 1)))
         self.below.set_xlim(float(self.length(low)), float(self.length(high)))
 
     def _shade(self, state: Any, zone: Any, dsigma: float) -> None:
-        ways = senses(zone, dsigma)
+        senses_of_slip = senses(zone, dsigma)
         zones = ((-state.a, -zone.m), (zone.n, state.c))
         for i, span in enumerate(self.spans):
-            (start, end), way = zones[i % 2], ways[i % 2]
-            known = bool(way != 0) and np.isfinite(zone.m)
+            (start, end), sense = zones[i % 2], senses_of_slip[i % 2]
+            known = bool(sense != 0) and np.isfinite(zone.m)
             span.set_visible(known)
             if known:
                 span.set_x(float(self.length(start)))
                 span.set_width(float(self.length(end - start)))
-                span.set_color(FORWARD if way > 0 else REVERSE)
+                span.set_color(FORWARD if sense > 0 else REVERSE)
 
     def _described(self, state: Any, zone: Any, loads: Loads) -> str:
         def lengths(*values: Array) -> str:
             return ", ".join(f"{float(self.length(value)):.4f}" for value in values)
 
         if not np.isfinite(state.a):
-            return "no contact: the body cannot take these loads"
+            return "no contact: the body cannot carry these loads"
         regime = regime_in_words(self.body, zone)
         name = self.length.name
         parts = [f"{regime}: contact [{lengths(-state.a, state.c)}] {name}"]
@@ -154,7 +155,7 @@ class Live:
         return "; ".join(parts)
 
     def png(self) -> bytes:
-        """The picture as it is now."""
+        """The current picture."""
         target = BytesIO()
         with style():
             self.canvas.print_png(target, pil_kwargs={"compress_level": 1})  # type: ignore[no-untyped-call]
@@ -162,36 +163,41 @@ class Live:
 
 
 def _demand_largest(largest: Loads) -> None:
-    """The ends of the sliders: finite and not negative."""
+    """Demand ends of the sliders that are finite and not negative; P, dQ and f must be positive."""
     for name, value in largest._asdict().items():
         positive = name in ("P", "dQ", "f")
-        allowed = "a positive number" if positive else "a number that is not negative"
+        allowed = "a finite positive number" if positive else "a finite number that is not negative"
         right = np.ndim(value) == 0 and np.isfinite(value) and value >= 0
         if not right or (positive and value == 0):
             raise ValueError(
-                f"largest.{name} is {value}; it is where a slider ends: give {allowed}"
+                f"largest.{name} is {value}, but the end of a slider must be {allowed}; give one"
             )
 
 
 def _demand_start(start: Loads, largest: Loads) -> None:
-    """The sliders start between their ends."""
+    """Demand starting values between the ends of the sliders."""
     for name, value in start._asdict().items():
         most = getattr(largest, name)
         least = -most if name in ("M", "dsigma") else 0
         if np.ndim(value) or not least <= value <= most:
             raise ValueError(
-                f"start.{name} is {value}, and its slider runs from {least:g} to {most:g}: give a "
-                f"number between them, or raise largest.{name}"
+                f"start.{name} is {value}, but its slider covers {least:g} to {most:g}; give a "
+                f"number in this range, or increase largest.{name}"
             )
 
 
 def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) -> Any:
-    """Sliders from no load to the largest, and the picture that follows them.
+    """Sliders for the loads, and a picture that follows them.
 
-    Raises MissingLibrary without ipywidgets.
+    body       a generated module
+    largest    the loads at the ends of the sliders
+    start      the loads at which the sliders start
+    constants  E_star and the parameters of the body
+
+    Raises MissingLibrary if ipywidgets is not installed.
     """
     if find_spec("ipywidgets") is None:
-        raise MissingLibrary("ipywidgets", "moving the loads by sliders", "notebooks")
+        raise MissingLibrary("ipywidgets", "changing the loads with sliders", "notebooks")
     import ipywidgets
 
     live = Live(body, largest, **constants)

@@ -1,4 +1,4 @@
-"""What stands on an axis: a symbol and its unit, or its ratio to a quantity of the problem."""
+"""The units of axes: a unit with a prefix, or a quantity of the problem for ratios."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -12,9 +12,9 @@ Array = Any
 class Measure:
     """The unit or quantity by which values are divided before they are drawn.
 
-    size   in SI units, e.g. 1e-3, or the half-width of a contact
+    size   its value in SI units, e.g. 1e-3, or the half-width of a contact
     name   its name on the axis: a unit, or a symbol in LaTeX
-    ratio  whether it is a quantity of the problem, and what is drawn a ratio
+    ratio  whether it is a quantity of the problem, so that ratios are drawn
     """
 
     size: float
@@ -24,12 +24,12 @@ class Measure:
     def __post_init__(self) -> None:
         if not (np.isfinite(self.size) and self.size > 0):
             raise ValueError(
-                f"{self.name!r} has the size {self.size}; what values are divided by is positive: "
-                "give a length or load of the problem"
+                f"{self.name!r} has the size {self.size}, but values can only be divided by a "
+                "finite positive number; give a length or load of the problem"
             )
 
     def __call__(self, values: Array) -> Array:
-        """Values as drawn; infinite ones are left out."""
+        """The values as drawn; infinite values become NaN and are left out."""
         drawn = np.asarray(values, dtype=float) / self.size
         return np.where(np.isfinite(drawn), drawn, np.nan)
 
@@ -43,7 +43,7 @@ class Measure:
 
 
 def over(size: float, name: str) -> Measure:
-    """Ratios to a quantity of the problem, such as ``over(state.a, "a")``."""
+    """A measure for ratios to a quantity of the problem, such as ``over(state.a, "a")``."""
     return Measure(float(size), name, ratio=True)
 
 
@@ -56,18 +56,18 @@ _PREFIXES = {
     "J/m²": ((1e3, "kJ/m²"), (1.0, "J/m²")),
 }
 _LEAST = 0.1
-"""The largest value drawn is at least this many units."""
+"""The largest value in the chosen unit is at least this number."""
 
 
 def unit(values: Array, of: str) -> Measure:
-    """The unit that suits the values: m, Pa, N/m, N, rad or J/m², with a prefix.
+    """The suitable unit for the values: m, Pa, N/m, N, rad or J/m², with a prefix.
 
     >>> unit([2e-4, 7e-4], "m").name, unit(890e6, "Pa").name
     ('mm', 'MPa')
     """
     known = _PREFIXES.get(of)
     if known is None:
-        raise ValueError(f"no unit {of!r} is known: give one of {', '.join(_PREFIXES)}")
+        raise ValueError(f"the unit {of!r} is not known; give one of {', '.join(_PREFIXES)}")
     finite = np.abs(np.asarray(values, dtype=float))
     finite = finite[np.isfinite(finite)]
     greatest = float(np.max(finite)) if finite.size else 0.0

@@ -1,4 +1,4 @@
-"""Errors of the series of the slip zones against the exact conditions."""
+"""Errors of the series of the slip zones, compared with the exact conditions."""
 
 from collections.abc import Sequence
 from types import ModuleType
@@ -12,10 +12,10 @@ from derive.plot.style import LINES, style, subplots
 
 
 class Errors(NamedTuple):
-    """Slip zones and their errors, as (left, right) along the first axis.
+    """Slip zones and their errors, for the left and the right edge along the first axis.
 
-    size      slip zone over the contact's width
-    relative  of each order, |series/exact - 1|
+    size      the size of the slip zone over the contact width
+    relative  the relative error |series/exact - 1| of each order
     """
 
     size: Array
@@ -32,22 +32,24 @@ def relative_errors(
     orders: Sequence[int] = (1, 2, 3),
     **constants: float,
 ) -> Errors:
-    """Errors of the series of a body's slip zones under constant normal loads.
+    """Errors of the series of the slip zones of a body under constant normal loads.
 
     body        a generated module
-    state       Contact of the normal loads
-    dQ, dsigma  cycles: each a number or an array
-    constants   E_star and the body's own parameters
+    state       Contact under the normal loads
+    dQ, dsigma  changes of the shear load and of the tension in the half-cycle: numbers or arrays
+    f           coefficient of friction
+    orders      orders of the series
+    constants   E_star and the parameters of the body
     """
     law = {"f": f, **constants}
     zone = body.stick_zone(state, state, dQ, dsigma, **law)
     exact = np.stack(np.broadcast_arrays(state.a - zone.m, state.c - zone.n))
-    found = {}
+    relative = {}
     for order in orders:
         series = body.slip_zones(state.a, state.c, dQ, dsigma, order=order, **law)
         with np.errstate(all="ignore"):
-            found[order] = np.abs(np.stack(np.broadcast_arrays(*series)) / exact - 1)
-    return Errors(exact / (state.a + state.c), found)
+            relative[order] = np.abs(np.stack(np.broadcast_arrays(*series)) / exact - 1)
+    return Errors(exact / (state.a + state.c), relative)
 
 
 def errors(
@@ -61,23 +63,23 @@ def errors(
     axes: Axes | None = None,
     **constants: float,
 ) -> Axes:
-    """Relative errors of the series against the size of the slip zone, both logarithmic.
+    """Draw the relative errors of the series over the size of the slip zone, on logarithmic axes.
 
-    Filled marks are for the left edge, open ones for the right.  Arguments are those of
-    `relative_errors`.
+    Filled markers are for the left edge, and open markers for the right edge.  For the arguments,
+    see `relative_errors`.
     """
-    found = relative_errors(body, state, dQ, dsigma, f=f, orders=orders, **constants)
+    computed = relative_errors(body, state, dQ, dsigma, f=f, orders=orders, **constants)
     with style():
         if axes is None:
             _, axes = subplots(size=(5.6, 3.8))
-        for order, relative in found.relative.items():
+        for order, relative in computed.relative.items():
             for edge, marker, fill in ((0, "o", "full"), (1, "s", "none")):
                 look = {**LINES[f"order {order}"], "linewidth": 1.2}
                 label = f"order {order}, {'left' if edge == 0 else 'right'}"
-                seen = np.where(relative[edge] > 0, relative[edge], np.nan)
+                nonzero = np.where(relative[edge] > 0, relative[edge], np.nan)
                 axes.loglog(
-                    np.ravel(found.size[edge]),
-                    np.ravel(seen),
+                    np.ravel(computed.size[edge]),
+                    np.ravel(nonzero),
                     marker=marker,
                     markersize=4.5,
                     fillstyle=fill,

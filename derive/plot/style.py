@@ -1,7 +1,7 @@
-"""The look of every picture; nothing outside its context changes.
+"""The style of all pictures, applied in a context that leaves other pictures unchanged.
 
-Colours are those of Okabe and Ito, which readers with any kind of colour vision tell apart; lines
-that mean different things differ in their dashes, too.
+The colours are those of Okabe and Ito, which can be distinguished with any kind of colour vision.
+Lines with different meanings also differ in their dashes.
 """
 
 from collections.abc import Iterator, Sequence
@@ -25,10 +25,10 @@ COLOURS = {
 }
 
 CYCLE = tuple(COLOURS[name] for name in ("blue", "orange", "purple", "green", "vermilion", "sky"))
-"""In which order lines take their colours."""
+"""The colours of successive lines."""
 
 FORWARD, REVERSE, STICK = "#f3cf80", "#80b9d9", "#ececec"
-"""Areas: slip in the sense of a positive dQ, slip against it, and stick."""
+"""The colours of areas: slip in the direction of a positive dQ, slip against it, and stick."""
 
 LINES: dict[str, dict[str, Any]] = {
     "exact": {"color": COLOURS["black"], "linestyle": "-", "linewidth": 1.4},
@@ -38,7 +38,7 @@ LINES: dict[str, dict[str, Any]] = {
     "order 3": {"color": COLOURS["blue"], "linestyle": (0, (6, 2, 1, 2, 1, 2)), "linewidth": 1.6},
     "solver": {"color": COLOURS["black"], "linestyle": "", "marker": "o", "markersize": 3.5},
 }
-"""What is drawn alike in every picture: results of one kind."""
+"""The line styles of each kind of result, the same in every picture."""
 
 _STYLE: Any = {
     "axes.grid": True,
@@ -69,10 +69,11 @@ _STYLE: Any = {
 
 @contextmanager
 def style() -> Iterator[None]:
-    """The look of this package, for what is drawn inside ``with style():``.
+    """Apply the style of this package to pictures that are drawn inside ``with style():``.
 
-    Unlike matplotlib's own context it puts back no more than it has changed: the first figure of a
-    notebook is made inside, and what sets up its display must last.
+    Unlike the context manager of matplotlib, this one restores only the settings that it has
+    changed.  If the first figure of a notebook is made inside, the settings of its display must
+    remain.
     """
     before = {name: mpl.rcParams[name] for name in _STYLE}
     mpl.rcParams.update(_STYLE)
@@ -90,22 +91,24 @@ def subplots(
     titles: Sequence[str] = (),
     **more: Any,
 ) -> tuple[Figure, Any]:
-    """A figure and its Axes in this look, as of matplotlib's `subplots`.
+    """Make a figure and its Axes in this style, like `subplots` of matplotlib.
 
-    size    in inches
-    titles  of the Axes, row by row
+    rows, columns  numbers of rows and columns of Axes
+    size           the size of the figure in inches
+    titles         the titles of the Axes, row by row
+    more           other arguments of `matplotlib.pyplot.subplots`
     """
     with style():
         figure, axes = plt.subplots(
             rows, columns, figsize=size or (4.6 * columns, 3.2 * rows), **more
         )
-        for place, title in zip(figure.axes, titles, strict=False):
-            place.set_title(title)
+        for each, title in zip(figure.axes, titles, strict=False):
+            each.set_title(title)
     return figure, axes
 
 
 def save(figure: Figure, path: str | Path) -> None:
-    """Write a picture whose bytes are the same each time; the suffix says in which format."""
+    """Write a picture as a reproducible file, in the format given by the suffix of its path."""
     suffix = Path(path).suffix
     dated = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
     with style():

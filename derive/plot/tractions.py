@@ -1,4 +1,4 @@
-"""What acts along the interface: pressure, the change of shear, slip and the work of friction."""
+"""Pressure, change of shear traction, slip and frictional work along the interface."""
 
 from collections.abc import Sequence
 from types import ModuleType
@@ -18,14 +18,20 @@ from derive.plot.style import COLOURS, style, subplots
 from derive.plot.zones import AREAS, MIXED, regime_in_words, senses
 
 SAMPLES = 401
-"""Places along a contact; closer together towards its edges."""
+"""Number of points along a contact, minus one; they are closer together towards its edges."""
 
 IN_A_ZONE = 61
-"""Places along a slip zone: slip is nothing outside, and takes time where a body is integrated."""
+"""Number of points along a slip zone, minus one.
+
+It is small because slip takes long to compute for integrated bodies; slip outside the zone is zero.
+"""
 
 
 def places(left: float, right: float, count: int = SAMPLES) -> Array:
-    """Places from `left` to `right`, dense at both; an even number, and so none in the middle."""
+    """`count` + 1 points from `left` to `right`, closer together at both ends.
+
+    If `count` is odd, no point is in the middle.
+    """
     angle = np.linspace(0, np.pi, count + 1)
     return (left + right) / 2 - (right - left) / 2 * np.cos(angle)
 
@@ -40,14 +46,15 @@ def pressures(
     stress: Measure | None = None,
     **constants: float,
 ) -> Axes:
-    """Contact pressure under one or more contacts of a body.
+    """Draw the pressure of one or more contacts of a body.
 
     body       a generated module
-    states     Contacts, as `body.contact` returns them
-    labels     what the legend says of each; none, no legend
-    length     what x is divided by; the unit that suits, unless it is given
-    stress     what the pressure is divided by
-    constants  E_star and the body's own parameters
+    states     Contacts, as returned by `body.contact`
+    labels     the label of each contact; without labels, no legend is drawn
+    axes       Axes to draw into; new ones by default
+    length     the unit of x; a suitable one by default
+    stress     the unit of the pressure; a suitable one by default
+    constants  E_star and the parameters of the body
     """
     demand_contacts(states, labels)
     lines = []
@@ -70,13 +77,13 @@ def pressures(
 
 
 def typical(p: Array) -> Array:
-    """Pressures without the peak of a corner, which has no height."""
+    """The pressures without the peak at a corner, where the pressure is infinite."""
     finite = p[np.isfinite(p)]
     return finite if finite.size < 2 else finite[finite <= np.quantile(finite, 0.97)]
 
 
 def peak(*drawn: Array) -> float:
-    """The greatest of all pressures; that of a corner has no height: cut off above the rest."""
+    """The largest of all pressures, with the infinite peak at a corner cut off above the others."""
     finite = [p[np.isfinite(p)] for p in drawn]
     top = max(float(np.max(p, initial=0.0)) for p in finite)
     rest = max(float(np.max(typical(p), initial=0.0)) for p in finite)
@@ -84,7 +91,7 @@ def peak(*drawn: Array) -> float:
 
 
 def _from_zero(axes: Axes, drawn: Sequence[Array]) -> None:
-    """Pressure is drawn from zero."""
+    """Set the limits of an axis of pressure, which begins at zero."""
     top = peak(*drawn)
     if top > 0:
         axes.set_ylim(0, 1.08 * top)
@@ -104,20 +111,22 @@ def tractions(
     stress: Measure | None = None,
     **constants: float,
 ) -> Sequence[Axes]:
-    """Pressure at both ends of a half-cycle above, the change of shear over it below.
+    """Draw the pressure at both ends of a half-cycle, and below it the change of shear traction.
 
-    Where the change of shear touches the band, f (p1 + p2), the surfaces slip; those parts are
-    shaded in the colour of the sense of slip.  Where slip turns round within the half-cycle the
-    zone is dotted, and the shear may not be known: then the picture says so.
+    The surfaces slip where the change of shear traction reaches the bound f (p1 + p2).  These zones
+    are shaded in the colour of the direction of slip.  A zone in which slip reverses within the
+    half-cycle is dotted; the shear traction may then be unknown, which a note in the picture
+    states.
 
     body           a generated module
-    first, second  Contacts at the start and at the end of the half-cycle that raises the shear
-    dQ, dsigma     changes of the shear load and of the tension over it
-    mixed          whether stick zones are solved for where slip turns round, as by `stick_zone`
-    axes           two Axes, or None for new ones
-    length         what x is divided by; the unit that suits, unless it is given
-    stress         what pressure and shear are divided by
-    constants      E_star and the body's own parameters
+    first, second  Contacts at the start and at the end of the half-cycle that raises the shear load
+    dQ, dsigma     changes of the shear load and of the tension in this half-cycle
+    f              coefficient of friction
+    mixed          whether to compute stick zones where slip reverses; see `stick_zone`
+    axes           two Axes to draw into; new ones by default
+    length         the unit of x; a suitable one by default
+    stress         the unit of pressure and shear traction; a suitable one by default
+    constants      E_star and the parameters of the body
     """
     _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
     law = {"f": f, **constants}
@@ -170,19 +179,20 @@ def shear(
     stress: Measure | None = None,
     **constants: float,
 ) -> Axes:
-    """Shear traction at both ends of a cycle at constant normal loads, and on the way down.
+    """Draw the shear traction at and between both ends of a cycle under constant normal loads.
 
-    Where it touches the band, f p, the surfaces slip.
+    The surfaces slip where the shear traction reaches the bound f p.
 
     body        a generated module
-    contact     Contact under the normal loads, as `body.contact` returns it
-    Q, sigma    shear load and tension at the upper end, which are reached first, from nothing
-    dQ, dsigma  changes of both over the half-cycle
-    between     states that are drawn on the way from the upper to the lower end
-    axes        Axes, or None for new ones
-    length      what x is divided by; the unit that suits, unless it is given
-    stress      what the shear is divided by
-    constants   E_star and the body's own parameters
+    contact     Contact under the normal loads, as returned by `body.contact`
+    Q, sigma    shear load and tension at the upper end, which is reached first, from zero loads
+    dQ, dsigma  changes of both in the half-cycle
+    f           coefficient of friction
+    between     number of states that are drawn between the upper and the lower end
+    axes        Axes to draw into; new ones by default
+    length      the unit of x; a suitable one by default
+    stress      the unit of the shear traction; a suitable one by default
+    constants   E_star and the parameters of the body
     """
     demand_numbers(Q=Q, sigma=sigma)
     if not isinstance(between, int) or between < 0:
@@ -198,8 +208,8 @@ def shear(
     if not np.all(np.any(np.isfinite(q[[0, -1]]), axis=1)):
         changes = {"first rise": (2 * Q, 2 * sigma), "fall": (dQ, dsigma)}
         raise ValueError(
-            f"the shear is not known under Q = {Q:g}, sigma = {sigma:g}, dQ = {dQ:g}, dsigma = "
-            f"{dsigma:g}: {_why_unknown(body, contact, changes, law)}"
+            f"the shear traction is not known for Q = {Q:g}, sigma = {sigma:g}, dQ = {dQ:g} and "
+            f"dsigma = {dsigma:g}: {_why_unknown(body, contact, changes, law)}"
         )
     length, stress = length or unit(x, "m"), stress or unit(typical(bound), "Pa")
     with style():
@@ -223,14 +233,21 @@ def _why_unknown(
     changes: dict[str, tuple[float, float]],
     law: dict[str, float],
 ) -> str:
-    """What keeps both ends of a cycle from being known; changes: dQ and dsigma by their names."""
-    for what, change in changes.items():
+    """The reason why the shear traction at the ends of a cycle is not known, and what to do.
+
+    changes: dQ and dsigma of each part of the cycle, by the name of the part
+    """
+    for part, change in changes.items():
         regime = regime_in_words(body, body.stick_zone(contact, contact, *change, **law))
         if regime not in ("moderate", "large", "full stick"):
-            return f"the {what} is in the regime {regime}; it must be moderate or large tension"
+            return (
+                f"the {part} is in the regime {regime}; give loads under which its regime is full "
+                "stick, moderate or large tension"
+            )
     return (
-        "the fall slips where the first rise did not, or the other way, or drives on what slipped; "
-        "give the end of the larger shear load as Q and sigma, so that dQ <= 2 Q"
+        "the zones that slip in the first rise and in the fall do not match, or slip continues in "
+        "the same direction; give the end with the larger shear load as Q and sigma, so that "
+        "dQ <= 2 Q"
     )
 
 
@@ -250,32 +267,32 @@ def _demand_half_cycle(
 
 
 def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Measure) -> None:
-    """Slip zones in the look of their sense; the last of the Axes holds what a legend says."""
+    """Shade the slip zones by their direction of slip; the last of the Axes gets the labels."""
     if not np.isfinite(zone.m):
         return
-    turns = "slip turns round" if int(zone.regime) == MIXED else ""
+    reversing = "slip turns round" if int(zone.regime) == MIXED else ""
     named = set()
     for (start, end), sense in zip(
         ((-at.a, -zone.m), (zone.n, at.c)), senses(zone, dsigma), strict=True
     ):
-        name = {1: "forward slip", -1: "reverse slip"}.get(int(sense), turns)
+        name = {1: "forward slip", -1: "reverse slip"}.get(int(sense), reversing)
         if not name:
             continue
-        for place in axes:
-            label = name if place is axes[-1] and name not in named else None
-            here = float(length(start)), float(length(end))
-            place.axvspan(*here, label=label, zorder=0.5, **AREAS[name])
+        for each in axes:
+            label = name if each is axes[-1] and name not in named else None
+            ends = float(length(start)), float(length(end))
+            each.axvspan(*ends, label=label, zorder=0.5, **AREAS[name])
         named.add(name)
 
 
 def band(axes: Axes, x: Array, limit: Array, label: str) -> None:
-    """What friction holds, both ways."""
+    """Draw the friction bounds of either sign."""
     for side, text in ((1, label), (-1, None)):
         axes.plot(x, side * limit, color="#888888", linewidth=1, label=text)
 
 
 def key_above(axes: Axes) -> None:
-    """A legend in one row above."""
+    """Draw a legend in one row above the Axes."""
     axes.legend(
         loc="lower left",
         bbox_to_anchor=(0, 1.0),
@@ -287,7 +304,7 @@ def key_above(axes: Axes) -> None:
 
 
 def _say_why(axes: Axes, body: ModuleType, zone: Any, what: str) -> None:
-    """A word in place of a curve that is not known."""
+    """Write a note in place of a curve that is not known."""
     regime = regime_in_words(body, zone)
     axes.text(0.02, 0.06, f"{regime}: the {what} is not known", transform=axes.transAxes)
 
@@ -305,12 +322,12 @@ def slip(
     length: Measure | None = None,
     **constants: float,
 ) -> Sequence[Axes]:
-    """How far the surfaces slip over a half-cycle above; below, friction times slip.
+    """Draw the slip in a half-cycle, and below it f p s.
 
-    The lower one is f p s with p the mean of the pressures at both ends: under constant normal
-    loads the work that friction does at a place in every half-cycle, per area.
+    Here s is the slip and p is the mean of the pressures at both ends of the half-cycle.  Under
+    constant normal loads, f p s is the frictional work per unit area in every half-cycle.
 
-    Arguments are those of `tractions`.
+    For the arguments, see `tractions`.
     """
     _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
     law = {"f": f, **constants}
@@ -326,10 +343,10 @@ def slip(
     with style():
         if axes is None:
             _, axes = subplots(2, 1, size=(5.6, 4.6), sharex=True)
-        for place, values, colour in zip(
+        for each, values, colour in zip(
             axes, (depth(slipped), joule(work)), ("blue", "vermilion"), strict=True
         ):
-            place.plot(length(x), values, color=COLOURS[colour])
+            each.plot(length(x), values, color=COLOURS[colour])
         _shade(axes, second, zone, dsigma, length)
         if not np.any(np.isfinite(slipped)):
             _say_why(axes[0], body, zone, "slip")
@@ -337,6 +354,6 @@ def slip(
         axes[1].set(xlabel=length.label("x"), ylabel=joule.label("f\\,p\\,s"))
         if axes[1].get_legend_handles_labels()[1]:
             key_above(axes[1])
-        for place in axes:
-            place.set_ylim(bottom=0)
+        for each in axes:
+            each.set_ylim(bottom=0)
     return axes

@@ -1,4 +1,4 @@
-"""Maps of stick and slip: position upward, time or a parameter to the right."""
+"""Maps of stick and slip, with position over time or over a parameter."""
 
 from collections.abc import Iterator
 from math import ceil
@@ -13,19 +13,20 @@ from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import FORWARD, LINES, REVERSE, STICK, style, subplots
 
 MODERATE, LARGE, MIXED = 1, 2, 3
-"""Codes of `Regime` in every generated module."""
+"""The codes of `Regime` in every generated module."""
 
 
 def senses(zone: Any, dsigma: Array) -> tuple[Array, Array]:
     """Sense of slip at the left and at the right edge at the end of the half-cycle that raises Q.
 
-    +1 in the sense of a positive dQ, -1 against it, 0 none, or none that is known.  In the mixed
-    regime slip turns round at the edge that tension does not load.
+    It is +1 for slip in the direction of a positive dQ, -1 for slip against it, and 0 if there is
+    no slip or its sense is not known.  In the mixed regime, slip reverses at one edge: the edge at
+    which the tension opposes the shear load.
     """
-    regime, back = np.asarray(zone.regime), np.asarray(dsigma) < 0
+    regime, negative = np.asarray(zone.regime), np.asarray(dsigma) < 0
     large, mixed = regime == LARGE, (regime == MIXED) & np.isfinite(zone.m)
-    left = np.where(back, np.where(large, -1, 0), 1)
-    right = np.where(back, 1, np.where(large, -1, 0))
+    left = np.where(negative, np.where(large, -1, 0), 1)
+    right = np.where(negative, 1, np.where(large, -1, 0))
     slips = large | mixed
     forward = np.where(regime == MODERATE, 1, 0)
     return np.where(slips, left, forward), np.where(slips, right, forward)
@@ -39,28 +40,32 @@ def stick_slip(
     length: Measure | None = None,
     legend: bool = True,
 ) -> Axes:
-    """Stick and slip over a cycle, instant by instant.
+    """Draw stick and slip at the instants of a cycle.
 
-    cycle   what `march` of a generated module returns, for one cycle
-    time    of each instant; equal steps over one cycle, unless it is given
-    length  what x is divided by; the unit that suits, unless it is given
+    cycle   a result of `march` of a generated module, for one cycle
+    time    the time of each instant; equal steps over one cycle by default
+    axes    Axes to draw into; new ones by default
+    length  the unit of x; a suitable one by default
+    legend  whether to draw a legend
     """
     a = np.asarray(cycle.a)
     if a.ndim != 1:
         raise ValueError(
-            f"one cycle is drawn at a time, its instants in one row; got the shape {a.shape}: "
-            "choose one of them, as in March(*(v[0] for v in cycle))"
+            f"cycle has the shape {a.shape}, but only one cycle can be drawn; select one of them, "
+            "for example by March(*(v[0] for v in cycle))"
         )
     at = np.linspace(0, 1, a.size) if time is None else np.asarray(time, dtype=float)
     if at.shape != a.shape:
-        raise ValueError(f"{a.size} instants need as many times; got the shape {at.shape}")
+        raise ValueError(
+            f"time has the shape {at.shape}; give one time for each of the {a.size} instants"
+        )
     axes = _map(at, _Zones(*(np.asarray(v) for v in cycle)), axes, length, legend)
     axes.set_xlabel("$t$  [cycles]" if time is None else "$t$")
     return axes
 
 
 def regime_in_words(body: ModuleType, zone: Any) -> str:
-    """How a cycle slips."""
+    """The name of the regime of a stick zone, such as "full stick"."""
     return str(body.Regime(int(zone.regime)).name.lower().replace("_", " "))
 
 
@@ -75,14 +80,17 @@ def sweep(
     length: Measure | None = None,
     legend: bool = True,
 ) -> Axes:
-    """Contact, stick and slip at the end of a half-cycle, over a parameter.
+    """Draw contact, stick and slip at the end of a half-cycle, over a parameter.
 
-    parameter  what grows to the right
-    contact    Contact at the end of the half-cycle; one for all, or one for each
-    zone       StickZone of each, as `stick_zone` returns it
-    dsigma     change of tension, one for all or one for each; its sign tells which edge slips
-               which way
-    label      what stands along the axis
+    parameter  the values of the parameter
+    contact    Contact at the end of the half-cycle: one for all values, or one for each
+    zone       StickZone for each value, as returned by `stick_zone`
+    dsigma     change of tension: one for all values, or one for each; its sign determines the
+               direction of slip at each edge
+    label      the label of the axis of the parameter
+    axes       Axes to draw into; new ones by default
+    length     the unit of x; a suitable one by default
+    legend     whether to draw a legend
     """
     at = np.asarray(parameter, dtype=float)
     demand_row("parameter", at)
@@ -98,23 +106,27 @@ def sweep(
 
 
 def _demand_tension(zone: Any, dsigma: Array) -> None:
-    """Without tension no edge slips against the other, and its sign decides which one does."""
-    regime, none = np.asarray(zone.regime), np.asarray(dsigma) == 0
+    """Demand a tension that is not zero wherever its sign determines the direction of slip.
+
+    Without tension, both edges slip in the same direction.
+    """
+    regime, zero = np.asarray(zone.regime), np.asarray(dsigma) == 0
     if np.any(np.isnan(dsigma) & np.isfinite(zone.m)):
         raise ValueError(
-            "dsigma is NaN where a stick zone is known: give the dsigma that stick_zone was given"
+            "dsigma is NaN for a stick zone that is known; give the dsigma that was given to "
+            "stick_zone"
         )
-    wrong = ((regime == LARGE) | ((regime == MIXED) & np.isfinite(zone.m))) & none
+    wrong = ((regime == LARGE) | ((regime == MIXED) & np.isfinite(zone.m))) & zero
     if np.any(wrong):
         name = "large" if np.any(wrong & (regime == LARGE)) else "mixed"
         raise ValueError(
-            f"dsigma is 0 where the regime is {name}, and there its sign tells which edge slips "
-            "which way: give the dsigma that stick_zone was given"
+            f"dsigma is 0 where the regime is {name}, in which its sign determines the direction "
+            "of slip at each edge; give the dsigma that was given to stick_zone"
         )
 
 
 class _Zones(NamedTuple):
-    """Contact, stick zone and senses of slip at every place along an axis; codes of Regime."""
+    """Contact, stick zone, senses of slip and code of Regime for every value along an axis."""
 
     a: Array
     c: Array
@@ -135,7 +147,7 @@ AREAS: dict[str, Any] = {
 
 
 def _map(at: Array, zones: _Zones, axes: Axes | None, length: Measure | None, legend: bool) -> Axes:
-    """Areas of stick and slip, and their borders."""
+    """Draw the areas of stick and slip, and the lines between them."""
     length = length or unit(np.append(zones.a, zones.c), "m")
     low, high = -length(zones.a), length(zones.c)
     start, end = -length(zones.m), length(zones.n)
@@ -162,25 +174,25 @@ def _map(at: Array, zones: _Zones, axes: Axes | None, length: Measure | None, le
 def _areas(
     zones: _Zones, low: Array, high: Array, start: Array, end: Array
 ) -> Iterator[tuple[str, tuple[Array, Array], Array]]:
-    """An area to fill: its name, the lines between which it lies, and where along the axis."""
-    there = np.isfinite(low) & np.isfinite(high)
+    """The areas to fill: name, the two lines that bound it, and the values where it exists."""
+    touching = np.isfinite(low) & np.isfinite(high)
     known = np.isfinite(start) & np.isfinite(end)
-    yield "stick", (low, high), there
-    for edges, way in (((low, start), zones.left), ((end, high), zones.right)):
-        turns = known & (way == 0) & (zones.regime == MIXED)
+    yield "stick", (low, high), touching
+    for edges, sense in (((low, start), zones.left), ((end, high), zones.right)):
+        reverses = known & (sense == 0) & (zones.regime == MIXED)
         for name, where in (
-            ("forward slip", known & (way == 1)),
-            ("reverse slip", known & (way == -1)),
-            ("slip turns round", turns),
+            ("forward slip", known & (sense == 1)),
+            ("reverse slip", known & (sense == -1)),
+            ("slip turns round", reverses),
         ):
             if np.any(where):
                 yield name, edges, where
-    if np.any(there & ~known):
-        yield "not known", (low, high), widened(there & ~known)
+    if np.any(touching & ~known):
+        yield "not known", (low, high), widened(touching & ~known)
 
 
 def widened(unknown: Array) -> Array:
-    """Extended by one neighbour on either side, so that no gap is left next to known values."""
+    """The mask, extended by one value on either side to leave no gap next to known values."""
     wide = unknown.copy()
     wide[1:] |= unknown[:-1]
     wide[:-1] |= unknown[1:]
@@ -188,7 +200,7 @@ def widened(unknown: Array) -> Array:
 
 
 def key(axes: Axes) -> None:
-    """The legend of a map, above it and beside no line: its areas, and the lines drawn since."""
+    """Draw the legend of a map above it; call it again after drawing more lines."""
     handles, labels = axes.get_legend_handles_labels()
     spec = axes.get_subplotspec()
     columns = spec.get_gridspec().ncols if spec else 1
@@ -209,9 +221,9 @@ def key(axes: Axes) -> None:
 
 
 def _broken(at: Array, values: Array, sense: tuple[Array, Array]) -> tuple[Array, Array]:
-    """A line with a gap wherever slip restarts in the other sense."""
-    turns = [np.flatnonzero(np.diff(np.atleast_1d(way)) != 0) + 1 for way in sense]
-    gaps = np.unique(np.concatenate(turns))
+    """A line with a gap wherever the sense of slip changes."""
+    changes = [np.flatnonzero(np.diff(np.atleast_1d(of_edge)) != 0) + 1 for of_edge in sense]
+    gaps = np.unique(np.concatenate(changes))
     return np.insert(at, gaps, np.nan), np.insert(values, gaps, np.nan)
 
 
@@ -224,16 +236,18 @@ def boundaries(
     length: Measure,
     label: str | None = None,
 ) -> None:
-    """Both ends of a stick zone from another source, as lines over a map.
+    """Draw the stick-slip boundaries from another source, as lines over a map.
 
-    at      what stands along the map: times, or values of the parameter
-    zones   what has m and n: of `march`, of `stick_zone`, or a StickZone of one's own
-    kind    which look they have: "exact", "printed", "order 1", "order 2", "order 3", "solver"
-    length  what the map's x is divided by
-    label   what a legend says of them; the kind, unless it is given
+    axes    the Axes of the map
+    at      the times, or the values of the parameter, on the axis of the map
+    zones   the stick zones, with fields m and n: a result of `march` or `stick_zone`, or a
+            StickZone of your own
+    kind    the line style: "exact", "printed", "order 1", "order 2", "order 3" or "solver"
+    length  the unit of x in the map
+    label   the label in the legend; `kind` by default
     """
     if kind not in LINES:
-        raise ValueError(f"no look is known for {kind!r}: give one of {', '.join(LINES)}")
+        raise ValueError(f"the kind of line {kind!r} is not known; give one of {', '.join(LINES)}")
     sense = getattr(zones, "left", 0), getattr(zones, "right", 0)
     with style():
         for end, text in ((-length(zones.m), label or kind), (length(zones.n), None)):

@@ -111,10 +111,10 @@ TWO = History(*(np.stack([v, v]) for v in WHOLE))
     ("history", "x", "words"),
     [
         (WHOLE, X[:9], "give the same x"),
-        (NO_PLACES, X, "history holds none"),
-        (TWO, X, "one history is drawn at a time"),
-        (hertz.contact(P, 0.0, **STEEL), X, "no History"),
-        (WHOLE, X[:, None], "in one row"),
+        (NO_PLACES, X, "history contains no slip"),
+        (TWO, X, "only one history can be drawn"),
+        (hertz.contact(P, 0.0, **STEEL), X, "not a History"),
+        (WHOLE, X[:, None], "an array of one dimension"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused(history: Any, x: Any, words: str) -> None:
@@ -125,9 +125,9 @@ def test_what_cannot_be_drawn_is_refused(history: Any, x: Any, words: str) -> No
 
 
 def test_instants_times_and_friction_are_checked() -> None:
-    with pytest.raises(ValueError, match="as many times"):
+    with pytest.raises(ValueError, match="one time for each"):
         plot.slip_map(WHOLE, X, [0.0, 1.0])
-    with pytest.raises(ValueError, match="there are 6"):
+    with pytest.raises(ValueError, match="history has 6 instants"):
         plot.instants(hertz, WHOLE, X, [6], **FRICTION)
     with pytest.raises(ValueError, match="1 labels are given for 2"):
         plot.instants(hertz, WHOLE, X, [1, 2], ["one"], **FRICTION)

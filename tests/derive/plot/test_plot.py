@@ -75,9 +75,9 @@ def test_a_unit_suits_the_values(values: Any, of: str, name: str) -> None:
 
 def test_a_measure_divides_and_leaves_out_what_is_infinite() -> None:
     assert_array_equal(plot.unit(0.002, "m")([0.001, np.inf, np.nan]), [1.0, np.nan, np.nan])
-    with pytest.raises(ValueError, match="is positive"):
+    with pytest.raises(ValueError, match="finite positive number"):
         plot.over(0.0, "a")
-    with pytest.raises(ValueError, match="no unit 'ft' is known: give one of m, Pa"):
+    with pytest.raises(ValueError, match="the unit 'ft' is not known; give one of m, Pa"):
         plot.unit(1.0, "ft")
 
 
@@ -134,11 +134,11 @@ SEVERAL = hertz.contact(np.array([P, 2 * P]), M, **STEEL)
 @pytest.mark.parametrize(
     ("states", "labels", "told"),
     [
-        (STATE, (), "give a list of what"),
-        ([], (), "states is empty; give a list of one Contact"),
-        ([STATE, NO_CONTACT], (), r"states\[1\] is no contact: its edges are NaN"),
-        ([SEVERAL], (), r"states\[0\] holds contacts in the shape \(2,\), and one is drawn"),
-        ([3.0], (), r"states\[0\] is 3.0, which is no Contact; give what `contact` returns"),
+        (STATE, (), "give a list of results"),
+        ([], (), "states is empty; give a list of at least one Contact"),
+        ([STATE, NO_CONTACT], (), r"states\[1\] has edges that are NaN"),
+        ([SEVERAL], (), r"states\[0\] contains contacts in the shape \(2,\), but only one"),
+        ([3.0], (), r"states\[0\] is 3.0, which is not a Contact; give a result of `contact`"),
         ([STATE, STATE], ["one"], "1 labels are given for 2 states; give one for each, or none"),
     ],
 )
@@ -154,9 +154,9 @@ def test_pressures_that_cannot_be_drawn_are_refused(
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"first": NO_CONTACT}, "first is no contact: its edges are NaN"),
-        ({"second": SEVERAL}, r"second holds contacts in the shape \(2,\)"),
-        ({"dQ": np.ones(3)}, r"dQ is values in the shape \(3,\); one half-cycle is drawn"),
+        ({"first": NO_CONTACT}, "first has edges that are NaN"),
+        ({"second": SEVERAL}, r"second contains contacts in the shape \(2,\)"),
+        ({"dQ": np.ones(3)}, r"dQ is an array of the shape \(3,\), but only one half-cycle"),
         ({"dsigma": np.nan}, "dsigma is nan"),
     ],
 )
@@ -238,7 +238,7 @@ def test_the_shear_of_a_cycle_is_that_of_the_module_and_keeps_within_its_band() 
 @pytest.mark.parametrize(
     ("loads", "told"),
     [
-        ((0.4 * DQ, 0.0, DQ, 0.0), "give the end of the larger shear load as Q and sigma"),
+        ((0.4 * DQ, 0.0, DQ, 0.0), "give the end with the larger shear load as Q and sigma"),
         ((1e6, 0.0, DQ, 0.0), "the first rise is in the regime sliding"),
         ((DQ, 0.0, DQ, WINDOW), "the fall is in the regime mixed"),
         ((DQ, np.nan, DQ, 0.0), "sigma is nan"),
@@ -322,10 +322,10 @@ def test_the_legend_tells_what_is_there_and_no_more() -> None:
 def test_several_cycles_at_once_are_refused() -> None:
     swing = -np.cos(2 * np.pi * np.linspace(0, 1, 9)) / 2
     several = hertz.march(P, M, DQ * swing, np.array([[0.0], [1e6]]) * swing, **FRICTION)
-    with pytest.raises(ValueError, match="one cycle is drawn at a time"):
+    with pytest.raises(ValueError, match="only one cycle can be drawn"):
         plot.stick_slip(several)
     _, one = cycle(0.0)
-    with pytest.raises(ValueError, match="41 instants need as many times"):
+    with pytest.raises(ValueError, match="one time for each of the 41 instants"):
         plot.stick_slip(one, [0.0, 1.0])
 
 
@@ -367,9 +367,9 @@ def test_a_sweep_needs_the_tension_where_its_sign_decides() -> None:
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"parameter": 1.0}, r"parameter has the shape \(\); a map needs two values or more"),
-        ({"parameter": [0.0, np.nan]}, "parameter holds NaN"),
-        ({"dsigma": np.ones(3)}, r"dsigma has the shape \(3,\) where 2 values stand"),
+        ({"parameter": 1.0}, r"parameter has the shape \(\); give an array of one dimension"),
+        ({"parameter": [0.0, np.nan]}, "parameter contains NaN"),
+        ({"dsigma": np.ones(3)}, r"dsigma has the shape \(3,\), but there are 2 values"),
         ({"contact": hertz.contact(np.ones(3), 0.0, **STEEL)}, r"contact.a has the shape \(3,\)"),
     ],
 )
@@ -391,7 +391,7 @@ def test_boundaries_are_the_zone_that_is_given() -> None:
     _, end = line(axes, "order 1").get_data()
     assert_allclose(end[np.isfinite(end)], -1e3 * series.m)
     assert "order 1" in [text.get_text() for text in axes.get_legend().get_texts()]
-    with pytest.raises(ValueError, match="no look is known for 'third'"):
+    with pytest.raises(ValueError, match="the kind of line 'third' is not known"):
         plot.boundaries(axes, t, series, "third", length=plot.unit(STATE.a, "m"))
 
 
@@ -491,9 +491,12 @@ def test_the_live_picture_holds_all_that_the_sliders_reach(body: str, loads: plo
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"P": -1.0}, "largest.P is -1.0; it is where a slider ends: give a positive number"),
-        ({"M": -1.0}, "largest.M is -1.0.*give a number that is not negative"),
-        ({"M": 1.0}, r"start.M is 60.0, and its slider runs from -1 to 1: give"),
+        (
+            {"P": -1.0},
+            "largest.P is -1.0, but the end of a slider must be a finite positive number",
+        ),
+        ({"M": -1.0}, "largest.M is -1.0.*a finite number that is not negative"),
+        ({"M": 1.0}, r"start.M is 60.0, but its slider covers -1 to 1; give"),
     ],
 )
 def test_loads_that_no_slider_can_have_are_refused(changed: dict[str, Any], told: str) -> None:
