@@ -1,10 +1,11 @@
-"""Numbers of the integrands: python-flint's ball arithmetic, ten times as fast as mpmath's.
+"""Numbers for the integrands: python-flint's ball arithmetic, ten times as fast as mpmath's.
 
 In:  mpmath's numbers, and SymPy's expressions.
-Out: balls (a number and how far rounding may have moved it), and functions of balls.
+Out: balls (a number with a bound on its rounding error), and functions of balls.
 
-Between integrals numbers are mpmath's; inside an integrand they are balls of so many digits as
-`digits` sets.  A ball that rounding has widened without limit is no number: nothing is hidden.
+Outside integrals, numbers are those of mpmath.  Inside an integrand, they are balls with the number
+of digits that `digits` sets.  A ball whose error is unbounded counts as not a number, so that no
+loss of digits is hidden.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,26 +26,26 @@ from derive.compiled import compiled
 Ball = arb
 
 _BITS = 3.3219280948873626
-"""In a digit."""
+"""Bits per digit."""
 
 
 def digits(count: int) -> AbstractContextManager[None]:
-    """Balls of so many digits, for the length of a `with`."""
+    """Use balls with this many digits in a `with` block."""
     return bits(int(count * _BITS) + 5)
 
 
 def bits(count: int) -> AbstractContextManager[None]:
-    """Balls of so many bits, for the length of a `with`."""
+    """Use balls with this many bits in a `with` block."""
     return ctx.workprec(count)
 
 
 def ball(value: mpf) -> Ball:
-    """An mpf, to its last bit."""
+    """The exact ball of an mpf."""
     return arb(value)
 
 
 def number(value: Ball | int) -> mpf:
-    """The middle of a ball, to its last bit; not a number where the ball has none."""
+    """The exact midpoint of a ball; NaN if the ball has none."""
     value = arb(value)
     if not value.is_finite():
         return mpf("nan")
@@ -55,14 +56,14 @@ def number(value: Ball | int) -> mpf:
 def function_of(symbols: Sequence[Symbol], expr: Expr, shared: bool = False) -> Callable[..., Ball]:
     """An expression as a function of balls.
 
-    shared: compute once what it repeats, if there are no branches: one that is not taken may have
-    no value.
+    shared: compute repeated subexpressions once.  This is not done for an expression with branches,
+    because a branch that is not taken may have no value.
     """
     return _compiled(symbols, expr, shared and not expr.has(Piecewise))
 
 
 def functions_of(symbols: Sequence[Symbol], exprs: Sequence[Expr]) -> Callable[..., Sequence[Ball]]:
-    """Several expressions as one function of balls; what they repeat is computed once."""
+    """Several expressions as one function of balls; repeated subexpressions are computed once."""
     return _compiled(symbols, exprs, True)
 
 
@@ -79,10 +80,10 @@ def _method(name: str) -> Callable[[Ball], Ball]:
 
 
 def _raised(base: Ball | int, power: Ball | int) -> Ball:
-    """base**power, of a ball that holds zero, too, where flint goes by the logarithm.
+    """base**power, also for a ball that contains zero, for which flint would use the logarithm.
 
-    A whole power is a product there.  Any other has no value below zero: what the ball reaches
-    below it is rounding.
+    An integer power is then a product.  Any other power has no value below zero; the part of the
+    ball below zero is due to rounding.
     """
     base = arb(base)
     value = base**power
@@ -94,7 +95,7 @@ def _raised(base: Ball | int, power: Ball | int) -> Ball:
 
 
 def _root(base: Ball | int) -> Ball:
-    """The square root as `_raised` has it."""
+    """The square root, in the same way as in `_raised`."""
     base = arb(base)
     value = base.sqrt()
     return arb(0).union(base.upper().sqrt()) if value.is_nan() and base.contains(0) else value
@@ -120,7 +121,7 @@ _FUNCTIONS = {
 
 
 class _BallPrinter(MpmathPrinter):
-    """Constants to the digits that balls have when they are asked for."""
+    """Prints constants with the precision that balls have when the function is called."""
 
     def __init__(self) -> None:
         super().__init__({"fully_qualified_modules": False, "inline": True})

@@ -1,7 +1,7 @@
-"""Routes that end in 30 digits or more at 24 points.
+"""Routes that end in agreement to 30 digits or more at 24 points.
 
 In:  FormulaSheet, and the name of a formula.
-Out: Proof with the verdict *numerical*, *refuted* or *unknown*; None where there is no such route.
+Out: Proof with the verdict *numerical*, *refuted* or *unknown*; None if there is no such route.
 """
 
 from collections.abc import Callable, Iterator
@@ -26,19 +26,19 @@ _STICK = ("stick_m", "stick_n")
 _FORWARD = {P: "load", M: "moment", alpha: "tilt"}
 
 _SPARE = 20
-"""Digits more for a closed pressure: what it is made of may cancel."""
+"""Additional digits for a closed pressure, whose terms may cancel."""
 
 _s = Symbol("s")
-"""A place in the contact besides x."""
+"""A second point in the contact besides x."""
 
 Pairs = Iterator[tuple[mpf, mpf]]
 Route = Callable[[Point, Contact], Pairs]
-"""At one contact: pairs of numbers that must agree."""
+"""Returns, for one contact, pairs of numbers that must agree."""
 
 
 @dataclass(frozen=True, eq=False)
 class NumericalRoutes:
-    """The numerical routes of one sheet; they share its random contacts."""
+    """The numerical routes of one sheet, which share their random contacts."""
 
     sheet: FormulaSheet
 
@@ -46,7 +46,7 @@ class NumericalRoutes:
         """The proof of one formula by its numerical route."""
         with mpmath.workdps(WORKING):
             if self.sheet[name].arguments[0] == P and name not in _STICK:
-                return self._put_back(self.sheet[name])
+                return self._substituted(self.sheet[name])
             if name not in self._routes:
                 return None
             words, route = self._routes[name]
@@ -76,7 +76,7 @@ class NumericalRoutes:
 
     @cached_property
     def _routes_of_integrals(self) -> dict[str, tuple[str, Route]]:
-        """Superposed wedges against the singular integral equation of g' as it was given."""
+        """Superposed wedges compared with the singular integral equation of the original g'."""
         routes: dict[str, tuple[str, Route]] = {
             "pressure": (_QUADRATURE, self._pressure),
             "full_stick_change": ("its force and its strain by quadrature", self._full_stick),
@@ -100,7 +100,7 @@ class NumericalRoutes:
         return routes
 
     def _against(self, name: str, value: Callable[[Contact], mpf]) -> Route:
-        """A formula against a number that a contact has by its defining integrals."""
+        """Compare a formula with the number that the defining integrals of a contact give."""
 
         def route(point: Point, contact: Contact) -> Pairs:
             yield self._at(name, point), value(contact)
@@ -132,7 +132,7 @@ class NumericalRoutes:
         yield self._at("pressure", point), contact.pressure(point[x])
 
     def _p(self, point: Point) -> Callable[[mpf], mpf]:
-        """p(x) at one contact; load and moment ask for it at the same places."""
+        """p(x) at one contact, remembered, since load and moment need it at the same points."""
         if named(point) not in self._pressures:
             p = numeric_along(self.sheet.flat("pressure"), x)(point)
             self._pressures[named(point)] = remembered(p)
@@ -149,7 +149,7 @@ class NumericalRoutes:
         yield self._at("L_N_right", point), self._second("right", point, contact)
 
     def _second(self, side: str, point: Point, contact: Contact) -> mpf:
-        """(p/sqrt(s) - K_N)/s so close to the edge that the next term is beyond all digits."""
+        """(p/sqrt(s) - K_N)/s so close to the edge that the next term is below all digits."""
         with mpmath.workdps(3 * WORKING):
             s = contact.h * mpf(10) ** (2 - WORKING)
             place = s - point[a] if side == "left" else point[c] - s
@@ -160,7 +160,7 @@ class NumericalRoutes:
 
     @cached_property
     def _stuck(self) -> tuple[Expr, Expr]:
-        """dq w at s; and its difference between s and x over x - s, a polynomial."""
+        """dq w at s, and the polynomial (its value at s minus that at x)/(x - s)."""
         above = self.sheet["full_stick_change"].expr * w
         at_s = above.subs(x, _s)
         return at_s, cancel((at_s - above) / (x - _s))
@@ -168,8 +168,8 @@ class NumericalRoutes:
     def _full_stick(self, point: Point, contact: Contact) -> Pairs:
         """int dq = dQ and (1/pi) PV int dq(s)/(x - s) ds = dsigma/4.
 
-        PV int ds/(w(s) (x - s)) is zero inside the contact, so the value at x is taken off first.
-        What is left is divided by x - s as a polynomial: digits would be lost beside x.
+        PV int ds/(w(s) (x - s)) is zero inside the contact, so the value at x can be subtracted.
+        The difference is divided by x - s as a polynomial, since numbers would lose digits near x.
         """
         at_s, with_x = self._stuck
         force = numeric_along(at_s, _s)(point)
@@ -178,7 +178,7 @@ class NumericalRoutes:
         yield contact.integral(strain) / mpmath.pi, point[dsigma] / 4
 
     def _stuck_between(self, name: str) -> Route:
-        """int 2 f p sqrt(..) over both slip zones against what shear and tension ask for."""
+        """Compare int 2 f p sqrt(..) over both slip zones with its value from dQ and dsigma."""
 
         def route(point: Point, contact: Contact) -> Pairs:
             cycle = {**point, P: self._at("load", point), alpha: self._at("tilt", point)}
@@ -195,13 +195,13 @@ class NumericalRoutes:
                 ratio = (place + low) / (place - high)
                 return p(place) * (ratio if sense > 0 else 1 / ratio).sqrt()
 
-            pulled = 2 * cycle[f] * contact.outside(left, right, weighted)
-            yield pulled, cycle[dQ] - sense * by_tension
+            driving = 2 * cycle[f] * contact.outside(left, right, weighted)
+            yield driving, cycle[dQ] - sense * by_tension
 
         return route
 
-    def _put_back(self, formula: Formula) -> Proof:
-        """The inverse put back into what it was solved from."""
+    def _substituted(self, formula: Formula) -> Proof:
+        """Substitute an inverse into the formulas from which it was solved."""
         stem = formula.name.removesuffix(f"_{formula.symbol}")
         given = formula.arguments
         asked = [*given, *([formula.symbol] if formula.symbol in _FORWARD else [])]
@@ -214,11 +214,11 @@ class NumericalRoutes:
                     found = self._at(_FORWARD[symbol], {**point, **edges})
                     yield Comparison(wanted, found, named(point))
 
-        return numerical_proof(f"put back into {_names(asked)}", comparisons())
+        return numerical_proof(f"substituted into {_names(asked)}", comparisons())
 
 
 def _of_series(side: str, order: int) -> Callable[[Contact], mpf]:
-    """p/sqrt(s) at three places so close to the edge that a parabola through them is exact."""
+    """A coefficient of p/sqrt(s), from three points so close to the edge that a parabola fits."""
     return lambda contact: contact.edge_series(side)[order]
 
 

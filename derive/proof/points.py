@@ -1,8 +1,8 @@
-"""Random states drawn from a formula's assumptions; the same on every machine.
+"""Random states that meet a formula's assumptions; they are the same on every machine.
 
-A point gives a number to each symbol.  Contacts are drawn with a > c and a < c in turn, loads with
-moments and tilts of both signs in turn where the body stands so; a point that breaks an assumption
-is drawn again.
+A point assigns a number to each symbol.  Contacts are drawn alternately with a > c and a < c, and
+loads alternately with moments and tilts of both signs if the body has such contacts.  A point that
+violates an assumption is drawn again.
 """
 
 import hashlib
@@ -33,9 +33,10 @@ T = TypeVar("T")
 def draws(
     name: str, draw: Callable[[random.Random, int], T | None], count: int = POINTS
 ) -> Iterator[T]:
-    """`count` results of `draw`, which returns None for a point outside the assumptions.
+    """Yield `count` results of `draw`, which returns None for a point outside the assumptions.
 
-    Gives up after a hundred tries a point; fewer points than asked make the verdict unknown.
+    The drawing stops after a hundred attempts per point.  With fewer points than `count`, the
+    verdict is unknown.
     """
     digest = hashlib.sha256(name.encode()).digest()
     rng = random.Random(int.from_bytes(digest[:8], "big"))
@@ -50,7 +51,7 @@ def draws(
 
 
 def contacts(sheet: FormulaSheet) -> list[Point]:
-    """Contacts [-a, c] of the body, with an x inside each and changes of all loads."""
+    """Contacts [-a, c] of the body, each with a point x inside and with changes of all loads."""
     return _contacts(sheet.geometry, sheet["pressure"].conditions)
 
 
@@ -75,7 +76,7 @@ def _contacts(body: Geometry, conditions: tuple[Boolean, ...]) -> list[Point]:
 
 
 def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
-    """Loads, moments and tilts under which `formula` gives a contact."""
+    """Loads, moments and tilts for which `formula` gives a contact."""
 
     low, high = sheet.geometry.slope.limits
     missed = 0
@@ -96,7 +97,7 @@ def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
 
 
 def _tilt_between(low: mpf, high: mpf, rng: random.Random) -> mpf:
-    """A tilt at which a body closes whose slope g' goes from `low` to `high`."""
+    """A tilt at which a body closes if its slope g' ranges from `low` to `high`."""
     if mpmath.isinf(low) or mpmath.isinf(high):
         beyond = mpf(2) ** rng.uniform(-6, 1)
         return -low - beyond if mpmath.isinf(high) else beyond - high
@@ -104,7 +105,7 @@ def _tilt_between(low: mpf, high: mpf, rng: random.Random) -> mpf:
 
 
 def _parameters(body: Geometry, rng: random.Random) -> Point:
-    """Parameters around those that meet what the body demands of them."""
+    """Parameters close to typical ones that meet the body's conditions."""
     made = [E_star, *(q.symbol for q in body.parameters)]
     least, around = body.slope.least, {p: mpf(v.p) / v.q for p, v in body.slope.typical.items()}
     return {
@@ -131,7 +132,7 @@ def numeric(expr: Expr) -> Callable[[Point], mpf]:
 
 
 def numeric_by_steps(steps: Iterable[tuple[Symbol, Expr]], expr: Expr) -> Callable[[Point], mpf]:
-    """`expr` as a function of a point, the symbols that it holds computed one after the other."""
+    """`expr` as a function of a point; the symbols it contains are computed one after another."""
     needed: list[tuple[Symbol, Callable[[Point], mpf]]] = []
     wanted = set(expr.free_symbols)
     for symbol, value in reversed([*steps]):
@@ -153,8 +154,8 @@ def numeric_by_steps(steps: Iterable[tuple[Symbol, Expr]], expr: Expr) -> Callab
 def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Function]:
     """`expr` at a point as a function of one variable, in balls for quadrature.
 
-    What does not hold the variable is computed once a point; the rest is collected by what does.
-    Not for branches: one that is not taken may have no value.
+    Parts without the variable are computed once per point; other terms are collected by the factors
+    that contain it.  Not for branches, because one that is not taken may have no value.
     """
     fixed: dict[Expr, Symbol] = {}
     moving = _collected(expr.subs(e, M / P), variable, fixed)
@@ -177,7 +178,7 @@ def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Function]:
 
 
 def _collected(expr: Expr, variable: Symbol, fixed: dict[Expr, Symbol]) -> Expr:
-    """`expr` with a symbol for everything that does not hold the variable, entered in `fixed`."""
+    """`expr` with a symbol for each part without the variable; `fixed` receives these symbols."""
     if not expr.has(variable):
         return expr if expr.is_Rational else fixed.setdefault(expr, Dummy("C"))
     if expr == variable:
@@ -204,11 +205,11 @@ def _collected(expr: Expr, variable: Symbol, fixed: dict[Expr, Symbol]) -> Expr:
 def over_contact(over: Integral) -> Callable[[Point], mpf]:
     """An integral over a part of the contact as a function of a point.
 
-    Along the angle of the half circle, so that roots that vanish at the edges do no harm.  Nodes
-    crowd at the ends of the part; where a power is infinite there, once more by
-    t**3/(t**3 + (1 - t)**3).  The integrand is evaluated to so many digits that its differences
-    next to an end keep theirs.  No node leaves the part, whatever rounding says: beyond an end a
-    power may have no real value.
+    The variable of integration is the angle of the half circle, so that roots that vanish at the
+    edges do no harm.  Nodes are dense at the ends of the part; if a power is infinite there, they
+    are concentrated further by t**3/(t**3 + (1 - t)**3).  The integrand is evaluated with so many
+    digits that differences next to an end remain accurate.  Rounding cannot move a node out of the
+    part, where a power may have no real value.
     """
     variable, low, high = over.limits[0]
     held = sorted(over.free_symbols, key=str)
@@ -249,16 +250,16 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
 
 
 def _compiled(symbols: list[Symbol], expr: Expr, shared: bool) -> Callable[..., mpf]:
-    """`expr` in mpmath; what it repeats is computed once if asked for.
+    """`expr` in mpmath; with `shared`, repeated subexpressions are computed once.
 
-    Never of branches: one that is not taken may have no value.
+    This is not done for branches, because one that is not taken may have no value.
     """
     once = shared and not expr.has(Piecewise)
     return compiled(symbols, expr, modules="mpmath", shared=once)
 
 
 def _is_fixed(power: Pow, variable: Symbol) -> bool:
-    """Whether a power costs a logarithm, and is the same all over the contact."""
+    """Whether a power needs a logarithm and is constant over the contact."""
     return not power.has(variable) and not power.exp.is_Rational
 
 
@@ -266,7 +267,7 @@ def _is_fixed(power: Pow, variable: Symbol) -> bool:
 def _nodes(
     left: mpf, right: mpf, start: mpf, end: mpf, power: int
 ) -> tuple[mpf, Callable[[Ball], tuple[Ball, Ball]]]:
-    """The part's width in theta; place and weight at every t from 0 to 1, which integrals share."""
+    """Width of a part in theta; point and weight for each t in [0, 1], shared by all integrals."""
     with mpmath.workdps(_INSIDE):
         angles = [mpmath.acos(max(-1, min(1, _cosine(p, left, right)))) for p in (end, start)]
     low, high, first, last = map(ball, (*angles, start, end))
@@ -287,25 +288,25 @@ def _nodes(
 
 
 def _cosine(place: mpf, left: mpf, right: mpf) -> mpf:
-    """Of the angle of a place in the contact."""
+    """Cosine of the angle of a point in the contact."""
     return (2 * place + left - right) / (left + right)
 
 
 _LONG = 200
-"""Operations of a formula from which on it pays to look for what it repeats."""
+"""Number of operations of a formula above which it pays to look for repeated subexpressions."""
 
 _LEANING = 40
-"""After so many tries in vain a tilt is drawn between its limits: some bodies stand so alone."""
+"""Number of failed attempts after which a tilt is drawn between its limits, as some bodies need."""
 
 _INSIDE, _OUTSIDE = 160, 40
-"""Digits of an integrand, and of the integral."""
+"""Digits of an integrand, and digits of the integral."""
 
 
 def holds(conditions: Iterable[Boolean], point: Point) -> bool:
-    """Whether a point meets all assumptions."""
+    """Whether a point meets all conditions."""
     return all(bool(condition.subs(point)) for condition in conditions)
 
 
 def named(point: Point) -> str:
-    """The point in words."""
+    """The point as text."""
     return ", ".join(f"{symbol} = {mpmath.nstr(value, 8)}" for symbol, value in point.items())

@@ -1,4 +1,4 @@
-"""Sheet in, the same sheet out with a proof for every formula."""
+"""Take a sheet, and return it with a proof for every formula."""
 
 from dataclasses import replace
 
@@ -14,9 +14,9 @@ from derive.theory.segments import Parts, written_out
 
 
 def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
-    """Prove every formula by all its routes; what is not proven keeps a verdict that says so.
+    """Prove every formula by all its routes; the verdict states if a formula is not proven.
 
-    A closed form beside an integral that is proven is left out if it is not proven itself.
+    A closed form that is not proven is left out if its integral is.
 
     >>> from derive.derivation import derive_sheet
     >>> from derive.library import load_geometry
@@ -35,12 +35,12 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
             proven[name] = replace(formula, proof=proof)
     remark = sheet.remark
     if left_out:
-        remark = f"{remark}  Not proven, and so not shown: {', '.join(left_out)}."
+        remark = f"{remark}  Left out, since not proven: {', '.join(left_out)}."
     return replace(sheet, formulas=proven, remark=remark)
 
 
 def _proof(sheet: FormulaSheet, name: str, numerical: NumericalRoutes) -> Proof:
-    """The proof of one formula; a closed form that has no value somewhere is not proven."""
+    """The proof of one formula; a closed form that cannot be evaluated somewhere is not proven."""
     if not sheet[name].closes:
         proof = combined(symbolic_proof(sheet, name), numerical.proof(name))
         return _also_computed(sheet, name, proof)
@@ -51,7 +51,7 @@ def _proof(sheet: FormulaSheet, name: str, numerical: NumericalRoutes) -> Proof:
 
 
 def _also_computed(sheet: FormulaSheet, name: str, proof: Proof) -> Proof:
-    """The proof of a formula, if the form that is computed in its place equals it."""
+    """The proof of a formula, if the form that is evaluated in its place is equal to it."""
     computed = sheet[name].computed
     if computed is None or not proof.holds:
         return proof
@@ -59,7 +59,7 @@ def _also_computed(sheet: FormulaSheet, name: str, proof: Proof) -> Proof:
     summed, derived = numeric_by_steps(steps, written_out(computed)), numeric(sheet.flat(name))
     with mpmath.workdps(WORKING):
         equal = numerical_proof(
-            "the sum over the parts of the contact, as it is computed",
+            "the evaluated form, a sum over the parts of the contact",
             (Comparison(summed(p), derived(p), named(p)) for p in contacts(sheet)),
         )
     return proof if equal.holds else equal

@@ -1,7 +1,7 @@
-r"""The defining integrals by quadrature at any number of digits: the route that no algebra shares.
+r"""The defining integrals by quadrature, to any number of digits, without the theory's algebra.
 
 In:  g(x) as the user wrote it, and numbers for its parameters and the contact.
-Out: the integrals of theory.equilibrium and theory.pressure, evaluated with
+Out: the integrals of theory.equilibrium and theory.pressure.  They are evaluated with
      x = mid + (h/2) cos(theta) on the pieces between kinks, so that every integrand is analytic up
      to the ends of its piece.
 """
@@ -22,12 +22,12 @@ from derive.proof.rule import CROWDED, SMOOTH, Function, integral, remembered
 from derive.symbols import x
 
 _LOST = 20
-"""Digits that a difference over a distance may lose, and is computed to in excess."""
+"""Additional digits for a difference divided by a distance, which may lose this many."""
 
 
 @dataclass(frozen=True)
 class Contact:
-    """One contact [-a, c] of one body, in numbers; what stands under an integral takes balls."""
+    """One contact [-a, c] of one body, in numbers; integrands take balls."""
 
     geometry: Geometry
     values: Mapping[Symbol, mpf]
@@ -37,7 +37,7 @@ class Contact:
 
     @cached_property
     def slope(self) -> Function:
-        """g'(x) from g as it was given, not from the pieces that the derivation uses."""
+        """g'(x) from the original g, not from the pieces that the derivation uses."""
         symbols = sorted(self.values, key=str)
         function = _compiled(_slope_as_given(self.geometry.g), (x, *symbols))
         numbers = [ball(self.values[symbol]) for symbol in symbols]
@@ -56,7 +56,7 @@ class Contact:
 
     @property
     def mid(self) -> mpf:
-        """Middle of the contact."""
+        """Midpoint of the contact."""
         return (self.c - self.a) / 2
 
     @cached_property
@@ -71,22 +71,22 @@ class Contact:
         return remembered(lambda theta: ((right - left) + (left + right) * theta.cos()) / 2)
 
     def angle(self, place: mpf) -> mpf:
-        """The angle of a place in the contact."""
+        """The angle of a point in the contact."""
         return mpmath.acos((place - self.mid) / (self.h / 2))
 
     def integral(
         self, integrand: Function, *also: mpf, singular: bool = False, inside: int = 0
     ) -> mpf:
-        """int_{-a}^{c} integrand(s)/w(s) ds, cut at the kinks and at the places named `also`."""
+        """int_{-a}^{c} integrand(s)/w(s) ds, split at the kinks and at the points `also`."""
         cuts = sorted({mpf(0), mpmath.pi, *(self.angle(p) for p in (*self.kinks, *also))})
         gentle = self.geometry.slope.is_polynomial and not singular
         method = SMOOTH if gentle else CROWDED
         return integral(lambda theta: integrand(self.at(theta)), cuts, method, inside)
 
     def outside(self, left: mpf, right: mpf, integrand: Function) -> mpf:
-        """int integrand(s) ds over the contact less [-left, right]; roots at the ends do no harm.
+        """int integrand(s) ds over the contact outside [-left, right]; it may have roots there.
 
-        The integrand is evaluated to twice the digits: next to an end its distance keeps them.
+        The integrand is evaluated with twice the digits, so that distances from the ends keep them.
         """
         total, twice = mpf(0), 2 * mpmath.mp.dps
         for edge, end in ((-self.a, -left), (self.c, right)):
@@ -121,7 +121,7 @@ class Contact:
         return -self.E_star / 2 * arm
 
     def pressure(self, place: mpf, at_edge: bool = False) -> mpf:
-        """p(x) from its principal value, the singularity taken off; cut at x unless at an edge."""
+        """p(x), with the singularity subtracted; the integral is split at x unless at an edge."""
         root = mpmath.sqrt((self.a + place) * (self.c - place))
         cuts = [] if at_edge else [place, *self._around(place)]
         inside = mpmath.mp.dps + _LOST
@@ -136,7 +136,7 @@ class Contact:
         return self.E_star / (2 * mpmath.pi) * root * principal
 
     def edge_series(self, side: str) -> tuple[mpf, mpf]:
-        """K_N and L_N: p/sqrt(s) at three places so close to the edge that a parabola is exact."""
+        """K_N and L_N from p/sqrt(s) at three points so close to the edge that a parabola fits."""
         if side not in self._series:
             with mpmath.workdps(mpmath.mp.dps + 30):
                 s = self.h * mpf(10) ** -20
@@ -154,7 +154,7 @@ class Contact:
         return {}
 
     def _around(self, place: mpf) -> Iterator[mpf]:
-        """Cuts about a kink next to `place`, ever wider, for the kernel 1/(s - place)."""
+        """Points of division around a kink close to `place`, for the kernel 1/(s - place)."""
         for kink in self.kinks:
             distance = abs(place - kink)
             while 0 < distance < self.h:
@@ -162,7 +162,7 @@ class Contact:
                 distance *= 8
 
     def resultant(self, pressure: Function, weight: Function | None = None) -> mpf:
-        """int weight(s) p(s) ds of a given p; p may be infinite, as a logarithm, at a kink."""
+        """int weight(s) p(s) ds of a given p, which may be logarithmically infinite at a kink."""
         left, right = self.edges
 
         def integrand(s: Ball) -> Ball:
@@ -174,7 +174,7 @@ class Contact:
 
 @cache
 def _slope_as_given(g: Expr) -> Expr:
-    """g'(x) by branches; each by itself where a power of zero would be divided by zero."""
+    """g'(x) by branches; each is differentiated alone if the whole would divide zero by zero."""
     branched = g.replace(Max, _larger).replace(Min, _smaller).rewrite(Piecewise)
     slope = diff(branched, x)
     if slope.has(zoo, nan):
@@ -184,7 +184,7 @@ def _slope_as_given(g: Expr) -> Expr:
 
 
 def _larger(first: Expr, *others: Expr) -> Expr:
-    """Max by branches; SymPy's own, which compare other than with zero, may never come to rest."""
+    """Max by branches; comparing with other values than zero may take SymPy endless time."""
     if not others:
         return first
     second = _larger(*others)

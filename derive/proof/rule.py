@@ -1,9 +1,9 @@
-"""Quadrature that knows when it has not converged: cut finer until the estimate of error is small.
+"""Quadrature with a check of convergence: intervals are halved until the estimated error is small.
 
-In:  an integrand of balls, and where to cut.
-Out: its integral to nearly all working digits of mpmath.
+In:  an integrand of balls, and the points at which to split the interval.
+Out: the integral to nearly all working digits of mpmath.
 
-Levels, estimates and stopping are mpmath's; the sums are of balls, and so are the nodes.
+Levels, error estimates and the stopping rule are those of mpmath; nodes and sums are balls.
 """
 
 from collections.abc import Callable, Sequence
@@ -21,29 +21,29 @@ from derive.proof.balls import Ball, ball, bits, digits, number
 Function = Callable[[Ball], Ball]
 Value = TypeVar("Value")
 Nodes = Sequence[tuple[Ball, Ball]]
-"""Places in (-1, 1), and their weights."""
+"""Points in (-1, 1), and their weights."""
 
 SMOOTH, CROWDED = "gauss-legendre", "tanh-sinh"
-"""Rules, by mpmath's names: for what is smooth up to both ends, and for what is not."""
+"""Rules by their names in mpmath: for integrands that are smooth up to the ends, and for others."""
 
 _SPARE = 8
-"""Digits of the working precision that the integral may lack."""
+"""Number of digits of the working precision that the integral may lack."""
 
 _CUTS = 6
-"""How often every part is halved at most."""
+"""Largest number of times that every interval is halved."""
 
 _BESIDES = 12
-"""Digits of the integrand beyond the working precision; mpmath adds up with six more."""
+"""Additional digits of the integrand; mpmath's sums use six more than the working precision."""
 
 
 def remembered(function: Callable[[Ball], Value]) -> Callable[[Ball], Value]:
-    """`function`, computed once at every node and precision: integrals share their nodes."""
+    """Remember values of `function` at every node and precision, since integrals share nodes."""
     known: dict[tuple[int, int], tuple[Ball, Value]] = {}
 
     def at(place: Ball) -> Value:
         asked = (id(place), ctx.prec)
         if asked not in known:
-            known[asked] = place, function(place)  # held, so that its id is its own
+            known[asked] = place, function(place)  # kept, so that its id stays unique
         return known[asked][1]
 
     return at
@@ -52,11 +52,11 @@ def remembered(function: Callable[[Ball], Value]) -> Callable[[Ball], Value]:
 def integral(
     integrand: Function, cuts: Sequence[mpf], method: str = CROWDED, inside: int = 0
 ) -> mpf:
-    """int integrand over [cuts[0], cuts[-1]]; not a number where a part of the integrand is none.
+    """int integrand over [cuts[0], cuts[-1]]; NaN if the integrand has no value on a part of it.
 
-    A node so close to an end that the integrand divides by zero has no weight.
+    A node so close to an end that the integrand divides by zero is left out.
 
-    inside: digits of the integrand to begin with; twice as many if its balls grow too wide.
+    inside: initial number of digits of the integrand; doubled if its balls become too wide.
     """
     allowed = mpf(10) ** (_SPARE - mpmath.mp.dps)
     count = max(inside, mpmath.mp.dps + _BESIDES)
@@ -72,7 +72,7 @@ def integral(
 def _converged(
     integrand: Function, cuts: Sequence[mpf], rule: "_InBalls", allowed: mpf
 ) -> tuple[mpf, mpf]:
-    """The integral, and about what one of its modulus would be."""
+    """The integral, and the approximate size of the integral of the modulus."""
     for _ in range(_CUTS):
         value, error = mpmath.quad(integrand, cuts, method=lambda _: rule, error=True)
         size = max(_size(integrand, low, high) for low, high in pairwise(cuts))
@@ -83,20 +83,20 @@ def _converged(
 
 
 def _size(integrand: Function, low: mpf, high: mpf) -> mpf:
-    """What an integral between two places is like."""
+    """Approximate size of an integral between two points."""
     middle = number(integrand((ball(low) + ball(high)) / 2))
     return mpf(0) if mpmath.isnan(middle) else abs(middle * (high - low))
 
 
 _AT_AN_END = arb(2) ** -50
-"""The share of all weights that nodes without a value may have: those so close to an end that the
-integrand divides by zero in so many digits."""
+"""Largest share of all weights at nodes without a value.  Such nodes are so close to an end that
+the integrand divides by zero at the given precision."""
 
 
 class _InBalls(QuadratureRule):
-    """Gauss's rule or the doubly exponential one, whose nodes and sums are balls.
+    """Gauss-Legendre or tanh-sinh quadrature with nodes and sums that are balls.
 
-    width: how wide a sum has grown.
+    width: the largest error radius of a sum.
     """
 
     def __init__(self, method: str) -> None:
@@ -106,7 +106,7 @@ class _InBalls(QuadratureRule):
     def get_nodes(
         self, low: mpf, high: mpf, degree: int, prec: int, verbose: bool = False
     ) -> Nodes:
-        """Those of this level between two places."""
+        """Nodes of this level between two points."""
         return _between(self.method, low, high, degree, prec, ctx.prec)
 
     def sum_next(
@@ -118,9 +118,10 @@ class _InBalls(QuadratureRule):
         previous: Sequence[mpf],
         verbose: bool = False,
     ) -> mpf:
-        """The sum of this level; `previous` are those of the levels before it.
+        """The sum of this level; `previous` are the sums of the levels before.
 
-        Nodes of the doubly exponential rule lie between those before, whose sum is half of the new.
+        New nodes of the tanh-sinh rule lie between the previous ones; half the previous sum is
+        added.
         """
         terms = [(weight, weight * integrand(place)) for place, weight in nodes]
         total = sum((term for _, term in terms if term.is_finite()), arb(0))
@@ -136,7 +137,7 @@ class _InBalls(QuadratureRule):
 
 @lru_cache(maxsize=256)
 def _between(method: str, low: mpf, high: mpf, degree: int, prec: int, bits: int) -> Nodes:
-    """The same balls each time: what is remembered at them is found again."""
+    """Nodes between two points: always the same balls, so that values are remembered for them."""
     half, middle = (ball(high) - ball(low)) / 2, (ball(low) + ball(high)) / 2
     standard = _standard(method, degree, prec, bits)
     return [(middle + half * place, half * weight) for place, weight in standard]
@@ -144,18 +145,18 @@ def _between(method: str, low: mpf, high: mpf, degree: int, prec: int, bits: int
 
 @lru_cache(maxsize=256)
 def _standard(method: str, degree: int, prec: int, bits: int) -> Nodes:
-    """Nodes in (-1, 1), to so many bits."""
+    """Nodes in (-1, 1), to a given number of bits."""
     return _crowded(degree, prec) if method == CROWDED else _of_legendre(degree)
 
 
 def _of_legendre(degree: int) -> Nodes:
-    """Roots of Legendre's polynomial of degree 3 2**(degree - 1)."""
+    """Roots of the Legendre polynomial of degree 3 2**(degree - 1)."""
     count = 3 * 2 ** (degree - 1)
     return [arb.legendre_p_root(count, k, weight=True) for k in range(count)]
 
 
 def _crowded(degree: int, prec: int) -> Nodes:
-    """tanh((pi/2) sinh t) at those t that this level adds, as far as it differs from one."""
+    """tanh((pi/2) sinh t) at the t that this level adds, until it equals 1 to the last digit."""
     quarter = arb.pi() / 2
     t, every = arb(2) ** -degree, arb(2) ** (-1 if degree == 1 else 1 - degree)
     nodes = [(arb(0), quarter)] if degree == 1 else []
@@ -170,10 +171,10 @@ def _crowded(degree: int, prec: int) -> Nodes:
 
 
 class _QuickNodes(GaussLegendre):
-    """mpmath's own rule of Gauss, whose nodes are found in a hundredth of the time."""
+    """mpmath's own Gauss-Legendre rule, with nodes that are found in a hundredth of the time."""
 
     def calc_nodes(self, degree: int, prec: int, verbose: bool = False) -> list[tuple[mpf, mpf]]:
-        """Nodes and weights, mpmath's numbers."""
+        """Nodes and weights, as mpmath's numbers."""
         with bits(prec + _GUARD_BITS):
             return [(number(place), number(weight)) for place, weight in _of_legendre(degree)]
 
@@ -184,5 +185,5 @@ _QUICK = _QuickNodes(mpmath.mp)
 
 
 def gauss_legendre(_: object) -> QuadratureRule:
-    """What mpmath.quad takes as its `method`."""
+    """A `method` for mpmath.quad."""
     return _QUICK

@@ -1,11 +1,11 @@
 """Routes that end in an exact zero.
 
 In:  FormulaSheet, and the name of a formula.
-Out: Proof with the verdict *proved*, or None where no symbolic route is known or none succeeds.
+Out: Proof with the verdict *proved*, or None if there is no symbolic route or if it fails.
 
-The integrals are done a second time by antiderivatives that are certified by differentiating them
-back; load and moment by parts, from the curvature of g; the pressure from its growth by flat
-punches; the contact law against the edge limit of p; the inverses by substitution.
+The integrals are evaluated a second time by antiderivatives, certified by differentiation.
+Load and moment are derived by parts from the curvature of g, and the pressure from its growth by
+flat punches.  The contact law is compared with the edge limit of p, and inverses are substituted.
 """
 
 from collections.abc import Callable
@@ -38,17 +38,17 @@ from derive.theory.frame import Frame, KinkFrame
 from derive.theory.slip import pressure_next
 
 _LIMIT = "limit of p at the edges"
-_RATE = "(2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated"
-_PUNCHES = "grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt"
+_RATE = "(2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha"
+_PUNCHES = "growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt"
 _SHORT = 60
-"""Operations up to which an inverse is put back symbolically."""
+"""Largest number of operations for which an inverse is substituted symbolically."""
 _LONG = 200
-"""Operations from which on a pressure is compared edge by edge: products of its derivatives take
-half a minute."""
+"""Number of operations above which a pressure is compared at each edge separately, because
+products of its derivatives take half a minute."""
 
 
 def symbolic_proof(sheet: FormulaSheet, name: str) -> Proof | None:
-    """The proof of one formula by its symbolic route, if there is one and it succeeds."""
+    """The proof of one formula by its symbolic route, if there is one and if it succeeds."""
     route = _ROUTES.get(name)
     if not sheet.geometry.slope.is_polynomial and route not in _FOR_ALL:
         return None
@@ -60,7 +60,7 @@ Route = Callable[[FormulaSheet, str], str | None]
 
 
 def _equal_to(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
-    """The route that computes the formula once more as `value`."""
+    """The route that computes the formula again, as `value`."""
 
     def route(sheet: FormulaSheet, name: str) -> str | None:
         return words if is_zero(sheet[name].expr - value(sheet), sheet.frame) else None
@@ -69,7 +69,7 @@ def _equal_to(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
 
 
 def _tilt(sheet: FormulaSheet) -> Expr:
-    """I_0 of g', every antiderivative certified."""
+    """I_0 of g', from certified antiderivatives."""
     return -_integral(sheet, lambda slope: slope) / pi
 
 
@@ -79,12 +79,12 @@ def _load(sheet: FormulaSheet) -> Expr:
 
 
 def _moment(sheet: FormulaSheet) -> Expr:
-    """-(E*/2) int g'' w (s + mid)/2 ds: a corner at s is a wedge, its load acts half-way to mid."""
+    """-(E*/2) int g'' w (s + mid)/2 ds: the load of a corner at s acts halfway from s to mid."""
     return -E_star / 2 * _curvature_integral(sheet, (x + mid) / 2)
 
 
 def _curvature_integral(sheet: FormulaSheet, density: Expr) -> Expr:
-    """int g'' density w ds; at a corner g'' is a step of g' times a delta."""
+    """int g'' density w ds; at a corner g'' is a delta function times the jump of g'."""
     total = _integral(sheet, lambda slope: diff(slope, x) * density * w**2)
     for k in sheet.frame.kinks:
         step = k.kink.side * (k.kink.jump * density).subs(x, k.kink.position)
@@ -93,7 +93,7 @@ def _curvature_integral(sheet: FormulaSheet, density: Expr) -> Expr:
 
 
 def _integral(sheet: FormulaSheet, of: Callable[[Expr], Expr]) -> Expr:
-    """int of(g')/w ds, the base and each kink's jump by itself."""
+    """int of(g')/w ds, separately for the base and for the jump at each kink."""
     total = certified_integral(of(sheet.frame.slope.base))
     for k in sheet.frame.kinks:
         total += certified_integral(of(k.kink.jump), k)
@@ -101,10 +101,11 @@ def _integral(sheet: FormulaSheet, of: Callable[[Expr], Expr]) -> Expr:
 
 
 def certified_integral(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
-    """int polynomial(s)/w ds over the contact, or where the kink's jump acts.
+    """int polynomial(s)/w ds over the contact, or over the part where the kink's jump acts.
 
-    The antiderivative q w + k theta is found from its own derivative, q' w**2 + q (mid - s) + k =
-    polynomial, coefficient by coefficient: a second way beside the recursion, and its own proof.
+    The antiderivative q w + k theta follows, coefficient by coefficient, from its own derivative,
+    q' w**2 + q (mid - s) + k = polynomial.  This route is independent of the recursion, and it is
+    its own proof.
     """
     polynomial = expand(polynomial)
     degree = Poly(polynomial, x).degree() if polynomial != 0 else 0
@@ -123,7 +124,8 @@ def certified_integral(polynomial: Expr, kink: KinkFrame | None = None) -> Expr:
 def _pressure(sheet: FormulaSheet, name: str) -> str | None:
     """d/dc p at fixed tilt is P'(c)/(pi w), and p vanishes with w and the L_j at both edges.
 
-    At fixed tilt d/dc is d/dc - (alpha_c/alpha_a) d/da; times alpha_a, nothing is divided.
+    At fixed tilt, d/dc means d/dc - (alpha_c/alpha_a) d/da.  Everything is multiplied by alpha_a,
+    so that no quotient remains.
     """
     frame = sheet.frame
     tilt, load, p = (sheet[key].expr for key in ("tilt", "load", name))
@@ -140,9 +142,9 @@ def _pressure(sheet: FormulaSheet, name: str) -> str | None:
 
 
 def _grows_by_punches(sheet: FormulaSheet, p: Expr) -> bool:
-    """Each edge by itself: dp/dc = K_right (a + x)/(2 sqrt(h) w), dp/da = K_left (c - x)/(...).
+    """Each edge separately: dp/dc = K_right (a + x)/(2 sqrt(h) w), dp/da = K_left (c - x)/(...).
 
-    At fixed tilt, where a'(c) = K_right/K_left, both make dp/dc = P'(c)/(pi w).
+    At fixed tilt, where a'(c) = K_right/K_left, both together give dp/dc = P'(c)/(pi w).
     """
     return all(
         is_zero(
@@ -153,7 +155,7 @@ def _grows_by_punches(sheet: FormulaSheet, p: Expr) -> bool:
 
 
 def _stick(sheet: FormulaSheet, name: str) -> str | None:
-    """K_T and L_T: dq sqrt(s) and its derivative at s = 0, with w = sqrt(s) sqrt(h - s)."""
+    """K_T and L_T from dq sqrt(s) and its derivative at s = 0, with w = sqrt(s) sqrt(h - s)."""
     inward = 1 if name.endswith("left") else -1
     at = -a + s if inward > 0 else c - s
     without_root = sheet["full_stick_change"].expr.subs(1 / w, 1)
@@ -165,7 +167,7 @@ def _stick(sheet: FormulaSheet, name: str) -> str | None:
 
 
 def _margin(sheet: FormulaSheet, name: str) -> str | None:
-    """f K_N dedge/2 - |K_T|, times pi sqrt(h), where dP and dM move the edges by da and dc."""
+    """f K_N dedge/2 - |K_T|, times pi sqrt(h), if dP and dM move the edges by da and dc."""
     moves, K = symbols("da dc", real=True), symbols("K_left K_right", positive=True)
     force = [pi * sqrt(h) / 4 * k * move for k, move in zip(K, moves, strict=True)]
     loads = {dP: sum(force), dM: -(force[0] * (mid - h / 4) + force[1] * (mid + h / 4))}
@@ -191,11 +193,11 @@ def _slip(sheet: FormulaSheet, name: str) -> str | None:
     width = Symbol("h", positive=True)
     ratio = Abs(simplify(K_T.subs(c, width - a))) / K_N.subs(c, width - a)
     off = sheet[name].expr.subs(c, width - a) - found.subs(Symbol("ratio"), ratio)
-    return "the first power of d in both conditions" if simplify(off) == 0 else None
+    return "first power of d in both conditions" if simplify(off) == 0 else None
 
 
-def _put_back(sheet: FormulaSheet, name: str) -> str | None:
-    """The contact of (P, M) carries P, at the lever arm e."""
+def _substituted(sheet: FormulaSheet, name: str) -> str | None:
+    """The contact obtained from (P, M) carries P at the lever arm e."""
     edges = {edge: sheet[f"contact_{edge}"].expr for edge in (a, c)}
     load = sheet.flat("load").subs(edges, simultaneous=True)
     moment = sheet.flat("moment").subs(edges, simultaneous=True)
@@ -203,23 +205,23 @@ def _put_back(sheet: FormulaSheet, name: str) -> str | None:
         return None
     if simplify(load - P) != 0 or simplify(moment - P * e) != 0:
         return None
-    return "put back symbolically"
+    return "substituted symbolically"
 
 
 def _next(sheet: FormulaSheet, name: str) -> str | None:
-    """L_N from the growth of p with its edge, dp/dc = K_N sqrt(h - s)/(2 sqrt(h) sqrt(s))."""
+    """L_N from the growth of p as its edge moves, dp/dc = K_N sqrt(h - s)/(2 sqrt(h) sqrt(s))."""
     edge = a if name.endswith("left") else c
     K = sheet[name.replace("L", "K", 1)].expr
     off = sheet[name].expr - pressure_next(sheet.frame.diff(K, edge), 0, K)
-    return "K_N grows with its edge by flat punches" if is_zero(off, sheet.frame) else None
+    return "growth of K_N by flat punches as its edge moves" if is_zero(off, sheet.frame) else None
 
 
 def _differentiated(of: str, edge: Symbol) -> Route:
-    """The route that differentiates another formula; five more formulas ask for it."""
+    """The route that differentiates another formula; `_by_rates` uses it too."""
 
     def route(sheet: FormulaSheet, name: str) -> str | None:
         grows = _is_rate(sheet.frame, sheet[name].expr, sheet[of].expr, edge)
-        return f"{of} differentiated" if grows else None
+        return f"derivative of {of}" if grows else None
 
     return route
 
@@ -231,10 +233,10 @@ def _is_rate(frame: Frame, rate: Expr, of: Expr, edge: Symbol) -> bool:
 
 
 def _by_rates(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
-    """The route of `_equal_to`; of a long body by the four rates, which are linear in them.
+    """The route of `_equal_to`; for a long body by the four rates, which are linear in the symbols.
 
-    Where P_a, P_c = (pi sqrt(h)/4) K_N and alpha_a, alpha_c = +/- K_N/(E* sqrt(h)) at the left and
-    the right edge, a'(c) = -alpha_c/alpha_a and P'(c) = P_c + P_a a'(c) follow at once.
+    P_a, P_c = (pi sqrt(h)/4) K_N and alpha_a, alpha_c = +/- K_N/(E* sqrt(h)) at the left and the
+    right edge; a'(c) = -alpha_c/alpha_a and P'(c) = P_c + P_a a'(c) follow from these.
     """
 
     def route(sheet: FormulaSheet, name: str) -> str | None:
@@ -254,7 +256,7 @@ def _by_rates(value: Callable[[FormulaSheet], Expr], words: str) -> Route:
 
 
 def _is_in_the_rates(sheet: FormulaSheet, name: str) -> bool:
-    """Whether load and tilt grow with the edge as K_N there says."""
+    """Whether the rates of load and tilt agree with K_N at that edge."""
     edge, sense = (a, 1) if name.endswith("left") else (c, -1)
     K = sheet[name].expr
     of_load = pi * sqrt(h) / 4 * K - sheet[f"load_by_{edge}"].expr
@@ -283,9 +285,9 @@ _ROUTES: dict[str, Route] = {
     **{f"stick_margin_{side}": _margin for side in ("left", "right")},
     **{f"slip_{side}": _slip for side in ("left", "right")},
     **{f"L_N_{side}": _next for side in ("left", "right")},
-    "contact_a": _put_back,
-    "contact_c": _put_back,
+    "contact_a": _substituted,
+    "contact_c": _substituted,
 }
 
 _FOR_ALL = (_stick, _margin, _slip)
-"""Routes that do not ask what the body is."""
+"""Routes that hold for every body."""

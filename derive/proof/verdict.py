@@ -1,9 +1,9 @@
-"""What a proof is: a verdict, the route by which it was reached, and its numbers.
+"""The result of a proof: a verdict, the route by which it was reached, and its numbers.
 
-A formula is *proved* when its difference from an independent route is zero symbolically,
-*numerical* when both agree to DIGITS digits at POINTS random points of the formula's assumptions,
-*refuted* when they differ at one point, and *unknown* when no point could be drawn.  Only the first
-two are printed or generated.
+A formula is *proved* if its difference from an independent route is zero symbolically.  It is
+*numerical* if both agree to DIGITS digits at POINTS random points that meet the formula's
+assumptions, *refuted* if they differ at a point, and *unknown* if too few points could be drawn.
+Only formulas with one of the first two verdicts are printed or generated.
 """
 
 from collections.abc import Iterable
@@ -14,15 +14,15 @@ import mpmath
 from mpmath import mpf
 
 DIGITS = 30
-"""Digits to which both routes must agree."""
+"""Number of digits to which both routes must agree."""
 POINTS = 24
-"""Random points at which they are compared."""
+"""Number of random points at which they are compared."""
 WORKING = 50
-"""Digits that the comparison works with."""
+"""Working digits of the comparison."""
 
 
 class Verdict(StrEnum):
-    """What is known of a formula."""
+    """The result of the proof of a formula."""
 
     PROVED = "proved"
     NUMERICAL = "numerical"
@@ -32,12 +32,12 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True)
 class Proof:
-    """How a formula was shown right.
+    """The proof of a formula.
 
-    route    in words: what it was compared with
-    points   at how many random points both were evaluated (0: symbolically only)
-    digits   to how many digits they agreed at the worst of them
-    example  the point at which they differ, of a refuted formula
+    route    the comparison that was made, in words
+    points   number of random points at which both sides were evaluated (0: symbolic only)
+    digits   number of digits to which they agree at the worst of these points
+    example  a point at which they differ, for a refuted formula
     """
 
     verdict: Verdict
@@ -58,7 +58,7 @@ class Proof:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two values of one thing at one point."""
+    """Two values of the same quantity at one point."""
 
     formula: mpf
     route: mpf
@@ -66,7 +66,7 @@ class Comparison:
 
     @property
     def digits(self) -> int:
-        """Digits to which both agree."""
+        """Number of digits to which both values agree."""
         scale = max(abs(self.formula), abs(self.route))
         gap = abs(self.formula - self.route)
         if not (mpmath.isfinite(self.formula) and mpmath.isfinite(self.route)):
@@ -75,7 +75,7 @@ class Comparison:
 
 
 def numerical_proof(route: str, comparisons: Iterable[Comparison]) -> Proof:
-    """Verdict of a numerical comparison; a point counts once, however much is compared there."""
+    """The verdict of a numerical comparison; a point with several comparisons counts once."""
     drawn: set[str] = set()
     worst = WORKING
     for comparison in comparisons:
@@ -87,12 +87,12 @@ def numerical_proof(route: str, comparisons: Iterable[Comparison]) -> Proof:
         worst = min(worst, comparison.digits)
     points = len(drawn)
     if points < POINTS:
-        return Proof(Verdict.UNKNOWN, f"{route}: only {points} of {POINTS} points drawn", points)
+        return Proof(Verdict.UNKNOWN, f"{route}: only {points} of {POINTS} points found", points)
     return Proof(Verdict.NUMERICAL, route, points, worst)
 
 
 def combined(symbolic: Proof | None, numerical: Proof | None) -> Proof:
-    """One verdict of a symbolic and a numerical route; a refutation by either one counts."""
+    """The joint verdict of a symbolic and a numerical route; a refutation by either one decides."""
     known = [proof for proof in (symbolic, numerical) if proof is not None]
     for verdict in (Verdict.REFUTED, Verdict.PROVED, Verdict.NUMERICAL):
         first = next((proof for proof in known if proof.verdict == verdict), None)

@@ -200,7 +200,7 @@ def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
         inner = [p.lower if term.side > 0 else p.upper for p in frame.slope.pieces]
         starts = [i for i, end in enumerate(inner) if end.is_finite and end - term.place == 0]
         if not starts:
-            raise NoRule(f"{term.term}, which begins at no kink")
+            raise NoRule(f"{term.term}, which does not begin at a kink")
         acts = [(i - starts[0]) * term.side >= 0 for i in range(len(factors))]
     whole = factors[acts.index(True)]
     for here, held in zip(factors, acts, strict=True):

@@ -1,25 +1,26 @@
-r"""The formulas of a body that is a polynomial on each piece, part by part, in terms of one sign.
+r"""Formulas of a body with polynomial pieces, as sums over parts, with terms of one sign.
 
-By parts over g'' a corner adds J w_j to twice the load over E*, a curved part k int w ds, with J
-the jump of g' and k = g'' there: nothing is subtracted on a convex body.  A part opens an angle t
-on the half circle x = mid - (h/2) cos(theta); its integrals are a few functions of that angle.  A
-part between an edge and a kink adds the area of a segment of a circle,
+The integrals of g'' are evaluated part by part.  A corner adds J w_j to twice the load over E*,
+and a curved part adds k int w ds, where J is the jump of g' and k is g'' on the part.  For a convex
+body nothing is subtracted.  A part spans an angle t on the half circle x = mid - (h/2) cos(theta),
+and its integrals are a few functions of this angle.  For a part between an edge and a kink, the
+integral is the area of a segment of a circle,
 
-    int w ds = (h**2/8) segment(t),    segment(t) = t - sin(t) cos(t),
+    int w ds = (h**2/8) segment(t),    segment(t) = t - sin(t) cos(t).
 
-one between the kinks 1 and 2, with sin_j and cos_j of half the angles of its ends,
+For a part between kinks 1 and 2, with sin_j and cos_j of half the angles of its ends,
 
     int w ds = (h**2/4) (segment(t/2) + sin(t) (sin_1 cos_2 + cos_1 sin_2)**2).
 
-Where g'' is not constant it must grow from one end of its piece on, in powers of the distance u
-from there that none is subtracted of.  Each power adds a moment of its part, with A and B the
-distances from the edges,
+If g'' is not constant, it must grow from one end of its piece.  It is then a sum of powers of the
+distance u from this end, all with positive coefficients.  Each power adds a moment of its part.
+With A and B the distances from the edges,
 
     int u**k w ds = h**(k + 2) part_moment(k, 1, 1, ...),
 
-    part_moment(k, i, j, ...) = int u**k A**i B**j dtheta, with lengths over h.
+    part_moment(k, i, j, ...) = int u**k A**i B**j dtheta, with lengths divided by h.
 
-The functions are computed by derive/runtime/segments.py.
+derive/runtime/segments.py evaluates these functions.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -64,30 +65,30 @@ from derive.theory.edges import Edge
 from derive.theory.frame import Frame, KinkFrame
 
 h = Symbol("h", positive=True)
-"""Contact width, by its name."""
+"""Contact width, as a symbol."""
 
 sin_x, cos_x = symbols("sin_x cos_x", nonnegative=True)
-"""Of half the angle of x."""
+"""Sine and cosine of half the angle of x."""
 
 
 HIGHEST = 8
-"""Of the powers in g'' whose moments runtime/segments.py computes to rounding."""
+"""Highest power in g'' whose moments runtime/segments.py computes to rounding accuracy."""
 
 
 class Named(Function):
-    """A function that the formulas call by its name; real."""
+    """A real function that the formulas call by its name."""
 
     letters: tuple[Symbol, ...] = ()
-    """Arguments of its definition."""
+    """Arguments in its definition."""
 
     @staticmethod
     def definition(*_: Expr) -> Expr:
-        """The function in elementary functions."""
+        """The function in terms of elementary functions."""
         raise NotImplementedError
 
     @property
     def written_out(self) -> Expr:
-        """The value in elementary functions."""
+        """The value in terms of elementary functions."""
         return self.definition(*self.args)
 
     def _eval_is_extended_real(self) -> bool:
@@ -107,33 +108,34 @@ _A, _B, _d = symbols("A B d", real=True)
 
 
 class segment(Named):
-    """t - sin(t) cos(t): a segment of the unit circle."""
+    """t - sin(t) cos(t): the area of a segment of the unit circle with the angle 2 t."""
 
     nargs = 1
     letters = (_t,)
 
     @staticmethod
     def definition(t: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         return t - sin(t) * cos(t)
 
 
 class involute(Named):
-    """sin(t) - t cos(t): how far the involute of the unit circle leads sideways."""
+    """sin(t) - t cos(t): the second coordinate of the involute of the unit circle."""
 
     nargs = 1
     letters = (_t,)
 
     @staticmethod
     def definition(t: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         return sin(t) - t * cos(t)
 
 
 class edge_angle(Named):
-    """2 atan2(sqrt(A), sqrt(B)), neither below zero: A and B are lengths to either side of a place.
+    """2 atan2(sqrt(A), sqrt(B)), where negative A and B count as zero.
 
-    The angle of a part that ends at an edge.
+    It is the angle of a part that ends at an edge; A and B are the distances of the part's other
+    end from both edges.
     """
 
     nargs = 2
@@ -142,14 +144,14 @@ class edge_angle(Named):
 
     @staticmethod
     def definition(within: Expr, beyond: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         return 2 * atan2(sqrt(Max(0, within)), sqrt(Max(0, beyond)))
 
 
 class part_area(Named):
-    """int w ds over h**2/8, of a part between two kinks.
+    """int w ds over h**2/8, for a part between two kinks.
 
-    across: the sine of half the sum of the angles of its ends.
+    across: sine of half the sum of the angles of its ends.
     """
 
     nargs = 2
@@ -157,19 +159,19 @@ class part_area(Named):
 
     @staticmethod
     def definition(t: Expr, across: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         return t - sin(t) + 2 * sin(t) * across**2
 
 
 class part_arm(Named):
-    """int w (s - mid) ds over h**3/24, of a part between two kinks."""
+    """int w (s - mid) ds over h**3/24, for a part between two kinks."""
 
     nargs = 5
     letters = (_t, *_ends)
 
     @staticmethod
     def definition(t: Expr, *halves: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         sine_1, cosine_1, sine_2, cosine_2 = halves
         first, last = sine_1 * cosine_1, sine_2 * cosine_2
         squares = first**2 + first * last + last**2
@@ -177,9 +179,9 @@ class part_arm(Named):
 
 
 class part_weight(Named):
-    """int w/A ds over h, of a part between two kinks; B in place of A for the right edge.
+    """int w/A ds over h, for a part between two kinks; B instead of A for the right edge.
 
-    far: the product of the cosines of half the angles of its ends; of the sines for B.
+    far: product of the cosines of half the angles of its ends; product of the sines for B.
     """
 
     nargs = 2
@@ -187,12 +189,12 @@ class part_weight(Named):
 
     @staticmethod
     def definition(t: Expr, far: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         return segment(t / 2).written_out + 2 * sin(t / 2) * far
 
 
 class root_ratio(Named):
-    """sqrt(A/B), zero unless both are positive."""
+    """sqrt(A/B), or zero unless both are positive."""
 
     nargs = 2
     of_a_quotient = True
@@ -200,14 +202,14 @@ class root_ratio(Named):
 
     @staticmethod
     def definition(above: Expr, below: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         return Piecewise((sqrt(above / below), (above > 0) & (below > 0)), (S.Zero, True))
 
 
 class kink_logarithm(Named):
-    """log(1 + (sqrt(A B) + Min(A, B))/Abs(d)), zero where A or B is negative.
+    """log(1 + (sqrt(A B) + Min(A, B))/Abs(d)), or zero if A or B is negative.
 
-    A fourth argument is what |d| is at least.
+    A fourth argument is a lower bound of |d|.
     """
 
     nargs = (3, 4)
@@ -216,20 +218,20 @@ class kink_logarithm(Named):
 
     @staticmethod
     def definition(left: Expr, right: Expr, offset: Expr, *_: Expr) -> Expr:
-        """Inside the contact, and farther from the kink than at least."""
-        nearer = (left + right - Abs(left - right)) / 2  # SymPy's Min compares what it holds
+        """The definition inside the contact, where |d| is above its lower bound."""
+        nearer = (left + right - Abs(left - right)) / 2  # SymPy's Min compares its arguments
         return log(1 + (sqrt(left * right) + nearer) / Abs(offset))
 
 
 class second_term(Named):
-    """int (sin(v)**2 + 2 tan(v)**2) dv over the half angles of a part, zero where it has no end."""
+    """int (sin(v)**2 + 2 tan(v)**2) dv over the half angles of a part; 0 if it ends at the edge."""
 
     nargs = 3
     letters = (_t, _near, _far)
 
     @staticmethod
     def definition(t: Expr, near: Expr, far: Expr) -> Expr:
-        """In elementary functions: X is the difference of the tangents."""
+        """The definition in elementary functions; `rise` is the difference of the tangents."""
         rise = sin(t / 2) / far
         found = 2 * rise - 3 * t / 4 + sin(t / 2) * (near - far) / 2
         return Piecewise((found, far > 0), (S.Zero, True))
@@ -243,7 +245,7 @@ class third_term(Named):
 
     @staticmethod
     def definition(t: Expr, near: Expr, far: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         rise = sin(t / 2) / far
         first = 4 * rise - 5 * t / 4 + 3 * sin(t / 2) * (near - far) / 2
         steep = 8 * near / far * rise + Rational(8, 3) * rise**3
@@ -251,27 +253,27 @@ class third_term(Named):
 
 
 class end_pressure(Named):
-    """int L ds/h over a part between an edge and a kink; u and v: sine and cosine of x."""
+    """int L ds/h over a part between an edge and a kink; u and v are sine and cosine of x."""
 
     nargs = 3
     letters = (_t, _sine, _cosine)
 
     @staticmethod
     def definition(t: Expr, sine: Expr, cosine: Expr) -> Expr:
-        """In elementary functions."""
+        """The definition in elementary functions."""
         p, q = sin(t / 2) * cosine, cos(t / 2) * sine
         return t / 2 * sine * cosine + (p**2 - q**2) * _level(p, q)
 
 
 class part_pressure(Named):
-    """int L ds/h over a part between two kinks; u and v: sines and cosines of both and of x."""
+    """int L ds/h over a part between two kinks; u, v: sines and cosines of the kinks and of x."""
 
     nargs = 9
     letters = (_t, _start, _end, *_ends, _sine, _cosine)
 
     @staticmethod
     def definition(t: Expr, start: Expr, end: Expr, *halves: Expr) -> Expr:
-        """In elementary functions; zero where the part is empty."""
+        """The definition in elementary functions; zero if the part is empty."""
         sine_1, cosine_1, sine_2, cosine_2, sine, cosine = halves
         first = _level(sine_1 * cosine, cosine_1 * sine)
         second = _level(sine_2 * cosine, cosine_2 * sine)
@@ -284,26 +286,26 @@ _past, _ahead = symbols("past ahead", real=True)
 
 
 def _over_part(integrand: Expr) -> Expr:
-    """2 int u**k integrand df over the half angles f of a part, u the distance from its start."""
+    """2 int u**k integrand df over the half angles f of a part; u: distance from its start."""
     start = asin(_ends[0])
     u = sin(_f) ** 2 - _ends[0] ** 2
     return 2 * Integral(u**_k * integrand, (_f, start, start + _t / 2))
 
 
 class part_moment(Named):
-    """int u**k A**i B**j dtheta over a part, in parts of the width; k, i and j are numbers."""
+    """int u**k A**i B**j dtheta over a part, lengths divided by the width; k, i, j are numbers."""
 
     nargs = 8
     letters = (_k, _i, _j, _t, *_ends)
 
     @staticmethod
     def definition(*_: Expr) -> Expr:
-        """As an integral, for it is printed once for all powers."""
+        """The definition as an integral, because it is printed once for all powers."""
         return _over_part(sin(_f) ** (2 * _i) * cos(_f) ** (2 * _j))
 
     @property
     def written_out(self) -> Expr:
-        """By parts, power by power of the sine: in elementary functions."""
+        """The value in elementary functions: integration by parts, for each power of the sine."""
         k, i, j, t, sine_1, cosine_1, sine_2, cosine_2 = self.args
         square, powers, total = Dummy(), t / 2, S.Zero
         whole = Poly((square - sine_1**2) ** k * square**i * (1 - square) ** j, square)
@@ -316,9 +318,9 @@ class part_moment(Named):
 
 
 class rising_pressure(Named):
-    """int u**k L ds over a part, in parts of the width; u and v: sine and cosine of x.
+    """int u**k L ds over a part, lengths divided by the width; u and v: sine and cosine of x.
 
-    past, ahead: how far x lies behind the part's start, and before its end.
+    past, ahead: the distances of x from the part's start and end, positive inside the part.
     """
 
     nargs = 10
@@ -326,14 +328,14 @@ class rising_pressure(Named):
 
     @staticmethod
     def definition(*_: Expr) -> Expr:
-        """As an integral, for it is printed once for all powers."""
+        """The definition as an integral, because it is printed once for all powers."""
         place = asin(_sine)
         level = log(Abs(sin(_f + place) / sin(_f - place))) / 2
         return _over_part(level * sin(_f) * cos(_f))
 
     @property
     def written_out(self) -> Expr:
-        """By parts: dL/ds = w(x)/(2 (x - s) w(s)) leaves moments of the part."""
+        """The value by parts: dL/ds = w(x)/(2 (x - s) w(s)) leaves moments of the part."""
         k, t, *ends, sine, cosine, past, ahead = self.args
         first = _level(ends[0] * cosine, ends[1] * sine)
         second = _level(ends[2] * cosine, ends[3] * sine)
@@ -345,7 +347,7 @@ class rising_pressure(Named):
 
 
 def _level(p: Expr, q: Expr) -> Expr:
-    """L between two places, from sines times cosines."""
+    """L of two points, from products of a sine and a cosine."""
     return log(Abs((p + q) / (p - q))) / 2
 
 
@@ -354,28 +356,28 @@ FUNCTIONS = (
     *(edge_angle, segment, involute, part_area, part_arm, part_weight, root_ratio),
     *(kink_logarithm, second_term, third_term, end_pressure, part_pressure),
 )
-"""All of them; the runtime has each under its name."""
+"""All named functions; the runtime contains each of them under the same name."""
 
 
 def written_out(expr: Expr) -> Expr:
-    """`expr` with every named function in elementary functions."""
+    """`expr` with every named function written in elementary functions."""
     return expr.replace(lambda e: isinstance(e, Named), lambda e: e.written_out)
 
 
 def as_it_is(angle: Expr) -> Expr:
-    """An expression that holds an angle, as no root of 0/0 that SymPy makes of its sine."""
+    """Keep an angle with atan2 unevaluated: SymPy would turn its sine into a root of 0/0."""
     return UnevaluatedExpr(angle) if angle.has(atan2) else angle
 
 
 def definitions_of(exprs: Iterable[Expr]) -> dict[Expr, Expr]:
-    """The definitions of the named functions that expressions hold."""
+    """Definitions of the named functions that expressions contain."""
     held = {type(node) for expr in exprs for node in expr.atoms(Named)}
     return {f(*f.letters): f.definition(*f.letters) for f in FUNCTIONS if f in held}
 
 
 @lru_cache(maxsize=16)
 def has_parts(frame: Frame) -> bool:
-    """Whether a contact can leave a kink, and its parts have formulas in terms of one sign."""
+    """Whether a contact can leave a kink, and all parts have formulas with terms of one sign."""
     if not frame.slope.is_polynomial or not any(k.clipped for k in frame.kinks):
         return False
     return all(part.is_uniform or part.rise for part in Parts(frame).parts)
@@ -383,7 +385,7 @@ def has_parts(frame: Frame) -> bool:
 
 @dataclass(frozen=True)
 class Definition:
-    """symbol = expr, in a few words."""
+    """A symbol, its definition `expr`, and its meaning in a few words."""
 
     symbol: Symbol
     expr: Expr
@@ -392,9 +394,9 @@ class Definition:
 
 @dataclass(frozen=True)
 class Part:
-    """The part of a contact that one piece of the body covers.
+    """The part of a contact that is covered by one piece of the body.
 
-    before, behind: the kinks at its ends; None at an edge.
+    before, behind: the kinks at its left and right end; None at an edge.
     """
 
     number: int
@@ -404,22 +406,22 @@ class Part:
 
     @cached_property
     def t(self) -> Symbol:
-        """The angle that it opens on the half circle."""
+        """The angle that the part spans on the half circle."""
         return Symbol(f"t_{self.number}", nonnegative=True)
 
     @cached_property
     def bend(self) -> Expr:
-        """g'' on it."""
+        """g'' on the part."""
         return simplify(self.piece.curvature)
 
     @property
     def is_uniform(self) -> bool:
-        """Whether g'' is the same all over it."""
+        """Whether g'' is constant on the part."""
         return not self.bend.has(x)
 
     @cached_property
     def rise(self) -> "Rise | None":
-        """g' and g'' from one end of the piece on, where they grow from there; None if uniform."""
+        """g' and g'' by the distance from an end of the piece where they grow; None if uniform."""
         if self.is_uniform or degree(self.bend, x) > HIGHEST:
             return None
         for kink, sense in ((self.before, 1), (self.behind, -1)):
@@ -434,37 +436,37 @@ class Part:
 
     @property
     def is_inner(self) -> bool:
-        """Whether it lies between two kinks."""
+        """Whether the part lies between two kinks."""
         return self.before is not None and self.behind is not None
 
     @property
     def begins(self) -> tuple[Expr, Expr]:
-        """Sine and cosine of half the angle of its left end."""
+        """Sine and cosine of half the angle of the left end."""
         return (S.Zero, S.One) if self.before is None else _sine_and_cosine(self.before)
 
     @property
     def ends(self) -> tuple[Expr, Expr]:
-        """Sine and cosine of half the angle of its right end."""
+        """Sine and cosine of half the angle of the right end."""
         return (S.One, S.Zero) if self.behind is None else _sine_and_cosine(self.behind)
 
     @property
     def near(self) -> Expr:
-        """Product of both sines."""
+        """Product of the sines of both ends."""
         return self.begins[0] * self.ends[0]
 
     @property
     def far(self) -> Expr:
-        """Product of both cosines."""
+        """Product of the cosines of both ends."""
         return self.begins[1] * self.ends[1]
 
     @property
     def across(self) -> Expr:
-        """Sine of half the sum of the angles of its ends."""
+        """Sine of half the sum of the angles of both ends."""
         return self.ends[0] * self.begins[1] + self.begins[0] * self.ends[1]
 
     @property
     def angle(self) -> Expr:
-        """The definition of t."""
+        """Definition of t."""
         before, behind = self.before, self.behind
         if before and behind:
             span = simplify(behind.kink.position - before.kink.position)
@@ -472,15 +474,18 @@ class Part:
             return 2 * atan2(length, h * self.across * (self.near + self.far))
         kink = before or behind
         if kink is None:
-            return pi  # all of the contact
+            return pi  # the whole contact
         sides = (kink.left, kink.right)
         return edge_angle(*reversed(sides)) if before else edge_angle(*sides)
 
-    # ------------------------------------------------------------------ its integrals
+    # ------------------------------------------------------------------ integrals
 
     @property
     def area(self) -> Expr:
-        """int w ds over h**2/8; here and below int g'' w ds of a part that is not uniform."""
+        """int w ds over h**2/8.
+
+        If the part is not uniform, this and the following integrals include the factor g''.
+        """
         if self.rise:
             return 8 * self.rise.moment(1, 1)
         if not self.is_inner:
@@ -521,13 +526,13 @@ class Part:
         return (self.t + sin(self.t)) / 2 if touched is None else segment(self.t / 2)
 
     def beyond(self, edge: Edge, term: Callable[..., Expr]) -> Expr:
-        """A part's share in the pressure's next term at an edge that it does not touch."""
+        """Contribution to the next term of the pressure at an edge that the part does not touch."""
         both = (self.near, self.far) if edge is Edge.RIGHT else (self.far, self.near)
         return term(self.t, *both)
 
     @property
     def seen(self) -> Expr:
-        """int L ds over h, seen from x."""
+        """int L ds over h, for the pressure at x."""
         if self.rise:
             return self.rise.seen
         if self.before is None:
@@ -537,22 +542,22 @@ class Part:
         start, end = ((k.kink.position - x) / h for k in (self.before, self.behind))
         return part_pressure(self.t, start, end, *self.begins, *self.ends, sin_x, cos_x)
 
-    # ------------------------------------------------------------------ its slope
+    # ------------------------------------------------------------------ slope
 
     @property
     def beginning(self) -> Expr:
-        """Where it begins."""
+        """Position of the left end."""
         return -a if self.before is None else Max(-a, self.before.kink.position)
 
     @property
     def ending(self) -> Expr:
-        """Where it ends."""
+        """Position of the right end."""
         return c if self.behind is None else Min(c, self.behind.kink.position)
 
     def _slope_at(self, place: Expr) -> Expr:
-        """g' at a place, as a sum of two of one sign, if that is known.
+        """g' at a point, as a sum of two terms of one sign if their sign is known.
 
-        From an end of the piece that g' does not come back to zero from, or from its root.
+        It starts from the end of the piece from which g' moves away from zero, or from its root.
         """
         slope = simplify(self.piece.slope)
         for end, sense in ((self.piece.lower, 1), (self.piece.upper, -1)):
@@ -565,10 +570,10 @@ class Part:
 
 @dataclass(frozen=True)
 class Rise:
-    """A part whose g' grows from one end of its piece on, in terms of one sign.
+    """A part whose g' grows from one end of its piece, with terms of one sign.
 
-    sense: 1 where it grows from the left end, -1 from the right one.
-    slopes: sense times g' there, and the coefficients of the powers of the distance.
+    sense: +1 if it grows from the left end, -1 if it grows from the right end.
+    slopes: coefficients of sense times g' by powers of the distance from that end.
     """
 
     part: Part
@@ -577,7 +582,7 @@ class Rise:
 
     @cached_property
     def _from_start(self) -> list[Expr]:
-        """The same from where the part starts, which may be an edge of the contact."""
+        """The same coefficients from the start of the part, which may be an edge of the contact."""
         kink = self.part.before if self.sense > 0 else self.part.behind
         assert kink is not None
         inside = Max(0, -kink.left if self.sense > 0 else -kink.right)
@@ -589,13 +594,13 @@ class Rise:
 
     @property
     def _powers(self) -> Iterator[tuple[int, Expr]]:
-        """Powers of u/h in g'', and their coefficients."""
+        """Powers of u/h in g'', each with its coefficient."""
         for k, slope in enumerate(self._from_start[1:]):
             if slope != 0:
                 yield k, (k + 1) * slope * h**k
 
     def _halves(self) -> tuple[Expr, ...]:
-        """Sines and cosines of half the angles of start and end; seen from behind where it is."""
+        """Sines and cosines of half the angles of start and end; reversed if g' grows leftward."""
         halves = (*self.part.begins, *self.part.ends)
         return halves[:: self.sense]
 
@@ -603,7 +608,7 @@ class Rise:
         return part_moment(k, *(i, j)[:: self.sense], self.part.t, *self._halves())
 
     def moment(self, i: int, j: int) -> Expr:
-        """int g'' A**i B**j dtheta, with A and B over h."""
+        """int g'' A**i B**j dtheta, with A and B divided by h."""
         return Add(*(bend * self._moment_of(k, i, j) for k, bend in self._powers))
 
     @property
@@ -615,7 +620,7 @@ class Rise:
 
     @property
     def seen(self) -> Expr:
-        """int g'' L ds over h, seen from x."""
+        """int g'' L ds over h, for the pressure at x."""
         place = (sin_x, cos_x)[:: self.sense]
         offsets = ((x - self.part.beginning) / h, (self.part.ending - x) / h)[:: self.sense]
         given = (self.part.t, *self._halves(), *place, *offsets)
@@ -623,7 +628,7 @@ class Rise:
 
 
 def _distance(place: Expr, other: Expr) -> Expr:
-    """place - other, in one comparison where the place is compared with the other one."""
+    """place - other, by a single comparison if `place` is a Max or Min that contains `other`."""
     if isinstance(place, Max | Min) and other in place.args:
         (edge,) = set(place.args) - {other}
         return Max(0, edge - other) if isinstance(place, Max) else -Max(0, other - edge)
@@ -650,35 +655,35 @@ def _root(kink: KinkFrame) -> Expr:
 
 @dataclass(frozen=True)
 class Parts:
-    """A body's formulas as sums over its parts and corners."""
+    """The formulas of a body as sums over its parts and corners."""
 
     frame: Frame
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """From left to right."""
+        """All parts, from left to right."""
         ends = pairwise((None, *self.frame.kinks, None))
         pieces = enumerate(zip(self.frame.slope.pieces, ends, strict=True), start=1)
         return tuple(Part(number, piece, *kinks) for number, (piece, kinks) in pieces)
 
     @property
     def curved(self) -> tuple[Part, ...]:
-        """Those on which g'' is not zero."""
+        """Parts on which g'' is not zero."""
         return tuple(part for part in self.parts if part.bend != 0)
 
     @property
     def has_series(self) -> bool:
-        """Whether L_N and the next coefficient are sums over parts, too."""
+        """Whether L_N and the next coefficient are also sums over parts."""
         return all(part.is_uniform for part in self.parts)
 
     @property
     def corners(self) -> Iterator[tuple[Expr, KinkFrame]]:
-        """Jumps of g', and their kinks."""
+        """Jumps of g', each with its kink."""
         return ((k.kink.step, k) for k in self.frame.kinks if k.kink.is_corner)
 
     @cached_property
     def formulas(self) -> dict[str, Expr]:
-        """All formulas by their names on the sheet, and third_left and third_right."""
+        """All formulas by their names on the sheet, with third_left and third_right in addition."""
         found = {
             "tilt": self.tilt,
             "load": self.load,
@@ -732,19 +737,19 @@ class Parts:
         return curved + Add(*corners)
 
     def edge_coefficient(self, edge: Edge) -> Expr:
-        """(E*/(pi sqrt(h))) int g'' w/B ds at the right edge, of sqrt(s)."""
+        """Coefficient of sqrt(s): (E*/(pi sqrt(h))) int g'' w/B ds at the right edge."""
         curved = E_star * sqrt(h) / pi * self._sum(lambda part: part.weight(edge))
         return curved + E_star / (pi * sqrt(h)) * self._jumps(edge, lambda r: r)
 
     def second_coefficient(self, edge: Edge) -> Expr:
-        """Of s**(3/2): what g'' at the edge alone would give, and what other parts add to it."""
+        """Coefficient of s**(3/2): a part due to g'' at the edge, and a part due to the others."""
         here = -E_star * self.bend_at(edge) / (4 * sqrt(h))
         curved = E_star / (3 * pi * sqrt(h)) * self._others(edge, second_term)
         corners = self._jumps(edge, lambda r: r * (3 + 2 * r**2))
         return here + curved + E_star / (6 * pi * h ** Rational(3, 2)) * corners
 
     def third_coefficient(self, edge: Edge) -> Expr:
-        """Of s**(5/2), alike."""
+        """Coefficient of s**(5/2), computed likewise."""
         here = -E_star * self.bend_at(edge) / (16 * h ** Rational(3, 2))
         curved = E_star / (20 * pi * h ** Rational(3, 2)) * self._others(edge, third_term)
         corners = self._jumps(edge, lambda r: r * (15 + r**2 * (20 + 8 * r**2)))
@@ -752,7 +757,7 @@ class Parts:
 
     @cached_property
     def definitions(self) -> tuple[Definition, ...]:
-        """What the symbols of the formulas stand for, each after those that it holds."""
+        """Definitions of the symbols in the formulas; each follows those that it contains."""
         found = [Definition(h, a + c, "contact width")]
         for k in self.frame.kinks:
             at = f"of half the angle of x = {k.kink.position}"
@@ -776,11 +781,11 @@ class Parts:
         return tuple(found)
 
     def defined_in(self, forms: Iterable[Expr]) -> dict[Expr, Expr]:
-        """The symbols that formulas hold, and the functions that they call, as they are printed."""
+        """Definitions of the symbols in the formulas, and of the functions, as they are printed."""
         exprs = [*forms]
         known: dict[Symbol, Expr] = {d.symbol: d.expr for d in self.definitions}
         found: set[Symbol] = set()
-        for expr in exprs:  # grows as it is gone through
+        for expr in exprs:  # the list grows during the loop
             for symbol in expr.free_symbols & known.keys() - found:
                 found.add(symbol)
                 exprs.append(known[symbol])
@@ -788,11 +793,11 @@ class Parts:
         return held | definitions_of(exprs)
 
     def bend_at(self, edge: Edge) -> Expr:
-        """g'' at an edge: a symbol, or zero of a body without curved parts."""
+        """g'' at an edge: a symbol, or zero for a body without curved parts."""
         return Symbol(f"k_{edge.name.lower()}", real=True) if self.curved else S.Zero
 
     def _bends(self, edge: Edge) -> Expr:
-        """The definition of g'' at an edge."""
+        """Definition of g'' at an edge."""
         kinks = self.frame.kinks
         if edge is Edge.LEFT:
             inward, distances = self.parts, [k.left for k in kinks]
@@ -803,7 +808,7 @@ class Parts:
         return Piecewise(*branches, (last.bend, True))
 
     def _others(self, edge: Edge, term: Callable[..., Expr]) -> Expr:
-        """What the parts that do not end at an edge add to the g'' there."""
+        """Contribution of the parts that do not end at an edge, by g'' relative to that edge."""
         if not self.curved:
             return S.Zero
         others = self.parts[1:] if edge is Edge.LEFT else self.parts[:-1]
@@ -811,14 +816,14 @@ class Parts:
         return Add(*((part.bend - here) * part.beyond(edge, term) for part in others))
 
     def _jumps(self, edge: Edge, of_tangent: Callable[[Expr], Expr]) -> Expr:
-        """The sum over the corners' jumps times a function of sqrt(A/B), for the right edge."""
+        """Sum over the corners' jumps times a function of sqrt(A/B), for the right edge."""
         side = edge is Edge.RIGHT
         return factor_terms(
             Add(*(J * of_tangent(_tangents(k)[0 if side else 1]) for J, k in self.corners))
         )
 
     def _sum(self, share: Callable[[Part], Expr]) -> Expr:
-        """The sum over g'' times a share, each g'' once; a share that is not uniform holds it."""
+        """Sum over g'' times a share, grouped by g''; a nonuniform part's share includes g''."""
         groups: dict[Expr, Expr] = {}
         for part in self.curved:
             bend = part.bend if part.is_uniform else S.One

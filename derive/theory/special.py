@@ -1,22 +1,22 @@
 r"""Terms of g' whose integrals over the contact are special functions: one rule for each kind.
 
-With s = mid + (h/2) X, X = cos(theta), everything that a contact carries is an integral of g' and
-its derivatives over 0 < theta < pi, weighted by polynomials W(X):
+With s = mid + (h/2) X and X = cos(theta), all loads and coefficients of a contact are integrals of
+g' and its derivatives over 0 < theta < pi, weighted by polynomials W(X):
 
     alpha = -(1/pi) int g',     P = (E*/4) h int X g',
     M = -(E*/16) h int (h (2 X**2 - 1) + 4 mid X) g',
     K_right = E* sqrt(h)/(2 pi) int (1 + X) g'',
     L_right = -E*/(pi sqrt(h)) int [ (1 + X) g''/4 + h (1 + X)**2 g'''/6 ],
 
-K_left with 1 - X, L_left with (1 - X) g''/4 - h (1 - X)**2 g'''/6.  K_N is the rate of the tilt as
-an edge moves, and L_N that of K_N: an edge that moves adds a flat punch to the pressure.
+K_left with 1 - X, and L_left with (1 - X) g''/4 - h (1 - X)**2 g'''/6.  K_N is the rate of the tilt
+as an edge moves, and L_N the rate of K_N, because a moving edge adds a flat punch to the pressure.
 
-In float64 these forms lose digits, by SciPy's functions: E - (1 - m) K all of them where m is
-small, 2F1 up to nine where a kink lies close to an edge, for its argument is rounded next to one,
-and the Bessel functions three where two of them all but cancel.
+Evaluated in float64 with SciPy's functions, these forms lose digits.  E - (1 - m) K loses all of
+them if m is small.  2F1 loses up to nine if a kink lies close to an edge, because its argument is
+then rounded next to one.  The Bessel functions lose three where two of them nearly cancel.
 
-Each rule states the integrals that it is made of.  Elliptic integrals are SymPy's: of the parameter
-m, not the modulus, and Pi(n|m) with 1 - n sin**2 in its denominator.
+Each rule states the integrals on which it is based.  Elliptic integrals follow SymPy: they take the
+parameter m, not the modulus, and Pi(n|m) has 1 - n sin**2 in its denominator.
 """
 
 from collections.abc import Iterator, Mapping
@@ -56,12 +56,12 @@ from derive.symbols import E_star, a, c, h, mid, x
 from derive.theory.frame import RootFrame
 
 X = Symbol("X")
-"""cos(theta): -1 at the left edge, 1 at the right."""
+"""cos(theta): -1 at the left edge, 1 at the right edge."""
 
 _HALF = Rational(1, 2)
 
 Weights = Mapping[int, Expr]
-"""W(X) by the order of the derivative of g' that it is the weight of."""
+"""W(X) by the order of the derivative of g' to which the weight belongs."""
 
 WEIGHTS: Mapping[str, tuple[Expr, Weights]] = {
     "tilt": (-1 / pi, {0: S.One}),
@@ -72,7 +72,7 @@ WEIGHTS: Mapping[str, tuple[Expr, Weights]] = {
     "L_N_left": (-E_star / (pi * sqrt(h)), {1: (1 - X) / 4, 2: -h * (1 - X) ** 2 / 6}),
     "L_N_right": (-E_star / (pi * sqrt(h)), {1: (1 + X) / 4, 2: h * (1 + X) ** 2 / 6}),
 }
-"""Factor and weights of every formula."""
+"""Factor and weights of each formula."""
 
 
 Integrals = dict[Expr, Expr]
@@ -88,12 +88,12 @@ class Special(Protocol):
         ...
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
-        """The integral over theta of W(X) times the derivatives of polynomial(x) times this."""
+        """Integrals over theta of W(X) times derivatives of polynomial(x) times the term."""
         ...
 
 
 def _along(polynomial: Expr) -> Expr:
-    """A polynomial in x as one in X."""
+    """A polynomial in x, written as one in X."""
     return polynomial.subs(x, mid + h / 2 * X)
 
 
@@ -102,9 +102,9 @@ def _along(polynomial: Expr) -> Expr:
 
 @dataclass(frozen=True)
 class Power:
-    r"""t**p, t = side (x - place) > 0; nothing where t < 0.
+    r"""t**p with t = side (x - place) > 0; zero where t < 0.
 
-    With u the distance from the place to the edge on its side, where u < h,
+    Let u be the distance from the place to the edge on its side.  If u < h,
 
         int t**p cos(n theta)   = sqrt(pi) Gamma(p+1)/Gamma(p+3/2) u**(p+1/2)/sqrt(h)
                                   2F1(1/2-n, 1/2+n; p+3/2; u/h),
@@ -115,16 +115,16 @@ class Power:
                                 = Gamma(j+1/2) Gamma(p+1)/Gamma(p+3/2) u**(p+1/2)/h**(j+1/2)
                                   2F1(1/2, 1/2+j; p+3/2; u/h);
 
-    and where the place lies beyond the other edge, u > h, with p(p-1)... of n or j factors,
+    If the place lies beyond the other edge, u > h, then with p(p-1)... having n or j factors,
 
         int t**p cos(n theta)   = pi p(p-1).../n! u**p (h/(4u))**n 2F1(n-p, n+1/2; 2n+1; h/u),
         the second and third    = p(p-1)... u**(p-j) B(1/2, j+1/2) 2F1(j-p, 1/2; j+1; h/u),
                                   the same with 2F1(j-p, 1/2+j; j+1; h/u).
 
-    For the other side theta becomes pi - theta.
+    For the other side, theta is replaced by pi - theta.
 
-    outside: the body ends at the place, which then lies beyond the other edge of every contact; p
-    may be negative there.
+    outside: the body ends at the place, which then lies beyond the other edge of every contact.  In
+    this case p may be negative.
     """
 
     place: Expr
@@ -138,7 +138,7 @@ class Power:
         return (self.side * (x - self.place)) ** self.exponent
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
-        """A polynomial factor becomes one in t, and raises the exponent."""
+        """Write the polynomial factor in t, so that it only raises the exponent."""
         t = Symbol("t")
         inner = Poly(polynomial.subs(x, self.place + self.side * t), t)
         found: Integrals = {}
@@ -149,7 +149,7 @@ class Power:
         return found
 
     def _weighted(self, weights: Weights) -> Iterator[tuple[Expr, Expr]]:
-        """By cos(n theta); derivatives by (1 + X)**j and (1 - X)**j, the weights that they have."""
+        """Integrals by cos(n theta); those of derivatives by their weights (1 +/- X)**j."""
         for order, weight in weights.items():
             mirrored = weight.subs(X, self.side * X)
             if order == 0:
@@ -167,7 +167,7 @@ class Power:
         return c - self.place if self.side > 0 else a + self.place
 
     def _branches(self, inside: Expr, beyond: Expr) -> Expr:
-        """The contact ends before the place, spans it, or lies beyond it."""
+        """Cases: the contact ends before the place, spans it, or lies beyond it."""
         if self.outside:
             return beyond
         before, spans = self._conditions
@@ -180,7 +180,7 @@ class Power:
         return a <= -self.place, c > self.place
 
     def _cosine(self, n: int) -> Expr:
-        """int t**p cos(n theta), theta from the edge on the side of the term."""
+        """int t**p cos(n theta), with theta from the edge on the side of the term."""
         p, u = self.exponent, self._u
         scale = sqrt(pi) * gamma(p + 1) / gamma(p + 3 * _HALF)
         inside = (
@@ -218,17 +218,17 @@ class Power:
 
 
 def _gauss(first: Expr, second: Expr, third: Expr, at: Expr) -> Expr:
-    """2F1."""
+    """The hypergeometric function 2F1."""
     return hyper((first, second), (third,), at)
 
 
 def _falling(p: Expr, n: int) -> Expr:
-    """p (p - 1) ... of n factors."""
+    """p (p - 1) ... with n factors."""
     return ff(p, n)
 
 
 def _in_cosines(weight: Expr) -> dict[int, Expr]:
-    """A polynomial in X as a sum of cos(n theta), by the coefficients of those."""
+    """A polynomial in X as a sum of cos(n theta): the coefficient for each n."""
     found: dict[int, Expr] = {}
     rest = Poly(weight, X)
     while not rest.is_zero:
@@ -246,13 +246,13 @@ def _in_cosines(weight: Expr) -> dict[int, Expr]:
 class Exponential:
     r"""exp, sinh or cosh of beta x + delta.
 
-    int exp(z cos(theta)) cos(n theta) = pi I_n(z), so that with z = beta h/2
+    Since int exp(z cos(theta)) cos(n theta) = pi I_n(z), with z = beta h/2,
 
         int exp(beta s + delta) cos(n theta)  = pi exp(beta mid + delta) I_n(z),
         int sinh(beta s + delta) cos(n theta) = pi sinh(beta mid + delta) I_n(z) for even n,
                                                 pi cosh(beta mid + delta) I_n(z) for odd n,
 
-    and cosh alike.
+    and likewise for cosh.
     """
 
     kind: type[Function]
@@ -266,7 +266,7 @@ class Exponential:
     other: ClassVar[Mapping[type[Function], type[Function]]] = {exp: exp, sinh: cosh, cosh: sinh}
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
-        """A polynomial factor is another weight."""
+        """Treat the polynomial factor as a part of the weight."""
         found: Integrals = {}
         for order, weight in weights.items():
             for kind, times in self._derivative(polynomial, order).items():
@@ -280,7 +280,7 @@ class Exponential:
         return diff(self.argument, x)
 
     def _derivative(self, polynomial: Expr, order: int) -> dict[type[Function], Expr]:
-        """The derivative of polynomial(x) times this term, by the functions that it holds."""
+        """Derivative of polynomial(x) times the term: the factor of each function."""
         held = {self.kind: polynomial}
         for _ in range(order):
             after: dict[type[Function], Expr] = {}
@@ -302,21 +302,21 @@ class Exponential:
 
 @dataclass(frozen=True)
 class Root:
-    r"""q**(-1/2 - level), q = q_2 x**2 + q_1 x + q_0 positive all over the contact.
+    r"""q**(-1/2 - level), with q = q_2 x**2 + q_1 x + q_0 positive throughout the contact.
 
-    The substitution cos(theta) = -(nu + mu)/(1 + mu nu), nu = cn(v), takes both edges to v = 0 and
-    2 K, and with A = sqrt(q(c)), B = sqrt(q(-a)), mu = (A - B)/(A + B),
+    The substitution cos(theta) = -(nu + mu)/(1 + mu nu), nu = cn(v), maps the edges to v = 0 and
+    v = 2 K.  With A = sqrt(q(c)), B = sqrt(q(-a)) and mu = (A - B)/(A + B),
 
-        m = (q_2 h**2 - (A - B)**2)/(4 A B),    n = q_2 h**2/(A + B)**2,
+        m = (q_2 h**2 - (A - B)**2)/(4 A B),    n = q_2 h**2/(A + B)**2.
 
-    both real and below one whatever the sign of q_2 or of q's discriminant,
+    Both are real and below one for any sign of q_2 or of the discriminant of q.
 
         U_0 = int 1/sqrt(q)   = 2 K(m)/sqrt(A B),
         U_1 = int X/sqrt(q)   = -(A**2 - B**2)/(q_2 h**2) 2/sqrt(A B) (K(m) - (1 - n) Pi(n|m)),
         q_2 h**2/4 U_2        = 2 sqrt(A B) (E(m) - (1 - m) K(m)) - (A**2 - B**2)/4 U_1.
 
-    In X, q = q0 + q1 X + q2 X**2.  The rest follows from integrals of derivatives of sin(theta)
-    X**k sqrt(q), or of sin(theta) (1, X) q**(1/2 - level), which vanish.
+    In terms of X, q = q0 + q1 X + q2 X**2.  The other integrals follow from the integrals of the
+    derivatives of sin(theta) X**k sqrt(q), or of sin(theta) (1, X) q**(1/2 - level), which vanish.
     """
 
     frame: RootFrame
@@ -328,7 +328,7 @@ class Root:
         return self.frame.quadratic ** (-_HALF - self.level)
 
     def weighted(self, polynomial: Expr, weights: Weights) -> Integrals:
-        """A polynomial factor is another weight."""
+        """Treat the polynomial factor as a part of the weight."""
         numerators = [
             (self.level + order, weight * _along(self._derivative(polynomial, order)))
             for order, weight in weights.items()
@@ -345,14 +345,14 @@ class Root:
         return self._written([value.as_expr() for value in total])
 
     def _derivative(self, polynomial: Expr, order: int) -> Expr:
-        """The numerator of the derivative of polynomial(x) times this term."""
+        """Numerator of the derivative of polynomial(x) times the term."""
         q = self.frame.quadratic
         for level in range(self.level, self.level + order):
             polynomial = diff(polynomial, x) * q - (level + _HALF) * polynomial * diff(q, x)
         return polynomial
 
     def _written(self, coefficients: list[Expr]) -> Integrals:
-        """In terms of K, E - (1 - m) K and (1 - n) Pi, or of K - (1 - n) Pi alone."""
+        """The sum by K, E - (1 - m) K and (1 - n) Pi, or by K - (1 - n) Pi alone."""
         f = self.frame
         mean, K = sqrt(f.left * f.right), elliptic_k(f.m)
         third_kind = (1 - f.n) * elliptic_pi(f.n, f.m)
@@ -367,8 +367,8 @@ class Root:
 class _Table:
     """Integrals over theta of polynomials in X over q**(1/2 + level), in a field of quotients.
 
-    Polynomials are lists of coefficients, the constant first; integrals are the coefficients of
-    what `Root` names.
+    Polynomials are lists of coefficients that begin with the constant.  Integrals are lists of the
+    coefficients of the functions that `Root` names.
     """
 
     field: Any
@@ -383,14 +383,14 @@ class _Table:
         return _sum(over, self.integral(quotient, level - 1))
 
     def _combined(self, polynomial: list[Any], powers: list[list[Any]]) -> list[Any]:
-        """The sum of the coefficients times the integrals of the powers of X."""
+        """Sum of coefficients times integrals of powers of X."""
         total = [self.field.zero] * 3
         for k, integral in zip(polynomial, powers, strict=False):
             total = _sum(total, integral, k)
         return total
 
     def _powers(self, count: int) -> list[list[Any]]:
-        """U_0, U_1, ..."""
+        """U_0, U_1, ..., up to `count` of them."""
         q0, q1, q2 = self.q
         zero, one = self.field.zero, self.field.one
         first, second = [2 * one, zero, zero], [-q1 / q2, zero, q1 / q2]
@@ -404,7 +404,7 @@ class _Table:
         return found
 
     def _with_pole(self, level: int) -> list[list[Any]]:
-        """int q**(-1/2 - level) and int X q**(-1/2 - level), from two integrals that vanish."""
+        """int q**(-1/2 - level) and int X q**(-1/2 - level), from two integrals that are zero."""
         rows, known = [], []
         for r in ([1], [0, 1]):
             quotient, rest = self._divided(self._vanishing(r, level))
@@ -419,7 +419,7 @@ class _Table:
         ]
 
     def _vanishing(self, r: list[int], level: int) -> list[Any]:
-        """Numerator of the derivative of sin(theta) r(X) q**(1/2 - level) over q**(1/2 + level)."""
+        """Numerator over q**(1/2 + level) of the derivative of sin(theta) r(X) q**(1/2 - level)."""
         one = self.field.one
         sine = [one, 0 * one, -one]
         rate = [self.q[1], 2 * self.q[2]]
@@ -430,7 +430,7 @@ class _Table:
         return _added(first, [k * (2 * level - 1) / 2 for k in second])
 
     def _divided(self, numerator: list[Any]) -> tuple[list[Any], list[Any]]:
-        """Quotient and remainder of division by q."""
+        """Quotient and remainder of the division by q."""
         rest = [*numerator, *[self.field.zero] * (2 - len(numerator))]
         quotient: list[Any] = []
         while len(rest) > 2:
