@@ -72,7 +72,7 @@ def evidence(finding: Finding) -> str:
     parts = [*units, f"compared with {claim.against}: {finding.judged.why}"]
     if finding.convention and finding.under:
         parts.append(
-            f"with {finding.convention.what} {finding.under.why}; "
+            f"with {finding.convention.what}: {finding.under.why}; "
             f"this contradicts {finding.convention.contradicts}"
         )
     if finding.repair:
