@@ -193,7 +193,7 @@ HERE = Contact(1.0, 1.0, 0.0)
     ("call", "kind", "words"),
     [
         (lambda: wedge.stick_zone((1, 1), HERE, 0.1, 0, f=1, **LAW), TypeError,
-         r"first must be a Contact, as contact\(...\) gives it; got \(1, 1\)"),
+         r"first must be a Contact, as returned by contact\(...\); got \(1, 1\)"),
         (lambda: wedge.shear(0.2, 1.5, 0.1, 0, f=1, **LAW), TypeError, "contact must be a Contact"),
         (lambda: wedge.stick_zone(HERE, Contact("1", 1, 0), 0.1, 0, f=1, **LAW), TypeError,
          "second.a must be a real number or an array of real numbers; got str '1'"),
