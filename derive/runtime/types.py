@@ -26,7 +26,7 @@ class Regime(IntEnum):
     """How a cycle slips.
 
     NONE        there is no such cycle, or one of its numbers is invalid: `why` gives the reason
-    MODERATE    forward slip at both edges: m and n are exact
+    MODERATE    slip in the same sense at both edges: m and n are exact
     LARGE       slip of opposite signs at the edges: m and n are exact
     MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, except at
                 constant normal loads where forward slip finally overtakes the reversed slip, or

@@ -306,16 +306,72 @@ def test_out_of_phase_as_by_the_independent_solver(case, body, loads):
     assert compared >= 3
 
 
-def test_normal_load_out_of_phase_with_shear():
+NOTHING_EXACT = StickZone(*(np.asarray(np.nan),) * 3), np.nan
+
+
+def test_normal_load_out_of_phase_with_shear(monkeypatch):
     """P leads Q by a quarter: 0.8014 of the half-width at the mean load by another solver, for
     which what slips by less than 1e-3 of the most does not slip."""
     P, Q = LOAD * (1 + 0.2 * np.sin(T)), 0.3 * F * LOAD * np.cos(T)
+    exact = steady_cycle(hertz, P, 0.0, Q, 0.0)
+    assert exact.regime == Regime.MODERATE and exact.error == 0
+    assert exact.m == pytest.approx(math.sqrt(1 - math.sqrt(0.3**2 + 0.2**2)), abs=2e-3)
+    monkeypatch.setattr(public, "_exact", lambda *_: NOTHING_EXACT)
     found = steady_cycle(hertz, P, 0.0, Q, 0.0, x=[0.8014])
     assert found.regime == COMPUTED
     assert found.m == pytest.approx(found.n, rel=1e-9)
     assert found.error < 1e-3 and 0 < 0.8014 - found.m < 2.5e-3
+    assert abs(found.m - exact.m) < found.error * 2 * exact.m
     most = steady_cycle(hertz, P, 0.0, Q, 0.0, x=np.linspace(0, 1, 41)).slip_range.max()
     assert 0 < found.slip_range[0] < 2e-3 * most
+
+
+# P/P0, Q/(f P0) around a loop, and P_E/P0 by hand
+LOOPS = [
+    ([1.0, 1.2, 1.0, 0.8], [0.3, 0.0, -0.3, 0.0], 0.7),  # lines touch at (1, +-0.3)
+    ([1.0, 1.4, 1.0], [0.2, 0.3, -0.1], 0.85),  # (0.8 + 0.9)/2
+    ([1.0, 1.1, 0.6, 1.2, 0.9], [0.4, 0.2, 0.1, -0.6, -0.5], 0.45),  # (0.5 + 0.4)/2, not convex
+    ([0.8, 1.2, 1.3], [0.1, 0.3, 0.0], 0.8),  # all is above (0.8, 0.1): the smallest contact
+]
+
+
+@pytest.mark.parametrize(("P", "Q", "extreme"), LOOPS)
+@pytest.mark.parametrize("sigma", [0.0, 0.2])
+def test_a_loop_of_P_and_Q_sticks_in_the_contact_under_its_extreme_load(P, Q, extreme, sigma):
+    """a = sqrt(4 P/pi) for the cylinder, a = P for the wedge."""
+    P, Q = np.array(P), F * np.array(Q)
+    for case, a, power in ((hertz, 1.0, 0.5), (wedge, LOAD, 1.0)):
+        found = steady_cycle(case, LOAD * P, 0.0, LOAD * Q, sigma)
+        assert (found.regime, found.error) == (Regime.MODERATE, 0)
+        assert [found.m, found.n] == pytest.approx([a * extreme**power] * 2, rel=1e-12)
+
+
+@pytest.mark.parametrize("case", [hertz, wedge, flat_rounded])
+def test_random_loops_of_P_and_Q_are_exact(case, monkeypatch):
+    """As on elements, to the error that is stated there; their shape and sense do not matter."""
+    rng = np.random.default_rng(11)
+    P = LOAD * (1 + 0.5 * rng.uniform(-1, 1, (4, 8)))
+    Q = 0.8 * F * P * rng.uniform(-1, 1, (4, 8))
+    sigma = rng.uniform(-0.5, 0.5, (4, 1))
+    exact = steady_cycle(case, P, 0.0, Q, sigma)
+    back = steady_cycle(case, P[:, ::-1], 0.0, -Q[:, ::-1], sigma)
+    assert np.all(exact.regime == Regime.MODERATE)
+    assert back.m == pytest.approx(exact.m, rel=1e-12)
+    monkeypatch.setattr(public, "_exact", lambda *_: NOTHING_EXACT)
+    found = steady_cycle(case, P, 0.0, Q, sigma)
+    h = exact.m + exact.n
+    assert np.all(found.regime == COMPUTED)
+    assert np.all(abs(found.m - exact.m) < found.error * h)
+    assert np.all(abs(found.n - exact.n) < found.error * h)
+    assert np.all(abs(found.m - exact.m) < 1e-3 * h)
+
+
+def test_no_loop_is_exact_where_the_tilt_changes_or_it_slides():
+    P, Q = LOAD * np.array([1.0, 1.3, 0.9]), 0.2 * F * LOAD * np.array([1.0, 0.3, -1.0])
+    assert steady_cycle(hertz, P, 0.01, Q, 0.0).regime == COMPUTED
+    assert steady_cycle(hertz, P, 0.0, Q, [0.0, 0.1, 0.0]).regime == COMPUTED
+    slides = steady_cycle(hertz, P, 0.0, [0.2 * F * LOAD, F * P[1], 0.0], 0.0)
+    assert slides.regime == Regime.SLIDING and np.isnan(slides.m)
 
 
 def settled(body, loads, f, edges, count, steps):
@@ -386,8 +442,7 @@ def test_what_is_computed_is_as_exact_as_stated(case, P, M, dQ, dsigma, normal, 
     given = P * (1 + normal * way), M, 2 * dQ * F * P * way, dsigma * way
     exact = steady_cycle(case, *given)
     assert exact.regime in (Regime.MODERATE, Regime.LARGE) and exact.error == 0
-    nothing = StickZone(*(np.asarray(np.nan),) * 3), np.nan
-    monkeypatch.setattr(public, "_exact", lambda *_: nothing)
+    monkeypatch.setattr(public, "_exact", lambda *_: NOTHING_EXACT)
     found = steady_cycle(case, *given)
     assert found.regime == COMPUTED and found.drift < 1e-3
     h = exact.m + exact.n

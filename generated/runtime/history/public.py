@@ -13,6 +13,7 @@ from ..cycle import march, stick_zone
 from ..types import Array, Contact, History, Regime, SteadyCycle, StickZone
 from .batch import run
 from .lazy import over_chunks
+from .loops import stick_zone_of_loop
 
 _LOADS = ("P", "M", "Q", "sigma")
 
@@ -113,6 +114,8 @@ def steady_cycle(
     """What a closed load history settles to: the permanent stick zone, slip and work a cycle.
 
         as by stick_zone where that is exact, with `mixed` where the normal loads are constant
+        M = 0, tilt and sigma constant, |Q| < f P: exact, MODERATE; [-m, n] is the contact under
+            P_E = -(max(Q - f P) + max(-Q - f P))/(2 f), whatever the phase of P and Q
         else the history is repeated until slip repeats, and what sticks is what slips less in the
             last round, to and fro added, than 1e-4 of the most; how far the ends move with thirty
             times that is part of the error
@@ -183,6 +186,13 @@ def _exact(asked: Asked, numbers: Numbers) -> tuple[StickZone, Array]:
         here = Contact(told.a[turns, 0], told.c[turns, 0], np.nan)
         mine = asked._replace(own=held)
         m[turns], n[turns], _ = stick_zone(mine, here, here, dQ, dsigma, **friction, mixed=True)
+    rest = np.isnan(m)
+    if np.any(rest):
+        loads = (np.broadcast_to(v, shape)[rest] for v in (P, M, Q, sigma))
+        held = {name: value[rest] for name, value in full.items()}
+        friction = {name: held.pop(name) for name in ("f", "E_star")}
+        m[rest], n[rest], _ = stick_zone_of_loop(asked._replace(own=held), *loads, **friction)
+        code = np.where(rest & np.isfinite(m), Regime.MODERATE, code)
     return StickZone(m, n, code), np.where(code == Regime.MIXED, TURNING, 0.0)
 
 
