@@ -1,8 +1,8 @@
-"""A claim: one printed equation, or one formula in words, as data.
+"""Represent a claim, which is one printed equation or one statement in words, as data.
 
-Its two sides stand in the source's own symbols.  `meaning` says what each of them is in ours: a
-formula of a sheet, a defining integral, a root of the conditions of stick, or another symbol.  A
-map of signs is nothing but such an entry, `M: -M` say, and can be read there.
+Both sides of a claim are written in the symbols of the source.  `meaning` expresses each of these
+symbols by our variables: as a formula of a sheet, an integral, a root of the conditions of stick,
+or another symbol.  A change of sign is an ordinary entry of this mapping, such as `M: -M`.
 """
 
 from collections.abc import Mapping
@@ -18,7 +18,7 @@ Point = dict[Symbol, mpf]
 
 
 class Verdict(StrEnum):
-    """What is known of a claim."""
+    """The verdict on a claim."""
 
     HOLDS = "holds"
     NUMERICAL = "numerical"
@@ -29,9 +29,9 @@ class Verdict(StrEnum):
 
 
 class Relation(StrEnum):
-    """What stands between the two sides.
+    """The relation between the two sides.
 
-    A likeness is judged by the term that leads, as an equation.
+    LIKE is judged like an equation, by the leading terms.
     """
 
     EQUAL = "="
@@ -43,17 +43,17 @@ class Relation(StrEnum):
 
     @property
     def is_strict(self) -> bool:
-        """Whether one side must be larger, not equal."""
+        """Whether the relation is a strict inequality."""
         return self in (Relation.BELOW, Relation.ABOVE)
 
     @property
     def is_ordered(self) -> bool:
-        """Whether one side must be no smaller than the other."""
+        """Whether the relation is an inequality."""
         return self in _TURNED
 
     @property
     def turned(self) -> "Relation":
-        """The opposite inequality."""
+        """The opposite inequality, with the same strictness."""
         return _TURNED[self]
 
 
@@ -67,11 +67,11 @@ _TURNED = {
 
 @dataclass(frozen=True)
 class Convention:
-    """A map of signs that an earlier place of the same source excludes.
+    """A sign convention that another part of the same source contradicts.
 
-    what         in words, e.g. "the tension with the opposite sign"
-    meaning      the entries of the claim's meaning that it replaces
-    contradicts  the place that says otherwise
+    what         the convention in words, for example "the tension with the opposite sign"
+    meaning      the entries that replace those of the claim's meaning
+    contradicts  the part of the source that contradicts it
     """
 
     what: str
@@ -81,10 +81,11 @@ class Convention:
 
 @dataclass(frozen=True)
 class Bound:
-    """How a condition is judged whose meaning puts both sides where it is just reached.
+    """A check of a bound on both sides of the state in which it is just reached.
 
-    There they must be equal.  Off it the direction shows: with `allowed` in the place of entries of
-    the meaning the printed relation must be true, with `beyond` it must not.
+    In that state, which is described by the claim's meaning, both sides must be equal.  If entries
+    of the meaning are replaced by `allowed`, the printed relation must be true; if they are
+    replaced by `beyond`, it must be false.
     """
 
     allowed: Meaning
@@ -93,7 +94,7 @@ class Bound:
 
 @dataclass(frozen=True)
 class Range:
-    """Where a variable is drawn: evenly between two bounds, or over powers of two."""
+    """The range of a variable: values between two bounds, or powers of two with such exponents."""
 
     low: float
     high: float
@@ -101,22 +102,24 @@ class Range:
 
     @property
     def place(self) -> Expr:
-        """A simple number of the range."""
+        """A simple number in the range."""
         if self.powers or self.low < 1 < self.high:
             return S.One
         return Rational(str((self.low + self.high) / 2))
 
 
 SCALE = Range(-1.5, 1.5, powers=True)
-"""A length, a load or a modulus; they are homogeneous, so their size matters little."""
+"""The range of lengths, loads and moduli; formulas are homogeneous in them."""
 SIGNED = Range(-2, 2)
 
 
 @dataclass(frozen=True)
 class Rounded:
-    """A constant that is printed rounded, and is a factor of one side.
+    """A constant that is printed rounded and is a factor of one side.
 
-    power: of the constant in the right side over the left one
+    value  the printed number
+    half   half a unit of its last printed digit
+    power  the power of the constant in the ratio right/left
     """
 
     value: Rational
@@ -126,38 +129,37 @@ class Rounded:
 
 @dataclass(frozen=True)
 class Claim:
-    """One part of one displayed equation, or one statement of the text.
+    """One part of a displayed equation, or one statement of the text.
 
-    label        unlike all others; the source's own label where it has one
-    place        where it stands, for a reader with the paper in hand
-    equation     the displayed equation that it is a part of; empty for a statement of the text
-    says         what it says, in words
+    label        a unique label; the source's own label if it has one
+    place        the location in the source, for the reader
+    equation     the displayed equation to which it belongs; empty for a statement of the text
+    says         the statement in words
     left, right  the printed sides, in the source's symbols
-    relation     between them
-    reached      a bound that is judged where it is reached, as an equation, and off it
-    meaning      what the symbols stand for, in ours
-    against      what it is compared with, in words
-    ranges       where ours are drawn; those not named are positive and drawn by SCALE
-    conditions   what must be true, in ours, of every point that is looked at
-    defined      whether both sides are one expression once the file's own definitions are put in
-    toward       what goes to which end, in ours, for a claim about a limit
-    order        the power of what goes to zero that the difference is of; None: of lower order
-    units        what does not fit in its units, if anything
-    latex        as it is printed, if the file has it so
-    rounded      the one constant that is printed rounded, if there is one
-    conventions  maps to try where it does not hold as it stands
-    through      two expressions that must agree once `left`, a symbol, is replaced by `right`;
-                 for a definition, which by itself says nothing that could be wrong
-    cases        the points themselves, where few are all that can be afforded; numbers as text
-    source       the equation as the source has it, as text, where the sides cannot keep its form:
-                 SymPy takes a - a for zero as soon as it is written
-    seconds      that the verdict, and then the search for a correction, may take
-    family       claims of one family are looked at in the same points, their integrals done once
-    swaps        symbols that may have been mistaken for each other
-    steps        how the comparison was derived, for `--explain`
-    unchecked    why it cannot be decided, if it cannot
-    expected     the verdict found when the claim was last looked at by a person
-    consequence  what the difference does to a user's numbers
+    relation     the relation between them
+    reached      the check of a bound on both sides of the state in which it is reached
+    meaning      the meanings of the source's symbols, in our variables
+    against      what the claim is compared with, in words
+    ranges       ranges of our variables; the others are positive and have the range SCALE
+    conditions   conditions, in our variables, that every point must satisfy
+    defined      whether the file's definitions make both sides the same expression
+    toward       for a claim about a limit, the expression in our variables and its end
+    order        for such a claim, the order of the difference; None if the ratio tends to 1
+    units        a description of the units that do not fit; empty if they fit
+    latex        the printed LaTeX, if the file gives it
+    rounded      the constant that is printed rounded, if there is exactly one
+    conventions  sign conventions that are tried if the claim is not true as printed
+    through      two expressions that must agree when the symbol `left` is replaced by `right`;
+                 used for a definition, which cannot be wrong by itself
+    cases        the points to use, with numbers as text, if only a few can be afforded
+    source       the printed equation as text, which keeps its form; SymPy would simplify it
+    seconds      the time limit of the verdict, and then of the search for a correction
+    family       claims of one family share their points, so that integrals are computed once
+    swaps        symbols that may have been confused with each other
+    steps        the steps of the comparison, for `--explain`
+    unchecked    the reason why the claim cannot be decided; empty if it can
+    expected     the verdict that was found when a person last examined the claim
+    consequence  the effect of the error on a user's results
     """
 
     label: str
@@ -191,7 +193,7 @@ class Claim:
     consequence: str = ""
 
     def sides(self, left: Expr, right: Expr) -> tuple[Expr, Expr]:
-        """What is compared if the printed sides were these."""
+        """Return the expressions to compare for the given printed sides."""
         if self.through is None:
             return left, right
         replaced = {left: right}
@@ -199,12 +201,12 @@ class Claim:
 
     @property
     def is_inequality(self) -> bool:
-        """Whether it is judged by which side is larger."""
+        """Whether the claim is judged by which side is larger."""
         return self.relation.is_ordered and self.reached is None
 
     @property
     def has_modulus(self) -> bool:
-        """Whether a modulus is printed, which may be one too many."""
+        """Whether a side contains a modulus."""
         return bool(self.right.has(Abs) or self.left.has(Abs))
 
 
@@ -212,7 +214,7 @@ class Claim:
 class Paper:
     """The claims of one source, in the order of its pages.
 
-    signs: for each quantity the labels of the claims that show which sign a section gives it.
+    signs: for each quantity, the labels of the claims that show its sign in each section.
     """
 
     title: str
@@ -221,7 +223,7 @@ class Paper:
 
     def __post_init__(self) -> None:
         labels = [claim.label for claim in self.claims]
-        assert len(labels) == len(set(labels)), "two claims of one label"
+        assert len(labels) == len(set(labels)), "two claims have the same label"
 
     def __getitem__(self, label: str) -> Claim:
         return next(claim for claim in self.claims if claim.label == label)

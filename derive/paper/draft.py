@@ -1,5 +1,6 @@
-"""A claims file drafted from the displays of a paper: nothing in it is judged before a person has
-accepted what was understood and said what the symbols are.
+"""Draft a claims file from the displays of a paper.
+
+No claim in the draft is judged before a user has accepted its reading and defined its symbols.
 """
 
 import os
@@ -27,25 +28,26 @@ from derive.paper.spellings import (
 from derive.paper.statements import Statement, statements
 
 _SECONDS = 10.0
-"""Seconds that the reading of one equation may take."""
+"""The time limit for reading one equation, in seconds."""
 _KNOWN = frozenset({"E_star", "f", "x", "s", "xi"})
-"""Names that a claims file has from the start."""
+"""Names that every claims file knows without a declaration."""
 
 
 _HEAD = """
-# A symbol is a formula, P = { is = 'load(a, c)' }, or a number drawn at random: then move it to
-# [variables].  Rename `proposal` to `is` where it is right.  A unit that is given is followed.
-# Then derive check THIS --accept, and derive check THIS.
-# body = 'hertz'           # whose formulas may be called
+# Define each symbol by a formula, such as P = { is = 'load(a, c)' }, or move it to [variables] if
+# it is an independent variable.  Rename `proposal` to `is` if it is right.  Units are checked, so
+# correct or delete those that are wrong.  Then run `derive check FILE --accept` and, at last,
+# `derive check FILE` with this file.
+# body = 'hertz'           # the body whose formulas may be called
 
-[variables]                # drawn at random, as R = 'radius'
+[variables]                # drawn at random, such as R = 'radius'
 
 [symbols]"""
 
 
 @dataclass(frozen=True)
 class _Read:
-    """What was made of a statement: text, the condition printed with it, and what is open."""
+    """The reading of a statement: its text, its condition, and the reason if it is not judged."""
 
     understood: str = ""
     require: str = ""
@@ -55,7 +57,7 @@ class _Read:
 
 @dataclass(frozen=True)
 class _Part:
-    """One statement of a display, as it is written down."""
+    """One statement of a display, as it is written to the claims file."""
 
     display: Display
     number: int
@@ -65,11 +67,11 @@ class _Part:
 
 @dataclass
 class Draft:
-    """What was read of a paper.
+    """The content of a paper that was read.
 
-    environments  displays of the file
-    spelled       LaTeX of a symbol -> its name
-    said          what the text around says of symbols
+    environments  the number of displays in the file
+    said          descriptions of symbols in the text
+    spelled       the LaTeX of each symbol -> its name
     """
 
     name: str
@@ -80,7 +82,7 @@ class Draft:
 
     @property
     def unread(self) -> list[str]:
-        """Place and reason of every statement that could not be read."""
+        """The location of every statement that could not be read or judged, with the reason."""
         return [
             f"{self._place(p)}: {p.read.why}"
             for p in self.parts
@@ -89,18 +91,18 @@ class Draft:
 
     @property
     def understood(self) -> int:
-        """Statements that were read."""
+        """The number of statements that were read."""
         return sum(bool(part.read.understood) for part in self.parts)
 
     @property
     def displays_read(self) -> int:
-        """Displays of which every statement was read."""
+        """The number of displays in which every statement was read."""
         lines = {part.display for part in self.parts}
         return len(lines - {part.display for part in self.parts if not part.read.understood})
 
     @property
     def named(self) -> tuple[int, int]:
-        """Symbols for which there is a proposal, and all."""
+        """The number of symbols with a proposal, and the number of all symbols."""
         names = self._names()
         return sum(bool(self._proposed(name)) for name in names), len(names)
 
@@ -109,13 +111,13 @@ class Draft:
         return f"{number}{self.name}:{part.display.line}"
 
     def text(self) -> str:
-        """The claims file."""
+        """The text of the claims file."""
         lines = [f"title = {_text(self.name)}", *_HEAD.splitlines()]
         lines += [f"{name} = {self._proposed(name) or _NOTHING}" for name in self._names()]
         lines += ["", "[latex]"]
         lines += [f"{quoted(spelled)} = {quoted(name)}" for spelled, name in self.spelled.items()]
         if self.unread:
-            lines += ["", "# Not read, or not all of it:"]
+            lines += ["", "# These statements were not read, or not completely:"]
             lines += [f"#   {_line(each)}" for each in self.unread]
         labels = Counter[str]()
         for part in self.parts:
@@ -126,7 +128,7 @@ class Draft:
         return [n for n in dict.fromkeys(self.spelled.values()) if n not in _KNOWN]
 
     def _proposed(self, name: str) -> str:
-        """A table of what may be said of a symbol; empty where nothing is known."""
+        """The proposal for a symbol as a TOML table; empty if there is none."""
         known = proposal(name)
         spelled = [latex for latex, own in self.spelled.items() if own == name]
         words = next(filter(None, (words_for(latex, self.said) for latex in spelled)), "")
@@ -171,20 +173,21 @@ _NOTHING = '""'
 
 
 def draft(path: Path, inline: bool = False) -> Draft:
-    """What can be read of a LaTeX file; raises BadClaimsFile if its displays cannot be told.
+    """Read a LaTeX file; raise BadClaimsFile if its displays cannot be found.
 
-    inline: whether the relations in the lines of the text are read, too.
+    inline: whether the relations in the text are read as well.
     """
     source = displays(path, inline)
     if not source.found:
-        raise BadClaimsFile(str(path), "has no displayed equation", "give a paper in LaTeX")
+        why = "the file has no displayed equations"
+        raise BadClaimsFile(str(path), why, "give a paper in LaTeX")
     made = Draft(path.name, source.environments, described(source.text))
     known = list[tuple[Display, list[Statement], str]]()
     for display in source.found:
         try:
             known.append((display, statements(path.name, display.latex), ""))
         except (BadFormula, RecursionError) as error:
-            known.append((display, [], getattr(error, "why", "nested too deep")))
+            known.append((display, [], getattr(error, "why", "it is nested too deeply")))
     alone = set[str]()
     for _, each, _ in known:
         for statement in each:
@@ -194,7 +197,7 @@ def draft(path: Path, inline: bool = False) -> Draft:
                 made.spelled.update(spellings(statement.condition))
     for display, each, why in known:
         if not each:
-            read = _Read(why=why or "no relation stands in it")
+            read = _Read(why=why or "it has no relation")
             made.parts.append(_Part(display, 0, 1, read))
         for number, statement in enumerate(each, 1):
             made.parts.append(
@@ -204,14 +207,12 @@ def draft(path: Path, inline: bool = False) -> Draft:
 
 
 def _read(statement: Statement, spelled: dict[str, str], alone: set[str]) -> _Read:
-    """The statement as text with its condition, and why it is not judged, if it is not."""
+    """Read a statement and its condition; give the reason if it cannot be judged."""
     if statement.why:
         return _Read(why=statement.why)
     if called := unclear_call(statement.latex, spelled, alone):
-        why = (
-            f"{called} is a function elsewhere: whether it is called or multiplied here is unclear"
-        )
-        return _Read(why=f"{why}, write the claim as text")
+        why = f"{called} is a function elsewhere, so it is unclear whether it is a factor here"
+        return _Read(why=f"{why}: write the claim as text")
     names = Names("", {n: Symbol(n) for n in spelled.values()}, {})
     try:
         with within(_SECONDS):
@@ -220,17 +221,17 @@ def _read(statement: Statement, spelled: dict[str, str], alone: set[str]) -> _Re
     except BadFormula as error:
         return _Read(why=f"{error.why}: {error.remedy}")
     except LimitReached:
-        return _Read(why=f"not read within {_SECONDS:g} s")
+        return _Read(why=f"it could not be read within {_SECONDS:g} s")
     except RecursionError:
-        return _Read(why="nested too deep")
+        return _Read(why="it is nested too deeply")
     require, limit, why = _conditions(statement.condition, spelled, names)
     if statement.is_rough and not limit and not why and not may_be_rounded(understood):
-        why = "printed as an approximation: say where it is one, as = 'x -> 0', or write it with ="
+        why = "it is an approximation: add its limit, such as as = 'x -> 0', or write it with ="
     return _Read(understood, require, limit, why)
 
 
 def _conditions(latex: str, spelled: dict[str, str], names: Names) -> tuple[str, str, str]:
-    """A condition, or what goes where, as text; and why neither could be read."""
+    """Read the conditions and the limit; return both as text, and the reason if this fails."""
     if not latex.strip():
         return "", "", ""
     told, limit = list[str](), ""
@@ -244,29 +245,29 @@ def _conditions(latex: str, spelled: dict[str, str], names: Names) -> tuple[str,
                 told.append(reading.condition())
                 condition(told[-1], names)
         except BadFormula:
-            why = f"the condition printed with it, {part.strip()}, is not read: write require"
+            why = f"its condition {part.strip()} could not be read: write it as require"
             return "", "", why
     return " and ".join(told), limit, ""
 
 
 def _words(latex: str) -> str:
-    r"""What the display says in words, \text{for} and the like left aside."""
+    r"""Return the words in a display, without short ones such as \text{for}."""
     found = re.findall(r"\\(?:text|mbox|textrm)\s*\{([^{}]*)\}", latex)
     words = [" ".join(each.split()).strip(" ,.;") for each in found]
     return _line(", ".join(each for each in words if len(each) > _SHORT_WORD))
 
 
 _SHORT_WORD = 9
-"""Letters of words that say no more than `otherwise`."""
+"""Words with at most as many letters as `otherwise` are ignored."""
 
 
 def write(made: Draft, path: Path) -> None:
-    """Write a draft where no file is; raises BadClaimsFile."""
+    """Write a draft to a new file; raises BadClaimsFile."""
     try:
         handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
     except OSError as error:
-        why = f"cannot be written ({error.strerror})"
-        raise BadClaimsFile(str(path), why, "name a new file by --draft") from error
+        why = f"the file cannot be written ({error.strerror})"
+        raise BadClaimsFile(str(path), why, "name a new file with --draft") from error
     with os.fdopen(handle, "w", encoding="utf-8") as file:
         file.write(made.text())
 
@@ -276,7 +277,7 @@ def _line(text: str) -> str:
 
 
 def _text(text: str) -> str:
-    """A text in TOML, verbatim where that can be."""
+    """Write a text in TOML, as a literal string if possible."""
     text = "".join(c if c.isprintable() or c in "\n\t" else " " for c in text)
     if "'" not in text and "\n" not in text:
         return f"'{text}'"

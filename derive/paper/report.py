@@ -99,7 +99,7 @@ def summary(findings: Sequence[Finding]) -> str:
     """Return the number of claims for each verdict, in words."""
     totals = Counter(finding.verdict for finding in findings)
     counts = ", ".join(f"{totals[verdict]} {verdict}" for verdict in Verdict if totals[verdict])
-    return f"{len(findings)} claims: {counts}"
+    return f"{len(findings)} {'claim' if len(findings) == 1 else 'claims'}: {counts}"
 
 
 def unexpected(findings: Iterable[Finding]) -> list[Finding]:

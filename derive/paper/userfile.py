@@ -1,52 +1,52 @@
-"""A claims file in TOML: data only, of which nothing is ever executed.
+"""Read a claims file in TOML, which is data only: no part of it is ever executed.
 
     title = "..."
-    seconds = 30                      # that the verdict on a claim, then its mending, may take
-    body = "hertz"                    # whose sheet's formulas may be called, load(a, c) say; or
-    # body = { g = "x**2/(2*R)", units = { R = "m" } }    one's own, or its file
+    seconds = 30                      # time limit of a verdict, and then of a correction
+    body = "hertz"                    # its formulas may be called, such as load(a, c);
+    # body = { g = "x**2/(2*R)", units = { R = "m" } }    or another body, or a geometry file
 
-    [variables]                       # drawn at random; all else is written in them
+    [variables]                       # drawn at random; all else is expressed by them
     l = "half-width"                  # positive
     mu = { meaning = "x/l", low = -0.9, high = 0.9, unit = "-" }
 
-    [symbols]                         # what the source's symbols are; they may hold each other
+    [symbols]                         # meanings of the source's symbols, also by each other
     P = "load(l, l)"
     p_0 = { is = "2*P/(pi*l)", meaning = "largest pressure", unit = "Pa" }
 
-    [latex]                           # spellings, where they are not the names
+    [latex]                           # LaTeX of symbols, if it differs from the names
     "E^*" = "E_star"
 
     [[claims]]
     label = "half-width"
     place = "eq. (3)"
     printed = "a**2 = 4*P*R/(pi*E_star)"       # or latex = '...' and understood = "..."
-    part = 1                                   # which statement of a display in LaTeX
-    accepted = true                            # false in a draft: nobody has accepted it yet
-    expected = "fails"                         # if it is known
-    symbols = { M = "-moment(l, l)" }          # for this claim alone, as is a body
-    require = "b < w and x > 0"                # where it is said to be true
-    as = "c - x -> 0"                          # left over right tends to 1, or, with
-    order = 1.5                                #   left less right is of this order
-    given = ["(8)", "(11)"]                    # claims of the form symbol = ... it follows from
+    part = 1                                   # the number of the statement in a LaTeX display
+    accepted = true                            # false in a draft: not accepted yet
+    expected = "fails"                         # the verdict, if it is known
+    symbols = { M = "-moment(l, l)" }          # for this claim only, like `body`
+    require = "b < w and x > 0"                # the conditions under which it is stated
+    as = "c - x -> 0"                          # the ratio left/right tends to 1; or, with
+    order = 1.5                                #   `order`, left - right is of this order
+    given = ["(8)", "(11)"]                    # claims symbol = ... that are taken as true
     conventions = [{ what = "...", symbols = { ... }, contradicts = "..." }]
-    ranges = { t = [0.4, 0.9] }                # of variables, in this claim
-    through = "p = integral(h, s, 0, c)"       # h = ... is judged by what it makes of this
-    allowed = { sigma = "..." }                # a bound, judged where it is just reached, is met
-    beyond = { sigma = "..." }                 #   with these symbols, and is not with those
-    leading = true                             # ~ between leading terms, compared as by =
-    swaps = ["a", "c"]                         # symbols that may stand for each other by mistake
-    cases = [{ l = 1 }]                        # the only points to look at
-    family = "large tension"                   # looked at in the same points as others of that name
-    equation = "(3)"                           # the display that it is a part of
+    ranges = { t = [0.4, 0.9] }                # ranges of variables in this claim
+    through = "p = integral(h, s, 0, c)"       # the equation by which h = ... is judged
+    allowed = { sigma = "..." }                # a bound is judged where it is just reached; it
+    beyond = { sigma = "..." }                 #   must be true with `allowed`, not with `beyond`
+    leading = true                             # ~ between leading terms is compared like =
+    swaps = ["a", "c"]                         # symbols that may have been confused
+    cases = [{ l = 1 }]                        # the only points that are used
+    family = "large tension"                   # claims of one family share their points
+    equation = "(3)"                           # the display to which it belongs
     against = "..."                            # what it is compared with, in words
-    steps = ["..."]                            # how that was found
-    consequence = "..."                        # what the error does to a user's numbers
+    steps = ["..."]                            # the steps of the comparison
+    consequence = "..."                        # the effect of the error on a user's results
 
-    [signs]                                    # which claims show the sense of a quantity
+    [signs]                                    # claims that show the sign of a quantity
     moment = ["(2)", "half-width"]
 
-The body's parameters, E_star and f are variables from the start, and [variables] may give them a
-range; x, s and xi are places, drawn on both sides of zero where it gives them none.
+The body's parameters, E_star and f are always variables, and [variables] may give them a range.
+The variables x, s and xi are positions, whose default range is symmetric about zero.
 """
 
 import re
@@ -107,14 +107,14 @@ from derive.writing.draft import Wanted, draft
 Read = TypeVar("Read")
 
 BUILT_IN = Path(__file__).parent / "andresen2020"
-"""The claims files of the paper that the method of this project is from."""
+"""The claims files of the paper that introduced the method of this project."""
 
 _LARGEST = 200_000
-"""Bytes of a claims file."""
+"""The largest size of a claims file, in bytes."""
 _MOST = 500
-"""Claims of a file."""
+"""The largest number of claims in a file."""
 _SECONDS = 30.0
-"""Seconds that the verdict on a claim may take, and then the search for a correction."""
+"""The default time limit of a verdict, and then of the search for a correction, in seconds."""
 _MOST_SECONDS = 86_400
 _FROM_THE_START: Mapping[str, Expr] = {**PLACES, "E_star": E_star, "f": f}
 _KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims", "signs"})
@@ -133,9 +133,9 @@ _OF_A_CLAIM = (
 
 @dataclass(frozen=True)
 class Reading:
-    """LaTeX whose reading the file does not accept yet.
+    """The reading of a claim's LaTeX that the file does not accept yet.
 
-    number  of the claim in the file, from 1
+    number  the number of the claim in the file, counted from 1
     """
 
     number: int
@@ -146,16 +146,17 @@ class Reading:
 
 
 def read_claims(path: Path) -> Paper:
-    """The claims of a file, or of all files of a folder in the order of their names.
+    """Read the claims of a file, or of all files in a folder in the order of their names.
 
-    Raises BadClaimsFile or BadFormula, and Mistakes where there are several.  A claim that lacks
-    something, an accepted reading or the meaning of a symbol, is there as unchecked.
+    Raises BadClaimsFile or BadFormula for one error, and Mistakes for several.  A claim without an
+    accepted reading, or with a symbol that has no meaning, is returned as unchecked.
     """
     if not isdir(path):  # noqa: PTH112 - False for a name that no file can have
         return _file(path).paper()
     papers = [_file(each).paper() for each in sorted(path.glob("*.toml"))]
     if not papers:
-        raise BadClaimsFile(str(path), "has no claims file in it", "name a file, or its folder")
+        why = "the folder has no claims file"
+        raise BadClaimsFile(str(path), why, "give a claims file, or a folder with such files")
     signs = dict[str, tuple[str, ...]]()
     for each in papers:
         signs |= {name: signs.get(name, ()) + labels for name, labels in each.signs.items()}
@@ -164,12 +165,12 @@ def read_claims(path: Path) -> Paper:
 
 @cache
 def built_in() -> Paper:
-    """The paper that the method of this project is from."""
+    """Return the paper that introduced the method of this project."""
     return read_claims(BUILT_IN)
 
 
 def open_readings(path: Path) -> list[Reading]:
-    """Readings that wait for a person; raises as `read_claims`."""
+    """Return the readings that are not accepted yet; raises the errors of `read_claims`."""
     file = _file(path)
     file.paper()
     return file.readings
@@ -181,24 +182,24 @@ def _file(path: Path) -> "_File":
 
 
 def source(path: Path) -> tuple[str, dict[str, Any]]:
-    """A claims file as text and as data; raises BadClaimsFile."""
-    remedy = "give a claims file as in examples/cattaneo_mindlin.toml"
+    """Return a claims file as text and as data; raises BadClaimsFile."""
+    remedy = "give a claims file such as examples/cattaneo_mindlin.toml"
     try:
         text = bytes_of(path, _LARGEST).decode("utf-8-sig")
         return text, tomllib.loads(text)
     except Unreadable as error:
         raise BadClaimsFile(str(path), str(error), remedy) from error
     except tomllib.TOMLDecodeError as error:
-        raise BadClaimsFile(str(path), f"is no TOML ({error})", remedy) from error
+        raise BadClaimsFile(str(path), f"the file is not valid TOML ({error})", remedy) from error
     except UnicodeDecodeError as error:
-        raise BadClaimsFile(str(path), "is no text in UTF-8", remedy) from error
+        raise BadClaimsFile(str(path), "the file is not UTF-8 text", remedy) from error
     except (ValueError, RecursionError) as error:
-        raise BadClaimsFile(str(path), f"cannot be read ({error})", remedy) from error
+        raise BadClaimsFile(str(path), f"the file cannot be read ({error})", remedy) from error
 
 
 @dataclass
 class _File:
-    """A claims file as it is read; mistakes are noted, and told together at the end."""
+    """Reads a claims file; errors are collected and reported together at the end."""
 
     name: str
     data: Mapping[str, Any]
@@ -213,11 +214,11 @@ class _File:
     followed: dict[int, Units] = field(default_factory=dict)
 
     def paper(self) -> Paper:
-        """All claims."""
+        """Return all claims."""
         for text in _texts(self.data):
             if not text.replace("\n", "").replace("\t", "").isprintable():
                 self.mistakes.append(
-                    self._bad(f"{text!r} holds a control character", "leave it out")
+                    self._bad(f"the text {text!r} holds a control character", "remove it")
                 )
         demand_none(self.mistakes)
         self._demand_known(self.data, _KEYS, "the file")
@@ -246,7 +247,7 @@ class _File:
         return Paper(str(self.data.get("title", self.name)), claims, signs)
 
     def _context(self, given: object, where: str) -> Context:
-        """The body that is named, or written down, with all variables; each is derived once."""
+        """Return the context of a named or defined body; each body is derived only once."""
         key = repr(given)
         if key not in self.contexts:
             body = self._body(given, where)
@@ -270,30 +271,31 @@ class _File:
                 raise BadFormula(at, profile, error.column, error.why, error.remedy) from error
             except UserError as error:
                 why = f"{where}, body: {error.message}"
-                raise self._bad(why, "write another g, or its units") from error
+                raise self._bad(why, "correct g or the units") from error
         if isinstance(given, str) and given.endswith(".py"):
             try:
                 profile, units = profile_of(Path(self.name).parent / given)
                 return _own_body(profile, tuple(sorted(units.items())))
             except UserError as error:
-                raise self._bad(f"{where}, body: {error.message}", "mend it, or write g") from error
+                why = f"{where}, body: {error.message}"
+                raise self._bad(why, "correct the geometry file, or write g here") from error
         if not isinstance(given, str) or not is_in_library(given):
             known = ", ".join(library())
             why = f"{where}, body = {given!r} is not in the library"
-            remedy = f"name one of {known}, a geometry file, or write {{ g = 'x**2/(2*R)' }}"
+            remedy = f"write one of {known}, a geometry file, or {{ g = 'x**2/(2*R)' }}"
             raise self._bad(why, remedy)
         return of_library(given)
 
     @contextmanager
     def _noted(self) -> Iterator[None]:
-        """A block that is left at its first mistake, which is told in the end."""
+        """Leave the block at its first error and record this error."""
         try:
             yield
         except UserError as error:
             self.mistakes.append(error)
 
     def _read_symbols(self) -> None:
-        """[symbols] and [latex], each mistake in them once; those left empty wait for a person."""
+        """Read [symbols] and [latex]; report each error in them once, and allow empty symbols."""
         self.symbols = dict[str, Any]()
         with self._noted():
             self.symbols = self._table("symbols")
@@ -306,7 +308,7 @@ class _File:
                 where = f"{self.name}:{line}" if line else self.name
                 self._demand_name(name, ())
                 if type(said) not in (str, int, float, dict):
-                    why = f"{where}, the symbol {name!r} is no text"
+                    why = f"{where}, the value of the symbol {name!r} is not a text"
                     raise self._bad(why, f'write {name} = "a formula"')
                 if isinstance(said, dict):
                     self._demand_known(said, _OF_A_SYMBOL, f"{where}, the symbol {name!r}")
@@ -316,8 +318,8 @@ class _File:
                 if name in taken and not (name in PLACES and _formula_of(said)):
                     if _formula_of(said):
                         what = "a variable" if name in self.declared else "a parameter of the body"
-                        why = f"{where}, the symbol {name!r} is {what} already"
-                        raise self._bad(why, "leave it out, or name the other one otherwise")
+                        why = f"{where}, the symbol {name!r} is already {what}"
+                        raise self._bad(why, "remove the symbol, or rename one of them")
                     del self.symbols[name]  # it is that variable
         with self._noted():
             self._spellings(self._names(self.name, self.symbols, self.context))
@@ -326,7 +328,7 @@ class _File:
             self._meant(self.context)
 
     def _meant(self, context: Context, own: Mapping[str, Any] | None = None) -> Meant:
-        """What all symbols are, with a body and in one claim; each mistake is noted once."""
+        """Return the meanings of all symbols for a body and a claim; record each error once."""
         key = repr((id(context), sorted((own or {}).items(), key=str)))
         if key not in self.meant:
             self.meant[key] = Meant({}, {})
@@ -346,7 +348,7 @@ class _File:
         meant: Meant,
         outer: tuple[str, ...],
     ) -> bool:
-        """Whether a symbol has a meaning, which is put to the others, those it needs first."""
+        """Add the meaning of a symbol and of those that it uses; return whether it has one."""
         symbol = Symbol(name)
         if symbol in meant.ours or name in meant.lost:
             return symbol in meant.ours
@@ -359,7 +361,8 @@ class _File:
             round_ = outer[outer.index(name) :]
             told = ", ".join(round_)
             meant.lost.update(round_)
-            raise self._bad(f"{where} is defined by itself, through {told}", "define one of them")
+            why = f"{where} has a circular definition through {told}"
+            raise self._bad(why, "define one of these symbols without the others")
         others = {n: Symbol(n) for n in symbols if n != name}
         names = Names(where, {**context.variables, **others}, context.arities)
         found = self._in_time(where, lambda: read_formula(text, names))
@@ -375,7 +378,8 @@ class _File:
     def _claims(self) -> tuple[Claim, ...]:
         given = self.data.get("claims", [])
         if not isinstance(given, list) or not given or len(given) > _MOST:
-            self.mistakes.append(self._bad("has no [[claims]]", f"write one to {_MOST} of them"))
+            why = f"the number of [[claims]] is not between 1 and {_MOST}"
+            self.mistakes.append(self._bad(why, "add claims, or split the file"))
             return ()
         lines = heads(self.text, len(given))
         made, labels = list[Claim](), set[str]()
@@ -385,7 +389,8 @@ class _File:
                 claim = self._claim(number, each, at)
                 if claim.label in labels:
                     label = claim.label
-                    raise self._bad(f"{at}, two claims have the label {label!r}", "name each once")
+                    why = f"{at}, two claims have the label {label!r}"
+                    raise self._bad(why, "give each claim a different label")
                 labels.add(claim.label)
                 made.append(claim)
         return tuple(made)
@@ -393,20 +398,20 @@ class _File:
     def _limit(self) -> float:
         given = self.data.get("seconds", _SECONDS)
         if type(given) not in (int, float) or not 0 < given <= _MOST_SECONDS:
-            remedy = f"write a number above 0, at most {_MOST_SECONDS}"
-            raise self._bad(f"seconds = {given!r} is no limit in time", remedy)
+            remedy = f"write a number above 0 and at most {_MOST_SECONDS}"
+            raise self._bad(f"seconds = {given!r} is not a time limit", remedy)
         return float(given)
 
     def _in_time(self, where: str, read: Callable[[], Read]) -> Read:
-        """What comes of reading a text; raises BadClaimsFile where it takes too long."""
+        """Return the result of `read`; raise BadClaimsFile if it takes too long."""
         try:
             with within(self.seconds):
                 return read()
         except LimitReached:
-            why = f"{where} is not read within {self.seconds:g} s"
-            raise self._bad(why, "write it plainer, or raise seconds") from None
+            why = f"{where} could not be read within {self.seconds:g} s"
+            raise self._bad(why, "simplify it, or increase seconds") from None
         except RecursionError:
-            raise self._bad(f"{where} is nested too deep", "write it plainer") from None
+            raise self._bad(f"{where} is nested too deeply", "simplify it") from None
 
     def _declare(self, name: str, said: object) -> None:
         line = line_of(self.text, "variables", name)
@@ -419,11 +424,12 @@ class _File:
             self._drawn(name, SCALE, positive=True)
             return
         if not (_is_bound(low) and _is_bound(high)) or low >= high:
-            raise self._bad(f"{where} has no range", "write { low = 0.1, high = 0.9 }, or a text")
+            why = f"{where} has no valid range"
+            raise self._bad(why, "write { low = 0.1, high = 0.9 }, or only its meaning as text")
         self._drawn(name, Range(float(low), float(high)), positive=low >= 0)
 
     def _drawn(self, name: str, span: Range, positive: bool) -> None:
-        """A variable with where it is drawn; one of the theory stays the theory's own symbol."""
+        """Declare a variable with its range; variables of the theory keep their own symbols."""
         known = Symbol(name, positive=True) if positive else Symbol(name, real=True)
         symbol = self.context.variables.get(name, known)
         assert isinstance(symbol, Symbol)
@@ -441,7 +447,7 @@ class _File:
             raise self._bad(f"{where}: {error.message}", "write a unit such as N/m") from error
 
     def _mismatch(self, context: Context, meant: Meant, text: str, names: Names) -> str:
-        """What does not fit in the units of an equation, judged or not."""
+        """Describe the units that do not fit in an equation, whether it is judged or not."""
         try:
             left, _, right = self._in_time(names.where, lambda: equation(text, names, rough=True))
         except (UserError, RecursionError):
@@ -453,7 +459,8 @@ class _File:
 
     def _claim(self, number: int, given: object, at: str) -> Claim:
         if not isinstance(given, dict):
-            raise self._bad(f"{at}, claim {number} is no table", "write [[claims]] before each")
+            why = f"{at}, claim {number} is not a table"
+            raise self._bad(why, "write [[claims]] before each claim")
         label = self._text(given, "label", f"{at}, claim {number}")
         where = f"{at}, claim {label!r}"
         self._demand_known(given, _OF_A_CLAIM, where)
@@ -511,7 +518,7 @@ class _File:
     def _judged(
         self, read: "_Read", context: Context, meant: Meant, common: dict[str, Any]
     ) -> Claim:
-        """A claim that can be judged."""
+        """Return a claim that can be judged."""
         given, where, left, right = read.given, read.where, read.left, read.right
         compared = read.through or (left, right)
         calls = calls_in(left, right, *compared)
@@ -556,72 +563,75 @@ class _File:
         )
 
     def _against(self, given: Mapping[str, Any], context: Context) -> str:
-        """What a claim is compared with, in words."""
+        """Describe what a claim is compared with."""
         if "against" in given:
             return str(given["against"])
         sheet, claims = context.sheet, ", ".join(map(str, given.get("given", ())))
-        told = f" and the sheet of {sheet.geometry.name}" if sheet else ""
+        told = f" and the formula sheet of {sheet.geometry.name}" if sheet else ""
         return f"the formulas of {self.name}{told}" + (f", given {claims}" if claims else "")
 
     def _through(
         self, given: Mapping[str, Any], where: str, left: Expr, names: Names
     ) -> tuple[Expr, Expr] | None:
-        """The equation by which a definition is judged, as both its sides."""
+        """Return both sides of the equation by which a definition is judged."""
         if "through" not in given:
             return None
         if not isinstance(left, Symbol):
-            raise self._bad(f"{where}: through goes with symbol = ...", "write the symbol first")
+            why = f"{where}: the left side is not a symbol, although through is given"
+            raise self._bad(why, "write the claim in the form symbol = ...")
         text = self._text(given, "through", where)
         first, relation, second = self._in_time(where, lambda: equation(text, names))
         if relation != Relation.EQUAL or not (first.has(left) or second.has(left)):
-            why = f"{where}: through is no equation that holds {left}"
-            raise self._bad(why, "write one that is true if the claim is")
+            why = f"{where}: through is not an equation that contains {left}"
+            raise self._bad(why, "write one that is true if the claim is true")
         if any(call.has(left) for call in calls_in(first, second)):
-            why = f"{where}: through holds {left} inside a formula that is called"
-            raise self._bad(why, "write it outside")
+            why = f"{where}: through contains {left} as an argument of a formula of the body"
+            raise self._bad(why, f"use {left} only outside such calls")
         return first, second
 
     def _reached(
         self, given: Mapping[str, Any], where: str, put: Put, context: Context
     ) -> Bound | None:
-        """How a bound is judged off the place where it is reached."""
+        """Return the replacements by which a bound is judged on both sides."""
         if not given.keys() & {"allowed", "beyond"}:
             return None
         tables = [self._inner(given, key, where) for key in ("allowed", "beyond")]
         if not all(tables):
-            why = f"{where} has one of allowed and beyond alone"
+            why = f"{where} has only one of allowed and beyond"
             raise self._bad(why, 'write both, as allowed = { sigma = "..." }')
         return Bound(*(self._changed(given, where, table, put, context) for table in tables))
 
     def _ranges(
         self, given: Mapping[str, Any], where: str, context: Context
     ) -> dict[Symbol, Range]:
-        """Where variables are drawn in one claim."""
+        """Return the ranges of variables in one claim."""
         found = dict[Symbol, Range]()
         for name, ends in self._inner(given, "ranges", where).items():
             symbol = context.variables.get(name)
             if not isinstance(symbol, Symbol):
-                raise self._bad(f"{where}: ranges: {name!r} is no variable", "declare it")
+                raise self._bad(f"{where}: ranges: {name!r} is not a variable", "declare it")
             if not (isinstance(ends, list) and len(ends) == 2 and all(map(_is_bound, ends))):
-                raise self._bad(f"{where}: ranges: {name} has no two ends", "write [0.1, 0.9]")
+                why = f"{where}: ranges: {name} does not have two ends"
+                raise self._bad(why, "write two numbers, such as [0.1, 0.9]")
             if ends[0] >= ends[1] or (symbol.is_positive and ends[0] < 0):
-                remedy = "write the lower end first, above zero where the variable is positive"
-                raise self._bad(f"{where}: ranges: {name} cannot be in {ends}", remedy)
+                remedy = "write the lower end first, and none below zero for a positive variable"
+                raise self._bad(f"{where}: ranges: {ends} is not a range of {name}", remedy)
             found[symbol] = Range(float(ends[0]), float(ends[1]))
         return found
 
     def _cases(
         self, given: Mapping[str, Any], where: str, context: Context
     ) -> tuple[Mapping[Symbol, str], ...]:
-        """The points of a claim, where it names them itself."""
+        """Return the points that a claim prescribes."""
         listed = given.get("cases", [])
         if not isinstance(listed, list) or not all(isinstance(each, dict) for each in listed):
-            raise self._bad(f"{where}: cases is no list of tables", "write [{ l = 1 }]")
+            why = f"{where}: cases is not a list of tables"
+            raise self._bad(why, "write a list such as [{ l = 1 }]")
         made = []
         for each in listed:
             for name, value in each.items():
                 if not isinstance(context.variables.get(name), Symbol) or not _is_bound(value):
-                    why = f"{where}: cases: {name} = {value!r} is no variable with a number"
+                    why = f"{where}: cases: {name} = {value!r} is not a variable with a number"
                     raise self._bad(why, "write [{ l = 1 }] with variables of the claim")
             made.append({context.variables[name]: str(value) for name, value in each.items()})
         return tuple(made)
@@ -629,33 +639,33 @@ class _File:
     def _swaps(
         self, read: "_Read", sides: tuple[Expr, Expr], meant: Meant, context: Context
     ) -> tuple[Symbol, ...]:
-        """Symbols that may have been mistaken for each other."""
+        """Return the symbols that may have been confused with each other."""
         if "swaps" not in read.given:
             return tuple(s for s in meant.ours if any(side.has(s) for side in sides))
         named = self._list(read.given, "swaps", read.where)
         symbols = {**context.variables, **{s.name: s for s in meant.ours}}
         for name in named:
             if not isinstance(symbols.get(name), Symbol):
-                raise self._bad(f"{read.where}: swaps: {name!r} is no symbol", "declare it")
+                raise self._bad(f"{read.where}: swaps: {name!r} is not a symbol", "declare it")
         return tuple(symbols[name] for name in named)
 
     def _follows(
         self, given: Mapping[str, Any], where: str, symbols: Mapping[str, Any], meant: Meant
     ) -> Meant:
-        """What the symbols are if other claims are true, and open ones are free."""
+        """Return the meanings of symbols if other claims are true; open symbols are variables."""
         listed = given["given"]
         if not isinstance(listed, list) or not all(isinstance(each, str) for each in listed):
-            raise self._bad(f"{where}: given is no list of labels", 'write given = ["(8)"]')
+            raise self._bad(f"{where}: given is not a list of labels", 'write given = ["(8)"]')
         table = dict[Symbol, Expr]()
         for label in listed:
             if label not in self.read:
-                why = f"{where}: given names {label!r}, which is no claim before this one"
-                raise self._bad(why, "name a claim that is read, and stands before it")
+                why = f"{where}: given names {label!r}, which is not a claim before this one"
+                raise self._bad(why, "name a claim that comes before this one and can be read")
             left, right = self.read[label]
             if not isinstance(left, Symbol):
                 left, right = right, left
             if not isinstance(left, Symbol) or right.has(left):
-                why = f"{where}: the claim {label!r} does not say what one symbol is"
+                why = f"{where}: the given claim {label!r} does not define a symbol"
                 raise self._bad(why, "give claims of the form symbol = ...")
             table[left] = right
         for name in symbols:
@@ -665,13 +675,13 @@ class _File:
         for _ in table:
             table = {s: expr.xreplace(table) for s, expr in table.items()}
         if any(expr.free_symbols & table.keys() for expr in table.values()):
-            raise self._bad(f"{where}: what is given goes round in a circle", "leave one out")
+            raise self._bad(f"{where}: the given claims are circular", "remove one of them")
         return Meant(table, {**free, **{s: expr.xreplace(free) for s, expr in table.items()}})
 
     def _conditions(
         self, read: "_Read", context: Context, meant: Meant, held: set[Symbol]
     ) -> tuple[Boolean, ...]:
-        """Where the formulas called are defined, and what the claim requires, in ours."""
+        """Return the conditions of the formulas that are called, and those of the claim."""
         found, bound = set[Boolean](), set[Symbol]()
         for side in (read.left, read.right):
             written = side.xreplace(meant.written)
@@ -686,8 +696,8 @@ class _File:
         inside = bound - held
         kept = [each for each in found if each != true and not each.free_symbols & inside]
         if false in found:
-            why = f"{read.where}: what it requires is nowhere true"
-            raise self._bad(why, "mend require, or the arguments of the formulas called")
+            why = f"{read.where}: its conditions are never satisfied"
+            raise self._bad(why, "correct require, or the arguments of the formulas called")
         return tuple(sorted(kept, key=str))
 
     def _toward(self, read: "_Read", context: Context, meant: Meant) -> tuple[Expr, Expr] | None:
@@ -701,11 +711,12 @@ class _File:
     def _order(self, given: Mapping[str, Any], where: str) -> float | None:
         order = given.get("order")
         if order is not None and (type(order) not in (int, float) or "as" not in given):
-            raise self._bad(f"{where}: order = {order!r} is no order", "write a number, beside as")
+            why = f"{where}: order = {order!r} is not a number, or as is missing"
+            raise self._bad(why, "write order as a number, together with as")
         return None if order is None else float(order)
 
     def _rounded(self, read: "_Read", context: Context, put: Put) -> Rounded | None:
-        """The one constant of three digits or more that is a factor of a side, if there is one."""
+        """Return the rounded constant that is a factor of a side, if there is exactly one."""
         found = rounded_in(read.text)
         if len(found) != 1:
             return None
@@ -723,28 +734,29 @@ class _File:
     def _waiting(
         self, number: int, given: Mapping[str, Any], common: dict[str, Any], error: NotAccepted
     ) -> Claim:
-        """A claim whose reading nobody has accepted."""
+        """Return an unchecked claim whose reading is not accepted, and record the reading."""
         self.readings.append(
             Reading(number, common["label"], given["latex"], error.understood, error.accepted)
         )
-        said = f"the file accepts {error.accepted}" if error.accepted else "nobody has accepted it"
+        said = f"the file accepts {error.accepted}" if error.accepted else "this is not accepted"
         by_hand = "accepted = true"
         if given.get("accepted") is not False:
             by_hand = f'understood = "{error.understood}"'
         why = (
-            f"the LaTeX was understood as {error.understood}, and {said}: see it with --accept, "
-            f"or write {by_hand}"
+            f"the LaTeX was read as {error.understood}, but {said}: use --accept, or write "
+            f"{by_hand}"
         )
         return Claim(unchecked=why, source=error.understood, **common)
 
     def _names(self, where: str, symbols: Iterable[str], context: Context) -> Names:
-        """What a printed equation may hold: the source's symbols, and the variables."""
+        """Return the names that a printed equation may hold: symbols, variables and formulas."""
         known = {**context.variables, **{name: Symbol(name) for name in symbols}}
         return Names(where, known, context.arities)
 
     def _printed(self, given: Mapping[str, Any], where: str, names: Names) -> str:
         if ("printed" in given) == ("latex" in given):
-            raise self._bad(f"{where} has not one of printed and latex", "give one of them")
+            why = f"{where} has both or neither of printed and latex"
+            raise self._bad(why, "give exactly one of them")
         if "printed" in given:
             return self._text(given, "printed", where)
         spellings = {**{n: n for n in names.symbols}, **_usual(names), **self._spellings(names)}
@@ -759,13 +771,13 @@ class _File:
         return accepted
 
     def _part(self, given: Mapping[str, Any], where: str) -> str:
-        """The LaTeX of a claim: all of it, or one statement of a display."""
+        """Return the LaTeX of a claim, or of one statement in its display."""
         latex = self._text(given, "latex", where)
         if "part" not in given:
             return latex
         found, part = statements(where, latex), given["part"]
         if type(part) is not int or not 1 <= part <= len(found):
-            why = f"{where}: part = {part!r} is no statement of this display"
+            why = f"{where}: part = {part!r} is not the number of a statement in this display"
             raise self._bad(why, f"write a number from 1 to {len(found)}")
         return found[part - 1].latex
 
@@ -773,12 +785,12 @@ class _File:
         found = self._table("latex")
         for spelling, name in found.items():
             if not isinstance(name, str) or name not in names.symbols:
-                why = f"[latex] {spelling!r} = {name!r} is no declared name"
-                raise self._bad(why, "declare it")
+                why = f"[latex] {spelling!r} = {name!r} is not a declared name"
+                raise self._bad(why, "declare it in [symbols] or [variables]")
         return found
 
     def _demand_bound(self, where: str, left: Expr, right: Expr, meaning: Meaning) -> None:
-        """No variable of integration that means something outside its integral, places apart."""
+        """Refuse variables of integration, except positions, that are also used outside."""
         held = _variables(left, right, meaning)
         meant = (meaning[s] for s in left.free_symbols | right.free_symbols if s in meaning)
         for over in integrals(left, right, *meant):
@@ -786,7 +798,7 @@ class _File:
             if along in PLACES.values() or along not in held | meaning.keys():
                 continue
             why = f"{where}: {along} is a variable of integration and also used outside"
-            raise self._bad(why, "integrate along another letter, s or xi")
+            raise self._bad(why, "use another variable of integration, such as s or xi")
 
     def _conventions(
         self,
@@ -798,10 +810,10 @@ class _File:
         made = []
         listed = given.get("conventions", [])
         if not isinstance(listed, list):
-            raise self._bad(f"{where}: conventions is no list", "write [{ what = ... }]")
+            raise self._bad(f"{where}: conventions is not a list", "write [{ what = ... }]")
         for each in listed:
             if not isinstance(each, dict):
-                raise self._bad(f"{where}: a convention is no table", "write { what = ... }")
+                raise self._bad(f"{where}: a convention is not a table", "write { what = ... }")
             self._demand_known(each, _OF_A_CONVENTION, f"{where}: a convention")
             what = self._text(each, "what", where)
             against = self._text(each, "contradicts", where)
@@ -818,7 +830,7 @@ class _File:
         put: Put,
         context: Context,
     ) -> Meaning:
-        """What is meant otherwise if some symbols of a claim stand for something else."""
+        """Return the meanings that change if some symbols of a claim are redefined."""
         other = self._meant(context, {**self._inner(given, "symbols", where), **symbols}).ours
         changed = {s: expr for s, expr in other.items() if put.meaning.get(s) != expr}
         return {**changed, **put.called(other)}
@@ -831,7 +843,8 @@ class _File:
         except ValueError:
             known = ", ".join(Verdict)
             raise self._bad(
-                f"{where}: expected = {given['expected']!r} is no verdict", f"write one of {known}"
+                f"{where}: expected = {given['expected']!r} is not a verdict",
+                f"write one of {known}",
             ) from None
 
     # -------------------------------------------------------------- reading the data
@@ -842,7 +855,8 @@ class _File:
     def _inner(self, data: Mapping[str, Any], key: str, where: str) -> dict[str, Any]:
         found = data.get(key, {})
         if not isinstance(found, dict):
-            raise self._bad(f"{key} of {where} is no table", f"write [{key}] and names below it")
+            why = f"{key} of {where} is not a table"
+            raise self._bad(why, f"write [{key}] with names below it, or {key} = {{ ... }}")
         return found
 
     def _text(self, data: Mapping[str, Any], key: str, where: str) -> str:
@@ -854,24 +868,25 @@ class _File:
     def _list(self, data: Mapping[str, Any], key: str, where: str) -> tuple[str, ...]:
         found = data.get(key, [])
         if not isinstance(found, list) or not all(isinstance(each, str) for each in found):
-            raise self._bad(f"{where}: {key} is no list of texts", f'write {key} = ["..."]')
+            raise self._bad(f"{where}: {key} is not a list of texts", f'write {key} = ["..."]')
         return tuple(found)
 
     def _demand_known(self, data: Mapping[str, Any], known: frozenset[str], where: str) -> None:
         for key in data:
             if key not in known:
                 allowed = ", ".join(sorted(known))
-                why = f"{where} has {key!r}, which means nothing here"
-                self.mistakes.append(self._bad(why, f"known: {allowed}"))
+                why = f"{where} has the unknown key {key!r}"
+                self.mistakes.append(self._bad(why, f"use one of {allowed}"))
 
     def _demand_name(self, name: str, taken: object) -> None:
         if not usable(name):
-            raise self._bad(f"{name!r} cannot be a name", "use letters, digits and _")
+            why = f"{name!r} is reserved or is not a valid name"
+            raise self._bad(why, "use another name of letters, digits and _")
         if name in taken:  # type: ignore[operator]
             raise self._bad(f"{name!r} is declared twice", "choose another name")
 
     def _bad(self, why: str, remedy: str) -> BadClaimsFile:
-        """A mistake at the place that its text begins with: the file, and a line if it is known."""
+        """Return an error; a file name and line at the start of `why` become its location."""
         found = re.match(rf"({re.escape(self.name)}(?::[0-9]+)?), ", why)
         if found:
             return BadClaimsFile(found[1], why[found.end() :], remedy)
@@ -880,7 +895,7 @@ class _File:
 
 @dataclass(frozen=True)
 class _Read:
-    """A claim as it stands in the file, with its equation read."""
+    """The entries of a claim, with its equation as text and as expressions."""
 
     given: Mapping[str, Any]
     where: str
@@ -893,18 +908,18 @@ class _Read:
 
 @cache
 def _own_body(profile: str, units: tuple[tuple[str, str], ...]) -> Body:
-    """A body whose profile stands in the file, as text of which nothing is executed."""
+    """Return a body whose profile is text in the claims file, which is never executed."""
     return Body(draft(Wanted("own_body", profile, units=dict(units))).geometry)
 
 
 def _formula_of(said: object) -> str:
-    """What a symbol is, as text; empty while nobody has said it."""
+    """Return the formula of a symbol as text; empty if it is not defined yet."""
     text = said.get("is", "") if isinstance(said, dict) else said
     return str(text).strip()
 
 
 def _is_defined(read: "_Read", meant: Meant) -> bool:
-    """Whether the file says in the same words what a symbol is, alone on its side."""
+    """Whether one side is a symbol and the file defines it by the other side."""
     if read.given.keys() & {"given", "through", "allowed"}:
         return False
     for one, other in ((read.left, read.right), (read.right, read.left)):
@@ -917,35 +932,35 @@ def _is_defined(read: "_Read", meant: Meant) -> bool:
 
 
 def _may_be_rough(given: Mapping[str, Any], text: str) -> bool:
-    """Whether ~ may stand in an equation: in a limit, or before a constant printed rounded."""
+    """Whether an equation may use ~, because it has a limit or a rounded constant."""
     return bool(given.keys() & {"as", "leading"}) or may_be_rounded(text)
 
 
 def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str]) -> Claim:
-    """A claim with symbols of which nobody has said what they are."""
+    """Return an unchecked claim, because some of its symbols have no meaning."""
     listed = ", ".join(names)
-    why = f"nothing says what {listed} is: write it in [symbols] or [variables]"
+    why = f"the symbol {listed} has no meaning: define it in [symbols] or [variables]"
     if len(names) > 1:
-        why = f"nothing says what {listed} are: write it in [symbols] or [variables]"
+        why = f"the symbols {listed} have no meaning: define them in [symbols] or [variables]"
     printed = given.get("understood", given.get("printed", ""))
     return Claim(unchecked=why, source=str(printed), **common)
 
 
 def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
-    """What both sides, or what their symbols stand for, depend on; some may cancel in the end."""
+    """Return the variables in both sides or in the meanings of their symbols."""
     held = left.free_symbols | right.free_symbols
     return set().union(*(meaning.get(symbol, symbol).free_symbols for symbol in held))
 
 
 def _inside(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
-    """Variables of printed integrals that both sides, written out, do not depend on."""
+    """Return the variables of integration on which neither side depends."""
     along = {over.limits[-1][0] for over in integrals(left, right)}
     table = dict(meaning)
     return along - left.xreplace(table).free_symbols - right.xreplace(table).free_symbols
 
 
 def _places(held: set[Symbol]) -> dict[Symbol, Range]:
-    """Places that nobody gave a range are drawn on both sides of zero."""
+    """Return the default range of positions, which is symmetric about zero."""
     return {place: SIGNED for place in PLACES.values() if place in held}
 
 
@@ -954,11 +969,11 @@ def _is_bound(given: object) -> TypeGuard[float]:
 
 
 _FAR = 1e6
-"""Bound of a variable's range."""
+"""The bounds of a variable's range must be smaller than this in magnitude."""
 
 
 def _texts(data: object) -> Iterator[str]:
-    """All keys and texts of a file, however deep it is nested."""
+    """Yield all keys and texts of a file, at any nesting depth."""
     left = [data]
     while left:
         each = left.pop()
@@ -976,7 +991,7 @@ def _held(name: str, *sides: Expr) -> bool:
 
 
 def _usual(names: Names) -> dict[str, str]:
-    r"""How a name is usually spelled: a_1 as a_{1}, alpha as \alpha, alpha_0 as \alpha_0."""
+    r"""Return the usual LaTeX of names: a_{1} for a_1, \alpha for alpha, \alpha_0 for alpha_0."""
     found = {}
     for name in names.symbols:
         stem, _, index = name.partition("_")

@@ -92,7 +92,10 @@ def test_a_geometry_file_is_a_body_and_is_not_executed(
     [
         ("geometry = 3", "does not have exactly one `geometry = Geometry"),
         ("(", "is not valid Python"),
-        (GEOMETRY.replace('"half"', '"b"'), "the parameter 'half' is assigned to a Python variable"),
+        (
+            GEOMETRY.replace('"half"', '"b"'),
+            "the parameter 'half' is assigned to a Python variable",
+        ),
         (GEOMETRY.replace("x**2", "__import__('os').getcwd()"), "__import__"),
     ],
 )

@@ -45,7 +45,7 @@ def written(folder: Path, text: str) -> str:
 
 def test_claims_that_hold_leave_with_zero(tmp_path: Path) -> None:
     done = run(written(tmp_path, CIRCLE))
-    assert (done.exit_code, "1 claims: 1 holds" in done.output) == (0, True)
+    assert (done.exit_code, "1 claim: 1 holds" in done.output) == (0, True)
 
 
 def test_an_unexpected_verdict_leaves_with_one(tmp_path: Path) -> None:
@@ -123,9 +123,9 @@ def test_the_worked_example() -> None:
 # ------------------------------------------------------------------ what is refused
 
 BAD = {
-    "no TOML": ("title = ", "no TOML"),
-    "no claims": (HEAD, "no [[claims]]"),
-    "claims no list": (HEAD + "\n[claims]\n", "no [[claims]]"),
+    "no TOML": ("title = ", "not valid TOML"),
+    "no claims": (HEAD, "number of [[claims]]"),
+    "claims no list": (HEAD + "\n[claims]\n", "number of [[claims]]"),
     "unknown key": ('colour = "red"\n' + CIRCLE, "'colour'"),
     "unknown key of a claim": (CIRCLE + 'colour = "red"\n', "'colour'"),
     "no label": (HEAD + '[[claims]]\nprinted = "A = R"\n', "no label"),
@@ -134,22 +134,22 @@ BAD = {
     "two relations": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = R = 1"\n', "two relations"),
     "unknown function": (
         HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = eval(R)"\n',
-        "no function",
+        "not a function",
     ),
     "attribute": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = R.__class__"\n', "attributes"),
     "text": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = \'R\'"\n', "quotes"),
     "large power": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = 9**9**9**9"\n', "too large"),
     "deep": (HEAD + f'[[claims]]\nlabel = "x"\nprinted = "A = {"(" * 60}R"\n', "nested deeper"),
     "unknown body": ('body = "sphere"\n' + CIRCLE, "not in the library"),
-    "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "no verdict"),
-    "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "cannot be a name"),
-    "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no range"),
+    "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "not a verdict"),
+    "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "not a valid name"),
+    "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no valid range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
-    "conventions": (CIRCLE + "conventions = 3\n", "no list"),
+    "conventions": (CIRCLE + "conventions = 3\n", "not a list"),
     "control character": (CIRCLE.replace('"area"', '"a\\u001b[2J"'), "control character"),
     "no spelling": (
         CIRCLE.replace("printed", "latex") + '[latex]\n"x" = ["a"]\n',
-        "no declared name",
+        "not a declared name",
     ),
     "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ cannot be checked"),
     "key of a range": (CIRCLE.replace("high = 0.9", "high = 0.9, step = 1"), "'step'"),
@@ -554,7 +554,7 @@ def test_all_mistakes_are_told_at_once(tmp_path: Path) -> None:
 def test_a_symbol_that_hides_a_parameter_is_a_mistake(tmp_path: Path) -> None:
     text = 'body = "hertz"\n[variables]\nl = "l"\n[symbols]\nR = "2*l"\n'
     done = run(written(tmp_path, text + '[[claims]]\nlabel = "x"\nprinted = "R = 2*l"\n'))
-    assert (done.exit_code, "'R' is a parameter of the body" in done.stderr) == (2, True)
+    assert (done.exit_code, "'R' is already a parameter of the body" in done.stderr) == (2, True)
     assert "claims.toml:5: the symbol" in done.stderr
 
 
@@ -567,10 +567,10 @@ def test_what_can_be_judged_is_judged(tmp_path: Path) -> None:
     told = {each["label"]: each for each in json.loads(done.stdout)}
     assert done.exit_code == 1
     assert told["area"]["verdict"] == "holds"
-    assert "what W, Z are" in told["names"]["reason"]
-    assert "what T is" in told["waits"]["reason"]
+    assert "the symbols W, Z have no meaning" in told["names"]["reason"]
+    assert "the symbol T has no meaning" in told["waits"]["reason"]
     assert told["names"]["printed"] == "A = Z + W*Z"
-    assert "what T is" in run(written(tmp_path, text)).stdout
+    assert "the symbol T has no meaning" in run(written(tmp_path, text)).stdout
 
 
 def test_every_mistake_is_a_user_s() -> None:
