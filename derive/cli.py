@@ -512,7 +512,7 @@ def _draft(file: Path | None, new: Path, inline: bool) -> None:
         raise click.UsageError("--draft reads a paper: give FILE, in LaTeX")
     if new.exists():
         raise click.UsageError(f"{new} already exists: give the name of a new file with --draft")
-    with _console(stderr=True).status("reading the displays"):
+    with _console(stderr=True).status("reading the displayed equations"):
         made = draft(file, inline)
     write(made, new)
     click.echo(f"{made.environments} displayed equations with {len(made.parts)} statements")
@@ -537,7 +537,7 @@ def _accept(file: Path | None, label: str | None) -> None:
         click.echo(f"  LaTeX       {reading.latex.strip()}")
         click.echo(f"  understood  {reading.understood}")
         if reading.accepted:
-            click.echo(f"  the file has {reading.accepted}")
+            click.echo(f"  in the file {reading.accepted}")
         answer = click.prompt(
             "Is this what is printed?",
             type=click.Choice(["y", "n", "q"]),

@@ -62,7 +62,7 @@ class BadName(UserError):
 
     @property
     def message(self) -> str:
-        """Why the name is refused, and which names are allowed."""
+        """Explain why the name is refused and which names are allowed."""
         return (
             f"{self.what} {self.given!r} {self.why}; choose another name. A name consists of "
             "letters, digits and _, does not start with a digit, and is not a symbol of the "
@@ -79,7 +79,7 @@ class BadUnit(UserError):
 
     @property
     def message(self) -> str:
-        """Why the unit is refused, and which units are allowed."""
+        """Explain why the unit is refused, and which units are allowed."""
         return (
             f"unit {self.given!r}: {self.why}; write a product of powers of m, Pa, N and rad, such "
             "as 'm', '1/m' or 'N/m', or '-' for a pure number"
@@ -97,7 +97,7 @@ class DimensionMismatch(UserError):
 
     @property
     def message(self) -> str:
-        """Which dimensions do not agree."""
+        """State which dimensions do not agree."""
         return (
             f"the dimension of {self.where} is {self.found}, but must be {self.expected}: "
             f"{self.remedy}"
@@ -114,7 +114,7 @@ class UnknownSymbol(UserError):
 
     @property
     def message(self) -> str:
-        """Which symbol is unknown, and which line is missing."""
+        """State which symbol is unknown, and which line is missing."""
         return (
             f"g of {self.geometry!r} contains the symbol {self.given!r}, but only derive's x and "
             f"parameters are allowed: {self.remedy}"
@@ -131,7 +131,7 @@ class BadProfile(UserError):
 
     @property
     def message(self) -> str:
-        """Why the profile is refused."""
+        """Explain why the profile is refused."""
         return f"g of {self.geometry!r} {self.why}: {self.remedy}"
 
 
@@ -144,7 +144,7 @@ class BadGeometryFile(UserError):
 
     @property
     def message(self) -> str:
-        """What is wrong with the file, and what it must contain."""
+        """State what is wrong with the file, and what it must contain."""
         return (
             f"{self.given}: {self.why}; a geometry file is a Python file that defines "
             "`geometry = Geometry(name, g=...)`, as derive/geometries/hertz.py does"
@@ -160,7 +160,7 @@ class UnknownGeometry(UserError):
 
     @property
     def message(self) -> str:
-        """Which names the library contains."""
+        """State which names the library contains."""
         return (
             f"there is no geometry {self.given!r}; the library contains {', '.join(self.known)}: "
             "choose one of these, or give the path of a geometry file"
@@ -176,7 +176,7 @@ class BadOutput(UserError):
 
     @property
     def message(self) -> str:
-        """Why the directory is refused, and which directories are allowed."""
+        """Explain why the directory is refused, and which directories are allowed."""
         return (
             f"{self.given} {self.why}; a package is only written to a directory that does not "
             "exist, is empty, or was made by `derive generate`: choose another directory with "
@@ -193,7 +193,7 @@ class BadPage(UserError):
 
     @property
     def message(self) -> str:
-        """Why the path is refused, and what may be replaced."""
+        """Explain why the path is refused, and what may be replaced."""
         return (
             f"{self.given} {self.why}; pages are only written to a path that does not exist, or "
             "over pages made by `derive show --html`: choose another path with --out"
@@ -208,7 +208,7 @@ class NeedsOutput(UserError):
 
     @property
     def message(self) -> str:
-        """Which option is missing."""
+        """State which option is missing."""
         return (
             f"{self.given} is not in the library, and the package `generated` contains only bodies "
             "of the library: say where to write its module, as in "
@@ -224,7 +224,7 @@ class TwoOfOneName(UserError):
 
     @property
     def message(self) -> str:
-        """Which name occurs twice."""
+        """State which name occurs twice."""
         return (
             f"two geometries are named {self.name!r}, but each needs a module of its own: rename "
             "one of them"
@@ -242,7 +242,7 @@ class NoSuchName(UserError):
 
     @property
     def message(self) -> str:
-        """Which name cannot be used, and what to do."""
+        """State which name cannot be used, and what to do."""
         return (
             f"{self.body} in {self.language}: {self.given!r} {self.why}; give it another name in "
             "a geometry file of your own"
@@ -257,7 +257,7 @@ class LostProcess(UserError):
 
     @property
     def message(self) -> str:
-        """What may have happened, and what to try."""
+        """State what may have happened, and what to try."""
         return (
             f"one of {self.jobs} processes ended before its body was finished, possibly because "
             f"memory ran out: build fewer bodies at once, as with --jobs {self.jobs // 2}"
@@ -275,11 +275,12 @@ class RanAway(UserError):
 
     @property
     def message(self) -> str:
-        """Which stage was reached, what its limits were, and what to try."""
+        """State which stage was reached, what its limits were, and what to try."""
+        what, stage = self.what or "this body", self.stage or "starting"
+        limits = f"{self.seconds:g} s and {self.gigabytes:g} GB of memory"
         return (
-            f"{self.what or 'this body'}: {self.stage or 'starting'} exceeded its limits of "
-            f"{self.seconds:g} s and {self.gigabytes:g} GB of memory: write g(x) with fewer kinks, "
-            "fewer parameters or fewer nested functions"
+            f"{what}: the stage '{stage}' exceeded its limits of {limits}: write g(x) with fewer "
+            "kinks, fewer parameters or fewer nested functions"
         )
 
 
@@ -298,7 +299,7 @@ class BadText(UserError):
 
     @property
     def message(self) -> str:
-        """What is wrong, a caret under it, and what is allowed."""
+        """State what is wrong, a caret under it, and what is allowed."""
         start, end = max(0, self.column - self._BEFORE), self.column + self._AFTER
         place = _marked(self.given, self.column, start, end)
         return f"{self.why}: {self.remedy}\n{place}\nallowed in g(x): {self.allowed}"
@@ -330,7 +331,7 @@ class BadOption(UserError):
 
     @property
     def message(self) -> str:
-        """What is wrong with the option, and how to write it."""
+        """State what is wrong with the option, and how to write it."""
         text = "m" if self.option == "--unit" else "radius"
         return (
             f"{self.option} {self.given!r}: {self.why}; write {self.option} NAME=TEXT once for "
@@ -346,7 +347,7 @@ class BadLimit(UserError):
 
     @property
     def message(self) -> str:
-        """Which values are allowed."""
+        """State which values are allowed."""
         return (
             f"--limit {self.given} is not a valid time: give the search for closed forms a finite "
             "number of seconds above zero, such as --limit 20"
@@ -362,7 +363,7 @@ class OpenUnits(UserError):
 
     @property
     def message(self) -> str:
-        """Which units are undetermined, and which of them suffice."""
+        """State which units are undetermined, and which of them suffice."""
         options = " ".join(f"--unit {name}=m" for name in self.enough)
         return (
             f"the units of {', '.join(self.parameters)} are not determined: g(x) must be a length "
@@ -379,7 +380,7 @@ class BadTarget(UserError):
 
     @property
     def message(self) -> str:
-        """Why nothing was written, and which paths are allowed."""
+        """Explain why nothing was written, and which paths are allowed."""
         return (
             f"{self.given} {self.why}; nothing was written: with --out, give an existing "
             "directory, or the path of a new file that ends in .py"
@@ -394,7 +395,7 @@ class InstalledPackage(UserError):
 
     @property
     def message(self) -> str:
-        """Why the package is not changed, and which option is missing."""
+        """Explain why the package is not changed, and which option is missing."""
         return (
             f"{self.given} belongs to an installed package and is not changed: say where to write "
             "the modules, as in `derive generate --out my_package`"
@@ -411,7 +412,7 @@ class MissingLibrary(UserError):
 
     @property
     def message(self) -> str:
-        """What needs the library, and how to install it."""
+        """State what needs the library, and how to install it."""
         return (
             f"{self.given} is not installed, and {self.purpose} needs it: run "
             f"pip install 'contact-derive[{self.group}]'"
@@ -430,7 +431,7 @@ class UnknownClaim(UserError):
 
     @property
     def message(self) -> str:
-        """Which labels are most similar."""
+        """State which labels are most similar."""
         alike = get_close_matches(self.given, self.known, n=self._NEAREST, cutoff=0.3)
         shown = ", ".join(alike or self.known[: self._NEAREST])
         return (
@@ -449,7 +450,7 @@ class _BadFile(UserError):
 
     @property
     def message(self) -> str:
-        """What is wrong with the file, and where."""
+        """State what is wrong with the file, and where."""
         return f"{self.given}: {self.why}; {self.remedy}"
 
 
@@ -473,7 +474,7 @@ class BadFormula(UserError):
 
     @property
     def message(self) -> str:
-        """What is wrong, and below it the formula with a caret under the mistake."""
+        """State what is wrong, and below it the formula with a caret under the mistake."""
         return f"{self.where}: {self.why}: {self.remedy}\n{_marked(self.given, self.column)}"
 
 
@@ -487,7 +488,7 @@ class NotAccepted(UserError):
 
     @property
     def message(self) -> str:
-        """How the LaTeX was read, and how to accept this reading."""
+        """State how the LaTeX was read, and how to accept this reading."""
         accepts = f"accepts `{self.accepted}`" if self.accepted else "does not accept a reading"
         return (
             f"{self.where}: the LaTeX was understood as\n    {self.understood}\n"

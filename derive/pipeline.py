@@ -48,7 +48,7 @@ GENERATED = Path(__file__).parent.parent / "generated"
 
 STAGES = (
     *("reading g(x)", "deriving", "looking for closed forms"),
-    *("proving", "generating", "trying"),
+    *("proving", "generating", "testing"),
 )
 STRANGERS = Bounds(seconds=600, gigabytes=4, stages={STAGES[0]: 60})
 """Limits for a body outside the library; none of twenty such bodies needed a tenth of them."""

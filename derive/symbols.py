@@ -81,13 +81,13 @@ _TABLE = (
 
 QUANTITIES: dict[str, Quantity] = {q.name: q for q in _TABLE}
 
-_USED_BESIDES = (
-    # by the theory
+_ALSO_USED = (
+    # names used by the theory
     *("da", "dc", "dq", "d_left", "d_right", "h", "kappa", "lambda", "m", "mid", "n"),
     *("p", "pi", "q", "Q", "sigma", "t", "theta", "xi"),
-    # by SymPy
+    # names used by SymPy
     *("E", "I", "N", "O", "oo", "nan", "inf"),
-    # by the generated modules
+    # names used by the generated modules
     *("np", "Any", "LEAST", "MOST", "TINY", "elementwise", "where", "kink_logarithm"),
     *(
         "Asked",
@@ -124,6 +124,6 @@ _USED_BESIDES = (
     *("History", "SteadyCycle", "public", "tol"),
 )
 
-RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_USED_BESIDES)
+RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_ALSO_USED)
 """Names that no parameter may have; names such as theta_1, w_1, L_1, q_left_1 or m_1 are reserved,
 too."""

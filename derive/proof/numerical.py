@@ -70,7 +70,7 @@ class NumericalRoutes:
             "pressure": (_QUADRATURE, self._pressure),
             "L_N_left": ("p - K_N sqrt(s) close to the edge", self._second_left),
             "L_N_right": ("p - K_N sqrt(s) close to the edge", self._second_right),
-            "full_stick_change": ("its force and its strain by quadrature", self._full_stick),
+            "full_stick_change": ("force and strain by quadrature", self._full_stick),
             **{name: (_BOUNDED, self._stuck_between(name)) for name in _STICK},
         }
 
@@ -79,7 +79,7 @@ class NumericalRoutes:
         """Superposed wedges compared with the singular integral equation of the original g'."""
         routes: dict[str, tuple[str, Route]] = {
             "pressure": (_QUADRATURE, self._pressure),
-            "full_stick_change": ("its force and its strain by quadrature", self._full_stick),
+            "full_stick_change": ("force and strain by quadrature", self._full_stick),
         }
         defining: list[tuple[str, str, Callable[[Contact], mpf]]] = [
             ("tilt", _QUADRATURE, lambda contact: contact.tilt),

@@ -265,7 +265,7 @@ def _is_in_the_rates(sheet: FormulaSheet, name: str) -> bool:
 
 
 _ROUTES: dict[str, Route] = {
-    "tilt": _equal_to(_tilt, "I_0 by antiderivatives that differentiate back"),
+    "tilt": _equal_to(_tilt, "I_0 from antiderivatives checked by differentiation"),
     "load": _equal_to(_load, "by parts, P = (E*/2) int g'' w ds"),
     "moment": _equal_to(_moment, "by parts, M = -(E*/2) int g'' w (s + mid)/2 ds"),
     "pressure": _pressure,

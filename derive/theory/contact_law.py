@@ -50,7 +50,7 @@ def contact_from_moment(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> I
     """(P, M) -> (a, c, alpha), in terms of P and the lever arm e = M/P."""
     if any(k.clipped for k in frame.kinks):
         return None
-    found = _where(reduced(moment / load, frame), e, load, frame)
+    found = _middle_and_half_width(reduced(moment / load, frame), e, load, frame)
     if found is None:
         return None
     middle, half = found
@@ -70,7 +70,7 @@ def contact_from_tilt(frame: Frame, tilt: Expr, load: Expr, moment: Expr) -> Inv
 
 
 def _smooth_at_tilt(frame: Frame, tilt: Expr, load: Expr, arm: Expr) -> Inverse | None:
-    found = _where(tilt, alpha, load, frame)
+    found = _middle_and_half_width(tilt, alpha, load, frame)
     if found is None:
         return None
     middle, half = found
@@ -78,7 +78,9 @@ def _smooth_at_tilt(frame: Frame, tilt: Expr, load: Expr, arm: Expr) -> Inverse 
     return Inverse(edges[a], edges[c], alpha, M=P * simplify(arm.subs(edges)))
 
 
-def _where(of_edges: Expr, value: Expr, load: Expr, frame: Frame) -> tuple[Expr, Expr] | None:
+def _middle_and_half_width(
+    of_edges: Expr, value: Expr, load: Expr, frame: Frame
+) -> tuple[Expr, Expr] | None:
     """Midpoint and half-width of the contact under P for which `of_edges` equals `value`."""
     to_middle = _in_middle_and_width(frame)
     middle = _root_of_first_degree(of_edges.subs(to_middle) - value, _mid)

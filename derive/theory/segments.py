@@ -761,18 +761,20 @@ class Parts:
         found = [Definition(h, a + c, "contact width")]
         for k in self.frame.kinks:
             at = f"of half the angle of x = {k.kink.position}"
+            kinds = ("sine", "cosine", "tangent", "cotangent")
             halves, tangents = _sine_and_cosine(k), _tangents(k)
             sides = (k.left, k.right)
             clipped = (sqrt(Min(h, Max(0, distance)) / h) for distance in sides)
             ratios = (root_ratio(*sides), root_ratio(*reversed(sides)))
-            for symbol, expr in zip((*halves, *tangents), (*clipped, *ratios), strict=True):
-                found.append(Definition(symbol, expr, at))
+            exprs = (*clipped, *ratios)
+            for kind, symbol, expr in zip(kinds, (*halves, *tangents), exprs, strict=True):
+                found.append(Definition(symbol, expr, f"{kind} {at}"))
         found += [
             Definition(part.t, part.angle, f"angle of part {part.number}") for part in self.parts
         ]
         found += [
-            Definition(sin_x, sqrt(Max(0, a + x) / h), "of half the angle of x"),
-            Definition(cos_x, sqrt(Max(0, c - x) / h), "of half the angle of x"),
+            Definition(sin_x, sqrt(Max(0, a + x) / h), "sine of half the angle of x"),
+            Definition(cos_x, sqrt(Max(0, c - x) / h), "cosine of half the angle of x"),
         ]
         for edge in Edge:
             symbol, at = self.bend_at(edge), f"g'' at the {edge.name.lower()} edge"
