@@ -61,14 +61,14 @@ class Function:
 
         Conditions on x are left out, because the pressure outside the contact is zero.
         """
-        held = dict.fromkeys(
+        needed = dict.fromkeys(
             condition
             for name in self.formulas
             for condition in sheet[name].conditions
             if not condition.has(x)
         )
         positive = (Gt(symbol, 0, evaluate=False) for symbol in self.keywords(sheet))
-        return (*held, *positive)
+        return (*needed, *positive)
 
 
 def _edges(

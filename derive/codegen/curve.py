@@ -86,7 +86,7 @@ class CurveText(LawText):
         if summed:
             yield from self._carried(own)
         slope = self.sheet.geometry.slope
-        places, pieces = cuts_of(slope)
+        positions, pieces = cuts_of(slope)
         printer = NumPyPrinter()
         yield "@kernel(BESIDE_BREAK)"
         words = "g', g'' and t g''' at the distance t from a break."
@@ -94,9 +94,9 @@ class CurveText(LawText):
         yield from self._unpacked([*self._demands(), *_branches(pieces)])
         yield "    return np.nan, np.nan, np.nan"
         steps = {kink.position: kink.step for kink in slope.kinks}
-        jumps = [printer.doprint(steps.get(place, S.Zero)) for place in places]
+        jumps = [printer.doprint(steps.get(position, S.Zero)) for position in positions]
         for name, words, values in (
-            ("_breaks", "Points at which the curve is cut.", map(printer.doprint, places)),
+            ("_breaks", "Points at which the curve is cut.", map(printer.doprint, positions)),
             ("_corners", "The jump of g' at each of these points.", jumps),
         ):
             yield "@kernel(BREAKS)"
@@ -132,9 +132,9 @@ class CurveText(LawText):
         ends = zip(
             self.sheet.geometry.slope.domain, ("<=", ">="), ("-np.inf", "np.inf"), strict=True
         )
-        held = [(end, side, slope) for end, side, slope in ends if end.is_finite]
+        bounded = [(end, side, slope) for end, side, slope in ends if end.is_finite]
         lines = []
-        for end, side, slope in held:
+        for end, side, slope in bounded:
             lines.append(f"    if x {side} {NumPyPrinter().doprint(end)}:")
             lines.append(f"        return {slope}, np.inf")
         yield from self._unpacked(lines)
@@ -149,23 +149,23 @@ class CurveText(LawText):
 def _branches(pieces: Sequence[Piece]) -> Iterator[str]:
     """Code for the curve next to each end of each piece."""
     for i, piece in enumerate(pieces):
-        for sense, place in ((1, piece.lower), (-1, piece.upper)):
-            if place.is_finite:
+        for sense, position in ((1, piece.lower), (-1, piece.upper)):
+            if position.is_finite:
                 yield f"    if piece == {i} and side == {sense}:"
-                yield from _branch(piece, place, sense)
+                yield from _branch(piece, position, sense)
 
 
-def _branch(piece: Piece, place: Expr, sense: int) -> Iterator[str]:
+def _branch(piece: Piece, position: Expr, sense: int) -> Iterator[str]:
     """Code that returns g', g'' and t g''' at the distance t from a break."""
 
     def rates(expr: Expr) -> list[Expr]:
         return [sense * _rate(term) for term in Add.make_args(expr)]
 
     printer = NumPyPrinter({_t})
-    place, named = _place(place, piece.slope)
+    position, named = _position(position, piece.slope)
     for symbol, value in named.items():
         yield f"        {symbol} = {printer.doprint(value)}"
-    given = piece.slope.subs(x, place + sense * _t)
+    given = piece.slope.subs(x, position + sense * _t)
     slope = _shortest(simplify, Add.make_args(given))
     curvature = _shortest(_positive_form, rates(slope), is_positive=True)
     change = _shortest(simplify, [_t * rate for rate in rates(curvature)])
@@ -177,25 +177,25 @@ def _branch(piece: Piece, place: Expr, sense: int) -> Iterator[str]:
     yield f"        return {', '.join(map(as_float, map(printer.doprint, values)))}"
 
 
-def _place(place: Expr, slope: Expr) -> tuple[Expr, dict[Symbol, Expr]]:
+def _position(position: Expr, slope: Expr) -> tuple[Expr, dict[Symbol, Expr]]:
     """A break as it enters the formulas: a symbol if its position contains a root.
 
     With roots of several parameters, the search for short forms would take minutes.
 
     >>> from sympy import symbols
     >>> b, R = symbols("b R", positive=True)
-    >>> _place(-b, x / R)
+    >>> _position(-b, x / R)
     (-b, {})
-    >>> _place(-b / sqrt(b**2 + R**2), x / R)
+    >>> _position(-b / sqrt(b**2 + R**2), x / R)
     (-x_0, {x_0: b/sqrt(R**2 + b**2)})
     """
-    if all(power.exp.is_Integer for power in place.atoms(Pow)):
-        return place, {}
-    sense = -1 if place.could_extract_minus_sign() else 1
-    name = next(_named("x_", [place, slope])).name
-    is_positive = (sense * place).is_positive
+    if all(power.exp.is_Integer for power in position.atoms(Pow)):
+        return position, {}
+    sense = -1 if position.could_extract_minus_sign() else 1
+    name = next(_named("x_", [position, slope])).name
+    is_positive = (sense * position).is_positive
     symbol = Symbol(name, positive=True) if is_positive else Symbol(name, real=True)
-    return sense * symbol, {symbol: sense * place}
+    return sense * symbol, {symbol: sense * position}
 
 
 class _tanh(Function):
@@ -239,16 +239,16 @@ def _roots_once(steps: Steps, values: list[Expr]) -> tuple[Steps, list[Expr]]:
         if power.base in powers and power.exp.is_Rational and power.exp.q == 2:
             powers[power.base].add(power)
     named, shared, roots = _named("r_", values + [value for _, value in steps]), {}, {}
-    for base in [base for base, found in powers.items() if len(found) > 1]:
+    for base in [base for base, used in powers.items() if len(used) > 1]:
         roots[base] = next(named)
         for power in powers[base]:
             sense = 1 if power.exp > 0 else -1
             shared[power] = base ** (power.exp - S(sense) / 2) * roots[base] ** sense
-    found = [(roots[_t], sqrt(_t))] if _t in roots else []
+    results = [(roots[_t], sqrt(_t))] if _t in roots else []
     for name, value in steps:
-        found.append((name, value.xreplace(shared)))
-        found += [(roots[name], sqrt(name))] if name in roots else []
-    return found, [value.xreplace(shared) for value in values]
+        results.append((name, value.xreplace(shared)))
+        results += [(roots[name], sqrt(name))] if name in roots else []
+    return results, [value.xreplace(shared) for value in values]
 
 
 def _positive_form(curvature: Expr) -> Expr:

@@ -78,7 +78,7 @@ def cuts_of(slope: Slope) -> tuple[tuple[Expr, ...], tuple[Piece, ...]]:
     pieces: list[Piece] = []
     if cancels(slope):
         for piece in slope.pieces:
-            ends = [piece.lower, *_level_places(piece), piece.upper]
+            ends = [piece.lower, *_level_points(piece), piece.upper]
             pieces += [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
     if len(pieces) <= 1:
         pieces = [*breaks_of(slope)[1]]
@@ -101,27 +101,27 @@ def _at_origin(piece: Piece, slope: Slope) -> list[Piece]:
     return [Piece(low, high, piece.profile) for low, high in pairwise(ends)]
 
 
-def _level_places(piece: Piece) -> list[Expr]:
+def _level_points(piece: Piece) -> list[Expr]:
     """Points inside a piece at which a factor of g'' is zero or smallest, in order of position.
 
     Only linear and quadratic factors are considered, because the roots of other factors have no
     simple expression.  Points whose order is not known are left out.
     """
-    found: list[Expr] = []
+    points: list[Expr] = []
     _, factors = factor_list(piece.curvature, x)
     for factor in (Poly(factor, x) for factor, _ in factors):
         if factor.degree() not in (1, 2):
             continue
         leading, next_to_it, *_ = factor.all_coeffs()
-        place = simplify(-next_to_it / (factor.degree() * leading))
-        ends = [piece.lower, *found, piece.upper]
-        later = [_follows(end, place) for end in ends]
-        sooner = [_follows(place, end) for end in ends]
+        point = simplify(-next_to_it / (factor.degree() * leading))
+        ends = [piece.lower, *points, piece.upper]
+        later = [_follows(end, point) for end in ends]
+        sooner = [_follows(point, end) for end in ends]
         if all(up or down for up, down in zip(later, sooner, strict=True)) and later[0]:
             at = sum(later) - 1
             if sooner[-1]:
-                found.insert(at, place)
-    return found
+                points.insert(at, point)
+    return points
 
 
 def _follows(first: Expr, second: Expr) -> bool:

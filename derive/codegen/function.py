@@ -187,14 +187,14 @@ class FunctionText:
 
     @property
     def _equations(self) -> Iterator[str]:
-        held: set[Symbol] = set()
+        symbols: set[Symbol] = set()
         for name in self.function.formulas:
             formula, shown = self.sheet[name], self.sheet.shown(name)
-            held |= shown.free_symbols
+            symbols |= shown.free_symbols
             yield f"{formula.symbol} = {text_of(shown)}"
         for symbol, definition in self.sheet.defined_in(*self.function.formulas).items():
             yield f"{symbol} = {text_of(definition)}"
-        if any(str(symbol) == "e" for symbol in held):
+        if any(str(symbol) == "e" for symbol in symbols):
             yield "e = M/P"
 
     @property

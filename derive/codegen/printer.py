@@ -189,7 +189,7 @@ class NumPyPrinter(StrPrinter):
         return self._print(expr.args[0])
 
     def _print_Integer(self, expr: Basic) -> str:
-        """Print whole numbers of 2**53 and more as float64."""
+        """Print whole numbers of magnitude 2**53 or more as float64."""
         return str(expr) if abs(expr) < _LARGEST_WHOLE else repr(float(expr))
 
     def _print_Rational(self, expr: Rational) -> str:

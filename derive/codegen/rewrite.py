@@ -286,10 +286,10 @@ def _signs_inside(product: Expr) -> Expr:
     if not product.could_extract_minus_sign():
         return product
     factors = list(Mul.make_args(product))
-    place = next((i for i, f in enumerate(factors) if isinstance(f, Add)), None)
-    if place is None:
+    index = next((i for i, f in enumerate(factors) if isinstance(f, Add)), None)
+    if index is None:
         return product
-    factors[place] = -factors[place]
+    factors[index] = -factors[index]
     return -Mul(*factors)
 
 

@@ -47,7 +47,7 @@ def demand_right(sheet: FormulaSheet, text: str, stuck: str) -> None:
     """
     name = sheet.geometry.name
     with imported(name, text, stuck) as module, mpmath.workdps(_DIGITS):
-        points = _held(sheet, contacts(sheet))
+        points = _usable(sheet, contacts(sheet))
         for function in CONTRACT:
             if P in function.arguments:
                 _demand_inverse(sheet, function, module, points)
@@ -56,7 +56,7 @@ def demand_right(sheet: FormulaSheet, text: str, stuck: str) -> None:
         _demand_patch(sheet, module, points[:_CYCLES])
 
 
-def _held(sheet: FormulaSheet, points: list[Point]) -> list[Point]:
+def _usable(sheet: FormulaSheet, points: list[Point]) -> list[Point]:
     """Contacts whose tilt, load and moment, and the squares of these, are in the range of float64.
 
     Raises NotProven if these are fewer than half of the contacts.  For example, exp(exp(x/b))

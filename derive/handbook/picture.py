@@ -30,7 +30,7 @@ def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float =
     low, high = min(0.0, min(ys)), max(ys)
     across, up = (WIDTH - LEFT - RIGHT) / (high_x - low_x), (HEIGHT - TOP - BOTTOM) / (high - low)
 
-    def place(x: float, y: float) -> tuple[float, float]:
+    def pixel(x: float, y: float) -> tuple[float, float]:
         return LEFT + (x - low_x) * across, HEIGHT - BOTTOM - (y - low) * up
 
     parts = [
@@ -38,7 +38,7 @@ def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float =
         f"<title>{escape(title)}</title>",
     ]
     for x in ticks(low_x, high_x):
-        at, _ = place(x, low)
+        at, _ = pixel(x, low)
         parts.append(
             f'<line class="grid" x1="{at:.1f}" x2="{at:.1f}" y1="{TOP}" y2="{HEIGHT - BOTTOM}"/>'
         )
@@ -46,14 +46,14 @@ def svg(title: str, along: str, upward: str, lines: Sequence[Line], top: float =
             f'<text x="{at:.1f}" y="{HEIGHT - BOTTOM + 16}" text-anchor="middle">{x:.4g}</text>'
         )
     for y in ticks(low, high):
-        _, at = place(low_x, y)
+        _, at = pixel(low_x, y)
         parts.append(
             f'<line class="grid" y1="{at:.1f}" y2="{at:.1f}" x1="{LEFT}" x2="{WIDTH - RIGHT}"/>'
         )
         parts.append(f'<text x="{LEFT - 6}" y="{at + 4:.1f}" text-anchor="end">{y:.4g}</text>')
     for number, line in enumerate(lines):
         for run in _below(high, line):
-            drawn = " ".join("{:.1f},{:.1f}".format(*place(x, y)) for x, y in run)
+            drawn = " ".join("{:.1f},{:.1f}".format(*pixel(x, y)) for x, y in run)
             parts.append(f'<polyline class="curve curve-{number}" points="{drawn}"/>')
     middle = (LEFT + WIDTH - RIGHT) / 2
     parts.append(f'<text x="{middle}" y="{HEIGHT - 6}" text-anchor="middle">{escape(along)}</text>')

@@ -81,7 +81,7 @@ class Live:
         (self.shear,) = self.below.plot([], [], label=r"$\Delta q$", **red)
         self.below.legend(loc="lower right", ncols=2)
         self.spans = [
-            place.axvspan(0, 0, linewidth=0) for place in (self.above, self.below) for _ in range(2)
+            axes.axvspan(0, 0, linewidth=0) for axes in (self.above, self.below) for _ in range(2)
         ]
 
     def show(self, loads: Loads) -> str:

@@ -83,7 +83,7 @@ def draft(wanted: Wanted) -> Draft:
     """
     tree = parse(wanted.profile)
     for option, given in (("--unit", wanted.units), ("--meaning", wanted.meanings)):
-        _demand_held(option, given, tuple(names(tree)))
+        _demand_known(option, given, tuple(names(tree)))
     for unit in wanted.units.values():
         _demand_plain(unit)
     if "x" not in (node.name for node in walk(tree) if isinstance(node, Name)):
@@ -92,7 +92,7 @@ def draft(wanted: Wanted) -> Draft:
     return Draft(_geometry(wanted, tree, parameters), _text(wanted, tree, parameters))
 
 
-def _demand_held(option: str, given: Mapping[str, str], parameters: Sequence[str]) -> None:
+def _demand_known(option: str, given: Mapping[str, str], parameters: Sequence[str]) -> None:
     """Refuse an option for a name that is not a parameter of g(x)."""
     for name, text in given.items():
         if name not in parameters:
@@ -137,7 +137,7 @@ def _geometry(wanted: Wanted, tree: Node, parameters: Parameters) -> Geometry:
         raise BadProfile(
             wanted.name,
             f"cannot be read ({type(error).__name__}: {error})",
-            "write it with polynomials in x on pieces (Abs, Piecewise, Max, ...)",
+            "write it as polynomials in x on intervals, with Abs, Piecewise, Max, ...",
         ) from error
 
 
