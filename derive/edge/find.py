@@ -187,7 +187,7 @@ def _edges(step: Step, shown: str, notes: list[str]) -> list[FittedEdge]:
         try:
             fit = fit_pressure(x, p)
         except ValueError as error:
-            raise BadTable(shown, f"{where}{error}", "nothing was computed") from None
+            raise BadTable(shown, f"{where}{error}", "correct the table") from None
         if p[0] > INSIDE * np.max(p):
             notes.append(f"{where}{side} edge: the table ends inside the contact")
             continue
@@ -223,7 +223,7 @@ def _shears(
                 end.x[::direction], dq[::direction], fitted.edge, fitted.edge_error
             )
         except ValueError as error:
-            raise BadTable(shown, f"shear: {error}", "nothing was computed") from None
+            raise BadTable(shown, f"shear: {error}", "correct the table") from None
         if fit.warning:
             notes.append(f"{side} edge, shear: {fit.warning}")
         shears.append((side, fit))

@@ -24,9 +24,9 @@ from derive.paper.claim import SCALE, Claim, Point, Range, Relation
 from derive.paper.kinks import Switch, peaked, switches
 
 POINTS = 24
-"""Number of first points at which both sides are compared."""
+"""Number of points of moderate size at which both sides are compared."""
 LEAST = 20
-"""The same for claims with integrals, and the least number of points for any verdict."""
+"""The same for claims with integrals; also the least number of points for any verdict."""
 DECADES = 6
 """At further points, a positive variable without a range is drawn from 10**-6 to 10**6."""
 _FEWER_DECADES = 2

@@ -92,12 +92,12 @@ class _Piece:
 
     @property
     def is_mark(self) -> bool:
-        """Whether it is a symbol or a number."""
+        """Whether the piece is a symbol or a number."""
         return self.text.startswith("=") and self.text != "="
 
     @property
     def is_number(self) -> bool:
-        """Whether it is a number."""
+        """Whether the piece is a number."""
         return self.is_mark and self.text[1].isdigit()
 
 

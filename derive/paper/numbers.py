@@ -37,7 +37,7 @@ _LAST = 3
 _NOISE = 12
 """The remainder of a vanishing sum may exceed its last digit by this many digits."""
 _MODERATE = 30
-"""Parts of a vanishing sum may be as large or as small as this power of ten."""
+"""Parts of a vanishing sum may be as large as 10**30 and as small as 10**-30."""
 _COARSE = (16, 24)
 _FEW = 4
 """Two sides that share at most this many digits differ."""

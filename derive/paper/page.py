@@ -82,7 +82,7 @@ def _section(number: int, finding: Finding) -> str:
             if repair and corrected_text
             else "",
         ),
-        ("differs by", escape(finding.diagnosis)),
+        ("ratio of sides", escape(finding.diagnosis)),
         ("evidence", escape(evidence(finding))),
         ("consequence", escape(finding.claim.consequence)),
         ("both sides", _curves(finding)),

@@ -185,7 +185,7 @@ def as_json(findings: Iterable[Finding]) -> str:
 def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
     """Return a table of all verdicts, the signs section by section, and the errata, in Markdown."""
     lines = [f"# {paper.title}", "", summary(findings) + ".", ""]
-    lines += ["| claim | place | says | verdict |", "| --- | --- | --- | --- |"]
+    lines += ["| claim | place | description | verdict |", "| --- | --- | --- | --- |"]
     for finding in findings:
         claim = finding.claim
         cells = (f"`{claim.label}`", claim.place, claim.says, str(finding.verdict))
@@ -246,7 +246,7 @@ def as_latex(paper: Paper, findings: Sequence[Finding]) -> str:
         rf"\section*{{{_plain(paper.title)}}}",
         f"{_plain(summary(findings))}.",
         r"\begin{longtable}{p{0.3\linewidth}p{0.45\linewidth}l}",
-        r"place & says & verdict \\ \hline",
+        r"place & description & verdict \\ \hline",
     ]
     for finding in findings:
         claim = finding.claim
@@ -287,7 +287,7 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
     """Return headings with their lines: what was compared, how, and with which result."""
     claim = finding.claim
     entries = [
-        ("says", [claim.says, claim.place]),
+        ("description", [claim.says, claim.place]),
         ("printed", [printed(claim) or "no equation"]),
         ("compared with", [claim.against] if claim.against else []),
         ("steps", list(claim.steps)),

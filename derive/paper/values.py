@@ -71,9 +71,8 @@ def evaluated(expr: Expr, numbers: Mapping[Symbol, mpf], care: Care = Care.TWICE
     given = [numbers[symbol] for symbol in held]
     try:
         integral_values = [_quadrature(each, numbers, care) for each in integrals]
-        value = +mpmath.mpmathify(
-            function(*given, *integral_values)
-        )  # + turns constants into numbers
+        # the unary plus turns constants such as pi into numbers
+        value = +mpmath.mpmathify(function(*given, *integral_values))
     except NotComputed as error:
         raise Undecided(str(error)) from error
     except (ArithmeticError, ValueError) as error:

@@ -242,11 +242,11 @@ class _Judging:
         """Return the verdict; raises Undecided."""
         for point in self._first_points():
             try:
-                stands = self._stands_at(self._pair(point))
+                is_true = self._is_true_at(self._pair(point))
             except Undefined:
                 self.left_out += 1
                 continue
-            if not stands:
+            if not is_true:
                 return self._fails()
         if len(self.found) < LEAST and variables(self.claim) and not self.claim.cases:
             judged = self._judged(Verdict.UNCHECKED, self._too_few())
@@ -256,11 +256,11 @@ class _Judging:
             return self._judged(Verdict.UNCHECKED, "a side is not a real number")
         for point in further(self.claim, self._in_ours()):
             try:
-                stands = self._stands_at(self._pair(point))
+                is_true = self._is_true_at(self._pair(point))
             except Undecided:
                 self.left_out += 1
                 continue
-            if not stands:
+            if not is_true:
                 return self._fails()
         if self.claim.is_inequality and self.claim.relation.is_strict:
             for point, beside in touching(self.claim, self._in_ours()):
@@ -319,7 +319,7 @@ class _Judging:
         pair = apart(left, right, value, point) if not self.found else None
         return pair or both(left, right, value, point, self.integrals)
 
-    def _stands_at(self, pair: Pair) -> bool:
+    def _is_true_at(self, pair: Pair) -> bool:
         relation = self.claim.relation
         if self.claim.is_inequality and mpmath.im(pair.left - pair.right) != 0:
             self.unreal += 1
