@@ -36,8 +36,8 @@ _KNOWN = frozenset({"E_star", "f", "x", "s", "xi"})
 _HEAD = """
 # Define each symbol by a formula, such as P = { is = 'load(a, c)' }, or move it to [variables] if
 # it is an independent variable.  Rename `proposal` to `is` if it is right.  Units are checked, so
-# correct or delete those that are wrong.  Then run `derive check FILE --accept` and, at last,
-# `derive check FILE` with this file.
+# correct or delete those that are wrong.  Then run `derive check FILE --accept`, and finally
+# `derive check FILE`, with this file.
 # body = 'hertz'           # the body whose formulas may be called
 
 [variables]                # drawn at random, such as R = 'radius'
