@@ -373,12 +373,12 @@ class _Fault(Exception):
         if not self.real:
             return BadProfile(name, self.how, REAL_AND_FINITE)
         remedy = "make g(x) convex, since the contact could otherwise split into several patches"
-        return BadProfile(name, f"is not convex: {self.how} with {self.given}", remedy)
+        return BadProfile(name, f"is not convex, because {self.how} for {self.given}", remedy)
 
     def sometimes(self, name: str) -> BadProfile:
         """The error for a body that was found to be convex for other parameters."""
         how = self.how if self.real else f"it {self.how}"
-        why = f"is convex only for some values of its parameters: {how} with {self.given}"
+        why = f"is convex only for some values of its parameters, because {how} for {self.given}"
         remedy = (
             "no condition on the parameters was found that can be checked; make g(x) convex for "
             "all parameters, for example by replacing some with numbers or multiples of one length"

@@ -92,7 +92,7 @@ def _stranger(body: str, given: str) -> UnknownSymbol:
     if _is_taken(given):
         meaning = QUANTITIES[given].meaning if given in QUANTITIES else ""
         why = f"is reserved by the theory{f' ({meaning})' * bool(meaning)}"
-    return UnknownSymbol(body, given, f"{given} {why}; choose another, {_line(free)}")
+    return UnknownSymbol(body, given, f"{given} {why}; choose another name, as in {_line(free)}")
 
 
 def _line(name: str) -> str:
@@ -129,15 +129,15 @@ def _expression(name: str, g: Any) -> Expr:
 
 
 _NUMBERS = (
-    "a number has no unit: replace it by a parameter with a unit, such as R in x**2/(2*R), and "
-    "give the value of this parameter when you call the generated functions"
+    "a number has no unit, so replace each number that should have one by a parameter, such as R "
+    "in x**2/(2*R), and give its value when you call the generated functions"
 )
 
 
 def without_x(name: str, parameters: Iterable[str]) -> BadProfile:
     """The error for a profile that does not depend on x."""
     held = ", ".join(parameters)
-    others = f", only the parameters {held}" if held else ""
+    others = f", only parameters ({held})" if held else ""
     return BadProfile(
         name,
         f"is constant, because it does not contain x{others}",

@@ -286,7 +286,7 @@ def _roots(name: str, poly: Poly) -> list[Expr]:
     at_origin = sum(times for root, times in found.items() if root == 0)
     lowest = min(power for (power,), _ in poly.terms())
     if sum(found.values()) < poly.degree() or at_origin != lowest:  # roots near 1e-30 are not zero
-        why = f"switches branches where {poly.as_expr()} changes sign, and this point is not known"
+        why = f"switches branches where {poly.as_expr()} changes sign, but this x is not known"
         raise BadProfile(name, why, remedy)
     for root in found:
         if root.is_real is None:
@@ -321,7 +321,7 @@ def _is_positive(name: str, difference: Expr) -> bool:
         difference = simplify(difference)
         raise BadProfile(
             name,
-            f"has kinks in an unknown order: the sign of {difference} depends on the parameters",
+            f"has kinks in an unknown order, as the sign of {difference} depends on the parameters",
             _order(difference),
         )
     return found
@@ -518,7 +518,7 @@ def _demand_continuous(name: str, pieces: list[Piece]) -> None:
             raise BadProfile(
                 name,
                 f"jumps by {step} at x = {right.lower}",
-                "a profile must be continuous: shift one piece so that both meet",
+                "shift one piece so that both meet, because a profile must be continuous",
             )
 
 
@@ -534,7 +534,8 @@ def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
             raise BadProfile(
                 name,
                 f"has the value {here} at x = {right.lower}, but {near[0]} next to it",
-                "a profile must be continuous: remove the condition that holds only at this point",
+                "remove the condition that holds only at this point, because a profile must be "
+                "continuous",
             )
 
 

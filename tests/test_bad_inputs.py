@@ -23,7 +23,7 @@ phi = parameter("phi", "slope", unit="rad")
 """
 
 FILES = [
-    ("-x**2/R", "is not convex: its curvature is negative"),
+    ("-x**2/R", "is not convex, because its curvature is negative"),
     ("b*(1 - cos(x/b))", "contains cos(x/b), a function of x that is not supported"),
     ("phi*Abs(x) - phi*Max(0, x - b)", "its slope decreases at"),
     ("EulerGamma*b*cosh(x/b)", "contains EulerGamma, which the proofs cannot compute"),

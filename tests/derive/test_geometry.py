@@ -118,7 +118,7 @@ def test_a_symbol_of_the_theory_is_refused_with_what_it_means() -> None:
 def test_a_profile_that_is_no_length_is_refused(g: object) -> None:
     with pytest.raises(DimensionMismatch) as caught:
         Geometry("body", g=g)
-    assert "a number has no unit: replace it by a parameter" in caught.value.message
+    assert "a number has no unit, so replace" in caught.value.message
     has_parameters = bool(getattr(g, "free_symbols", set()) - {x})
     assert ("check the units of the parameters" in caught.value.message) == has_parameters
 
