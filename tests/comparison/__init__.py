@@ -1,5 +1,8 @@
-"""What the package says of a cycle beside what the independent solver finds.
+"""Comparison of the package with the independent solver, cycle by cycle.
 
-cases   the paper's result cases and some of our own
-table   solver, exact conditions, and series, as one table: `python -m tests.comparison`
+cases   the cycles: the result cases of the paper, and others
+table   solver, exact conditions and series for each of them, as a table
+around  the same for the upright wedge with tensions around its threshold
+
+`python -m tests.comparison` writes both tables to notebooks/comparison.md.
 """

@@ -13,7 +13,7 @@ TABLE = Path(__file__).parents[2] / "notebooks" / "comparison.md"
 
 
 def main() -> None:
-    """All cycles, as many at once as there are cores."""
+    """Compute all cycles, on all cores, and write the tables."""
     with at_once(len(EVERY) + len(around.CYCLES)) as work:
         parts = [
             table.markdown(work(table.row, EVERY)),

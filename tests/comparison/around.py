@@ -1,4 +1,4 @@
-"""Around the threshold of the wedge: the solver, and all that may tell its slip zone."""
+"""Cycles of the wedge around its threshold: the slip zone by the solver and by other methods."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -16,16 +16,19 @@ CYCLES = [
         for part in (0.95, 1.0, 1.05)
     ),
 ]
-"""Cycles around the threshold: at constant loads, and with small changes of P and M."""
+"""Cycles around the threshold: at constant normal loads, and with small changes of P and M."""
 
 CANDIDATES = ("exact", "smallest of parts", "order 1", "order 2")
 
 
 class Row(NamedTuple):
-    """The right slip zone of the contact at the end of the half-cycle, by all that may tell it.
+    """The right slip zone of the contact at the end of the half-cycle, by several methods.
 
-    exact      of the package; NaN where it has none
-    smallest   from the smallest ends of zones over partial half-cycles, both regimes
+    solver     by the independent solver, and the estimate of its error
+    exact      by the package; NaN if it has no exact solution
+    smallest   by the smallest m and n of partial half-cycles in either regime
+    first      by the series of order 1
+    second     by the series of order 2
     """
 
     point: Point
@@ -38,31 +41,33 @@ class Row(NamedTuple):
 
 
 def row(point: Point) -> Row:
-    """One cycle of the upright wedge around the threshold."""
+    """The results for one cycle of the upright wedge around the threshold."""
     known = point.cycle
-    found, law = reference(known.case, FINE, STEPS), {"E_star": 1.0, "phi": 1.0}
+    result, law = reference(known.case, FINE, STEPS), {"E_star": 1.0, "phi": 1.0}
     first, second = (wedge.contact(P, M, **law) for P, M in zip(known.P, known.M, strict=True))
     given = {"f": known.f, **law}
     zone = wedge.stick_zone(first, second, known.dQ, known.dsigma, **given, mixed=True)
     moved = {"da": second.a - first.a, "dc": second.c - first.c}
     loads = second.a, second.c, known.dQ, known.dsigma
     series = [wedge.slip_zones(*loads, **given, **moved, order=order) for order in (1, 2)]
-    zones = [found.zone.n, float(zone.n), smallest(known.half_cycle).n]
+    zones = [result.zone.n, float(zone.n), smallest(known.half_cycle).n]
     solver, exact, least = (float(second.c) - n for n in zones)
     orders = (float(zones.right) for zones in series)
-    return Row(point, solver, found.error.n, exact, least, *orders)
+    return Row(point, solver, result.error.n, exact, least, *orders)
 
 
 def markdown(rows: Iterable[Row]) -> str:
-    """The table; what stands behind the solver's slip zone is off from it, in per cent."""
+    """The table in Markdown; results other than the solver's are errors in per cent of it."""
     lines = [
         "## Around the threshold",
         "",
-        "The upright wedge at P = E* = phi = 1, f = 1/2, dQ = 0.15; tension over the threshold at",
-        "which the right slip zone closes.  That slip zone by the solver, and by how much each",
-        "candidate is off from it: the exact one of `stick_zone(..., mixed=True)`, which has one",
-        "at constant loads; the smallest stick zone over partial half-cycles of either regime; and",
-        "the series.  A negative range falls while shear rises.",
+        "The upright wedge at P = E* = phi = 1, f = 1/2, dQ = 0.15.  Tensions are relative to",
+        "the threshold at which the right slip zone closes.  `solver` is the length of this slip",
+        "zone, and `+-` the estimate of its error.  The last four columns are the differences of",
+        "other results from it: the exact zone of `stick_zone(..., mixed=True)`, which is",
+        "available at constant normal loads; the smallest stick zone of all partial half-cycles",
+        "in either regime; and the series.  A range of P or M is its change while the shear load",
+        "rises; a negative one means that it falls.  `none` means that there is no solution.",
         "",
         f"| range of P | range of M | tension | solver | +- | {' | '.join(CANDIDATES)} |",
         "|" + " ---: |" * (5 + len(CANDIDATES)),

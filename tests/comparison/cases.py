@@ -1,6 +1,7 @@
-"""Cycles for the comparison: the paper's result cases, and bodies and loads that it has not.
+"""Cycles for the comparison: the result cases of the paper, and other bodies and loads.
 
-E* = 1 and f = 1/2 throughout.  The paper tells tension in parts of that which closes a slip zone.
+E* = 1 and f = 1/2 throughout.  In the paper, tensions are relative to the tension at which a slip
+zone closes.
 """
 
 import importlib
@@ -21,7 +22,7 @@ F = 0.5
 
 
 class Shape(NamedTuple):
-    """A body as the solver takes it, and its constants for the generated functions."""
+    """A body: its profile and kinks for the solver, its parameters for the generated functions."""
 
     profile: Callable[[Floats], Floats]
     own: dict[str, float]
@@ -48,9 +49,9 @@ class Compared:
     """One cycle of one body.
 
     P, M     normal load and moment at both ends of the half-cycle
-    dQ       change of shear over f times the mean load
-    tension  change of tension over 8 dQ/(pi h), h the width at the mean loads
-    closing  whether it is over the tension instead that closes the right slip zone at these
+    dQ       change of the shear load relative to f times the mean normal load
+    tension  change of tension relative to 8 dQ/(pi h), where h is the width at the mean loads
+    closing  whether it is relative to the tension that closes the right slip zone instead
     """
 
     name: str
@@ -68,12 +69,12 @@ class Compared:
 
     @property
     def law(self) -> dict[str, float]:
-        """Its constants."""
+        """E* and the parameters of the body."""
         return {"E_star": 1.0, **SHAPES[self.body].own}
 
     @property
     def contacts(self) -> tuple[Contact, Contact]:
-        """Contacts at both ends."""
+        """Contacts at both ends of the half-cycle."""
         first, second = (
             self.module.contact(P, M, **self.law) for P, M in zip(self.P, self.M, strict=True)
         )
@@ -81,7 +82,7 @@ class Compared:
 
     @property
     def changes(self) -> tuple[float, float]:
-        """dQ and dsigma."""
+        """Changes dQ and dsigma over the half-cycle."""
         load = float(np.mean(self.P))
         shear = self.dQ * F * load
         mean = self.module.contact(load, float(np.mean(self.M)), **self.law)
@@ -92,7 +93,7 @@ class Compared:
 
     @property
     def case(self) -> Case:
-        """The same for the solver."""
+        """The cycle in the form that the solver takes."""
         shear, tension = self.changes
         first, second = (
             State(P, M, sign * shear / 2, sign * tension / 2)
@@ -105,7 +106,7 @@ class Compared:
 def _wedge(
     name: str, dQ: float, tension: float, P: float = 0.0, tilts: tuple[float, float] = (0.0, 0.0)
 ) -> Compared:
-    """g = |x|; P changes by a part P of its mean 1, M/P = (1/2) tan(pi alpha/2) at a tilt alpha."""
+    """g = |x|; mean load 1, range of load P.  At a tilt alpha, M/P = (P/2) tan(pi alpha/2)."""
     loads = 1 - P / 2, 1 + P / 2
     first, second = (
         np.tan(np.pi * tilt / 2) / 2 * load**2 for tilt, load in zip(tilts, loads, strict=True)
@@ -131,11 +132,11 @@ OURS = tuple(
         ("quartic, M varies, large", "quartic", (0.5, 0.5), (-0.005, 0.005), 0.3, 2.5),
         ("hyperbola, tilted, moderate", "hyperbola", (1, 1), (-0.1, -0.1), 0.5, -0.5),
         ("catenary, P varies, large", "catenary", (0.95, 1), (0, 0), 0.3, 3.0),
-        ("wedge, slip turns round, 1.02", "wedge", (1, 1), (0, 0), 0.3, 1.02),
-        ("wedge, slip turns round, 1.08", "wedge", (1, 1), (0, 0), 0.3, 1.08),
-        ("wedge, slip turns round, 1.15", "wedge", (1, 1), (0, 0), 0.3, 1.15),
-        ("cylinder, tilted, slip turns round", "hertz", (0.75, 0.75), (0.1, 0.1), 0.5, 1.1),
-        ("two radii, slip turns round", "two_radii", (1, 1), (0, 0), 0.7, -1.1),
+        ("wedge, slip reverses, 1.02", "wedge", (1, 1), (0, 0), 0.3, 1.02),
+        ("wedge, slip reverses, 1.08", "wedge", (1, 1), (0, 0), 0.3, 1.08),
+        ("wedge, slip reverses, 1.15", "wedge", (1, 1), (0, 0), 0.3, 1.15),
+        ("cylinder, tilted, slip reverses", "hertz", (0.75, 0.75), (0.1, 0.1), 0.5, 1.1),
+        ("two radii, slip reverses", "two_radii", (1, 1), (0, 0), 0.7, -1.1),
     )
 )
 

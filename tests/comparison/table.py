@@ -1,4 +1,4 @@
-"""Solver, exact conditions and series, cycle by cycle."""
+"""Slip zones by the solver, the exact conditions and the series, cycle by cycle."""
 
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
@@ -11,15 +11,19 @@ from tests.reference.solver import reference
 
 COUNTS, STEPS = (16, 32, 64), (8, 16, 32)
 FINE = (32, 64, 128)
-"""Elements between breaks, and load steps a half-cycle, of the solver's meshes; the fine ones are
-for cycles in which slip turns round, where a slip zone may be smaller than an element otherwise."""
+"""Elements between breaks and load steps per half-cycle of the solver's meshes.  FINE is used for
+both if slip reverses, because a slip zone may be smaller than an element otherwise."""
 
 
 class Row(NamedTuple):
-    """Slip zones as the contact at the end of the half-cycle has them, left and right.
+    """Slip zones of the contact at the end of the half-cycle, left and right.
 
+    solver   by the independent solver
     error    the solver's estimate of its own error
-    printed  first order with K_T of a symmetric contact of half-width a or c, as the paper has it
+    exact    by the exact conditions
+    printed  order 1 with the K_T of a symmetric contact of half-width a or c, as in the paper
+    first    by the series of order 1
+    second   by the series of order 2
     """
 
     case: Compared
@@ -32,13 +36,13 @@ class Row(NamedTuple):
 
 
 def row(case: Compared, counts: Sequence[int] | None = None, steps: Sequence[int] = STEPS) -> Row:
-    """One cycle by all of them."""
+    """The results for one cycle."""
     first, second = case.contacts
     shear, tension = case.changes
     given = {"f": F, **case.law}
     zone = case.module.stick_zone(first, second, shear, tension, **given, mixed=True)
-    turns = zone.regime == Regime.MIXED
-    found = reference(case.case, counts or (FINE if turns else COUNTS), steps)
+    reverses = zone.regime == Regime.MIXED
+    result = reference(case.case, counts or (FINE if reverses else COUNTS), steps)
     moved = {"da": second.a - first.a, "dc": second.c - first.c}
     orders = [
         case.module.slip_zones(second.a, second.c, shear, tension, **given, **moved, order=order)
@@ -48,8 +52,8 @@ def row(case: Compared, counts: Sequence[int] | None = None, steps: Sequence[int
     series = [(float(d.left), float(d.right)) for d in orders]
     return Row(
         case,
-        _pair(edges - np.array(found.zone)),
-        _pair(found.error),
+        _pair(edges - np.array(result.zone)),
+        _pair(result.error),
         _pair(edges - np.array([zone.m, zone.n])),
         _pair(_printed(case, second, shear, tension) + np.array(list(moved.values())) / 2),
         *series,
@@ -62,7 +66,7 @@ def _pair(values: Iterable[float]) -> tuple[float, float]:
 
 
 def _printed(case: Compared, at: Contact, shear: float, tension: float) -> np.ndarray:
-    """|K_T|/(f K_N), K_T with h = 2 a at the left edge and 2 c at the right one."""
+    """|K_T|/(f K_N), with K_T for a contact width of 2 a at the left and 2 c at the right edge."""
     widths = 2 * np.array([at.a, at.c])
     K_T = (shear / np.pi + np.array([1, -1]) * tension * widths / 8) / np.sqrt(widths)
     K_N = np.array(case.module.K_N(at.a, at.c, **case.law))
@@ -70,17 +74,19 @@ def _printed(case: Compared, at: Contact, shear: float, tension: float) -> np.nd
 
 
 def markdown(rows: Iterable[Row]) -> str:
-    """The table; what stands behind the exact slip zone is off from it, in per cent."""
+    """The table in Markdown; the last three columns are errors relative to the exact slip zone."""
     lines = [
         "# Slip zones by the independent solver, by the exact conditions, and by series",
         "",
-        "Made by `make comparison`.  The solver (tests/reference) shares no line with the package;",
-        "`+-` is its own estimate of its error.  Slip zones are those of the contact at the end of",
-        "the half-cycle; the series' columns tell by how much they are off from the exact one.",
-        "`printed` is the first order with the K_T of a symmetric contact, as the paper prints it.",
-        "Where slip turns round inside the half-cycle, the series know nothing of it: they take it",
-        "for moderate or large tension, by the sign of K_T, and may have no solution.  Numbers in",
-        "the names of these cycles are tensions over 8 dQ/(pi h).",
+        "Written by `make comparison`.  The solver (tests/reference) shares no code with the",
+        "package; `+-` is the solver's estimate of its own error.  `solver` and `exact` are the",
+        "lengths of the slip zones of the contact at the end of the half-cycle, and `solver off`",
+        "is their difference.  The last three columns are the relative errors of the series.",
+        "`printed` is the first order with the K_T of a symmetric contact, as in the paper.  The",
+        "series do not allow for slip that reverses within the half-cycle.  They treat such a",
+        "cycle as one of moderate or large tension, depending on the sign of K_T, and may have",
+        "no solution (`none`).  Numbers in the names of these cycles are tensions relative to",
+        "8 dQ/(pi h).",
         "",
         "| cycle | edge | solver | +- | exact | solver off | printed | order 1 | order 2 |",
         "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
@@ -98,7 +104,7 @@ def markdown(rows: Iterable[Row]) -> str:
 
 
 def percent(part: float) -> str:
-    """A part of one as per cent, and what has no number.
+    """A fraction in per cent, or "none" if it is NaN.
 
     >>> percent(-0.123), percent(1.234), percent(float("nan"))
     ('-12 %', '123 %', 'none')

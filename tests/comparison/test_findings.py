@@ -1,7 +1,7 @@
-"""The stick zone of the package against the zones that the solver found, cycle by cycle.
+"""Stick zones of the package against those of the independent solver, cycle by cycle.
 
-FINDINGS.md holds what `make solver` computed: two maps of the upright wedge, P = E* = phi = 1 on
-average, f = 1/2, dQ = 0.15.
+FINDINGS.md contains the results of `make solver`: two maps of the upright wedge with mean load
+P = E* = phi = 1, f = 1/2 and dQ = 0.15.
 """
 
 from functools import cache
@@ -22,7 +22,7 @@ GIVEN = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
 
 
 class Line(NamedTuple):
-    """A line of a map."""
+    """One line of a map: a cycle, and the solver's stick zone with its error and kind."""
 
     point: Point
     m: float
@@ -32,7 +32,7 @@ class Line(NamedTuple):
 
 
 def lines() -> list[Line]:
-    """Both maps."""
+    """All lines of both maps."""
     maps: dict[str, list[list[str]]] = {"M mean, range": [], "P range, M range": []}
     rows: list[list[str]] = []
     for text in FINDINGS.read_text(encoding="utf-8").splitlines():
@@ -40,7 +40,7 @@ def lines() -> list[Line]:
         if row and row[0] in maps:
             rows = maps[row[0]]
         elif not row:
-            rows = []  # of no map
+            rows = []  # outside the maps
         elif row[0] != "---":
             rows.append(row)
     return [*map(_of_moment, maps["M mean, range"]), *map(_around, maps["P range, M range"])]
@@ -63,7 +63,7 @@ def _line(point: Point, row: list[str]) -> Line:
 
 @cache
 def zone(point: Point) -> wedge.StickZone:
-    """What the package says."""
+    """The stick zone of the package."""
     known = point.cycle
     law = {"E_star": 1.0, "phi": 1.0}
     ends = (wedge.contact(P, M, **law) for P, M in zip(known.P, known.M, strict=True))
@@ -81,24 +81,24 @@ EACH = pytest.mark.parametrize(
 )
 
 
-def test_both_maps_are_there() -> None:
+def test_both_maps_are_complete() -> None:
     assert [line.point for line in LINES] == [*VARYING_MOMENT, *AROUND]
 
 
 @EACH
-def test_a_zone_is_told_where_the_solver_s_premise_holds_and_nowhere_else(line: Line) -> None:
-    found = zone(line.point)
-    assert np.isfinite(found.m) == np.isfinite(found.n) == (line.kind is Kind.HOLDS)
-    assert (found.regime == Regime.MIXED) == (line.kind is not Kind.HOLDS)
+def test_a_zone_is_returned_if_and_only_if_the_premise_holds(line: Line) -> None:
+    result = zone(line.point)
+    assert np.isfinite(result.m) == np.isfinite(result.n) == (line.kind is Kind.HOLDS)
+    assert (result.regime == Regime.MIXED) == (line.kind is not Kind.HOLDS)
 
 
 @EACH
-def test_what_is_told_is_what_the_solver_found(line: Line) -> None:
-    found = zone(line.point)
-    if np.isfinite(found.m):
-        assert abs(found.m - line.m) <= line.error
-        assert abs(found.n - line.n) <= line.error
+def test_the_zone_is_that_of_the_solver(line: Line) -> None:
+    result = zone(line.point)
+    if np.isfinite(result.m):
+        assert abs(result.m - line.m) <= line.error
+        assert abs(result.n - line.n) <= line.error
 
 
-def test_the_maps_hold_cycles_of_every_kind() -> None:
+def test_the_maps_contain_cycles_of_every_kind() -> None:
     assert {line.kind for line in LINES} == set(Kind)
