@@ -1,9 +1,9 @@
-"""Time and peak memory of examples/monte_carlo.py, as its samples grow.
+"""Time and peak memory of examples/monte_carlo.py for increasing numbers of samples.
 
-    python -m tests.benchmarks.monte_carlo        the table, also kept in notebooks/monte_carlo.md
+    python -m tests.benchmarks.monte_carlo    prints the table and writes notebooks/monte_carlo.md
 
-Each run is a process of its own, with two workers.  Memory is that of the process and all that it
-starts, sampled every INTERVAL seconds; pages that processes share are counted once (PSS).
+Each run is a separate process with two workers.  The memory is that of the process and all its
+children, measured every INTERVAL seconds.  Pages that processes share are counted once (PSS).
 """
 
 import subprocess
@@ -25,7 +25,13 @@ INTERVAL = 0.1
 
 
 class Run(NamedTuple):
-    """One run: wall time, processor time of all processes, peak memory of all, what it found."""
+    """One run.
+
+    seconds  wall time
+    busy     processor time of all processes
+    peak     peak memory of all processes together
+    report   the distribution that the example prints
+    """
 
     samples: int
     seconds: float
@@ -35,26 +41,26 @@ class Run(NamedTuple):
 
 
 def measured(samples: int) -> Run:
-    """Run the example and watch it."""
+    """Run the example and measure it."""
     command = [sys.executable, str(EXAMPLE), f"--samples={samples}", f"--workers={WORKERS}"]
     start, peak, busy = perf_counter(), 0.0, 0.0
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as run:
         root = psutil.Process(run.pid)
         while run.poll() is None:
-            seen = [*_held(root)]
-            peak = max(peak, sum(memory for memory, _ in seen))
-            busy = max(busy, sum(time for _, time in seen))
+            usage = [*_usage(root)]
+            peak = max(peak, sum(memory for memory, _ in usage))
+            busy = max(busy, sum(time for _, time in usage))
             sleep(INTERVAL)
         assert run.stdout is not None
         printed = run.stdout.read()
     if run.returncode:
         raise SystemExit(f"{' '.join(command)} failed")
-    report = printed[printed.index(f"{samples:,} samples") :]  # behind the progress bar
+    report = printed[printed.index(f"{samples:,} samples") :]  # without the progress bar
     return Run(samples, perf_counter() - start, busy, peak, report)
 
 
-def _held(root: psutil.Process) -> Iterator[tuple[float, float]]:
-    """Memory and processor time of a process and all that come from it."""
+def _usage(root: psutil.Process) -> Iterator[tuple[float, float]]:
+    """Memory and processor time of a process and of each of its descendants."""
     with suppress(psutil.Error):
         for process in (root, *root.children(recursive=True)):
             with suppress(psutil.Error):
@@ -63,16 +69,17 @@ def _held(root: psutil.Process) -> Iterator[tuple[float, float]]:
 
 
 def table(runs: list[Run]) -> str:
-    """The table in Markdown, and the last run's distribution."""
+    """The table in Markdown, followed by the distribution from the last run."""
     lines = [
-        "# A Monte Carlo of the slip zone",
+        "# Monte Carlo simulation of the slip zone",
         "",
-        "Made by `make bench-monte-carlo`: `examples/monte_carlo.py`, one process and two workers.",
-        "Samples of load, moment and friction go through `wedge.contact` and `wedge.stick_zone` as",
-        "Dask arrays, chunk by chunk.  Peak memory is that of all processes together; processor",
-        "time is their sum, two seconds of it for starting them.",
+        "Written by `make bench-monte-carlo`, which runs `examples/monte_carlo.py` in one process",
+        "with two workers.  Samples of load, moment and coefficient of friction are passed to",
+        "`wedge.contact` and `wedge.stick_zone` as Dask arrays, chunk by chunk.  Peak memory and",
+        "processor time are those of all processes together.  About two seconds of the processor",
+        "time are needed to start them.",
         "",
-        "| samples | wall time [s] | processor time [s] | ns a sample | peak memory [MB] |",
+        "| samples | wall time [s] | processor time [s] | ns per sample | peak memory [MB] |",
         "| ---: | ---: | ---: | ---: | ---: |",
     ]
     for run in runs:
@@ -81,13 +88,13 @@ def table(runs: list[Run]) -> str:
             f"| {run.samples:,} | {run.seconds:.1f} | {run.busy:.1f} | {each:.0f} "
             f"| {run.peak / 1e6:.0f} |"
         )
-    lines += ["", "The last of them found:", "", "```text"]
+    lines += ["", "Result of the last run:", "", "```text"]
     lines += (line.rstrip() for line in runs[-1].report.splitlines())
     return "\n".join([*lines, "```", ""])
 
 
 def main() -> None:
-    """Measure, print, keep."""
+    """Measure all runs, print the table and write it to the file."""
     text = table([measured(samples) for samples in COUNTS])
     TABLE.write_text(text, encoding="utf-8")
     print(text)

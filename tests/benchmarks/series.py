@@ -1,10 +1,11 @@
-"""How far the series of the slip zones are off, order by order, against the exact stick zone.
+"""Errors of the series of the slip zones, order by order, relative to the exact stick zone.
 
-    python -m tests.benchmarks.series      the table, also kept in notebooks/series.md
+    python -m tests.benchmarks.series      prints the table and writes it to notebooks/series.md
 
-Large tension, twice that which closes a slip zone; dQ from 0.3 f P down to 0.3 f P/64.  Each row
-gives the slip zone in parts of the width, the relative error of orders 1, 2 and 3, and under the
-last row of a body how fast each falls: by the size of the slip zone to the power of the order.
+The tension is large, twice the tension at which a slip zone closes; dQ falls from 0.3 f P to
+0.3 f P/64.  Each row gives the slip zone relative to the contact width, and the relative errors of
+orders 1, 2 and 3.  The last row of each edge gives the powers of the slip zone with which the
+errors fall; they should equal the orders.
 """
 
 import importlib
@@ -27,11 +28,11 @@ BODIES: dict[str, tuple[dict[str, float], float, float]] = {
     "flat_rounded": ({"R": 1.0, "b": 0.5}, 1.5, 1.0),
     "hyperbola": ({"b": 0.5, "phi": 0.125}, 1.5, 1.0),
 }
-"""Parameters and a contact of each body."""
+"""For each body its parameters and the edges a and c of a contact."""
 
 
 class Errors(NamedTuple):
-    """Slip zones of one body at one edge, and what each order is off, row by row of PARTS."""
+    """Slip zones of one body at one edge, and the errors of each order, for each of PARTS."""
 
     name: str
     edge: str
@@ -40,37 +41,38 @@ class Errors(NamedTuple):
 
     @property
     def slopes(self) -> Any:
-        """Powers of the size with which the errors fall, between the last two rows."""
+        """Powers of the size with which the errors fall, from the last two rows."""
         return np.log(self.errors[:, -2] / self.errors[:, -1]) / np.log(
             self.size[-2] / self.size[-1]
         )
 
 
 def measured(name: str, parts: Any = PARTS) -> Iterator[Errors]:
-    """Both edges of one body."""
+    """Errors at both edges of one body."""
     own, a, c = BODIES[name]
     body: Any = importlib.import_module(f"generated.{name}")
     law = {"f": F, "E_star": E_STAR, **own}
-    here = Contact(a, c, 0.0)
+    contact = Contact(a, c, 0.0)
     shear = parts * F * body.load(a, c, E_star=E_STAR, **own)
-    tension = 2 * body.closing_tension(here, here, shear, **law).upper
-    zone = body.stick_zone(here, here, shear, tension, **law)
+    tension = 2 * body.closing_tension(contact, contact, shear, **law).upper
+    zone = body.stick_zone(contact, contact, shear, tension, **law)
     exact = {"left": a - zone.m, "right": c - zone.n}
-    found = [body.slip_zones(a, c, shear, tension, order=order, **law) for order in ORDERS]
+    series = [body.slip_zones(a, c, shear, tension, order=order, **law) for order in ORDERS]
     for edge, size in exact.items():
-        errors = np.abs(np.array([getattr(d, edge) for d in found]) / size - 1)
+        errors = np.abs(np.array([getattr(d, edge) for d in series]) / size - 1)
         yield Errors(name, edge, size / (a + c), errors)
 
 
 def table() -> str:
     """The table in Markdown."""
     lines = [
-        "# How exact the series of the slip zones are",
+        "# Errors of the series of the slip zones",
         "",
-        "Made by `make series`.  Large tension, twice that which closes a slip zone, constant",
-        "normal loads; dQ = 0.3 f P and a quarter of it in turn.  Relative errors of the slip zone",
-        "against the exact conditions; in the last row of each the power of its size with which",
-        "they fall.",
+        "Written by `make series`.  The normal loads are constant, and the tension is large,",
+        "twice the tension at which a slip zone closes; dQ is 0.3 f P, and a quarter of the",
+        "value before in each further row.  The table gives the relative errors of the slip",
+        "zones of each order, compared with the exact conditions.  The last row of each edge",
+        "gives the power of the slip zone with which the error falls.",
         "",
         "| body | edge | slip zone / width | order 1 | order 2 | order 3 |",
         "| --- | --- | ---: | ---: | ---: | ---: |",
@@ -86,7 +88,7 @@ def table() -> str:
 
 
 def main() -> None:
-    """Print the table and keep it."""
+    """Print the table and write it to the file."""
     text = table()
     TABLE.parent.mkdir(exist_ok=True)
     TABLE.write_text(text, encoding="utf-8")
