@@ -47,7 +47,7 @@ def test_what_cannot_be_lazy_is_refused_at_the_call() -> None:
     lazy = da.from_array(P, chunks=(3, 2))
     with pytest.raises(ValueError, match=r"P\.rechunk"):
         hertz.history(lazy, 0.0, Q, 0.0, **FRICTION)
-    with pytest.raises(TypeError, match="x must be there"):
+    with pytest.raises(TypeError, match="x must be a number or a NumPy array"):
         hertz.history(P, 0.0, Q, 0.0, x=da.from_array(PLACES), **FRICTION)
     with pytest.raises(ValueError, match="broadcast"):
         hertz.steady_cycle(da.from_array(P), 0.0, Q[:3], 0.0, **FRICTION)

@@ -1,13 +1,13 @@
-"""Any load history: exact where that is known, else on elements, load step by load step.
+"""Load histories of any kind: exact where a solution is known, otherwise on elements in load steps.
 
-elements    the mesh, the influence of shear on displacement, pressure and full-stick shear on it
-nearest     the shear within friction that is nearest to a trial one: one convex problem a step
-path        the loads and contacts on the way from instant to instant
-steps       the state, its steps, and what is told of it
-solve       histories and steady cycles on ever finer meshes, and the estimate of their error
+elements    the mesh, its influence matrix, and the pressure and the full-stick shear on it
+nearest     the shear within the friction bound that is nearest to a trial: a convex problem
+path        the loads and contacts from one instant to the next
+steps       the state of the elements, one load step, and the stick zone
+solve       histories and steady cycles on successively finer meshes, with an estimate of the error
 reversals   moderate tension in phase at constant normal loads: exact, a stack of reversals
 loops       closed loops of P and Q at a constant tilt: the exact stick zone
 batch       many cases at once, on all cores
 lazy        histories of Dask arrays
-public      the functions that a module offers
+public      the functions that a generated module offers
 """

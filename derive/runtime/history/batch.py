@@ -1,4 +1,4 @@
-"""Many histories at once: one a task, on as many threads as numba may use, with a progress bar."""
+"""Many histories at once: one task each, on all threads that numba may use, with a progress bar."""
 
 import sys
 import threading
@@ -10,18 +10,18 @@ import numpy as np
 from ..body import kernel_of
 
 PATIENCE = 1.0
-"""Seconds after which the bar appears."""
+"""Seconds after which the progress bar appears."""
 
 EVERY = 0.2
-"""Seconds between two looks at the progress."""
+"""Seconds between two updates of the progress bar."""
 
 
 def run(loop: str, law: Any, rows: Any, own: Any, out: Any) -> None:
-    """Let a loop kernel fill the rows of `out`, and show how far it is.
+    """Let a loop kernel fill the rows of `out`, and show the progress.
 
-    NUMBA_NUM_THREADS, numba's own setting, limits the number of threads; by default it is the
-    number of cores.  Called from a thread other than the main one, as by Dask, it starts no
-    threads.  While a kernel works on a row, it may keep the part that is done, times -1, in the
+    numba's own setting NUMBA_NUM_THREADS limits the number of threads; its default is the number
+    of cores.  A call from a thread other than the main one, such as a thread of Dask, starts no
+    threads.  While a kernel works on a row, it may store the completed fraction, times -1, in the
     first column.
     """
     kernel, count = kernel_of(loop), len(rows)
@@ -44,30 +44,30 @@ def run(loop: str, law: Any, rows: Any, own: Any, out: Any) -> None:
         pool.shutdown(cancel_futures=True)
 
 
-def _watch(tasks: list[Future[None]], finished: Any, begun: Any) -> None:
-    """Wait for the tasks, with a bar if it takes long, tqdm is installed and stderr is a terminal.
+def _watch(tasks: list[Future[None]], finished: Any, progress: Any) -> None:
+    """Wait for the tasks, with a bar if they take long, tqdm is installed and stderr is a terminal.
 
-    Raises what a task has raised.
+    An exception in a task is raised again here.
     """
     bar = _bar(len(tasks))
     for task in tasks:
         while not wait([task], timeout=EVERY).done:
             if bar is not None:
-                part = np.where(finished, 1.0, np.clip(-begun, 0.0, 1.0))
-                bar.update(float(part.sum()) - bar.n)
+                done = np.where(finished, 1.0, np.clip(-progress, 0.0, 1.0))
+                bar.update(float(done.sum()) - bar.n)
         task.result()
     if bar is not None:
         bar.close()
 
 
 def _bar(count: int) -> Any:
-    """A bar for so many histories; None if nobody would see it."""
+    """A progress bar for `count` histories; None if nobody would see it."""
     if not sys.stderr.isatty():
         return None
     try:
         from tqdm import tqdm
     except ImportError:
         return None
-    what = "1 history" if count == 1 else f"{count:,} histories"
+    label = "1 history" if count == 1 else f"{count:,} histories"
     form = "{desc} {percentage:3.0f}%|{bar}| [{elapsed}<{remaining}]"
-    return tqdm(desc=what, total=count, delay=PATIENCE, leave=False, miniters=0, bar_format=form)
+    return tqdm(desc=label, total=count, delay=PATIENCE, leave=False, miniters=0, bar_format=form)

@@ -1,4 +1,4 @@
-"""Histories of Dask arrays, chunk by chunk: Dask's own generalised functions."""
+"""Histories of Dask arrays, computed chunk by chunk with Dask's `apply_gufunc`."""
 
 import math
 import sys
@@ -12,19 +12,19 @@ from ..arrays import Numbers, shape_of
 from ..chunks import is_lazy
 
 WHOLE = ("intervals", "regime")
-"""Results that are whole numbers."""
+"""Results that are integers."""
 
 
 def over_chunks(
     call: Callable[..., Any], kind: Any, axes: Mapping[str, str], numbers: Numbers, x: Any, tol: Any
 ) -> Any:
-    """What a history's function makes of arguments some of which are Dask arrays: lazy, too.
+    """Lazy results of a function of histories, some of whose arguments are Dask arrays.
 
     kind: the named tuple that `call` returns.
-    axes: those of its results, as in the signature of a generalised function: t is time, p a place.
-    numbers: what broadcasts, time along the last axis, by name.
+    axes: axes of each result, as in the signature of a generalised function: t is time, p a point.
+    numbers: arguments that broadcast, by name; time lies along the last axis.
 
-    Raises ValueError for time in several chunks.
+    Raises ValueError if the time axis has several chunks.
     """
     dask = sys.modules["dask.array"]
     *_, instants = shape_of(numbers)
@@ -38,10 +38,10 @@ def over_chunks(
         if is_lazy(value) and value.numblocks[-1] > 1:
             raise ValueError(
                 f"the last axis of {name} is time and must lie in one chunk; its chunks are "
-                f"{value.chunks[-1]}: give {name}.rechunk({{-1: -1}})"
+                f"{value.chunks[-1]}: pass {name}.rechunk({{-1: -1}})"
             )
     fields = [name for name in kind._fields if x is not None or "p" not in axes[name]]
-    made = dask.apply_gufunc(
+    computed = dask.apply_gufunc(
         partial(
             _on_chunk,
             call=call,
@@ -54,11 +54,11 @@ def over_chunks(
         output_dtypes=[np.int64 if name in WHOLE else np.float64 for name in fields],
         output_sizes={} if x is None else {"p": math.prod(np.shape(x))},
     )
-    found: dict[str, Any] = dict.fromkeys(kind._fields) | dict(zip(fields, made, strict=True))
+    results: dict[str, Any] = dict.fromkeys(kind._fields) | dict(zip(fields, computed, strict=True))
     for name in fields:
         if "p" in axes[name]:
-            found[name] = found[name].reshape((*found[name].shape[:-1], *np.shape(x)))
-    return kind(**found)
+            results[name] = results[name].reshape((*results[name].shape[:-1], *np.shape(x)))
+    return kind(**results)
 
 
 def _on_chunk(
@@ -69,5 +69,5 @@ def _on_chunk(
     given: Mapping[str, Any],
 ) -> tuple[Any, ...]:
     """The results for one chunk."""
-    told = call(**dict(zip(names, values, strict=True)), **given)
-    return tuple(getattr(told, name) for name in fields)
+    result = call(**dict(zip(names, values, strict=True)), **given)
+    return tuple(getattr(result, name) for name in fields)

@@ -1,17 +1,20 @@
-r"""The shear within friction that is nearest to a trial one: the convex problem of a step.
+r"""The shear within the friction bound that is nearest to a trial: the convex problem of a step.
 
-Had all stuck, shear would be `trial`.  Of all q with |q| <= bound and sum w q = Q it is the one
-that minimises (q - trial)^T A (q - trial)/2.  With e = q - trial and s = (A e)/w - mu,
+`trial` is the shear traction that the step would give under full stick.  The solution minimises
+(q - trial)^T A (q - trial)/2 over all q with |q| <= bound and sum w q = Q.  With e = q - trial and
+s = (A e)/w - mu,
 
     s = 0 between the bounds,    s <= 0 at the upper one,    s >= 0 at the lower one;
 
-E*/2 times the forward slip of the step is -s.  Newton's method on the places of the elements, 0
-between the bounds, 1 and -1 at them: unknown are e where it sticks or s where it slips, whichever
-are fewer.  With z = A^-1 w the second is
+E*/2 times the forward slip of the step is -s.  The method is Newton's, applied to the status of the
+elements: 0 between the bounds, 1 at the upper and -1 at the lower bound.  The unknowns are e at the
+elements that stick, or s at those that slip, whichever are fewer.  With z = A^-1 w, the equations
+for s are
 
     e = A^-1 (w s) + mu z,    sum w e = Q - sum w trial.
 
-Where all places at once do not settle, the first misplaced element alone is moved, as by Murty.
+If the iteration in which all elements change their status at once does not converge, only the first
+element with a wrong status is changed in each further iteration, as in Murty's method.
 """
 
 import math
@@ -23,51 +26,57 @@ from ..kernels import kernel, matrix, real, vector, whole
 from .elements import factored, resolved
 
 ROUNDING = 1e-11
-"""What counts as none, over the largest."""
+"""A value below this fraction of the largest counts as zero."""
 
-ROUNDS = 30
-"""Rounds in which all elements may change their places."""
+ITERATIONS = 30
+"""Iterations in which all elements may change their status at once."""
 
 STICK, SLIP = 1.0, 2.0
-"""What the factor in `room` is of, in the row below it."""
+"""Marks in the last row of `room`: whether its factor is that of sticking or slipping elements."""
 
 
 @kernel(whole(matrix, vector, real, matrix))
-def _factor(A: Any, places: Any, kind: float, room: Any) -> int:
-    """Cholesky's factor of the rows and columns of A that stick or slip, into room, unless it is
-    there: the places that end a step begin the next one.  Their number, 0 where there is none."""
-    count = places.size
-    mine = room[count]
+def _factor(A: Any, status: Any, kind: float, room: Any) -> int:
+    """Write the Cholesky factor of the rows and columns of A that stick, or slip, into `room`.
+
+    The factor is kept if `room` already holds it, since a step begins with the last status of the
+    step before.  Returns the number of these rows, or 0 if there is no factor.
+    """
+    count = status.size
+    marks = room[count]
     few, same = 0, True
     for i in range(count):
-        wanted = kind if (places[i] == 0) == (kind == STICK) else 0.0
-        same, mine[i] = same and mine[i] == wanted, wanted
+        wanted = kind if (status[i] == 0) == (kind == STICK) else 0.0
+        same, marks[i] = same and marks[i] == wanted, wanted
         few += wanted > 0
     if same:
         return few
     row = 0
     for i in range(count):
-        if mine[i] > 0:
+        if marks[i] > 0:
             column = row
             for j in range(i, count):
-                if mine[j] > 0:
+                if marks[j] > 0:
                     room[row, column] = A[i, j]
                     column += 1
             row += 1
     if factored(room, few):
         return few
-    mine[:] = 0.0
+    marks[:] = 0.0
     return 0
 
 
 @kernel(whole(matrix, vector, vector, vector, vector, vector, matrix))
-def _few_stick(A: Any, w: Any, places: Any, e: Any, s: Any, mu: Any, room: Any) -> int:
-    """e where it sticks, from e elsewhere; mu[0] holds the force that is asked for, then mu."""
+def _few_stick(A: Any, w: Any, status: Any, e: Any, s: Any, mu: Any, room: Any) -> int:
+    """Solve for e at the elements that stick, given e elsewhere, and for s and mu.
+
+    mu[0] holds the required force at first, and mu at the end.  Returns 0 if there is no solution.
+    """
     count = w.size
     chosen = np.empty(count, np.int64)
     few = 0
     for i in range(count):
-        if places[i] == 0:
+        if status[i] == 0:
             chosen[few] = i
             few += 1
     by_one, by_rest = np.empty(few), np.zeros(few)
@@ -75,11 +84,11 @@ def _few_stick(A: Any, w: Any, places: Any, e: Any, s: Any, mu: Any, room: Any) 
         by_one[k] = w[chosen[k]]
     force = mu[0]
     for j in range(count):
-        if places[j] != 0 and e[j] != 0:
+        if status[j] != 0 and e[j] != 0:
             force -= w[j] * e[j]
             for k in range(few):
                 by_rest[k] -= A[j, chosen[k]] * e[j]
-    if not _factor(A, places, STICK, room):
+    if not _factor(A, status, STICK, room):
         return 0
     resolved(room, few, by_one)
     resolved(room, few, by_rest)
@@ -99,24 +108,24 @@ def _few_stick(A: Any, w: Any, places: Any, e: Any, s: Any, mu: Any, room: Any) 
             for i in range(count):
                 s[i] += A[j, i] * e[j]
     for i in range(count):
-        s[i] = 0.0 if places[i] == 0 else s[i] / w[i] - mu[0]
+        s[i] = 0.0 if status[i] == 0 else s[i] / w[i] - mu[0]
     return 1
 
 
 @kernel(whole(matrix, vector, vector, vector, vector, vector, vector, matrix))
-def _few_slip(B: Any, z: Any, w: Any, places: Any, e: Any, s: Any, mu: Any, room: Any) -> int:
-    """The same from w s where it slips; B is the inverse of A."""
+def _few_slip(B: Any, z: Any, w: Any, status: Any, e: Any, s: Any, mu: Any, room: Any) -> int:
+    """Solve the same equations for s at the elements that slip; B is the inverse of A."""
     count = w.size
     chosen = np.empty(count, np.int64)
     few = 0
     for i in range(count):
-        if places[i] != 0:
+        if status[i] != 0:
             chosen[few] = i
             few += 1
     by_one, by_rest = np.empty(few), np.empty(few)
     for k in range(few):
         by_one[k], by_rest[k] = z[chosen[k]], e[chosen[k]]
-    if few > 0 and not _factor(B, places, SLIP, room):
+    if few > 0 and not _factor(B, status, SLIP, room):
         return 0
     resolved(room, few, by_one)
     resolved(room, few, by_rest)
@@ -131,35 +140,38 @@ def _few_slip(B: Any, z: Any, w: Any, places: Any, e: Any, s: Any, mu: Any, room
         return 0
     mu[0] = force / weight
     for i in range(count):
-        if places[i] == 0:
+        if status[i] == 0:
             e[i] = mu[0] * z[i]
     for k in range(few):
         j = chosen[k]
         slipped = by_rest[k] - mu[0] * by_one[k]
         s[j] = slipped / w[j]
         for i in range(count):
-            if places[i] == 0:
+            if status[i] == 0:
                 e[i] += B[j, i] * slipped
     return 1
 
 
 @kernel(whole(matrix, vector, vector, vector, real, vector))
-def _released(A: Any, w: Any, trial: Any, bound: Any, needed: float, places: Any) -> int:
-    """Let the element stick that is the first to do so if all slip and the force is not yet met."""
+def _release_one(A: Any, w: Any, trial: Any, bound: Any, needed: float, status: Any) -> int:
+    """When all elements slip and do not carry the force, let one stick: the first that would.
+
+    Returns 0 if there is no such element.
+    """
     count, chosen, best = w.size, -1, math.inf
     for i in range(count):
-        needed -= w[i] * (places[i] * bound[i] - trial[i])
-    sense = math.copysign(1.0, needed)
+        needed -= w[i] * (status[i] * bound[i] - trial[i])
+    sign = math.copysign(1.0, needed)
     for i in range(count):
-        if bound[i] > 0 and places[i] == -sense:
+        if bound[i] > 0 and status[i] == -sign:
             u = 0.0
             for j in range(count):
-                u += A[i, j] * (places[j] * bound[j] - trial[j])
-            if sense * u / w[i] < best:
-                chosen, best = i, sense * u / w[i]
+                u += A[i, j] * (status[j] * bound[j] - trial[j])
+            if sign * u / w[i] < best:
+                chosen, best = i, sign * u / w[i]
     if chosen < 0:
         return 0
-    places[chosen] = 0.0
+    status[chosen] = 0.0
     return 1
 
 
@@ -177,60 +189,61 @@ def nearest(
     trial: Any,
     bound: Any,
     given: Any,
-    places: Any,
+    status: Any,
     q: Any,
     s: Any,
     room: Any,
 ) -> int:
-    """q, s and the places, which hold a guess; given[0] is Q.  0 where it is not found.
+    """Solve for q, s and the status, which holds a guess.  Returns 0 if no solution is found.
 
-    room: a matrix with one row more than A, zero at first and left alone between calls.
+    given: its first element is Q.
+    room: workspace, a matrix with one row more than A; zero before the first call, kept afterwards.
     """
     count = w.size
     largest, needed = 0.0, given[0]
     e, mu, old = np.empty(count), np.empty(1), np.empty(count)
-    slides = True
+    sliding = True
     for i in range(count):
-        slides = slides and (places[i] != 0 or bound[i] == 0)
+        sliding = sliding and (status[i] != 0 or bound[i] == 0)
     for i in range(count):
         largest = max(largest, bound[i])
         needed -= w[i] * trial[i]
         if bound[i] == 0:
-            places[i] = 1.0
-        elif slides:
-            places[i] = 0.0
-    for turn in range(ROUNDS + 10 * count):
+            status[i] = 1.0
+        elif sliding:
+            status[i] = 0.0
+    for iteration in range(ITERATIONS + 10 * count):
         sticking = 0
         for i in range(count):
-            sticking += places[i] == 0
-            e[i] = 0.0 if places[i] == 0 else places[i] * bound[i] - trial[i]
+            sticking += status[i] == 0
+            e[i] = 0.0 if status[i] == 0 else status[i] * bound[i] - trial[i]
         if sticking == 0:
             return 0
         mu[0] = needed
         if sticking <= count / 2:
-            found = _few_stick(A, w, places, e, s, mu, room)
+            solved = _few_stick(A, w, status, e, s, mu, room)
         else:
-            found = _few_slip(B, z, w, places, e, s, mu, room)
-        if not found:
+            solved = _few_slip(B, z, w, status, e, s, mu, room)
+        if not solved:
             return 0
-        against = 0.0
+        largest_s = 0.0
         for i in range(count):
-            against = max(against, abs(s[i]))
-        wrong, left = 0, 0
+            largest_s = max(largest_s, abs(s[i]))
+        wrong, still_sticking = 0, 0
         for i in range(count):
-            old[i] = places[i]
-            q[i] = trial[i] + e[i] if places[i] == 0 else places[i] * bound[i]
-            move = places[i]
-            if places[i] == 0 and abs(q[i]) > bound[i] + ROUNDING * largest:
-                move = math.copysign(1.0, q[i])
-            elif bound[i] > 0 and places[i] * s[i] > ROUNDING * against:
-                move = 0.0
-            if move != places[i] and (turn < ROUNDS or wrong == 0):
-                places[i] = move
-            wrong += move != old[i]
-            left += places[i] == 0
+            old[i] = status[i]
+            q[i] = trial[i] + e[i] if status[i] == 0 else status[i] * bound[i]
+            new = status[i]
+            if status[i] == 0 and abs(q[i]) > bound[i] + ROUNDING * largest:
+                new = math.copysign(1.0, q[i])
+            elif bound[i] > 0 and status[i] * s[i] > ROUNDING * largest_s:
+                new = 0.0
+            if new != status[i] and (iteration < ITERATIONS or wrong == 0):
+                status[i] = new
+            wrong += new != old[i]
+            still_sticking += status[i] == 0
         if wrong == 0:
             return 1
-        if left == 0 and not _released(A, w, trial, bound, needed, places):
+        if still_sticking == 0 and not _release_one(A, w, trial, bound, needed, status):
             return 0
     return 0

@@ -1,4 +1,4 @@
-"""Load histories and steady cycles of a body: what a person gives, and what is told."""
+"""Load histories and steady cycles of a body: the functions that a generated module offers."""
 
 import math
 from typing import Any, NamedTuple
@@ -18,14 +18,21 @@ _LOADS = ("P", "M", "Q", "sigma")
 
 _INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"}
 _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": "p"}
-"""Axes of the results: time, and places."""
+"""Axes of the results: t is time, p the points."""
 
 TURNING = 1e-7
-"""Of what stick_zone solves with mixed=True, the error in parts of the width."""
+"""Error of a zone from stick_zone with mixed=True, relative to the contact width."""
 
 
 class _Given(NamedTuple):
-    """Rows for a kernel: histories, parameters; the shape of one and its number of instants."""
+    """Rows for a kernel, one per history.
+
+    rows      f, tol, the number of points, the loads over E*, and the points
+    own       parameters of the body
+    cycles    shape of the histories, without the axis of time
+    instants  number of instants
+    E_star    composite modulus of each history
+    """
 
     rows: Any
     own: Any
@@ -46,14 +53,15 @@ def history(
     x: Array = None,
     tol: float = 1e-3,
 ) -> History:
-    """Any load history: what sticks at every instant, shear, slip and friction's work.
+    """Stick zone, shear traction, slip and frictional work at each instant of any load history.
 
-        |q| <= f p, int q dx = Q, and slip only where |q| = f p, against it: one convex problem a
-            step on elements; it begins with the contact under P[0], M[0] and no shear, then Q[0]
-            and sigma[0] are applied
-        constant P and M, sigma = k Q, |k| <= 8/(pi (a + c)), |Q| < f P: exact, MODERATE; a stack
-            of reversals, each with load(m, n) = P - dQ/(2 f) and tilt(m, n) = alpha - dsigma/(4 f
-            E*) by the changes since it, 2 Q and 2 sigma before the first one
+        |q| <= f p, int q dx = Q, and slip only where |q| = f p, opposite to q; solved on elements,
+            one convex problem per load step.  The history begins with the contact under P[0],
+            M[0] without shear; then Q[0] and sigma[0] are applied.
+        Constant P and M, sigma = k Q, |k| <= 8/(pi (a + c)), |Q| < f P: exact, MODERATE; a stack
+            of reversals.  For each of them, load(m, n) = P - dQ/(2 f) and tilt(m, n) = alpha -
+            dsigma/(4 f E*) with the changes since the reversal, or 2 Q and 2 sigma before the
+            first one.
 
     Parameters
     ----------
@@ -63,21 +71,22 @@ def history(
     -------
     History
         a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error;
-        work_error [J/m].  Time is not given, hence no rate of slip: what slips between two
-        instants is np.diff(slip, axis=-2) where x is a row.  NaN where there is no contact;
-        m and n where it slides, slip and work from then on.
+        work_error [J/m].  All are NaN where there is no contact.  If the contact slides, m and n
+        are NaN at that instant, and slip and work from then on.  Time is not an argument, so that
+        slip rates are not returned; for a 1-D x, the slip between two instants is
+        np.diff(slip, axis=-2).
 
     Notes
     -----
-    Arguments broadcast; time lies along the last axis, and between two instants all loads go
-    straight.  Many histories are shared by the cores; Dask arrays stay lazy.
+    Arguments broadcast; time lies along the last axis, and all loads vary linearly between two
+    instants.  Many histories are distributed over the cores; Dask arrays stay lazy.
     """
     numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
     if any_lazy(numbers.values()):
         return over_chunks(asked.call, History, _INSTANTS, numbers, x, tol)
     given = _given(asked, numbers, x, tol)
-    places = np.shape(x) if x is not None else ()
-    count = math.prod(places) if x is not None else 0
+    points = np.shape(x) if x is not None else ()
+    count = math.prod(points) if x is not None else 0
     out = np.empty((given.rows.shape[0], given.instants * (9 + 2 * count)))
     law = asked.body.law
     run("history.reversals.each_history", law, given.rows, given.own, out)
@@ -87,12 +96,12 @@ def history(
         run("history.solve.each_history", law, given.rows[rest], given.own[rest], computed)
         out[rest] = computed
     shape = (*given.cycles, given.instants)
-    found = out.reshape((*shape, 9 + 2 * count))
-    a, c, m, n, intervals, regime, work, error, work_error = (found[..., i] for i in range(9))
+    columns = out.reshape((*shape, 9 + 2 * count))
+    a, c, m, n, intervals, regime, work, error, work_error = (columns[..., i] for i in range(9))
     q = slip = None
     if x is not None:
-        q = (found[..., 9 : 9 + count] * given.E_star[..., None, None]).reshape((*shape, *places))
-        slip = found[..., 9 + count :].reshape((*shape, *places))
+        q = (columns[..., 9 : 9 + count] * given.E_star[..., None, None]).reshape((*shape, *points))
+        slip = columns[..., 9 + count :].reshape((*shape, *points))
     work, work_error = (v * given.E_star[..., None] for v in (work, work_error))
     intervals, regime = np.nan_to_num(intervals).astype(np.int64), regime.astype(np.int64)
     return History(a, c, m, n, intervals, regime, q, slip, work, error, work_error)
@@ -110,14 +119,14 @@ def steady_cycle(
     x: Array = None,
     tol: float = 1e-3,
 ) -> SteadyCycle:
-    """What a closed load history settles to: the permanent stick zone, slip and work a cycle.
+    """The steady cycle to which a closed load history settles: stick zone, slip range and work.
 
-        as by stick_zone where that is exact, with `mixed` where the normal loads are constant
+        Where stick_zone is exact: its m and n, with mixed=True if the normal loads are constant.
         M = 0, tilt and sigma constant, |Q| < f P: exact, MODERATE; [-m, n] is the contact under
-            P_E = -(max(Q - f P) + max(-Q - f P))/(2 f), whatever the phase of P and Q
-        else the history is repeated until slip repeats, and what sticks is what slips less in the
-            last round, to and fro added, than 1e-4 of the most; how far the ends move with thirty
-            times that is part of the error
+            P_E = -(max(Q - f P) + max(-Q - f P))/(2 f), whatever the phase of P and Q.
+        Otherwise the history is repeated until slip repeats.  The stick zone consists of points
+            whose slip in the last cycle, to and fro added up, is below 1e-4 of the largest.  The
+            shift of its ends at a threshold thirty times as large is part of the error.
 
     Parameters
     ----------
@@ -127,26 +136,26 @@ def steady_cycle(
     -------
     SteadyCycle
         m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error;
-        work_error [J/m].  Slip range, shear and work are computed on elements, even where m
-        and n are exact.  NaN where the contact is lost or slides; m and n where no place
-        sticks all the time.
+        work_error [J/m].  Slip range, shear traction and work are computed on elements, even where
+        m and n are exact.  All are NaN if the contact is lost or slides; m and n are NaN if no
+        point sticks throughout the cycle.
 
     Notes
     -----
-    Arguments broadcast; time lies along the last axis, and from the last instant the loads go
-    back to the first.  Many cycles are shared by the cores; Dask arrays stay lazy.
+    Arguments broadcast; time lies along the last axis, and the loads return from the last instant
+    to the first.  Many cycles are distributed over the cores; Dask arrays stay lazy.
     """
     numbers = _numbers(asked, (P, M, Q, sigma), f, E_star, x, tol)
     if any_lazy(numbers.values()):
         return over_chunks(asked.call, SteadyCycle, _CYCLES, numbers, x, tol)
     numbers |= dict(zip(_LOADS, _closed(tuple(numbers[k] for k in _LOADS)), strict=True))
     given = _given(asked, numbers, x, tol)
-    places = np.shape(x) if x is not None else ()
-    count = math.prod(places) if x is not None else 0
+    points = np.shape(x) if x is not None else ()
+    count = math.prod(points) if x is not None else 0
     out = np.empty((given.rows.shape[0], 8 + 2 * count))
     run("history.solve.each_cycle", asked.body.law, given.rows, given.own, out)
-    found = out.reshape((*given.cycles, 8 + 2 * count))
-    m, n, regime, work, rounds, drift, error, work_error = (found[..., i] for i in range(8))
+    columns = out.reshape((*given.cycles, 8 + 2 * count))
+    m, n, regime, work, rounds, drift, error, work_error = (columns[..., i] for i in range(8))
     zone, accuracy = _exact(asked, numbers)
     known = np.isfinite(zone.m)
     m, n = np.where(known, zone.m, m), np.where(known, zone.n, n)
@@ -154,37 +163,40 @@ def steady_cycle(
     error = np.where(known, accuracy, error)
     q = slip = None
     if x is not None:
-        slip = found[..., 8 : 8 + count].reshape((*given.cycles, *places))
-        q = (found[..., 8 + count :] * given.E_star[..., None]).reshape((*given.cycles, *places))
+        slip = columns[..., 8 : 8 + count].reshape((*given.cycles, *points))
+        q = (columns[..., 8 + count :] * given.E_star[..., None]).reshape((*given.cycles, *points))
     work, work_error = work * given.E_star, work_error * given.E_star
     values = (m, n, regime, slip, q, work, rounds, drift, error, work_error)
     return SteadyCycle(*(v if v is None else v[()] for v in values))
 
 
 def _exact(asked: Asked, numbers: Numbers) -> tuple[StickZone, Array]:
-    """The zones of cycles that stick_zone solves, NaN of others; and how far they may be off."""
+    """Exact stick zones, NaN for cycles without an exact solution, and their errors.
+
+    The error is relative to the contact width.
+    """
     shape = shape_of(numbers)
     full = {name: np.broadcast_to(value, shape) for name, value in numbers.items()}
     P, M, Q, sigma = (full.pop(name) for name in _LOADS)
-    told = march(asked, P, M, Q, sigma, f=full["f"], E_star=full["E_star"])
-    code = np.asarray(told.regime[..., 0])
-    alike = np.all(told.regime == code[..., None], axis=-1)
-    known = alike & np.isin(code, (Regime.MODERATE, Regime.LARGE, Regime.FULL_STICK))
-    m, n = (np.where(known, np.min(v, axis=-1), np.nan) for v in (told.m, told.n))
-    still = np.all((P[..., :1] == P) & (M[..., :1] == M), axis=-1)
-    turns = np.asarray(alike & still & (code == Regime.MIXED))
-    if np.any(turns):
-        way = np.where(np.ptp(Q, axis=-1)[..., None] > 0, Q, sigma)
-        low, high = (at(way, axis=-1)[..., None] for at in (np.argmin, np.argmax))
+    states = march(asked, P, M, Q, sigma, f=full["f"], E_star=full["E_star"])
+    code = np.asarray(states.regime[..., 0])
+    uniform = np.all(states.regime == code[..., None], axis=-1)
+    known = uniform & np.isin(code, (Regime.MODERATE, Regime.LARGE, Regime.FULL_STICK))
+    m, n = (np.where(known, np.min(v, axis=-1), np.nan) for v in (states.m, states.n))
+    constant = np.all((P[..., :1] == P) & (M[..., :1] == M), axis=-1)
+    mixed = np.asarray(uniform & constant & (code == Regime.MIXED))
+    if np.any(mixed):
+        load = np.where(np.ptp(Q, axis=-1)[..., None] > 0, Q, sigma)
+        low, high = (at(load, axis=-1)[..., None] for at in (np.argmin, np.argmax))
         changes = [
             np.take_along_axis(v, high, -1) - np.take_along_axis(v, low, -1) for v in (Q, sigma)
         ]
-        dQ, dsigma = (v[turns, 0] for v in changes)
-        held = {name: value[turns, 0] for name, value in full.items()}
+        dQ, dsigma = (v[mixed, 0] for v in changes)
+        held = {name: value[mixed, 0] for name, value in full.items()}
         friction = {name: held.pop(name) for name in ("f", "E_star")}
-        here = Contact(told.a[turns, 0], told.c[turns, 0], np.nan)
-        mine = asked._replace(own=held)
-        m[turns], n[turns], _ = stick_zone(mine, here, here, dQ, dsigma, **friction, mixed=True)
+        here = Contact(states.a[mixed, 0], states.c[mixed, 0], np.nan)
+        of_mixed = asked._replace(own=held)
+        m[mixed], n[mixed], _ = stick_zone(of_mixed, here, here, dQ, dsigma, **friction, mixed=True)
     rest = np.isnan(m)
     if np.any(rest):
         loads = (np.broadcast_to(v, shape)[rest] for v in (P, M, Q, sigma))
@@ -196,7 +208,7 @@ def _exact(asked: Asked, numbers: Numbers) -> tuple[StickZone, Array]:
 
 
 def _closed(loads: tuple[Array, ...]) -> list[Any]:
-    """Loads whose last instant is the first again."""
+    """The loads with their first instant repeated at the end, unless they already end with it."""
     arrays = [np.atleast_1d(np.asarray(v, dtype=np.float64)) for v in loads]
     instants = max(v.shape[-1] for v in arrays)
     full = [np.broadcast_to(v, (*v.shape[:-1], instants)) for v in arrays]
@@ -208,26 +220,26 @@ def _closed(loads: tuple[Array, ...]) -> list[Any]:
 def _numbers(
     asked: Asked, loads: tuple[Array, ...], f: Array, E_star: Array, x: Array, tol: float
 ) -> Numbers:
-    """What broadcasts, by name.
+    """The arguments that broadcast, by name.
 
-    Raises TypeError for what is no real number, and for places that are a Dask array; ValueError
-    for a tolerance that is not positive, and where there is no instant.
+    Raises TypeError if an argument is not a real number or x is a Dask array, and ValueError if the
+    tolerance is not positive or there is no instant.
     """
     if not tol > 0:
         raise ValueError(f"tol must be positive; got {tol!r:.60}")
     if any_lazy([x]):
-        raise TypeError("x must be there, a number or a NumPy array; got a Dask array")
+        raise TypeError("x must be a number or a NumPy array, not a Dask array: pass x.compute()")
     named = dict(zip(_LOADS, loads, strict=True))
     numbers = numbers_of(named, {"f": f, "E_star": E_star, **asked.own})
     if 0 in shape_of(numbers)[-1:]:
-        raise ValueError("the last axis is time and must hold one instant at least; it is empty")
+        raise ValueError("the last axis is time and must contain at least one instant; it is empty")
     return numbers
 
 
 def _given(asked: Asked, numbers: Numbers, x: Array, tol: float) -> _Given:
-    """Lay out what is given in rows.
+    """Arrange the arguments in rows.
 
-    Raises ValueError for constants that change in time.
+    Raises ValueError if a constant changes in time.
     """
     *cycles, instants = shape_of(numbers) or (1,)
     shape = (*cycles, instants)
@@ -237,11 +249,11 @@ def _given(asked: Asked, numbers: Numbers, x: Array, tol: float) -> _Given:
         if np.any((value != value[:, :1]) & ~np.isnan(value)):
             raise ValueError(f"{name} must not change along the last axis, which is time")
         held[name] = value[:, :1]
-    places = np.ravel(np.zeros(0) if x is None else numbers_of({"x": x}, {})["x"])
+    points = np.ravel(np.zeros(0) if x is None else numbers_of({"x": x}, {})["x"])
     count = held["f"].shape[0]
     whole = [np.broadcast_to(numbers[k], shape).reshape(-1, instants) for k in _LOADS]
-    rows = [held["f"], np.full((count, 1), tol), np.full((count, 1), float(places.size))]
-    rows += [v / held["E_star"] for v in whole] + [np.broadcast_to(places, (count, places.size))]
+    rows = [held["f"], np.full((count, 1), tol), np.full((count, 1), float(points.size))]
+    rows += [v / held["E_star"] for v in whole] + [np.broadcast_to(points, (count, points.size))]
     own = np.hstack([np.empty((count, 0)), *(held[name] for name in asked.own)])
     modulus = held["E_star"].reshape(tuple(cycles))
     return _Given(
@@ -254,4 +266,4 @@ def _given(asked: Asked, numbers: Numbers, x: Array, tol: float) -> _Given:
 
 
 HISTORIES = (history, steady_cycle)
-"""What every body is bound to."""
+"""Functions of load histories that are bound to every body."""

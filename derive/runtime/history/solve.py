@@ -1,11 +1,11 @@
-r"""Histories and steady cycles on ever finer meshes, and the estimate of their error.
+r"""Histories and steady cycles on successively finer meshes, and the estimate of their error.
 
-Each mesh has twice the elements of the one before and is crowded towards the ends of the stick zone
-that were found on that one; it is the last where both agree to the tolerance.  What is told is that
-of the last.  Its error is put at the difference between the last two, which is more than what the
-last is off, and for ends half an element more, since a front is found between two elements.
-Friction's work is off by no more than the sum of what the last two differ in from instant to
-instant.
+Each mesh has twice as many elements as the one before, and is refined towards the ends of the stick
+zone that were found on it.  The refinement stops when two meshes agree to the tolerance, and the
+results of the last mesh are returned.  The estimated error is the difference between the last two
+meshes, which is more than the error of the last one.  For m and n half an element is added, because
+a stick-slip boundary lies between two elements.  The estimated error of the frictional work is the
+sum of the differences between the last two meshes from instant to instant.
 """
 
 import math
@@ -24,59 +24,61 @@ from .steps import (
     NONE,
     SLIDING,
     SLIP,
-    SLIPPED,
+    SLIP_OF_STEP,
     UNSOLVED,
-    at_place,
+    at_point,
     mesh_for,
     step,
     sticking,
 )
 
 NO_STICK = 10.0
-"""One more code of Regime: something slips everywhere in the cycle, though it never slides."""
+"""Another code of Regime: every point slips at some time in the cycle, though it never slides."""
 
 SAMPLES = 24
-"""Places at which shear is compared between two meshes."""
+"""Number of points at which shear tractions on two meshes are compared."""
 
 FEATURES = 9
-"""a, c, m, n, intervals, regime, work, error and work_error of an instant."""
+"""Number of results of an instant: a, c, m, n, intervals, regime, work, error and work_error."""
 
 ZONE = 8
-"""m, n, regime, work, rounds, drift, error and work_error of a cycle."""
+"""Number of results of a cycle: m, n, regime, work, rounds, drift, error and work_error."""
 
 FEWEST = 64
-"""Elements of the first mesh.  A mesh of k times as many takes k times as many steps to an instant
-of a cycle, and half of that to one of a history."""
+"""Elements of the first mesh.  On a mesh with k times as many, a cycle takes at least k steps from
+one instant to the next, and a history at least k/2."""
 
 REACH = 3.84
-"""How far an edge may move in a step, over the width of the contact, times the elements."""
+"""Largest motion of an edge in a step, relative to the contact width, times the elements."""
 
 LAST = 0.05
-"""The last step before an instant over the others: what sticks at the instant is what sticks in it,
-though a slip zone that shrinks was longer before."""
+"""Length of the last step before an instant relative to the others.  The stick zone of the instant
+is that of this step; a slip zone that shrinks is longer in earlier steps."""
 
 EACH = 16
-"""Elements of a mesh over the places it is crowded towards, at least."""
+"""Smallest number of elements of a mesh for each point towards which it is refined."""
 
 APART = 3.0
-"""Ends that lie closer together count as one when a mesh is crowded towards them, over tol."""
+"""Stick-slip boundaries closer together than this times `tol` count as one in the refinement."""
 
-ROUNDS = 40
-"""Most rounds of a cycle."""
+MOST_ROUNDS = 40
+"""Largest number of repetitions of a cycle."""
 
 REPEATED = 1e-4
-"""Slip of two rounds that differs by less, over the most, is the same."""
+"""A cycle has settled if slip changes by less than this fraction of the largest slip."""
 
 THRESHOLD = 1e-4
-"""Slip in a round that is none, over the most; thirty times as much is tried, too."""
+"""Slip in a cycle below this fraction of the largest counts as zero; thirty times as much is also
+tried."""
 
 RISEN = 4.0
-"""Slip over that at a place near the end of the stick zone, where it is led back from."""
+"""The end of the stick zone is extrapolated from slip at two points.  This is the smallest ratio of
+the slip at the outer one to that at the inner one."""
 
 
 @kernel(vector(matrix, vector))
-def _pushed(B: Any, w: Any) -> Any:
-    """z = A^-1 w."""
+def _inverse_times(B: Any, w: Any) -> Any:
+    """z = A^-1 w; B is the inverse of A."""
     z = np.zeros(w.size)
     for j in range(w.size):
         for i in range(w.size):
@@ -85,54 +87,59 @@ def _pushed(B: Any, w: Any) -> Any:
 
 
 @kernel(real(vector, real, real, real, real))
-def _between_elements(ends: Any, m: float, n: float, a: float, c: float) -> float:
-    """How far ends may be off since they lie between elements; a slip zone within the element at
-    an edge is not seen."""
-    off = 0.0
+def _mesh_error(ends: Any, m: float, n: float, a: float, c: float) -> float:
+    """Error of m and n because they lie between elements: half an element.
+
+    It is a whole element if m or n is at an edge, because the mesh does not resolve a slip zone
+    within the element at the edge.
+    """
+    error = 0.0
     for side in range(2):
-        place, edge = (-m, -a) if side == 0 else (n, c)
-        if math.isfinite(place):
-            i = min(max(np.searchsorted(ends, place) - 1, 0), ends.size - 2)
-            off = max(off, (1.0 if place == edge else 0.5) * (ends[i + 1] - ends[i]))
-    return off
+        end, edge = (-m, -a) if side == 0 else (n, c)
+        if math.isfinite(end):
+            i = min(max(np.searchsorted(ends, end) - 1, 0), ends.size - 2)
+            error = max(error, (1.0 if end == edge else 0.5) * (ends[i + 1] - ends[i]))
+    return error
 
 
 @kernel(whole(real))
-def _most(tol: float) -> int:
-    """Elements of the finest mesh."""
+def _finest(tol: float) -> int:
+    """Number of elements of the finest mesh."""
     return 256 if tol >= 1e-3 else 512 if tol >= 1e-4 else 1024
 
 
 @kernel(vector(vector, real, real, whole))
-def _apart(places: Any, size: float, apart: float, most: int) -> Any:
-    """At most so many places in their order, of those that lie closer together than `apart` some;
-    twice that, and so on, where there are too many."""
-    found = np.sort(places[np.isfinite(places)])
+def _thinned(points: Any, size: float, distance: float, most: int) -> Any:
+    """At most `most` of the points, sorted, with gaps of more than `distance` times `size`.
+
+    The distance is doubled as long as there are too many points.
+    """
+    left = np.sort(points[np.isfinite(points)])
     while True:
         kept = 0
-        for place in found:
-            if kept == 0 or place - found[kept - 1] > apart * size:
-                found[kept] = place
+        for x in left:
+            if kept == 0 or x - left[kept - 1] > distance * size:
+                left[kept] = x
                 kept += 1
-        found = found[:kept].copy()
+        left = left[:kept].copy()
         if kept <= most:
-            return found
-        apart *= 2
+            return left
+        distance *= 2
 
 
 @shared
-def _laid(law: Any, own: Any, rows: Any, count: int, fronts: Any) -> Any:
-    """A mesh for a path: its ends, A and its inverse, z, and what the steps write into."""
-    ends = mesh_for(law, own, rows, count, fronts)
+def _discretised(law: Any, own: Any, rows: Any, count: int, stick_ends: Any) -> Any:
+    """A mesh for a path: element ends, A, its inverse, z, and two arrays for the steps to use."""
+    ends = mesh_for(law, own, rows, count, stick_ends)
     A_ = influence(ends)
     B = inverse_of(A_)
-    z = _pushed(B, ends[1:] - ends[:-1])
+    z = _inverse_times(B, ends[1:] - ends[:-1])
     return ends, A_, B, z, np.zeros((count + 1, count)), np.zeros((5, count))
 
 
 @kernel(truth(vector, vector))
 def _move(row: Any, last: Any) -> bool:
-    """Whether loads change between two rows of a path."""
+    """Whether the loads change between two rows of a path."""
     for i in range(4):  # noqa: SIM110 - numba compiles no `any` over a generator
         if row[i] != last[i]:
             return True
@@ -140,38 +147,40 @@ def _move(row: Any, last: Any) -> bool:
 
 
 @shared
-def followed(
+def history_on_mesh(
     law: Any,
     own: Any,
     f: float,
     loads: Any,
-    places: Any,
+    points: Any,
     count: int,
-    fronts: Any,
+    stick_ends: Any,
     finest: int,
     progress: Any,
 ) -> Any:
-    """A history on one mesh: a row an instant of the features, then q and slip at the places and q
-    at the samples.  The error is that of a front between two elements, that of work is left out.
+    """A history on one mesh: one row per instant.
 
-    progress[0] becomes the part of all meshes that is done, times -1; a mesh of twice the elements
-    takes four times as long.
+    A row holds the features, q and slip at the points, and q at the samples.  `error` is only the
+    error of m and n due to the mesh, and work_error is NaN.
+
+    progress[0] becomes the completed fraction of the work on all meshes, times -1.  A mesh with
+    twice as many elements takes four times as long.
     """
-    instants, asked = loads.shape[1], places.size
-    found = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
-    found[:, 5] = NONE
+    instants, asked = loads.shape[1], points.size
+    values = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
+    values[:, 5] = NONE
     rows = path(law, own, loads, f, REACH / count, max(count // (2 * FEWEST), 1), LAST)
-    known = False
+    touches = False
     for k in range(rows.shape[0]):
-        known = known or rows[k, A] + rows[k, C] > 0
-    if not (known and f > 0):
-        return found
-    ends, A_, B, z, room, state = _laid(law, own, rows, count, fronts)
+        touches = touches or rows[k, A] + rows[k, C] > 0
+    if not (touches and f > 0):
+        return values
+    ends, A_, B, z, room, state = _discretised(law, own, rows, count, stick_ends)
     x, series, lost = (ends[1:] + ends[:-1]) / 2, np.empty(TERMS), False
-    work, regime, m, n, runs, off = 0.0, NONE, math.nan, math.nan, 0.0, 0.0
+    work, regime, m, n, intervals, error = 0.0, NONE, math.nan, math.nan, 0.0, 0.0
     for k in range(rows.shape[0]):
-        part = (count**2 - FEWEST**2) / 3 + count**2 * (k / rows.shape[0])
-        progress[0] = -part / ((4 * finest**2 - FEWEST**2) / 3)
+        done = (count**2 - FEWEST**2) / 3 + count**2 * (k / rows.shape[0])
+        progress[0] = -done / ((4 * finest**2 - FEWEST**2) / 3)
         row, last = rows[k], rows[max(k - 1, 0)]
         for i in range(4):
             lost = lost or not math.isfinite(row[i])
@@ -180,43 +189,43 @@ def followed(
         elif (k == 0 or _move(row, last)) and regime != UNSOLVED:
             regime, more = step(law, own, series, f, ends, last, row, A_, B, z, state, room)
             work += more
-            m, n, runs, off = math.nan, math.nan, 0.0, 0.0
+            m, n, intervals, error = math.nan, math.nan, 0.0, 0.0
             if regime == COMPUTED:
-                m, n, runs, slips = sticking(x, state, row[A], row[C])
+                m, n, intervals, slips = sticking(x, state, row[A], row[C])
                 regime = FULL_STICK if slips == 0 else COMPUTED
-                off = _between_elements(ends, m, n, row[A], row[C]) / (row[A] + row[C])
+                error = _mesh_error(ends, m, n, row[A], row[C]) / (row[A] + row[C])
         if row[INSTANT] < 0:
             continue
-        told = found[int(row[INSTANT])]
-        told[5] = regime
+        here = values[int(row[INSTANT])]
+        here[5] = regime
         if not lost:
-            told[0], told[1] = row[A], row[C]
+            here[0], here[1] = row[A], row[C]
         if regime in (UNSOLVED, NONE):
             continue
-        told[2], told[3], told[4], told[6], told[7] = m, n, runs, work, off
+        here[2], here[3], here[4], here[6], here[7] = m, n, intervals, work, error
         first = FEATURES + 2 * asked
         for i in range(asked):
-            told[FEATURES + i], slip = at_place(law, own, series, f, ends, x, state, row, places[i])
-            told[FEATURES + asked + i] = slip if work == work else math.nan
+            here[FEATURES + i], slip = at_point(law, own, series, f, ends, x, state, row, points[i])
+            here[FEATURES + asked + i] = slip if work == work else math.nan
         for i in range(SAMPLES):
             u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
-            place = -row[A] + u * (row[A] + row[C])
-            told[first + i], _ = at_place(law, own, series, f, ends, x, state, row, place)
-    return found
+            point = -row[A] + u * (row[A] + row[C])
+            here[first + i], _ = at_point(law, own, series, f, ends, x, state, row, point)
+    return values
 
 
 @kernel(real(vector, vector, real, whole))
 def _error(fine: Any, coarse: Any, mean: float, first: int) -> float:
-    """Of one instant; `mean` is f P/h."""
+    """Estimated error of one instant from two meshes; `mean` is f P/h."""
     h = fine[0] + fine[1]
     if fine[5] != coarse[5] and UNSOLVED in (fine[5], coarse[5]):
         return math.nan
     error = 0.0
     for i in (2, 3):
-        away = abs(fine[i] - coarse[i]) / h
+        difference = abs(fine[i] - coarse[i]) / h
         if math.isnan(fine[i]) != math.isnan(coarse[i]):
-            away = 1.0
-        error = max(error, away if away == away else 0.0)
+            difference = 1.0
+        error = max(error, difference if difference == difference else 0.0)
     error += fine[7]
     shear = total = 0.0
     for i in range(SAMPLES):
@@ -228,37 +237,40 @@ def _error(fine: Any, coarse: Any, mean: float, first: int) -> float:
 
 @kernel(LOOP)
 def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
-    """given: f, tol, the number of places, then P, M, Q and sigma at T instants, then the places.
+    """Histories with their errors, on as many meshes as each of them needs.
 
-    out: of each instant its features, then q and slip at the places.
+    given: f, tol, the number of points, then P, M, Q and sigma at all instants, then the points.
+    out: for each instant its features, then q and slip at the points.
     """
     law = opened(law)
     for row in range(given.shape[0]):
         f, tol, asked = given[row, 0], given[row, 1], int(given[row, 2])
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
-        places = given[row, 3 + 4 * count :]
+        points = given[row, 3 + 4 * count :]
         first, elements, met = FEATURES + 2 * asked, FEWEST, False
-        coarse, fronts = np.empty((0, 0)), np.empty(0)
+        coarse, stick_ends = np.empty((0, 0)), np.empty(0)
         while True:
-            fine = followed(law, own[row], f, loads, places, elements, fronts, _most(tol), out[row])
+            fine = history_on_mesh(
+                law, own[row], f, loads, points, elements, stick_ends, _finest(tol), out[row]
+            )
             if elements > FEWEST:
-                met, work_off, done, meant = True, 0.0, 0.0, 0.0
+                met, work_error, fine_work, coarse_work = True, 0.0, 0.0, 0.0
                 for k in range(count):
-                    told = fine[k]
-                    mean = f * loads[0, k] / (told[0] + told[1])
-                    told[7] = _error(told, coarse[k], mean, first)
-                    met = met and (told[7] <= tol or told[5] in (NONE, SLIDING))
-                    if told[5] != NONE:
-                        work_off += abs((told[6] - done) - (coarse[k, 6] - meant))
-                        done, meant = told[6], coarse[k, 6]
-                        told[8] = work_off
-            if met or elements >= _most(tol):
+                    here = fine[k]
+                    mean = f * loads[0, k] / (here[0] + here[1])
+                    here[7] = _error(here, coarse[k], mean, first)
+                    met = met and (here[7] <= tol or here[5] in (NONE, SLIDING))
+                    if here[5] != NONE:
+                        work_error += abs((here[6] - fine_work) - (coarse[k, 6] - coarse_work))
+                        fine_work, coarse_work = here[6], coarse[k, 6]
+                        here[8] = work_error
+            if met or elements >= _finest(tol):
                 break
             coarse, elements = fine, 2 * elements
-            fronts = np.concatenate((-coarse[:, 2], coarse[:, 3]))
+            stick_ends = np.concatenate((-coarse[:, 2], coarse[:, 3]))
             widest = np.nanmax(coarse[:, 0] + coarse[:, 1])
-            fronts = _apart(fronts, widest, APART * tol, elements // EACH)
+            stick_ends = _thinned(stick_ends, widest, APART * tol, elements // EACH)
         for k in range(count):
             for i in range(first):
                 out[row, k * first + i] = fine[k, i]
@@ -268,15 +280,19 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
 
 
 @kernel(results(2)(vector, vector, vector, vector, real))
-def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> Any:
-    """m and n of the longest run of elements that always touch and slip by no more, led back to
-    where nothing slips: the way that is slipped rises from there with the power 3/2."""
+def _permanent_zone(x: Any, ends: Any, always: Any, total_slip: Any, threshold: float) -> Any:
+    """m and n of the permanent stick zone, from the total slip of a cycle, to and fro added up.
+
+    The zone is the longest run of elements that are always in contact and slip by no more than the
+    threshold.  Its ends are extrapolated to zero slip, because slip rises from there with the power
+    3/2 of the distance.
+    """
     most, start, length, low, high = 0.0, 0, 0.0, -1, -1
     for i in range(x.size):
-        most = max(most, way[i])
+        most = max(most, total_slip[i])
     inside = False
     for i in range(x.size):
-        if always[i] > 0 and way[i] <= threshold * most:
+        if always[i] > 0 and total_slip[i] <= threshold * most:
             start = start if inside else i
             inside = True
             if ends[i + 1] - ends[start] > length:
@@ -285,125 +301,131 @@ def _never_slips(x: Any, ends: Any, always: Any, way: Any, threshold: float) -> 
             inside = False
     if low < 0 or low == high:
         return math.nan, math.nan
-    found = np.empty(2)
+    zone = np.empty(2)
     for side in range(2):
         outward, last = (-1, low) if side == 0 else (1, high)
         near, far = last + 2 * outward, last + 3 * outward
-        while 0 <= far + outward < x.size and way[far] < RISEN * way[near]:
+        while 0 <= far + outward < x.size and total_slip[far] < RISEN * total_slip[near]:
             far += outward
-        found[side] = ends[last] if side == 0 else ends[last + 1]
+        zone[side] = ends[last] if side == 0 else ends[last + 1]
         if 0 <= far < x.size and always[near] > 0 and always[far] > 0:
-            g, G = way[near] ** (2 / 3), way[far] ** (2 / 3)
+            g, G = total_slip[near] ** (2 / 3), total_slip[far] ** (2 / 3)
             if g < G:
                 root = x[near] - (x[far] - x[near]) * g / (G - g)
                 inner = (x[low] + x[high]) / 2
-                found[side] = min(max(root, min(inner, x[near])), max(inner, x[near]))
-    return -found[0], found[1]
+                zone[side] = min(max(root, min(inner, x[near])), max(inner, x[near]))
+    return -zone[0], zone[1]
 
 
 @shared
-def repeated(law: Any, own: Any, f: float, loads: Any, places: Any, count: int, fronts: Any) -> Any:
-    """A cycle on one mesh: m, n, regime, work, rounds, drift, error of a front, that of work by the
-    drift; then at the places the range of slip and q at the first instant."""
-    asked = places.size
-    found = np.full(ZONE + 2 * asked, math.nan)
-    found[2] = NONE
+def cycle_on_mesh(
+    law: Any, own: Any, f: float, loads: Any, points: Any, count: int, stick_ends: Any
+) -> Any:
+    """A cycle on one mesh: the results of a cycle, then slip range and first q at the points.
+
+    `error` is only the error of m and n due to the mesh and the threshold, and work_error only that
+    due to the drift.
+    """
+    asked = points.size
+    values = np.full(ZONE + 2 * asked, math.nan)
+    values[2] = NONE
     least = count // FEWEST
     rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
         if not (rows[k, A] + rows[k, C] > 0 and f > 0):
-            return found
-    ends, A_, B, z, room, state = _laid(law, own, rows, count, fronts)
+            return values
+    ends, A_, B, z, room, state = _discretised(law, own, rows, count, stick_ends)
     x, series = (ends[1:] + ends[:-1]) / 2, np.empty(TERMS)
-    way, before, always = np.zeros(x.size), np.zeros(x.size), np.ones(x.size)
+    total_slip, before, always = np.zeros(x.size), np.zeros(x.size), np.ones(x.size)
     low, high = np.zeros(x.size), np.zeros(x.size)
     work, drift = 0.0, math.inf
-    for turn in range(ROUNDS + 1):
-        # the first time the loads rise to the first instant, then they go round
-        first, last = (0, least + 1) if turn == 0 else (least + 1, rows.shape[0])
-        way[:], work = 0.0, 0.0
+    for round_ in range(MOST_ROUNDS + 1):
+        # round 0 applies the loads of the first instant; each later round is one cycle
+        first, last = (0, least + 1) if round_ == 0 else (least + 1, rows.shape[0])
+        total_slip[:], work = 0.0, 0.0
         low[:] = high[:] = state[SLIP]
         for k in range(first, last):
-            row, gone = rows[k], rows[max(k - 1, 0)]
-            if not (k == 0 or _move(row, gone)):
+            row, previous = rows[k], rows[max(k - 1, 0)]
+            if not (k == 0 or _move(row, previous)):
                 continue
-            code, more = step(law, own, series, f, ends, gone, row, A_, B, z, state, room)
+            code, more = step(law, own, series, f, ends, previous, row, A_, B, z, state, room)
             if code != COMPUTED:
-                found[2] = code
-                return found
+                values[2] = code
+                return values
             work += more
             for i in range(x.size):
-                way[i] += abs(state[SLIPPED, i])
+                total_slip[i] += abs(state[SLIP_OF_STEP, i])
                 low[i], high[i] = min(low[i], state[SLIP, i]), max(high[i], state[SLIP, i])
                 if state[BOUND, i] == 0:
                     always[i] = 0.0
         most = change = 0.0
         for i in range(x.size):
-            most, change = max(most, way[i]), max(change, abs(way[i] - before[i]))
-            before[i] = way[i]
+            most, change = max(most, total_slip[i]), max(change, abs(total_slip[i] - before[i]))
+            before[i] = total_slip[i]
         drift = change / most if most > 0 else 0.0
-        found[4] = turn
-        if turn > 1 and drift <= REPEATED:
+        values[4] = round_
+        if round_ > 1 and drift <= REPEATED:
             break
-    found[3], found[5], found[7] = work, drift, drift * work
+    values[3], values[5], values[7] = work, drift, drift * work
     inner_a = inner_c = math.inf
     for k in range(rows.shape[0]):
         inner_a, inner_c = min(inner_a, rows[k, A]), min(inner_c, rows[k, C])
     slips = False
     for i in range(x.size):
-        slips = slips or way[i] > 0
+        slips = slips or total_slip[i] > 0
     if not slips and inner_a + inner_c > 0:
-        found[0], found[1], found[2], found[6] = inner_a, inner_c, FULL_STICK, 0.0
+        values[0], values[1], values[2], values[6] = inner_a, inner_c, FULL_STICK, 0.0
     else:
-        m, n = _never_slips(x, ends, always, way, THRESHOLD)
-        found[2] = NO_STICK if math.isnan(m) else COMPUTED
-        found[0], found[1], found[6] = min(m, inner_a), min(n, inner_c), 0.0
-        if found[2] == COMPUTED:
-            wide_m, wide_n = _never_slips(x, ends, always, way, 30 * THRESHOLD)
+        m, n = _permanent_zone(x, ends, always, total_slip, THRESHOLD)
+        values[2] = NO_STICK if math.isnan(m) else COMPUTED
+        values[0], values[1], values[6] = min(m, inner_a), min(n, inner_c), 0.0
+        if values[2] == COMPUTED:
+            wide_m, wide_n = _permanent_zone(x, ends, always, total_slip, 30 * THRESHOLD)
             h = inner_a + inner_c
-            off = max(abs(wide_m - m), abs(wide_n - n))
-            found[6] = (off + _between_elements(ends, m, n, inner_a, inner_c)) / h
+            difference = max(abs(wide_m - m), abs(wide_n - n))
+            values[6] = (difference + _mesh_error(ends, m, n, inner_a, inner_c)) / h
     for i in range(asked):
-        if ends[0] <= places[i] <= ends[x.size]:
-            j = np.searchsorted(ends, places[i]) - 1
-            j = min(max(j if places[i] > x[j] else j - 1, 0), x.size - 2)
-            t = min(max((places[i] - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
-            found[ZONE + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
-        found[ZONE + asked + i], _ = at_place(
-            law, own, series, f, ends, x, state, rows[-1], places[i]
+        if ends[0] <= points[i] <= ends[x.size]:
+            j = np.searchsorted(ends, points[i]) - 1
+            j = min(max(j if points[i] > x[j] else j - 1, 0), x.size - 2)
+            t = min(max((points[i] - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
+            values[ZONE + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
+        values[ZONE + asked + i], _ = at_point(
+            law, own, series, f, ends, x, state, rows[-1], points[i]
         )
-    return found
+    return values
 
 
 @kernel(LOOP)
 def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
-    """given: as for each_history, the last instant being the first again.
+    """Steady cycles with their errors, on as many meshes as each of them needs.
 
-    out: m, n, regime, work, rounds, drift, error, work_error; range of slip and q at the places.
+    given: as for each_history; the loads of the last instant are those of the first.
+    out: the results of a cycle, then slip range and first q at the points.
     """
     law = opened(law)
     for row in range(given.shape[0]):
         f, tol, asked = given[row, 0], given[row, 1], int(given[row, 2])
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
-        places = given[row, 3 + 4 * count :]
+        points = given[row, 3 + 4 * count :]
         elements, met = FEWEST, False
-        coarse, fronts = np.empty(0), np.empty(0)
+        coarse, stick_ends = np.empty(0), np.empty(0)
         while True:
-            fine = repeated(law, own[row], f, loads, places, elements, fronts)
+            fine = cycle_on_mesh(law, own[row], f, loads, points, elements, stick_ends)
             if elements > FEWEST:
                 met = fine[2] == coarse[2]
                 fine[7] += abs(fine[3] - coarse[3])
                 if fine[2] == COMPUTED:
-                    away = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
-                    away /= fine[0] + fine[1]
-                    fine[6] += away
+                    difference = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
+                    difference /= fine[0] + fine[1]
+                    fine[6] += difference
                     met = met and fine[6] <= tol
                 elif not met:
                     fine[6] = math.nan
-            if met or elements >= _most(tol):
+            if met or elements >= _finest(tol):
                 break
             coarse, elements = fine, 2 * elements
-            fronts = np.array([-coarse[0], coarse[1]])
-            fronts = _apart(fronts, coarse[0] + coarse[1], APART * tol, elements // EACH)
+            stick_ends = np.array([-coarse[0], coarse[1]])
+            stick_ends = _thinned(stick_ends, coarse[0] + coarse[1], APART * tol, elements // EACH)
         out[row] = fine
