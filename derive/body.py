@@ -28,7 +28,7 @@ class Body:
     closed     parts of the contact law that are closed formulas
     numerical  parts of the contact law that are computed numerically
     verdicts   verdict on every formula
-    proofs     how each formula was proved, in words
+    proofs     how each formula was proven, in words
     struck     message if the search for closed forms reached its time limit, otherwise empty
     kept       whether the body was read from the cache
     """

@@ -47,7 +47,7 @@ def summary(bodies: Iterable[Body]) -> Table:
     table = Table(
         Column("geometry", no_wrap=True),
         *("closed form", "numerical"),
-        Column("proved", justify="right"),
+        Column("proven", justify="right"),
         Column("by 30 digits", justify="right"),
         Column("time", no_wrap=True, justify="right"),
     )
@@ -56,7 +56,7 @@ def summary(bodies: Iterable[Body]) -> Table:
             Text(body.name, style="bold cyan"),
             _row(body.closed),
             _row(body.numerical),
-            Text(str(len(body.formulas(Verdict.PROVED))), style="green"),
+            Text(str(len(body.formulas(Verdict.PROVEN))), style="green"),
             Text(str(len(body.formulas(Verdict.NUMERICAL))), style="yellow"),
             "kept" if body.kept else f"{body.seconds:.1f} s",
         )

@@ -28,8 +28,8 @@ from derive.proof.verdict import Verdict
 from tests.tasks import KEY, write_often
 
 OTHER = "1" * 64
-VERDICTS = (("tilt", Verdict.PROVED), ("L_N_left", Verdict.NUMERICAL))
-PROOFS = (("tilt", "proved: I_0 = 0; α"), ("L_N_left", "numerical: 31 digits at 24 points"))
+VERDICTS = (("tilt", Verdict.PROVEN), ("L_N_left", Verdict.NUMERICAL))
+PROOFS = (("tilt", "proven: I_0 = 0; α"), ("L_N_left", "numerical: 31 digits at 24 points"))
 FORMS = ("forward",), ("from (P, M)",)
 BODY = Body("hertz", 'text = "α ≤ φ"\r\n', "stuck = 1", 1.25, *FORMS, VERDICTS, PROOFS, "struck")
 PLAIN = """from sympy import Abs
@@ -70,7 +70,7 @@ def test_nothing_of_a_body_is_lost(cache: Cache) -> None:
         assert of.name == "kept" or getattr(BODY, of.name) != of.default
 
 
-@pytest.mark.parametrize("proofs", [None, [], [["tilt", "proved: I_0 = 0"]]])
+@pytest.mark.parametrize("proofs", [None, [], [["tilt", "proven: I_0 = 0"]]])
 def test_a_body_without_its_proofs_is_as_good_as_none(
     cache: Cache, file: Path, proofs: list[list[str]] | None
 ) -> None:

@@ -78,8 +78,8 @@ STUCK = (Path(__file__).parents[1] / "generated" / "full_stick.py").read_text(en
 
 def body_of(sheet: FormulaSheet, text: str) -> Body:
     """A body without the seconds that its text takes."""
-    verdicts = tuple((name, Verdict.PROVED) for name in sheet)
-    proofs = tuple((name, "proved: a stand-in for a proof") for name in sheet)
+    verdicts = tuple((name, Verdict.PROVEN) for name in sheet)
+    proofs = tuple((name, "proven: a stand-in for a proof") for name in sheet)
     return Body(sheet.geometry.name, text, STUCK, 0.0, *by_form(sheet.is_closed), verdicts, proofs)
 
 
@@ -215,7 +215,7 @@ def test_show_prints_every_formula_with_its_proof() -> None:
     assert all(name in printed for name in sheet("hertz"))
     assert "P(a, c) = pi*E_star*(a + c)**2/(16*R)" in printed
     assert "g(x) = x**2/(2*R)" in printed
-    assert printed.count("proved: assumed by a test") == len(sheet("hertz"))
+    assert printed.count("proven: assumed by a test") == len(sheet("hertz"))
 
 
 @pytest.mark.usefixtures("shown_unproven")

@@ -18,8 +18,8 @@ from derive.proof.verdict import Verdict
 
 ROOT = Path(__file__).parents[1]
 
-VERDICTS = (("tilt", Verdict.PROVED),)
-PROOFS = (("tilt", "proved: a stand-in for a proof"),)
+VERDICTS = (("tilt", Verdict.PROVEN),)
+PROOFS = (("tilt", "proven: a stand-in for a proof"),)
 
 
 @pytest.fixture
@@ -77,7 +77,7 @@ def test_a_body_of_one_s_own_is_proven_and_tried(words: str, tmp_path: Path) -> 
     ]
     (tmp_path / "own.py").write_text(head + "\n".join(made))
     body = build(str(tmp_path / "own.py"))
-    assert {verdict for _, verdict in body.verdicts} <= {Verdict.PROVED, Verdict.NUMERICAL}
+    assert {verdict for _, verdict in body.verdicts} <= {Verdict.PROVEN, Verdict.NUMERICAL}
 
 
 WITHOUT_SYMPY = """

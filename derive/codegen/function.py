@@ -277,7 +277,7 @@ def _proof_in_words(proof: Proof) -> str:
     >>> _proof_in_words(Proof(Verdict.NUMERICAL, "int p dx by quadrature", 24, 36))
     'checked numerically, with agreement to 36 digits at 24 points.  Route: int p dx by quadrature.'
     """
-    kinds = ["proven symbolically"] if proof.verdict is Verdict.PROVED else []
+    kinds = ["proven symbolically"] if proof.verdict is Verdict.PROVEN else []
     if proof.points or not kinds:
         kinds.append("checked numerically")
     digits = f", with agreement to {proof.digits} digits at {proof.points} points"

@@ -1,7 +1,7 @@
 """Routes that end in an exact zero.
 
 In:  FormulaSheet, and the name of a formula.
-Out: Proof with the verdict *proved*, or None if there is no symbolic route or if it fails.
+Out: Proof with the verdict *proven*, or None if there is no symbolic route or if it fails.
 
 The integrals are evaluated a second time by antiderivatives, certified by differentiation.
 Load and moment are derived by parts from the curvature of g, and the pressure from its growth by
@@ -53,7 +53,7 @@ def symbolic_proof(sheet: FormulaSheet, name: str) -> Proof | None:
     if not sheet.geometry.slope.is_polynomial and route not in _FOR_ALL:
         return None
     words = route and route(sheet, name)
-    return Proof(Verdict.PROVED, words) if words else None
+    return Proof(Verdict.PROVEN, words) if words else None
 
 
 Route = Callable[[FormulaSheet, str], str | None]

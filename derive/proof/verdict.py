@@ -1,6 +1,6 @@
 """The result of a proof: a verdict, the route by which it was reached, and its numbers.
 
-A formula is *proved* if its difference from an independent route is zero symbolically.  It is
+A formula is *proven* if its difference from an independent route is zero symbolically.  It is
 *numerical* if both agree to DIGITS digits at POINTS random points that meet the formula's
 assumptions, *refuted* if they differ at a point, and *unknown* if too few points could be drawn.
 Only formulas with one of the first two verdicts are printed or generated.
@@ -24,7 +24,7 @@ WORKING = 50
 class Verdict(StrEnum):
     """The result of the proof of a formula."""
 
-    PROVED = "proved"
+    PROVEN = "proven"
     NUMERICAL = "numerical"
     UNKNOWN = "unknown"
     REFUTED = "refuted"
@@ -49,7 +49,7 @@ class Proof:
     @property
     def holds(self) -> bool:
         """Whether the formula may be printed and generated."""
-        return self.verdict in (Verdict.PROVED, Verdict.NUMERICAL)
+        return self.verdict in (Verdict.PROVEN, Verdict.NUMERICAL)
 
     def __str__(self) -> str:
         numbers = f"; {self.digits} digits at {self.points} points" if self.points else ""
@@ -94,13 +94,13 @@ def numerical_proof(route: str, comparisons: Iterable[Comparison]) -> Proof:
 def combined(symbolic: Proof | None, numerical: Proof | None) -> Proof:
     """The joint verdict of a symbolic and a numerical route; a refutation by either one decides."""
     known = [proof for proof in (symbolic, numerical) if proof is not None]
-    for verdict in (Verdict.REFUTED, Verdict.PROVED, Verdict.NUMERICAL):
+    for verdict in (Verdict.REFUTED, Verdict.PROVEN, Verdict.NUMERICAL):
         first = next((proof for proof in known if proof.verdict == verdict), None)
         if first is not None:
             break
     else:
         return Proof(Verdict.UNKNOWN, "; ".join(proof.route for proof in known))
-    if first.verdict != Verdict.PROVED or numerical is None or not numerical.holds:
+    if first.verdict != Verdict.PROVEN or numerical is None or not numerical.holds:
         return first
     route = f"{first.route}; {numerical.route}"
-    return Proof(Verdict.PROVED, route, numerical.points, numerical.digits)
+    return Proof(Verdict.PROVEN, route, numerical.points, numerical.digits)

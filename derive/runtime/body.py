@@ -134,10 +134,10 @@ class Body:
 def sentence(words: str) -> str:
     """A phrase with a full stop, and a capital letter unless it begins with a name.
 
-    >>> sentence("normal load"), sentence("dQ falls"), sentence("E*, say")
-    ('Normal load.', 'dQ falls.', 'E*, say.')
+    >>> sentence("half-width"), sentence("dQ falls"), sentence("E*, say")
+    ('Half-width.', 'dQ falls.', 'E*, say.')
     """
-    first = words.split(maxsplit=1)[0].rstrip(",;") if words.split() else ""
+    first = words.split(maxsplit=1)[0].rstrip(",;").replace("-", "") if words.split() else ""
     capital = words[:1].upper() if first.isalpha() and first.islower() else words[:1]
     return f"{capital}{words[1:]}."
 

@@ -5,7 +5,7 @@ MEANINGS = {
     "M": "moment per unit depth, M = -int p x dx [N]",
     "Q": "shear load at every instant [N/m]",
     "a": "left edge of the contact at x = -a [m]",
-    "alpha": "tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad]",
+    "alpha": "tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad]",
     "c": "right edge of the contact at x = c [m]",
     "contact": "Contact under the constant normal loads",
     "dQ": "change of the shear load over the half-cycle that raises it [N/m]",
@@ -19,7 +19,7 @@ MEANINGS = {
     "second": "Contact at the end of that half-cycle; equal to first for constant normal loads",
     "sigma": "differential bulk tension at every instant [Pa]",
     "tol": "target error, relative to the contact width for ends and to f P/(a + c) for shear",
-    "x": "position along the interface, right positive [m]",
+    "x": "position along the interface, positive to the right [m]",
     "E_star": "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]",
 }
 """Meaning of each argument."""

@@ -152,7 +152,7 @@ def sheet(name: str) -> FormulaSheet:
     return derive_sheet(geometry(name))
 
 
-def assumed(of: FormulaSheet, verdict: Verdict = Verdict.PROVED) -> FormulaSheet:
+def assumed(of: FormulaSheet, verdict: Verdict = Verdict.PROVEN) -> FormulaSheet:
     """The sheet as if every formula had this verdict: for tests of what comes after the proof."""
     proof = Proof(verdict, "assumed by a test")
     return replace(of, formulas={name: replace(f, proof=proof) for name, f in of.items()})

@@ -113,7 +113,7 @@ def test_a_sheet_without_proofs_may_not_be_used() -> None:
 def test_one_formula_that_does_not_hold_spoils_the_sheet(verdict: Verdict) -> None:
     body = sheet("hertz")
     judged = {
-        name: replace(f, proof=Proof(verdict if name == "load" else Verdict.PROVED, "here"))
+        name: replace(f, proof=Proof(verdict if name == "load" else Verdict.PROVEN, "here"))
         for name, f in body.items()
     }
     with pytest.raises(NotProven) as caught:
@@ -121,7 +121,7 @@ def test_one_formula_that_does_not_hold_spoils_the_sheet(verdict: Verdict) -> No
     assert "load of 'hertz'" in str(caught.value)
 
 
-@pytest.mark.parametrize("verdict", [Verdict.PROVED, Verdict.NUMERICAL])
+@pytest.mark.parametrize("verdict", [Verdict.PROVEN, Verdict.NUMERICAL])
 def test_a_sheet_whose_formulas_all_hold_may_be_used(verdict: Verdict) -> None:
     body = sheet("hertz")
     judged = {name: replace(f, proof=Proof(verdict, "here")) for name, f in body.items()}

@@ -41,8 +41,8 @@ STUCK = (Path(__file__).parents[3] / "generated" / "full_stick.py").read_text(en
 
 
 def body_of(sheet: FormulaSheet, text: str) -> Body:
-    proofs = tuple((name, "proved: a stand-in for a proof") for name in sheet)
-    verdicts = tuple((name, Verdict.PROVED) for name in sheet)
+    proofs = tuple((name, "proven: a stand-in for a proof") for name in sheet)
+    verdicts = tuple((name, Verdict.PROVEN) for name in sheet)
     return Body(sheet.geometry.name, text, STUCK, 0.0, ("forward",), (), verdicts, proofs)
 
 

@@ -1,4 +1,4 @@
-"""What is false is not proved by algebra, whatever the number of kinks."""
+"""What is false is not proven by algebra, whatever the number of kinks."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ LONG = [pytest.param(body, marks=pytest.mark.slow) for body in ("two_radii", "fl
 
 @pytest.mark.parametrize("body", ["wedge", "flat_cornered", *LONG])
 @pytest.mark.parametrize("name", FORMULAS)
-def test_a_rate_is_proved_and_what_is_not_it_is_not(body: str, name: str) -> None:
+def test_a_rate_is_proven_and_what_is_not_it_is_not(body: str, name: str) -> None:
     true = sheet(body)
     assert symbolic_proof(true, name) is not None
     for change in FALSE.values():

@@ -91,8 +91,8 @@ def test_many_comparisons_at_one_point_are_one_point() -> None:
     assert not proof.holds
 
 
-SYMBOLIC = [None, Proof(Verdict.PROVED, "by symbols")]
-NUMERICAL = [None, *(Proof(v, "by numbers", 24, 40) for v in Verdict if v != Verdict.PROVED)]
+SYMBOLIC = [None, Proof(Verdict.PROVEN, "by symbols")]
+NUMERICAL = [None, *(Proof(v, "by numbers", 24, 40) for v in Verdict if v != Verdict.PROVEN)]
 
 
 @pytest.mark.parametrize(
@@ -103,11 +103,11 @@ NUMERICAL = [None, *(Proof(v, "by numbers", 24, 40) for v in Verdict if v != Ver
 def test_both_routes_together(symbolic: Proof | None, numerical: Proof | None) -> None:
     """Refuted by either is refuted; an exact zero is a proof; 24 points are numerical."""
     verdicts = {proof.verdict for proof in (symbolic, numerical) if proof}
-    order = (Verdict.REFUTED, Verdict.PROVED, Verdict.NUMERICAL, Verdict.UNKNOWN)
+    order = (Verdict.REFUTED, Verdict.PROVEN, Verdict.NUMERICAL, Verdict.UNKNOWN)
     expected = next((v for v in order if v in verdicts), Verdict.UNKNOWN)
     proof = combined(symbolic, numerical)
     assert proof.verdict == expected
-    assert proof.holds == (expected in (Verdict.PROVED, Verdict.NUMERICAL))
+    assert proof.holds == (expected in (Verdict.PROVEN, Verdict.NUMERICAL))
 
 
 def test_a_route_that_could_not_be_tried_is_not_named_as_a_proof() -> None:
@@ -118,7 +118,7 @@ def test_a_route_that_could_not_be_tried_is_not_named_as_a_proof() -> None:
 @pytest.mark.parametrize(
     ("proof", "text"),
     [
-        (Proof(Verdict.PROVED, "by parts"), "proved: by parts"),
+        (Proof(Verdict.PROVEN, "by parts"), "proven: by parts"),
         (
             Proof(Verdict.NUMERICAL, "put back", 24, 40),
             "numerical: put back; 40 digits at 24 points",
