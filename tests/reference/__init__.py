@@ -1,22 +1,24 @@
 """An independent reference: frictional contact of two similar half-planes by boundary elements.
 
-Nothing of `derive` or `generated` is imported here.  One way, from top to bottom:
+Nothing is imported from `derive` or `generated`.  The modules, each of which uses only those above
+it:
 
-    mesh.py         nodes clustered at the places where tractions have roots
-    kernel.py       displacement at the nodes by tractions that are linear between them
-    bounded.py      the one problem solved: tractions between bounds, and what moves against them
-    loads.py        P, M, Q, sigma of one state; the straight line between two states
+    mesh.py         nodes clustered at points near which tractions vary like a square root
+    kernel.py       displacements at the nodes due to tractions that are linear between nodes
+    bounded.py      the basic problem: tractions between bounds, and the motion that opposes them
+    loads.py        P, M, Q and sigma of one state; the straight line between two states
     normal.py       p from g(x), P and M
-    friction.py     q through load steps with Coulomb friction, cycle after cycle until it settles
+    friction.py     q in load steps with Coulomb friction, cycle by cycle until it is steady
     stick.py        the permanent stick zone, located within the elements
-    solver.py       all of it on finer and finer meshes, with an estimate of the error
-    conditions.py   the exact stick zone: two integral conditions, and the premise they stand on
-    mixed.py        the exact stick zone where slip turns round inside the half-cycle
+    solver.py       the stick zone on successively finer meshes, with an estimate of the error
+    conditions.py   the exact stick zone: two integral conditions, and the premise of these
+    mixed.py        the exact stick zone if slip reverses within the half-cycle
     cases.py        cycles whose stick zone is known
     explore.py      cycles around the threshold, and with varying moment
-    report.py       what came out, as Markdown
+    parallel.py     many cycles at once, with a progress bar
+    report.py       the results as Markdown
     __main__.py     the command that writes FINDINGS.md
 
-Signs: q is the traction on the body whose bulk tension counts positive, x to the right; slip is
-its displacement relative to the other one.
+Signs: q is the shear traction on the body whose bulk tension counts as positive, x points to the
+right, and slip is the displacement of this body relative to the other one.
 """

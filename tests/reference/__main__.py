@@ -1,4 +1,4 @@
-"""`python -m tests.reference`: all cycles on fine meshes, written to FINDINGS.md."""
+"""`python -m tests.reference`: run all cycles on fine meshes, and write FINDINGS.md."""
 
 from pathlib import Path
 
@@ -11,10 +11,10 @@ FINDINGS = Path(__file__).with_name("FINDINGS.md")
 
 
 @click.command()
-@click.option("--out", type=click.Path(path_type=Path), default=FINDINGS, help="Markdown file.")
-@click.option("--jobs", type=click.IntRange(1), default=None, help="Processes; all cores if left.")
+@click.option("--out", type=click.Path(path_type=Path), default=FINDINGS, help="Output file.")
+@click.option("--jobs", type=click.IntRange(1), default=None, help="Processes; default: all cores.")
 def main(out: Path, jobs: int | None) -> None:
-    """Compare the solver with what is known, and explore what is not."""
+    """Compare the solver with known stick zones, and explore cycles whose stick zone is unknown."""
     with at_once(CYCLES, jobs) as work:
         text = findings(work)
     out.write_text(text, encoding="utf-8")

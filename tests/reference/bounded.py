@@ -1,10 +1,11 @@
-"""Tractions between bounds, and what moves against them.
+"""Tractions between bounds, and the motion that opposes them.
 
 Find t and the rigid motion mu with  s = L t + b + N^T mu,  R t = r,  lower <= t <= upper,  and
 
     s = 0 between the bounds,    s >= 0 at the lower one,    s <= 0 at the upper one.
 
-Pressure: bounds 0 and infinity, s the gap.  Shear: bounds -f p and f p, s the slip of the step.
+For pressure the bounds are 0 and infinity, and s is the gap.  For shear traction the bounds are
+-f p and f p, and s is the slip of the step.
 """
 
 from dataclasses import dataclass
@@ -17,22 +18,22 @@ from tests.reference.mesh import Floats
 
 Flags = NDArray[np.bool_]
 Places = NDArray[np.int8]
-"""-1 at the lower bound, 1 at the upper one, 0 between."""
+"""The status of each node: -1 at the lower bound, 1 at the upper one, 0 between them."""
 
 ROUNDING = 1e-12
-"""What counts as none of t and of s, over the largest of each."""
+"""Values of t and s below this fraction of their largest value count as zero."""
 
 ROUNDS = 60
-"""Rounds in which every node may change its place; after them one node a round.  So it is too where
-hardly any node would be left between its bounds."""
+"""Iterations in which all nodes may change their status.  Afterwards, and whenever hardly any node
+would remain between its bounds, one node changes per iteration."""
 
 
 class NoSolution(ArithmeticError):
-    """No tractions between the bounds carry these loads."""
+    """No tractions between the bounds carry the loads."""
 
 
 class Solution(NamedTuple):
-    """t, s, mu, and where each node is."""
+    """t, s, mu, and the status of each node."""
 
     traction: Floats
     response: Floats
@@ -51,7 +52,10 @@ class Bounded:
     def solve(
         self, b: Floats, lower: Floats, upper: Floats, loads: Floats, places: Places | None = None
     ) -> Solution:
-        """Newton's method on the places, from those given or from all between the bounds."""
+        """Solve by Newton's method, applied to the status of the nodes.
+
+        It starts from the given status, or with all nodes between their bounds.
+        """
         places = np.zeros(len(b), dtype=np.int8) if places is None else places
         places = np.where(lower == upper, np.int8(1), places)
         for turn in range(ROUNDS + 20 * len(b)):
@@ -63,12 +67,12 @@ class Bounded:
             if turn >= ROUNDS or np.count_nonzero(better == 0) <= len(loads):
                 better = np.where(np.arange(len(b)) == np.argmax(wrong), better, places)
             places = better
-        raise NoSolution("the places of the nodes do not settle")
+        raise NoSolution("the iteration does not converge: the nodes at their bounds keep changing")
 
     def _placed(
         self, b: Floats, lower: Floats, upper: Floats, loads: Floats, places: Places
     ) -> Solution:
-        """t at its bounds where the places say so, s = 0 elsewhere."""
+        """The solution for a given status: t at its bounds, or s = 0 between them."""
         free = places == 0
         t = np.select([places < 0, places > 0], [lower, upper], 0.0)
         matrix = np.block(
@@ -81,14 +85,14 @@ class Bounded:
         try:
             unknown = np.linalg.solve(matrix, known)
         except np.linalg.LinAlgError as error:
-            raise NoSolution("no node is left between its bounds") from error
+            raise NoSolution("the equations of nodes between bounds are singular") from error
         t[free], rigid = np.split(unknown, [np.count_nonzero(free)])
         s = np.where(free, 0.0, self.influence @ t + b + rigid @ self.modes)
         return Solution(t, s, rigid, places)
 
 
 def _misplaced(found: Solution, lower: Floats, upper: Floats) -> Flags:
-    """Nodes beyond a bound, and nodes at a bound that would rather leave it for the inside."""
+    """Nodes beyond a bound, and nodes at a bound where s has the wrong sign."""
     t, s, _, places = found
     beyond, against = ROUNDING * np.abs(t).max(), ROUNDING * np.abs(s).max()
     outside = (places == 0) & ((t > upper + beyond) | (t < lower - beyond))
@@ -96,6 +100,6 @@ def _misplaced(found: Solution, lower: Floats, upper: Floats) -> Flags:
 
 
 def _corrected(found: Solution, upper: Floats) -> Places:
-    """To the bound that was passed, or back from it to the inside."""
+    """The corrected status: at the bound that was exceeded, or between the bounds."""
     passed = np.where(found.traction > upper, np.int8(1), np.int8(-1))
     return np.where(found.places == 0, passed, np.int8(0))

@@ -1,6 +1,7 @@
-"""Cases whose stick zone is known: from a closed form, or from the two integral conditions.
+"""Cycles whose stick zone is known from a closed form or from the two integral conditions.
 
-Loads go from -dQ/2, -dsigma/2 to dQ/2, dsigma/2; P and M from the first to the second given.
+Q and sigma vary from -dQ/2, -dsigma/2 to dQ/2, dsigma/2; P and M from their first to their second
+value.
 """
 
 from collections.abc import Callable
@@ -17,13 +18,13 @@ from tests.reference.stick import Zone
 
 
 def parabola(x: Floats) -> Floats:
-    """Hertz, R = 1."""
+    """The profile of a cylinder, R = 1."""
     return x**2 / 2
 
 
 @dataclass(frozen=True)
 class Shape:
-    """One body told twice: by its profile to the solver, by its pressure to the conditions."""
+    """One body twice: its profile for the solver, its pressure for the conditions."""
 
     body: Body
     patch: Callable[[float, float], Patch]
@@ -33,12 +34,12 @@ HERTZ = Shape(Body(parabola), hertz)
 WEDGE = Shape(Body(np.abs, kinks=(0.0,)), wedge)
 
 HERTZ_LOAD = np.pi / 4
-"""P at which Hertz's half-width is 1, with R = E* = 1."""
+"""Load P at which the half-width of a cylinder is 1, with R = E* = 1."""
 
 
 @dataclass(frozen=True)
 class Known:
-    """A cycle, and the sense in which its right edge slips."""
+    """A cycle, and the direction in which its right edge slips."""
 
     name: str
     shape: Shape
@@ -59,22 +60,22 @@ class Known:
 
     @property
     def case(self) -> Case:
-        """For the solver."""
+        """The cycle for the solver."""
         return Case(self.shape.body, self.f, *self.states)
 
     @property
     def half_cycle(self) -> HalfCycle:
-        """For the conditions."""
+        """The half-cycle for the conditions."""
         return HalfCycle(self.shape.patch, self.f, *self.states)
 
     @property
     def exact(self) -> Zone:
-        """From the conditions."""
+        """The stick zone from the conditions."""
         return self.half_cycle.exact(self.kappa)
 
 
 def _hertz(name: str, kappa: int, dQ: float, dsigma: float, *P: float, **given: object) -> Known:
-    """Loads P and dQ over the load of half-width 1."""
+    """A cylinder; P and dQ are relative to the load at which the half-width is 1."""
     first, second = (HERTZ_LOAD * part for part in P)
     return Known(name, HERTZ, kappa, dQ * HERTZ_LOAD, dsigma, (first, second), **given)  # type: ignore[arg-type]
 

@@ -5,8 +5,8 @@
 r = kappa f (p1 + p2), w = sqrt((xi + m)(xi - n)), positive right of n and negative left of -m;
 kappa is 1 on the left, and on the right 1 in moderate tension and -1 in large tension.
 
-They hold for whole half-cycles that end with all of both slip zones at friction.  Whether they do
-can be asked of the partial half-cycles, which meet the same conditions: see `Premise`.
+They hold for half-cycles at whose end |q| = f p in all of both slip zones.  Whether this is so can
+be checked with partial half-cycles, which satisfy the same conditions: see `Premise`.
 """
 
 from collections.abc import Callable
@@ -24,21 +24,23 @@ from tests.reference.stick import Zone
 Function = Callable[[Floats], Floats]
 
 MODERATE, LARGE = 1, -1
-"""kappa on the right."""
+"""Values of kappa on the right."""
 
 NOWHERE = Zone(np.nan, np.nan)
 
 EXACT = 1e-9
-"""What may be missing in the conditions, over dQ or what tension makes of it."""
+"""Largest residual of the conditions, relative to dQ or to the corresponding measure of tension."""
 
 STARTS = (0.8, 0.6, 0.4, 0.99)
-"""Parts of what is in contact at both ends, from which a zone is searched for."""
+"""Starting values of m and n in the search for a zone, relative to the contact common to both ends
+of the half-cycle."""
 
 PARTS = np.sin(np.linspace(np.pi / 2, 0, 24, endpoint=False)[1:]) ** 2
-"""Parts of a half-cycle at which its premise is asked, from the whole to its beginning."""
+"""Fractions of a half-cycle at which its premise is checked, from its end to its beginning."""
 
 PLACES = np.linspace(0, 1, 9)[:-1] ** 2
-"""Where, from the inner end of what is still to slip outwards."""
+"""Points at which it is checked, as fractions of the region that has yet to slip, from its inner
+end outwards."""
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(160)
 
@@ -52,7 +54,7 @@ class Patch:
     inside: Function
 
     def p(self, x: Floats) -> Floats:
-        """Pressure at the places x."""
+        """Pressure at the points x."""
         p, within = np.zeros_like(x), (x > -self.a) & (x < self.c)
         p[within] = self.inside(x[within])
         return p
@@ -60,7 +62,7 @@ class Patch:
 
 @dataclass(frozen=True)
 class HalfCycle:
-    """Loads that go straight from one state to another; `patch(P, M)` is the contact."""
+    """Loads that vary linearly from one state to another; `patch(P, M)` is the contact."""
 
     patch: Callable[[float, float], Patch]
     f: float
@@ -79,26 +81,26 @@ class HalfCycle:
 
     @property
     def ends(self) -> tuple[Patch, Patch]:
-        """Contacts before and after."""
+        """Contacts at the beginning and at the end."""
         return self.patch(self.first.P, self.first.M), self.patch(self.second.P, self.second.M)
 
     def partial(self, part: float) -> "HalfCycle":
-        """The same, gone a part of the way."""
+        """The half-cycle up to a given fraction of it."""
         return replace(self, second=self.first.towards(self.second, part))
 
     def back(self) -> "HalfCycle":
-        """From the second state to the first, seen with shear and slip turned round."""
+        """The half-cycle from the second state to the first, with shear and slip reversed."""
         turned = [s._replace(Q=-s.Q, sigma=-s.sigma) for s in (self.second, self.first)]
         return replace(self, first=turned[0], second=turned[1])
 
     @property
     def always(self) -> Zone:
-        """What is in contact at both ends."""
+        """The zone that is in contact at both ends."""
         first, second = self.ends
         return Zone(min(first.a, second.a), min(first.c, second.c))
 
     def slip(self, zone: Zone, kappa: int) -> "Slip":
-        """What changes outside a stick zone: r on both sides of it."""
+        """The change r of shear on both sides of a stick zone."""
         first, second = self.ends
 
         def r(x: Floats) -> Floats:
@@ -108,13 +110,13 @@ class HalfCycle:
         return Slip(zone, *edges, r, lambda x: kappa * r(x))
 
     def exact(self, kappa: int) -> Zone:
-        """What meets the conditions, searched for from the edges inwards; NaN if nothing does."""
+        """The zone that satisfies the conditions; NaN if none is found from any start."""
         m, n = self.always
         zones = (self.zone(kappa, Zone(u * m, v * n)) for u, v in product(STARTS, STARTS))
         return next((zone for zone in zones if not np.isnan(zone.m)), NOWHERE)
 
     def zone(self, kappa: int, guess: Zone) -> Zone:
-        """What meets the conditions near a guess, inside both contacts; NaN if nothing does."""
+        """A zone near a guess that satisfies the conditions inside both contacts; NaN if none."""
 
         def missing(z: Floats) -> tuple[float, float]:
             return self.slip(Zone(*z), kappa).missing(self.dQ, self.dsigma)
@@ -128,7 +130,10 @@ class HalfCycle:
 
 @dataclass(frozen=True)
 class Slip:
-    """A stick zone, and the change r of shear beside it; at `left` and `right` r has roots."""
+    """A stick zone, and the change r of shear outside it.
+
+    left, right: points at which r varies like a square root.
+    """
 
     zone: Zone
     left: tuple[float, ...]
@@ -137,7 +142,7 @@ class Slip:
     r_right: Function
 
     def missing(self, dQ: float, dsigma: float) -> tuple[float, float]:
-        """Left sides of the conditions less right sides."""
+        """Residuals of the conditions: left-hand sides minus right-hand sides."""
         m, n = self.zone
         return (
             self._over(lambda x: np.sign(x - n)) + np.pi * dsigma / 4,
@@ -161,13 +166,13 @@ class Slip:
 
 
 def _side(integrand: Function, end: float, other: float, cuts: tuple[float, ...]) -> float:
-    """int integrand/|w| dxi from the end of the stick zone over the cuts to the farthest."""
+    """int integrand/|w| dxi from the end of the stick zone to the farthest cut, piece by piece."""
     places = sorted({end, *cuts}, key=lambda cut: abs(cut - end))
     return sum(_piece(integrand, end, other, *ends) for ends in pairwise(places))
 
 
 def _piece(integrand: Function, end: float, other: float, start: float, stop: float) -> float:
-    """xi = start + (stop - start) sin^2(t) takes away the roots at both ends."""
+    """The integral over one piece; xi = start + (stop - start) sin^2(t) removes square roots."""
     t = np.pi / 4 * (1 + NODES)
     away = (stop - start) * np.sin(t) ** 2
     x = start + away
@@ -176,7 +181,7 @@ def _piece(integrand: Function, end: float, other: float, start: float, stop: fl
 
 
 class Premise(Enum):
-    """What partial half-cycles say about the whole one."""
+    """Whether the partial half-cycles justify the conditions for the whole one."""
 
     HOLDS = "holds"
     NO_ZONE = "no zone inside both contacts"
@@ -185,12 +190,13 @@ class Premise(Enum):
 
 
 def premise(half: HalfCycle, kappa: int, zone: Zone) -> Premise:
-    """Whether this half-cycle may pass through its partial ones.
+    """Whether the premise of the conditions holds in this half-cycle.
 
-    It may if both slip zones grow with the part that is gone, inside both contacts; and if, where
-    slip is still to come, the shear, which begins at friction, stays within it:
-    kappa dq >= f (p1 - p) there.  The least room for that is where a half-cycle begins, which
-    `starts_within` asks by itself, and at the inner end of what is still to slip.
+    It holds under two requirements.  Both slip zones grow throughout the half-cycle, inside both
+    contacts.  Where slip has yet to begin, the shear traction, which starts at the friction bound,
+    stays within it: kappa dq >= f (p1 - p).  The second one is most critical at the beginning of
+    the half-cycle, which `starts_within` checks separately, and at the inner end of the region that
+    has yet to slip.
     """
     if np.isnan(zone.m):
         return Premise.NO_ZONE
@@ -208,14 +214,15 @@ def premise(half: HalfCycle, kappa: int, zone: Zone) -> Premise:
 
 
 def starts_within(half: HalfCycle, kappa: int, zone: Zone) -> bool:
-    """Whether shear leaves friction inwards where a half-cycle begins: kappa dq' >= -f dp'.
+    """Whether |q| falls below f p at the beginning of a half-cycle: kappa dq' >= -f dp'.
 
-    All sticks for an instant, and a flat punch tells both rates, at s from the middle of [-a, c]:
+    The whole contact sticks for an instant.  Both rates, at a distance s from the middle of
+    [-a, c], are those of a flat punch:
 
         dq' = (dQ - (pi/4) dsigma s)/(pi w),    dp' = (dP - 8 (dM + d dP) s/h^2)/(pi w),
 
-    w = sqrt(h^2/4 - s^2), d the middle, int p x dx = -M.  Over 1/w both are linear: the ends of
-    what is still to slip decide.
+    with w = sqrt(h^2/4 - s^2), d the position of the middle and int p x dx = -M.  Both are linear
+    in s apart from 1/w, so that it suffices to check the ends of the region that has yet to slip.
     """
     first, second = half.first, half.second
     contact, _ = half.ends
@@ -231,7 +238,7 @@ def starts_within(half: HalfCycle, kappa: int, zone: Zone) -> bool:
 
 
 def _beyond(gone: HalfCycle, kappa: int, zone: Zone, wider: Zone) -> bool:
-    """Whether shear passes friction between the whole's stick zone and the wider one so far."""
+    """Whether |q| exceeds f p between the final stick zone and the wider one at this stage."""
     first, now = gone.ends
     slip = gone.slip(wider, kappa)
     for sense, inner, outer in ((1, -zone.m, -wider.m), (kappa, zone.n, wider.n)):

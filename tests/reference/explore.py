@@ -1,6 +1,7 @@
-"""The open cases: constant and varying loads around the threshold, and varying moment.
+"""Cases without a known solution: loads around the threshold, and varying moment.
 
-All on the upright wedge g = phi |x| with E* = phi = 1, P = 1, f = 1/2 and dQ = 0.3 f P.
+All cycles are those of the upright wedge g = phi |x|, with E* = phi = 1, P = 1, f = 1/2 and
+dQ = 0.3 f P.
 """
 
 from collections.abc import Iterable, Sequence
@@ -36,12 +37,13 @@ WINDOW = (
     1.095,
     1.15,
 )
-"""Tensions at constant loads, over the paper's threshold."""
+"""Tensions at constant normal loads, relative to the threshold in the paper."""
 
 MEANS = (0.0, 0.1)
 RANGES = (0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
 TENSIONS = (0.5, 1.2, 1.5, 2.0, 3.0, 5.0, 7.0)
-"""The map: mean and range of the moment over P^2/(E* phi), tension over the threshold."""
+"""The map of varying moment: mean and range of M relative to P^2/(E* phi), and tensions relative to
+the threshold."""
 
 LOAD_RANGES = (
     (-0.02, 0.0),
@@ -55,14 +57,14 @@ LOAD_RANGES = (
     (0.1, 0.0),
 )
 NEAR = (0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 1.2, 1.3)
-"""The map around the threshold: ranges of P about 1 and of M about 0, and tensions."""
+"""The map around the threshold: ranges of P with mean 1 and of M with mean 0, and tensions."""
 
 COUNTS, STEPS = (16, 32, 64), (8, 16, 32)
-"""Elements between breaks, load steps a half-cycle."""
+"""Elements between breaks, and load steps per half-cycle."""
 
 
 def threshold(dQ: float = DQ, f: float = F) -> float:
-    """The paper's: where the moderate n of the upright wedge, P = E* = phi = 1, is c = 1.
+    """The threshold in the paper: n in moderate tension is c = 1 (upright wedge, P = E* = phi = 1).
 
     At load P' and tilt alpha = phi (1 - 2 theta/pi) the wedge reaches c = P' tan(theta/2); with
     P' = 1 - dQ/(2 f), alpha = -dsigma/(4 f):  dsigma = 4 f ((4/pi) arctan(1/P') - 1).
@@ -73,12 +75,12 @@ def threshold(dQ: float = DQ, f: float = F) -> float:
 def cycle(
     dsigma: float, M: tuple[float, float] = (0.0, 0.0), P: tuple[float, float] = (1.0, 1.0)
 ) -> Known:
-    """One of the explored cycles; the sense of slip on the right is yet to be found."""
+    """One of the cycles; the direction of slip on the right is not known yet."""
     return Known("", WEDGE, LARGE, DQ, dsigma, P, M, F)
 
 
 class Point(NamedTuple):
-    """One cycle of a map: tension over the threshold, mean and range of M, range of P about 1."""
+    """One cycle of a map: tension over threshold, mean and range of M, range of P with mean 1."""
 
     tension: float
     mean: float
@@ -87,23 +89,23 @@ class Point(NamedTuple):
 
     @property
     def cycle(self) -> Known:
-        """The cycle itself."""
+        """The cycle with all its loads."""
         M = self.mean - self.span / 2, self.mean + self.span / 2
         return cycle(self.tension * threshold(), M, (1 - self.load / 2, 1 + self.load / 2))
 
 
 VARYING_MOMENT = [Point(part, mean, span) for mean in MEANS for span in RANGES for part in TENSIONS]
 AROUND = [Point(part, 0.0, span, load) for load, span in LOAD_RANGES for part in NEAR]
-"""Both maps."""
+"""The cycles of both maps."""
 
 
 def narrowest(dsigma: float) -> float:
-    """The width of a stick zone whose right end is just not loaded: dQ/pi = (dsigma/4) width/2."""
+    """Width of a stick zone at whose right end q stays bounded: dQ/pi = (dsigma/4) width/2."""
     return 8 * DQ / (np.pi * dsigma)
 
 
 class Verdict(NamedTuple):
-    """The conditions in one regime: their zone, and the premise there and back."""
+    """The conditions in one regime: their zone, and the premise in both half-cycles."""
 
     kappa: int
     zone: Zone
@@ -117,18 +119,18 @@ class Verdict(NamedTuple):
 
     @property
     def shrinks(self) -> bool:
-        """Whether it holds in one of them, and a zone only shrinks in the other."""
+        """Whether it holds in one half-cycle and fails in the other because a zone shrinks."""
         return {self.there, self.back} == {Premise.HOLDS, Premise.SHRINKS}
 
 
 def verdict(half: HalfCycle, kappa: int) -> Verdict:
-    """From the loads alone."""
+    """The verdict on one regime, from the loads alone."""
     zone = half.exact(kappa)
     return Verdict(kappa, zone, premise(half, kappa, zone), premise(half.back(), kappa, zone))
 
 
 class Kind(Enum):
-    """What a cycle is, as far as the loads tell, and where they don't, the solver."""
+    """The kind of a cycle, from the loads or, if they do not determine it, from the solver."""
 
     HOLDS = "holds"
     SHRINKS = "a slip zone shrinks"
@@ -140,10 +142,11 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Explored:
-    """One cycle: the solver's answer, and the conditions of both regimes.
+    """One cycle: the result of the solver, and the conditions of both regimes.
 
-    smallest   the smallest ends over partial half-cycles in the better regime
-    constant   the exact zone if the mean loads stood still
+    always     the zone that is always in contact
+    smallest   the smallest m and n of partial half-cycles in the better regime
+    constant   the exact zone for P and M that are constant at their means
     """
 
     zone: Zone
@@ -157,12 +160,12 @@ class Explored:
 
     @property
     def best(self) -> Verdict:
-        """The regime whose premise holds, or else the one that has a zone."""
+        """The regime whose premise holds, otherwise one that has a zone."""
         return better(self.moderate, self.large)
 
     @property
     def kind(self) -> Kind:
-        """From the premise; where there is no zone, from where the solver's zone ends."""
+        """The kind from the premise or, if there is no zone, from the ends of the solver's zone."""
         said = {self.best.there, self.best.back}
         if Premise.NO_ZONE in said:
             ends = np.abs(np.subtract(self.zone, self.always)) <= self.error
@@ -172,24 +175,24 @@ class Explored:
         return Kind.SHRINKS if Premise.SHRINKS in said else Kind.HOLDS
 
     def off(self, zone: Zone) -> float:
-        """How far a zone is from the solver's, at its worse end."""
+        """The difference between a zone and the solver's zone, at the worse end."""
         return float(np.abs(np.subtract(zone, self.zone)).max())
 
     @property
     def estimate(self) -> float:
-        """The solver's own of its error, at its worse end."""
+        """The solver's estimate of its own error, at the worse end."""
         return max(self.error)
 
 
 def better(*verdicts: Verdict) -> Verdict:
-    """The one whose premise holds, or else one that has a zone."""
+    """The verdict whose premise holds, otherwise one that has a zone."""
     return max(verdicts, key=lambda v: (v.holds, not np.isnan(v.zone.m)))
 
 
 def explored(
     known: Known, counts: Sequence[int] = COUNTS, steps: Sequence[int] = STEPS
 ) -> Explored:
-    """One cycle by the solver and by the conditions."""
+    """One cycle, by the solver and by the conditions."""
     half = known.half_cycle
     found = reference(known.case, counts, steps)
     moderate, large = verdict(half, MODERATE), verdict(half, LARGE)
@@ -200,9 +203,10 @@ def explored(
 
 
 def at_constant_loads(half: HalfCycle) -> tuple[str, Zone]:
-    """The regime of a cycle with dQ, dsigma > 0, and its exact zone: from the loads alone.
+    """The regime and the exact zone of a cycle with dQ, dsigma > 0, from the loads alone.
 
-    Moderate while a + n <= 8 dQ/(pi dsigma), large from m + n = 8 dQ/(pi dsigma) on.
+    It is moderate if a + n <= 8 dQ/(pi dsigma), and large if m + n >= 8 dQ/(pi dsigma).  Otherwise
+    slip on the right reverses within the half-cycle ("turns round").
     """
     width = 8 * half.dQ / (np.pi * half.dsigma)
     moderate, large = half.exact(MODERATE), half.exact(LARGE)
@@ -214,7 +218,7 @@ def at_constant_loads(half: HalfCycle) -> tuple[str, Zone]:
 
 
 def at_mean_loads(half: HalfCycle) -> Zone:
-    """The exact zone for constant P and M, the means of both ends; NaN where none is found."""
+    """The exact zone for P and M that are constant at their means; NaN if none is found."""
     P, M = (np.mean([getattr(s, name) for s in (half.first, half.second)]) for name in ("P", "M"))
     still = (s._replace(P=float(P), M=float(M)) for s in (half.first, half.second))
     try:
@@ -224,7 +228,7 @@ def at_mean_loads(half: HalfCycle) -> Zone:
 
 
 def window() -> tuple[float, float]:
-    """Tensions over the threshold between which slip turns round."""
+    """Tensions, relative to the threshold, between which slip reverses within the half-cycle."""
 
     def opens(part: float) -> float:
         known = cycle(part * threshold())
@@ -238,10 +242,11 @@ def window() -> tuple[float, float]:
 
 
 def smallest(half: HalfCycle, kappas: Iterable[int] = (MODERATE, LARGE), count: int = 24) -> Zone:
-    """The smallest ends of the zones of partial half-cycles, there and back.
+    """The smallest m and n of the zones of partial half-cycles, in both directions.
 
-    Exact where one half-cycle has its premise and so leaves all of both slip zones at friction: the
-    other one then starts as the conditions assume, and goes with them until a zone shrinks.
+    They are exact if the premise holds in one half-cycle.  At its end |q| = f p in all of both slip
+    zones, so that the other half-cycle starts as the conditions assume, and satisfies them until a
+    zone shrinks.
     """
     parts = np.sin(np.linspace(np.pi / 2, 0, count, endpoint=False)) ** 2
     zones = [

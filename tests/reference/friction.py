@@ -1,10 +1,10 @@
-"""Shear by Coulomb friction, load step by load step, and the cycle that it settles to.
+"""Shear traction with Coulomb friction, in load steps, and the steady cycle.
 
 The slip of one step, times E*/2, is  s = u[q - q before] + (dsigma/4) x + constant,  where
 
     s = 0 where |q| < f p,    s <= 0 where q = f p,    s >= 0 where q = -f p,    int q dx = Q.
 
-What comes into contact brings no shear with it.
+Points that come into contact carry no shear traction.
 """
 
 from collections.abc import Sequence
@@ -21,12 +21,12 @@ from tests.reference.mesh import Floats
 from tests.reference.normal import Contact
 
 SETTLED, ROUNDING = 1e-11, 1e-9
-"""Changes of q from one cycle to the next, over the largest f p: one that is none, and one that is
-none if it falls no more."""
+"""Changes of q from one cycle to the next, relative to the largest f p, below which the cycle is
+steady: SETTLED in any case, ROUNDING if the change no longer decreases."""
 
 
 class Half(NamedTuple):
-    """A half-cycle: shear at its end, slip in it, and the way that was slipped to and fro."""
+    """A half-cycle: shear traction at its end, slip, and total slip to and fro (way)."""
 
     q: Floats
     slip: Floats
@@ -34,7 +34,7 @@ class Half(NamedTuple):
 
 
 class Cycle(NamedTuple):
-    """The steady cycle, there and back, and the number of the round that only repeats."""
+    """The steady cycle, its two half-cycles, and the number of cycles until it repeated itself."""
 
     there: Half
     back: Half
@@ -43,7 +43,7 @@ class Cycle(NamedTuple):
 
 @dataclass(frozen=True)
 class Friction:
-    """Two states, and the contacts at even steps from the first to the second."""
+    """Two states, and the contacts at equal steps from the first to the second."""
 
     surface: Surface
     f: float
@@ -52,7 +52,7 @@ class Friction:
     contacts: Sequence[Contact]
 
     def cycle(self, most: int = 60) -> Cycle:
-        """Rounds from the first state until q repeats itself at both ends."""
+        """Repeat the cycle from the first state until q repeats itself at both ends."""
         q = self._from_nothing()
         there = back = Half(q, q, q)
         change = np.inf
@@ -63,14 +63,14 @@ class Friction:
             last, change = change, self._change(before, (there.q, back.q))
             if change < SETTLED or last / 2 < change < ROUNDING:
                 return Cycle(there, back, rounds)
-        raise NoSolution(f"not steady after {most} cycles")
+        raise NoSolution(f"the shear traction is not steady after {most} cycles")
 
     def _change(self, before: Sequence[Floats], now: Sequence[Floats]) -> float:
         largest = self.f * max(contact.p.max() for contact in self.contacts)
         return float(np.abs(np.subtract(now, before)).max() / largest)
 
     def _from_nothing(self) -> Floats:
-        """q after Q and sigma rose to the first state's, under its P and M."""
+        """q after Q and sigma have risen to those of the first state, under its P and M."""
         Q, sigma = self.first.Q, self.first.sigma
         return self._step(np.zeros_like(self.surface.x), self.contacts[0], Q, sigma)[0]
 
@@ -90,10 +90,10 @@ class Friction:
     def _step(
         self, q: Floats, contact: Contact, Q: float, dsigma: float, places: Places | None = None
     ) -> tuple[Floats, Floats, Places]:
-        """q, the slip of what is in contact, and the places, one step on."""
+        """q, the slip of the nodes in contact, and the status of the nodes after one load step."""
         bound = self.f * contact.p
         if abs(Q) >= self.surface.force @ bound:
-            raise NoSolution("the contact slides")
+            raise NoSolution("the contact slides: |Q| reaches f P")
         b = dsigma / 4 * self.surface.x - self.surface.influence @ q
         found = self._problem.solve(b, -bound, bound, np.array([Q]), places)
         return found.traction, np.where(bound > 0, found.response, 0.0), found.places

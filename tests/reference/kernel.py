@@ -1,9 +1,9 @@
-"""Displacement by tractions that are linear between nodes.
+"""Displacements due to tractions that are linear between nodes.
 
     u(x) = -(1/pi) int t(xi) ln|x - xi| dxi
 
-is E*/2 times the displacement, normal or tangential, of one half-plane's surface relative to a
-similar one's under the traction t on it; a constant is free.  t = sum_j t_j hat_j(x).
+is E*/2 times the normal or tangential displacement of the surface of one half-plane relative to
+that of a similar one, due to the traction t on it, up to a constant.  t = sum_j t_j hat_j(x).
 """
 
 from dataclasses import dataclass
@@ -14,20 +14,20 @@ import numpy as np
 from tests.reference.mesh import Floats
 
 FAR = 8.0
-"""Distance, in element lengths, from which Gauss quadrature is exact to rounding."""
+"""Distance in element lengths beyond which Gauss quadrature is exact to rounding."""
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Nodes, and what unit tractions at them do."""
+    """The nodes, and the displacements, force and moment due to unit tractions at them."""
 
     x: Floats
 
     @cached_property
     def influence(self) -> Floats:
-        """L[i, j] = u(x_i) by the hat of node j: a falling ramp to each side of it."""
+        """L[i, j] = u(x_i) due to the hat function of node j, which consists of two ramps."""
         length = np.diff(self.x)
         away = (self.x[:, None] - self.x)[:, :-1] / length
         scale = np.log(length) / 2  # int_0^1 (1 - u) ln(length) du
@@ -60,7 +60,7 @@ def ramp(z: Floats) -> Floats:
 
 
 def _closed(z: Floats) -> Floats:
-    """By v = u - z from -z to e = 1 - z; loses digits far away."""
+    """The integral in closed form, with v = u - z and e = 1 - z; inaccurate for large |z|."""
     e = 1 - z
     return e * (_xlogx(e) / 2 + _xlogx(z) - 3 * e / 4 - z) + z * (_xlogx(z) / 2 - z / 4)
 
@@ -71,7 +71,7 @@ def _xlogx(v: Floats) -> Floats:
 
 
 def _quadrature(z: Floats) -> Floats:
-    """By Gauss's rule of eight nodes."""
+    """The integral by Gauss's rule with eight nodes."""
     total = np.zeros_like(z)
     for node, weight in zip((1 + NODES) / 2, WEIGHTS / 2, strict=True):
         total += weight * (1 - node) * np.log(np.abs(z - node))

@@ -12,7 +12,7 @@ class State(NamedTuple):
     sigma: float = 0.0
 
     def towards(self, other: "State", part: float) -> "State":
-        """The state a part of the way to another, all loads in phase.
+        """The state at a fraction of the way to another one, with all loads in phase.
 
         >>> State(1, 0, -1, 4).towards(State(3, 1, 1, 0), 0.5)
         State(P=2.0, M=0.5, Q=0.0, sigma=2.0)

@@ -1,4 +1,4 @@
-"""Nodes on a line, clustered quadratically at given breaks."""
+"""Nodes on a line, clustered quadratically towards given breaks."""
 
 from collections.abc import Iterable
 from itertools import pairwise
@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 MERGE = 1e-5
-"""Breaks closer than this, over the width of them all, are one."""
+"""Breaks closer together than this fraction of the whole width count as one."""
 
 
 def graded(breaks: Iterable[float], count: int) -> Floats:
-    """`count` elements between each two neighbours, x = mid - (length/2) cos(theta).
+    """Nodes with `count` elements between neighbouring breaks, x = mid - (length/2) cos(theta).
 
     >>> graded([0, 1, 3], 2)
     array([0. , 0.5, 1. , 2. , 3. ])
@@ -25,7 +25,7 @@ def graded(breaks: Iterable[float], count: int) -> Floats:
 
 
 def merged(breaks: Iterable[float]) -> list[float]:
-    """The breaks in order, without those that coincide with the one before.
+    """The breaks in ascending order, without those that coincide with the one before.
 
     >>> merged([1, 0, 1 + 1e-9, 2])
     [0.0, 1.0, 2.0]

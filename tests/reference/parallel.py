@@ -9,12 +9,12 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 Work = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]
-"""What does the work: like map, in the order of the items."""
+"""A function that works like `map`; results are in the order of the items."""
 
 
 @contextmanager
 def at_once(total: int, jobs: int | None = None) -> Iterator[Work]:
-    """Work in so many processes, or in as many as there are cores; the bar ends at the total."""
+    """Distribute work over `jobs` processes, by default one per core; the bar ends at `total`."""
     columns = TextColumn("cycles"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
     with (
         Progress(*columns, console=Console(stderr=True)) as progress,

@@ -1,4 +1,4 @@
-"""The findings as Markdown: every figure in it is of the run that writes it."""
+"""The findings as Markdown; all numbers in it come from the run that writes it."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -31,74 +31,80 @@ from tests.reference.stick import Zone
 Row = list[str]
 
 REFINED = ("Hertz, large, P and M vary", "tilted wedge, large, M varies")
-"""Cycles on which elements and steps are refined one by one."""
+"""Cycles on which elements and load steps are refined separately."""
 
 CYCLES = len(CLOSED) + len(REFINED) + len(WINDOW) + len(VARYING_MOMENT) + len(AROUND)
-"""How many items the work has."""
+"""Number of items of work."""
 
 
 def findings(work: Work) -> str:
-    """The whole file."""
+    """The text of the whole file."""
     parts = [HEAD.strip(), *_closed(work), *_refined(work), *_window(work), *_maps(work)]
     return "\n\n".join(parts) + "\n"
 
 
-HEAD = f"""# What the independent solver finds
+HEAD = f"""# Results of the independent solver
 
-Written by `python -m tests.reference`.  The solver shares no line with `derive` or `generated`.
-Its finest meshes have {COUNTS[-1]} elements between two breaks, its half-cycle {STEPS[-1]} steps;
-"±" is its own estimate of its error.  E* = 1 and f = 1/2 throughout, R = 1 or phi = 1.
+Written by `python -m tests.reference`.  The solver shares no code with `derive` or `generated`.
+The finest meshes have {COUNTS[-1]} elements between two breaks, and {STEPS[-1]} load steps per
+half-cycle.  "±" is the solver's estimate of its own error, and "rounds" is the number of cycles
+until the shear traction repeats itself.  In all cycles E* = 1, f = 1/2, and R = 1 or phi = 1.
 """
 
-CLOSED_TEXT = """## Where the zone is known
+CLOSED_TEXT = """## Known stick zones
 
-Errors are at the worse end; the order is between the coarsest mesh and the finest.
+Errors are those of the worse end of the zone.  The order of convergence is that between the
+coarsest and the finest mesh.
 """
 
 WINDOW_TEXT = """## Constant loads around the threshold
 
-The upright wedge at P = 1, dQ = 0.3 f P; the threshold is dsigma = {:.6f}.  With
-H = 8 dQ/(pi dsigma), slip on the right turns round inside the half-cycle where m + n passes H: the
-moderate zone is exact up to a + n = H, the large one from m + n = H on, and between them, from
-{:.4f} to {:.4f} of the threshold, the three phases of `mixed.py` are.  Which of them applies
-follows from the loads alone; it is the regime in the table.  What follows "±" are distances of n
-from the solver's.
+The upright wedge at P = 1, dQ = 0.3 f P.  The threshold is dsigma = {:.6f}.  Let
+H = 8 dQ/(pi dsigma).  Slip on the right reverses within the half-cycle if m + n passes through H.
+The zone of moderate tension is exact if a + n <= H, and that of large tension if m + n >= H.
+Between them, from {:.4f} to {:.4f} of the threshold, the solution in three phases in `mixed.py` is
+exact ("turns round").  The loads alone determine which of the three applies; this is the regime in
+the table.  The columns after "±" are differences from the solver's n.
 """
 
-REFINED_TEXT = """## Elements and steps, one by one
+REFINED_TEXT = """## Separate refinement of elements and load steps
 
-The error at the worse end with so many elements between two breaks, and so many load steps a
-half-cycle.  Where slip only grows, steps change nothing but where the edges' way is known.
+The error at the worse end for each number of elements between two breaks and of load steps per
+half-cycle.  If slip only grows, the number of load steps affects only the accuracy with which the
+motion of the edges is known.
 """
 
 MAP_TEXT = """## Varying moment
 
-The same wedge; M goes from its mean less half its range to its mean plus half of it while Q and
-sigma rise.  The premise is asked of both half-cycles, from the loads alone: zones of partial
-half-cycles grow inside both contacts, and shear that has not slipped yet stays within friction.
-It is sufficient, not necessary: some zones whose premise fails are within the estimate, too.  Where
-no zone inside both contacts meets the conditions, the kind tells where the solver's ends, within
-its estimate:
+The wedge is the same.  M varies from its mean minus half its range to its mean plus half its range
+while Q and sigma rise.  The premise of the conditions is evaluated for both half-cycles, from the
+loads alone.  It holds if the slip zones of partial half-cycles grow inside both contacts, and if
+the shear traction stays within the friction bound where slip has yet to begin.  The premise is
+sufficient but not necessary: some zones are within the estimate although it fails.  If no zone
+inside both contacts satisfies the conditions, the kind is "no zone" or describes the solver's zone,
+within its estimate:
 
-* an edge runs ahead: at one edge it is all that touches always; slip does not follow the edge;
-* sticks: it is all that touches always; what slips, if anything, is only what comes into contact
-  and leaves it.
+* an edge runs ahead: at one end, the zone extends to the limit of permanent contact, because slip
+  does not follow the edge;
+* sticks: this is so at both ends; if anything slips, it is a region that comes into contact and
+  leaves it again.
 
-"off" is how far a zone is from the solver's at its worse end: that of the conditions, that of the
-smallest ends over partial half-cycles there and back, and the exact one of loads P and M that stand
-still at their means.
+"off" is the difference from the solver's zone at the worse end.  It is given for the zone of the
+conditions, for the smallest m and n of partial half-cycles in both directions ("smallest"), and for
+the exact zone of P and M that are constant at their means ("constant").
 """
 
 AROUND_TEXT = """## Varying loads around the threshold
 
-The same wedge and the same questions; P goes from 1 less half its range to 1 plus half of it, M
-from minus half its range to half of it, while Q and sigma rise; the threshold is the one of P = 1.
-A negative range is the cycle of the positive one from its other end: the zones have to agree.
+The wedge and the columns are the same.  While Q and sigma rise, P varies from 1 minus half its
+range to 1 plus half its range, and M from minus half its range to plus half its range.  The
+threshold is that of P = 1.  A cycle with a negative range is the cycle with the positive range,
+started at its other end, so that the zones must agree.
 """
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A Markdown table, numbers to the right; ValueError where a row is not as long as its head.
+    """A Markdown table with numbers aligned right; ValueError if a row has a wrong number of cells.
 
     >>> print(table(["case", "n"], [["a", "1"]]))
     | case | n |
@@ -108,7 +114,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     rule = ["---", *["---:"] * (len(head) - 1)]
     lines = [head, rule, *rows]
     if {len(line) for line in lines} != {len(head)}:
-        raise ValueError(f"every row needs {len(head)} cells: {', '.join(head)}")
+        raise ValueError(f"every row must have {len(head)} cells: {', '.join(head)}")
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
@@ -237,7 +243,7 @@ def _figures(found: Explored) -> Row:
 
 
 def _summary(points: Sequence[Explored]) -> str:
-    """What the premise says against what the solver finds, counted."""
+    """How often the premise and the solver agree, as a list of sentences."""
     kinds = Counter(point.kind for point in points)
 
     def of(*some: Kind) -> list[Explored]:
@@ -251,17 +257,17 @@ def _summary(points: Sequence[Explored]) -> str:
     coarsest = _worst(point.estimate for point in points)
     farthest = _worst(point.off(point.best.zone) for point in fails)
     return f"""\
-* The premise holds in {len(holds)} of {len(points)} cycles.  There the conditions are off by at
-  most {within:.2f} of the solver's estimate.
-* In {len(fails)} it fails, though the conditions have a zone: a slip zone shrinks in
-  {kinds[Kind.SHRINKS]}, shear passes friction in {kinds[Kind.BEYOND]}.  Of these zones {beyond}
-  are off by more than the estimate, by up to {farthest:.1e}.
-* In {len(turning)} of those the premise holds in one half-cycle, and in the other a zone only
-  shrinks.  There the smallest ends over partial half-cycles are off by at most {least:.2f} of the
-  estimate.
-* In {kinds[Kind.AHEAD]} an edge runs ahead of slip, and in {kinds[Kind.STICKS]} all that touches
-  always sticks; {kinds[Kind.OPEN]} are neither, without a zone that meets the conditions.
-* The solver's estimate of its own error is {coarsest:.1e} or less."""
+* The premise holds in {len(holds)} of {len(points)} cycles.  In these the zone of the conditions
+  differs from the solver's by at most {within:.2f} of the solver's estimate.
+* In {len(fails)} cycles it fails although a zone satisfies the conditions: a slip zone shrinks in
+  {kinds[Kind.SHRINKS]}, and shear exceeds friction in {kinds[Kind.BEYOND]}.  The zone differs from
+  the solver's by more than the estimate in {beyond} of these cycles, by up to {farthest:.1e}.
+* In {len(turning)} of these cycles the premise holds in one half-cycle, and fails in the other
+  because a zone shrinks.  The smallest m and n of partial half-cycles then differ from the solver's
+  by at most {least:.2f} of the estimate.
+* In {kinds[Kind.AHEAD]} cycles an edge runs ahead of slip, and in {kinds[Kind.STICKS]} the whole
+  permanent contact sticks.  In {kinds[Kind.OPEN]} further cycles no zone satisfies the conditions.
+* The solver's estimate of its own error is at most {coarsest:.1e}."""
 
 
 def _worst(values: Iterable[float]) -> float:

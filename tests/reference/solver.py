@@ -1,8 +1,8 @@
-"""The steady cycle on finer and finer meshes, and how far off it still is.
+"""The steady cycle on successively finer meshes, with an estimate of the error.
 
-Each mesh is graded to the edges of the contacts, to the body's kinks, and to the ends of the stick
-zone that the mesh before it found.  Several meshes of one fineness bring these places to rest, so
-that the error that is left falls about with the square of the fineness.
+Each mesh is refined towards the edges of the contacts, the kinks of the body, and the ends of the
+stick zone that were found on the mesh before.  On several meshes of the same fineness these points
+converge, so that the remaining error is approximately of second order in the element size.
 """
 
 from collections.abc import Iterator, Sequence
@@ -19,15 +19,15 @@ from tests.reference.normal import Body, Contact, press, rough_edges
 from tests.reference.stick import Zone, permanent
 
 MARGIN = 0.05
-"""Mesh beyond the contacts, over their width."""
+"""Extent of the mesh beyond the contacts, relative to their width."""
 
 PASSES = 4
-"""Meshes of one fineness: each brings breaks about five times closer to where they rest."""
+"""Meshes of the same fineness; each reduces the error of the breaks by a factor of about five."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A body, its coefficient of friction, and the two states between which the loads go."""
+    """A body, a coefficient of friction, and the two states between which the loads vary."""
 
     body: Body
     f: float
@@ -36,7 +36,7 @@ class Case:
 
 
 class Level(NamedTuple):
-    """What one mesh gives: contacts and shear are those of its nodes."""
+    """Results on one mesh; pressure and shear traction are values at its nodes."""
 
     x: Floats
     contacts: Sequence[Contact]
@@ -45,7 +45,7 @@ class Level(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """The stick zone of the finest mesh, the estimate of its error, and the zones before it."""
+    """The stick zone on the finest mesh, its estimated error, all zones, and the finest level."""
 
     zone: Zone
     error: Zone
@@ -56,16 +56,17 @@ class Reference(NamedTuple):
 def reference(
     case: Case, counts: Sequence[int] = (16, 32, 64), steps: Sequence[int] = (4, 8, 16)
 ) -> Reference:
-    """Levels of so many elements between two breaks, and so many load steps a half-cycle."""
+    """The stick zone from levels with these elements between breaks and steps per half-cycle."""
     found = list(levels(case, counts, steps))
     zones = [level.zone for level in found]
     return Reference(zones[-1], estimate(zones, counts), zones, found[-1])
 
 
 def estimate(zones: Sequence[Zone], counts: Sequence[int]) -> Zone:
-    """Three times what second order makes of the last two changes, of whichever it is more.
+    """Estimate of the error: three times the larger extrapolation of the last two changes.
 
-    Where the counts double that is the last change, or a quarter of the one before.
+    The extrapolation assumes second order.  If the counts double, the estimate is the larger of the
+    last change and a quarter of the one before.
 
     >>> estimate([Zone(1.0, 1.0), Zone(1.5, 1.25), Zone(1.5625, 1.5)], [8, 16, 32])
     Zone(m=0.125, n=0.25)
@@ -76,7 +77,7 @@ def estimate(zones: Sequence[Zone], counts: Sequence[int]) -> Zone:
 
 
 def levels(case: Case, counts: Sequence[int], steps: Sequence[int]) -> Iterator[Level]:
-    """The last of the passes for each count."""
+    """The result of the last pass for each count."""
     breaks = [e for s in (case.first, case.second) for e in rough_edges(case.body, s.P, s.M)]
     for count, number in zip(counts, steps, strict=True):
         for _ in range(PASSES):
@@ -106,7 +107,7 @@ def _mesh(body: Body, breaks: Sequence[float], count: int) -> Floats:
 
 
 def _breaks(found: Level) -> list[float]:
-    """The edges at both ends of the half-cycle and at their farthest, and the zone's ends."""
+    """Edges at both ends of the half-cycle and at their extremes, and the ends of the zone."""
     lefts = [contact.left for contact in found.contacts]
     rights = [contact.right for contact in found.contacts]
     m, n = found.zone

@@ -1,9 +1,10 @@
-"""The permanent stick zone: what stays in contact and never slips in a whole steady cycle.
+"""The permanent stick zone, which stays in contact and never slips in the steady cycle.
 
-What tells is the way that was slipped, not |q| = f p, which a node may come back to at rest.
-The way rises from the end of the zone like the power 3/2 of the distance, so way^(2/3), drawn to
-zero from the second and the third node that slip, puts the end within an element; the first one
-carries most of the mesh's error.  Where nothing slips the zone ends with what touches always.
+It is found from the total slip `way`, not from |q| = f p, because a node may return to |q| = f p
+without slip.  From the end of the zone, the total slip rises with the power 3/2 of the distance.
+The end is therefore located within an element by extrapolating way^(2/3) linearly to zero from the
+second and third node that slip; the first one carries most of the error of the mesh.  If nothing
+slips on one side, the zone ends where permanent contact ends.
 """
 
 from typing import NamedTuple
@@ -15,18 +16,18 @@ from tests.reference.bounded import Flags
 from tests.reference.mesh import Floats
 
 NONE = 1e-9
-"""A way, over the longest one, that is none."""
+"""A total slip below this fraction of the largest counts as zero."""
 
 
 class Zone(NamedTuple):
-    """[-m, n]; NaN where all slips."""
+    """The zone [-m, n]; NaN if all nodes slip."""
 
     m: float
     n: float
 
 
 def permanent(x: Floats, way: Floats, always: Zone) -> Zone:
-    """The longest run of nodes that never slip inside what touches always."""
+    """The zone from the longest run of nodes that never slip and are always in contact."""
     touching = (x > -always.m) & (x < always.n)
     run = _longest(x, touching & (way <= NONE * way.max()))
     if len(run) < 2:
@@ -42,7 +43,7 @@ def _longest(x: Floats, inside: Flags) -> NDArray[np.intp]:
 
 
 def _end(x: Floats, way: Floats, touching: Flags, run: NDArray[np.intp]) -> float:
-    """Where the run ends, close to its last node and the next; NaN if it ends with the contact."""
+    """The end of the zone, near the last node of the run; NaN if it ends with the contact."""
     outward = run[-1] - run[-2]
     sticking, first, second, third = run[-1] + outward * np.arange(4)
     if not touching[first]:

@@ -1,4 +1,4 @@
-"""Tractions between bounds."""
+"""Problems with tractions between bounds."""
 
 import numpy as np
 import pytest

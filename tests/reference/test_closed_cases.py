@@ -1,4 +1,4 @@
-"""The solver's stick zone converges to the exact one, within its own estimate."""
+"""The stick zone of the solver converges to the exact one, within its estimate of the error."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,7 @@ def test_steel_in_millimetres() -> None:
 
 @pytest.mark.parametrize("known", [k for k in CLOSED if k.name.startswith("Hertz, moderate")])
 def test_moderate_conditions_are_the_contact_at_lower_load_and_other_tilt(known: Known) -> None:
-    # load P0 - dQ/(2 f), tilt alpha0 - dsigma/(4 f E*); R = E* = 1: middle at -alpha = -M/P
+    # load P0 - dQ/(2 f), tilt alpha0 - dsigma/(4 f E*); for R = E* = 1 the middle is at -M/P
     P0 = sum(known.P) / 2
     alpha0 = sum(M / P for M, P in zip(known.M, known.P, strict=True)) / 2
     half = np.sqrt((P0 - known.dQ / (2 * known.f)) / HERTZ_LOAD)

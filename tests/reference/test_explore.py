@@ -1,4 +1,4 @@
-"""The open cases: what the loads alone decide, against the solver."""
+"""Cycles without a known solution: conclusions from the loads alone, compared with the solver."""
 
 import numpy as np
 import pytest
@@ -36,8 +36,8 @@ def test_where_the_premise_holds_the_conditions_do(span: float, part: float) -> 
 @pytest.mark.parametrize(
     ("M", "part", "why"),
     [
-        slow((-0.01, 0.01), 1.2, Premise.SHRINKS),  # slip turns round on the right
-        slow((-0.2, 0.2), 5.0, Premise.BEYOND),  # pressure falls faster than shear
+        slow((-0.01, 0.01), 1.2, Premise.SHRINKS),  # slip reverses on the right
+        slow((-0.2, 0.2), 5.0, Premise.BEYOND),  # the pressure falls faster than the shear traction
         slow((-0.1, 0.3), 5.0, Premise.SHRINKS),
     ],
 )
@@ -60,7 +60,7 @@ def test_where_only_one_half_cycle_turns_round_its_smallest_zone_is_exact() -> N
 @pytest.mark.thorough
 @pytest.mark.slow
 def test_zones_that_grow_are_not_enough() -> None:
-    # what was at friction goes on slipping while pressure falls; in one step it would not show
+    # points at the friction bound continue to slip while pressure falls; one step would miss this
     known = cycle(5 * threshold(), (-0.2, 0.2))
     half = known.half_cycle
     zone = half.exact(LARGE)
@@ -103,9 +103,9 @@ def test_where_there_is_no_zone_the_solver_tells_the_kind(point: Point, kind: Ki
 
 
 def test_a_half_cycle_starts_within_friction() -> None:
-    # constant loads: dq' = (dQ - (pi/4) dsigma s)/(pi w), which has to be of kappa's sign at the
-    # right from n to c and positive from -m to -a; a = c = 1: the signs of K_T at the edges, and
-    # at the inner end of what is still to slip
+    # constant normal loads: dq' = (dQ - (pi/4) dsigma s)/(pi w) must have the sign of kappa from n
+    # to c, and be positive from -m to -a.  With a = c = 1 this concerns the signs of K_T at the
+    # edges, and the sign at the inner end of the region that has yet to slip
     half = cycle(0.9 * threshold()).half_cycle
     assert starts_within(half, MODERATE, half.exact(MODERATE))
     half = cycle(2 * threshold()).half_cycle
@@ -117,7 +117,7 @@ def test_a_half_cycle_starts_within_friction() -> None:
 
 
 def test_pressure_that_falls_faster_than_shear_is_seen_at_the_start() -> None:
-    # M from -0.1 to 0.3: the premise fails there within a strip that eight places do not meet
+    # M from -0.1 to 0.3: the premise fails within a strip that contains none of the eight points
     half = Point(7.0, 0.1, 0.4).cycle.half_cycle
     ways = [(way, way.exact(LARGE)) for way in (half, half.back())]
     assert not all(starts_within(way, LARGE, zone) for way, zone in ways)

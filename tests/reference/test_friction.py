@@ -1,4 +1,4 @@
-"""Shear under Coulomb friction."""
+"""Shear traction under Coulomb friction."""
 
 from collections.abc import Sequence
 
@@ -21,7 +21,7 @@ VARYING = Known("", WEDGE, LARGE, 0.15, 1.0, (1, 1), (0.1, 0.2)).case
 
 
 def hertz(dQ: float, dsigma: float, f: float = F, mean: float = 0.0) -> Level:
-    """Half-width 1; loads over that of it."""
+    """The cycle of a cylinder with half-width 1; loads are relative to the load at that width."""
     states = (
         State(HERTZ_LOAD, 0, (mean + sign * dQ / 2) * HERTZ_LOAD, sign * dsigma / 2)
         for sign in (-1, 1)
@@ -33,7 +33,7 @@ def hertz(dQ: float, dsigma: float, f: float = F, mean: float = 0.0) -> Level:
 
 
 def test_full_stick_has_the_known_singular_change() -> None:
-    # dq = (dQ/pi - (dsigma/4) x)/sqrt(1 - x^2), where friction is never reached but at the edges
+    # dq = (dQ/pi - (dsigma/4) x)/sqrt(1 - x^2): the friction bound is reached only at the edges
     found = hertz(0.2, 0.3, f=500.0)
     change = found.cycle.there.q - found.cycle.back.q
     inner = np.abs(found.x) < 0.9
@@ -49,7 +49,7 @@ def test_shear_and_tension_of_one_sign_load_the_left_edge_more(dsigma: float) ->
 
 
 def test_a_stretched_body_slips_outward_and_is_held_back() -> None:
-    # pure tension: q pulls its body's ends inward, slip goes outward
+    # tension alone: q pulls the ends of the body inwards, and they slip outwards
     found = hertz(0.0, 0.5)
     q, slip, _ = found.cycle.there
     left, right = found.x < found.zone.m * -1.02, found.x > found.zone.n * 1.02
@@ -102,8 +102,8 @@ def mesh() -> Floats:
 
 
 def test_an_element_that_comes_back_to_friction_at_rest_has_not_slipped() -> None:
-    # high mean shear: the small cycle moves only where a sqrt(1 - dQ/(2 f P)) < |x|, but all that
-    # slipped on the way up, a sqrt(1 - Q/(f P)) < |x|, is at q = f p whenever Q is back
+    # high mean shear load: the small cycle slips only where a sqrt(1 - dQ/(2 f P)) < |x|, but all
+    # points that slipped in the first rise, a sqrt(1 - Q/(f P)) < |x|, are at q = f p at maximum Q
     dQ, mean = 0.1, 0.25
     small, wide = np.sqrt(1 - dQ / (2 * F)), np.sqrt(1 - (mean + dQ / 2) / F)
     surface = Surface(graded([-1.05, -1, -small, -wide, wide, small, 1, 1.05], 24))
@@ -125,7 +125,7 @@ def test_an_element_that_comes_back_to_friction_at_rest_has_not_slipped() -> Non
     ids=["M varies", "P and M vary", "threshold"],
 )
 def test_where_the_cycle_starts_does_not_matter(known: Known) -> None:
-    # loads rise from nothing to the first state, under its P and M, or to the second
+    # Q and sigma rise from zero to the first state, under its P and M, or to the second one
     surface = Surface(mesh())
     first, second = known.states
     there, back = (

@@ -1,4 +1,4 @@
-"""Meshes, and the displacement by tractions on them."""
+"""Meshes, and the displacements due to tractions on them."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The window in which slip turns round: the exact stick zone against the solver."""
+"""Tensions at which slip reverses: the exact stick zone compared with the solver."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def test_wedge(part: float) -> None:
 
 @pytest.mark.thorough
 def test_hertz() -> None:
-    # the paper's threshold, 4 f E*/R (b - sqrt(b^2 - 2 R dQ/(pi E* f))), with b = R = E* = 1
+    # the threshold of the paper, 4 f E*/R (b - sqrt(b^2 - 2 R dQ/(pi E* f))), with b = R = E* = 1
     dQ, f = 0.15 * HERTZ_LOAD, 0.5
     dsigma = 4 * f * (1 - np.sqrt(1 - 2 * dQ / (np.pi * f)))
     known = Known("", HERTZ, LARGE, dQ, dsigma, (HERTZ_LOAD, HERTZ_LOAD))
@@ -35,7 +35,7 @@ def test_hertz() -> None:
 
 
 def test_the_window_opens_where_the_moderate_zone_is_wide_enough() -> None:
-    # a + n = 8 dQ/(pi dsigma), a = 1: there both solutions meet
+    # both solutions are equal at a + n = 8 dQ/(pi dsigma), a = 1
     def room(part: float) -> float:
         zone = cycle(part * threshold()).half_cycle.exact(MODERATE)
         return narrowest(part * threshold()) - 1 - zone.n
@@ -62,7 +62,7 @@ def test_the_window_closes_where_the_large_zone_is_wide_enough() -> None:
 
 
 def test_the_solver_ends_the_half_cycle_as_phase_three_does() -> None:
-    # q = f p right of n_end, and less between n and n_end, which stuck again
+    # q = f p to the right of n_end, and less from n to n_end, where the surfaces stick again
     known = cycle(threshold())
     exact = turning(known.half_cycle)
     x = graded([-1.05, -1, -exact.zone.m, 0, exact.zone.n, exact.n_end, 1, 1.05], 24)

@@ -12,7 +12,7 @@ from tests.reference.normal import Body, Contact, press, rough_edges
 
 
 def pressed(body: Body, P: float, M: float, count: int) -> tuple[Floats, Contact]:
-    """On a mesh that was graded to the edges several times."""
+    """The contact on a mesh that has been refined towards the edges several times."""
     left, right = rough_edges(body, P, M)
     for _ in range(5):
         margin = (right - left) / 20
@@ -25,7 +25,7 @@ def pressed(body: Body, P: float, M: float, count: int) -> tuple[Floats, Contact
 
 @pytest.mark.parametrize("M", [0.0, 0.1, -0.3])
 def test_hertz_to_second_order(M: float) -> None:
-    # half-width b at P = pi E* b^2/(4 R), the middle at -M/P
+    # half-width b under P = pi E* b^2/(4 R), middle at -M/P
     R, E_star, b = 2.0, 3.0, 1.5
     P = np.pi * E_star * b**2 / (4 * R)
     errors = []
@@ -59,7 +59,7 @@ def test_tilted_wedge(M: float) -> None:
 
 
 def test_unsymmetric_body() -> None:
-    # radius 1 on the left, 3 on the right: the slope bends at 0
+    # radius 1 on the left and 3 on the right: g'' jumps at 0
     def g(x: Floats) -> Floats:
         return x**2 / np.where(x < 0, 2, 6)
 
