@@ -1,4 +1,4 @@
-"""Runs every notebook in place: `python -m notebooks [--check] [WORD ...]`."""
+"""Run the notebooks in place: `python -m notebooks [--check] [WORD ...]`."""
 
 import sys
 

@@ -1,7 +1,7 @@
-"""What the notebooks on the paper share: cycles, the paper's own coefficients, texts and tables.
+"""Functions shared by the notebooks: cycles, the coefficients of the paper, text, tables, figures.
 
-A notebook runs in this folder and says ``from common import ...``; the rest of the checkout is
-found from here.
+A notebook runs in this folder and uses ``from common import ...``.  This module makes the rest of
+the checkout importable.
 """
 
 import sys
@@ -29,25 +29,25 @@ Array = Any
 
 
 def say(text: str) -> None:
-    """Show Markdown whose numbers the notebook has just computed."""
+    """Show Markdown that contains numbers computed by the notebook."""
     display(Markdown(text))
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1) -> None:
-    """Show a table: the first columns, as many as hold words, to the left, others to the right."""
+    """Show a table; the first `words` columns are aligned left, the others right."""
     rule = ["---"] * words + ["---:"] * (len(heads) - words)
     say("\n".join("| " + " | ".join(row) + " |" for row in (heads, rule, *rows)))
 
 
 def in_cell(latex: str) -> str:
-    """LaTeX for a cell of a table, where a bare stroke would end the cell."""
+    """LaTeX for a cell of a table, in which a plain | would end the cell."""
     for side in ("left", "right", "middle"):
         latex = latex.replace(rf"\{side}|", rf"\{side}\vert ")
     return rf"$\displaystyle {latex}$"
 
 
 def plainly(text: str) -> str:
-    """Text whose stars, strokes and underscores Markdown leaves alone.
+    """Text in which *, | and _ are escaped for Markdown.
 
     >>> plainly("P = (E*/2) I_1")
     'P = (E\\\\*/2) I\\\\_1'
@@ -58,7 +58,7 @@ def plainly(text: str) -> str:
 
 
 def percent(part: float, digits: int = 2) -> str:
-    """A part as per cent, with a sign; rounding is shown as nothing.
+    """A fraction in per cent with a sign; a value due to rounding is shown as 0 %.
 
     >>> percent(0.2341), percent(-3e-15), percent(float("nan"))
     ('+23 %', '0 %', '-')
@@ -69,7 +69,7 @@ def percent(part: float, digits: int = 2) -> str:
 
 
 def small(value: float) -> str:
-    """A difference that should be none: its size, or that it is no more than rounding.
+    """A difference that should be zero: its size, or "rounding" if it is no larger than that.
 
     >>> small(3e-15), small(0.02)
     ('rounding', '2e-02')
@@ -81,7 +81,7 @@ def small(value: float) -> str:
 
 
 class Cycle(NamedTuple):
-    """All four loads over one cycle, in phase: from the least shear to the greatest and back."""
+    """All four loads over a cycle, in phase; Q rises from its minimum and returns to it."""
 
     t: Array
     P: Array
@@ -91,7 +91,7 @@ class Cycle(NamedTuple):
 
     @property
     def loads(self) -> tuple[Array, Array, Array, Array]:
-        """As `march` takes them."""
+        """The loads in the order of the arguments of `march`."""
         return self.P, self.M, self.Q, self.sigma
 
 
@@ -102,18 +102,18 @@ def cycle(
     dsigma: float,
     count: int = 401,
 ) -> Cycle:
-    """Loads that swing between two states as a cosine, `count` instants, an odd number."""
+    """Loads that vary between two states like a cosine, at an odd number `count` of instants."""
     t = np.linspace(0, 1, count)
     part = (1 - np.cos(2 * np.pi * t)) / 2
     P_t, M_t = (ends[0] + part * (ends[1] - ends[0]) for ends in (P, M))
     return Cycle(t, P_t, M_t, (part - 0.5) * dQ, (part - 0.5) * dsigma)
 
 
-# ------------------------------------------------------------------ the paper's own coefficients
+# ------------------------------------------------------------------ coefficients of the paper
 
 
 class Ends(NamedTuple):
-    """A stick zone [-m, n]; left and right are senses of slip where it is one of a cycle."""
+    """A stick zone [-m, n]; at an instant of a cycle, left and right are the senses of slip."""
 
     m: Array
     n: Array
@@ -123,7 +123,7 @@ class Ends(NamedTuple):
 
 @cache
 def _printed_K_T() -> tuple[Callable[..., Array], Callable[..., Array]]:
-    """Delta K_T of eq. (32) with the half-widths that the paper says, from its claims."""
+    """Delta K_T of eq. (32) with the half-widths as in the paper, from its claims."""
     claims = (paper()[f"K_T/tilted/{side}"] for side in ("left", "right"))
     Delta_Q, Delta_sigma, a, c = symbols("Delta_Q Delta_sigma a c")
     left, right = (
@@ -144,9 +144,9 @@ def printed(
     dc: Array = 0.0,
     **constants: float,
 ) -> Ends:
-    """The stick zone by eq. (20), d = |K_T|/(f K_N) + da/2, K_T by eq. (32) as it is printed.
+    """The stick zone by eq. (20), d = |K_T|/(f K_N) + da/2, with K_T by eq. (32) as printed.
 
-    da, dc: by how much further the edges reach than when slip began, with their signs.
+    da, dc: outward motion of the left and right edge since slip began, negative if inward.
     """
     left, right = _printed_K_T()
     K_N = body.K_N(contact.a, contact.c, **constants)
@@ -156,7 +156,10 @@ def printed(
 
 
 def printed_march(body: ModuleType, of: Cycle, *, f: float, **constants: float) -> Ends:
-    """The same through a cycle, every instant against that when slip last began."""
+    """The stick zone by the same equations at every instant of a cycle.
+
+    The changes at an instant are counted from the last instant at which slip began.
+    """
     at = body.contact(of.P, of.M, **constants)
     middle = of.t.size // 2
     start = np.where(np.arange(of.t.size) <= middle, 0, middle)
@@ -182,15 +185,15 @@ def series(
     dc: Array = 0.0,
     **constants: float,
 ) -> dict[str, Ends]:
-    """Stick zones by the series, of each kind."""
-    found = {"printed": printed(body, contact, dQ, dsigma, f=f, da=da, dc=dc, **constants)}
+    """Stick zones by each of the series."""
+    zones = {"printed": printed(body, contact, dQ, dsigma, f=f, da=da, dc=dc, **constants)}
     for order in (1, 2):
         d = body.slip_zones(
             *(contact.a, contact.c, dQ, dsigma),
             **{"f": f, "da": da, "dc": dc, "order": order, **constants},
         )
-        found[f"order {order}"] = Ends(contact.a - d.left, contact.c - d.right)
-    return found
+        zones[f"order {order}"] = Ends(contact.a - d.left, contact.c - d.right)
+    return zones
 
 
 # ------------------------------------------------------------------ figures
@@ -199,9 +202,9 @@ def series(
 def march_figure(
     axes: Any, body: ModuleType, of: Cycle, *, f: float, length: plot.Measure, **constants: float
 ) -> Any:
-    """The map of a cycle by the exact conditions, with the three series as lines.
+    """Draw the map of a cycle by the exact conditions, with the three series as lines.
 
-    Returns what `march` gives.
+    Returns the result of `march`.
     """
     exact = body.march(*of.loads, f=f, **constants)
     plot.stick_slip(exact, of.t, axes=axes, length=length)
@@ -217,7 +220,7 @@ def march_figure(
 
 
 def errors_at(edges: Any, exact: Any, found: dict[str, Ends]) -> dict[str, tuple[Array, Array]]:
-    """By how much the slip zones of each series are off, in parts of the exact ones."""
+    """Errors of the slip zones of each series, relative to the exact slip zones."""
     d_left, d_right = edges.a - exact.m, edges.c - exact.n
     with np.errstate(all="ignore"):
         return {
@@ -229,12 +232,12 @@ def errors_at(edges: Any, exact: Any, found: dict[str, Ends]) -> dict[str, tuple
 def error_lines(
     axes: Sequence[Any], at: Array, errors: dict[str, tuple[Array, Array]], label: str
 ) -> None:
-    """Errors in per cent at the left edge and at the right one, each in Axes of its own."""
+    """Draw the errors in per cent, those at the left and the right edge in separate axes."""
     with plot.style():
-        for side, place in enumerate(axes):
-            place.axhline(0, color="#555555", linewidth=0.8)
+        for side, panel in enumerate(axes):
+            panel.axhline(0, color="#555555", linewidth=0.8)
             for kind, both in errors.items():
-                place.plot(at, 100 * both[side], label=kind, **plot.LINES[kind])
+                panel.plot(at, 100 * both[side], label=kind, **plot.LINES[kind])
             edge = ("left", "right")[side]
-            place.set(xlabel=label, ylabel=f"error of $d$, {edge} edge  [%]")
+            panel.set(xlabel=label, ylabel=f"error of $d$, {edge} edge  [%]")
         axes[0].legend()

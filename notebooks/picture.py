@@ -1,4 +1,4 @@
-"""Draws pressure.svg, the picture of the README: `make picture`."""
+"""Draw pressure.svg, the picture in the README: `make picture`."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ PICTURE = Path(__file__).with_name("pressure.svg")
 
 
 def main(path: Path = PICTURE) -> None:
-    """Write the picture, the same bytes on every run."""
+    """Write the picture, with the same bytes on each run."""
     titles = [title for title, *_ in BODIES]
     figure, axes = plot.subplots(2, 2, size=(9, 5.6), sharex="col", titles=[*titles, "", ""])
     for column, (_, body, shape) in enumerate(BODIES):

@@ -1,4 +1,4 @@
-"""Runs the notebooks, and keeps those outputs that are the same on every machine."""
+"""Run the notebooks, and keep those outputs that are the same on every machine."""
 
 import os
 import re
@@ -21,40 +21,40 @@ FOLDER = Path(__file__).parent
 ROOT = FOLDER.parent
 
 TIMEOUT = 600
-"""Seconds that one cell may take."""
+"""Longest time of one cell in seconds."""
 
 _METADATA = {
     "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
     "language_info": {"name": "python"},
 }
 _INLINE = "ignore:InlineBackend._figure_formats_changed:DeprecationWarning"
-"""What matplotlib-inline says of itself when it is told the format of pictures."""
+"""A warning of matplotlib-inline that is caused by the option for the format of pictures."""
 
 _WIDGET = "application/vnd.jupyter.widget-view+json"
 
 
 def notebooks() -> list[Path]:
-    """Every notebook, in the order of their names."""
+    """All notebooks, sorted by name."""
     return sorted(FOLDER.glob("*.ipynb"))
 
 
 def read(path: Path) -> NotebookNode:
-    """A notebook as it is on disk."""
+    """A notebook as stored on disk."""
     return nbformat.read(path, as_version=4)
 
 
 def run(path: Path) -> NotebookNode:
-    """A notebook whose cells have all been run afresh, in order, in its own folder.
+    """A notebook all of whose cells have been run again, in order, in its own folder.
 
-    Its pictures have 200 dots an inch, and say at what size they are shown.
+    Its pictures have 200 dots per inch and contain the size at which they are shown.
 
-    Raises nbclient.exceptions.CellExecutionError for a cell that raises.
+    Raises nbclient.exceptions.CellExecutionError if a cell raises an exception.
     """
     notebook = read(path)
     for cell in notebook.cells:
         if cell.cell_type == "code":
             cell.outputs, cell.execution_count = [], None
-    import_module("matplotlib.font_manager")  # its first import lists fonts, and says so at length
+    import_module("matplotlib.font_manager")  # its first import lists fonts, with a long message
     client = NotebookClient(notebook, timeout=TIMEOUT, kernel_name="python3")
     client.extra_arguments = ["--log-level=ERROR", "--InlineBackend.figure_formats=retina"]
     client.resources = {"metadata": {"path": str(path.parent)}}
@@ -64,7 +64,7 @@ def run(path: Path) -> NotebookNode:
 
 
 def _environment(folder: str) -> dict[str, str]:
-    """None of the user's own settings; this checkout's packages come before those installed."""
+    """The environment without the user's settings; this checkout precedes installed packages."""
     own = {"IPYTHONDIR": folder, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0"}
     threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     dropped = ("MPLBACKEND", "MATPLOTLIBRC", "PYTHONWARNINGS")
@@ -73,7 +73,7 @@ def _environment(folder: str) -> dict[str, str]:
 
 
 def clean(notebook: NotebookNode) -> NotebookNode:
-    """Without what differs between runs: times, widget numbers, the kernel's version."""
+    """Remove what differs between runs: times, numbers of widgets, the version of the kernel."""
     notebook.metadata = nbformat.from_dict(_METADATA)
     notebook.nbformat, notebook.nbformat_minor = 4, 5
     for number, cell in enumerate(notebook.cells, start=1):
@@ -94,7 +94,7 @@ def _code(notebook: NotebookNode) -> Iterator[NotebookNode]:
 
 
 def _merged(outputs: list[NotebookNode]) -> Iterator[NotebookNode]:
-    """Text of one stream in one piece, however it arrived."""
+    """The outputs, with consecutive pieces of text of the same stream joined."""
     last: NotebookNode | None = None
     for output in outputs:
         if output.output_type == "stream" and last is not None and last.get("name") == output.name:
@@ -105,7 +105,7 @@ def _merged(outputs: list[NotebookNode]) -> Iterator[NotebookNode]:
 
 
 def _steady(output: NotebookNode) -> NotebookNode:
-    """An output without its widget's number, which differs each time; a picture keeps its size."""
+    """An output without the number of its widget, which varies; a picture keeps its size."""
     if "data" in output and _WIDGET in output.data:
         del output.data[_WIDGET]
         output.data["text/plain"] = "(sliders: run this notebook in Jupyter)"
@@ -116,32 +116,32 @@ def _steady(output: NotebookNode) -> NotebookNode:
 
 
 def write(notebook: NotebookNode, path: Path) -> None:
-    """Write a notebook whole, or not at all."""
+    """Write a notebook completely or not at all."""
     nbformat.validate(notebook)
     write_whole(f"{nbformat.writes(notebook)}\n".encode(), path)
 
 
-# ------------------------------------------------------------------ what tests compare
+# ------------------------------------------------------------------ comparison of outputs
 
 _TEXTS = ("text/plain", "text/markdown", "text/latex", "text/html")
 
 
 def texts(notebook: NotebookNode) -> list[str]:
-    """Every text that the cells put out, in order; of a picture its size."""
-    found = []
+    """All texts in the outputs of the cells, in order; for a picture its size."""
+    lines = []
     for cell in _code(notebook):
         for output in cell.outputs:
             if output.output_type == "stream":
-                found.append(f"{output.name}: {output.text}")
+                lines.append(f"{output.name}: {output.text}")
             elif output.output_type == "error":
-                found.append(f"{output.ename}: {output.evalue}")
+                lines.append(f"{output.ename}: {output.evalue}")
             else:
-                found += [str(output.data[kind]) for kind in _TEXTS if kind in output.data]
-    return found
+                lines += [str(output.data[kind]) for kind in _TEXTS if kind in output.data]
+    return lines
 
 
 def pictures(notebook: NotebookNode) -> int:
-    """How many pictures the cells put out."""
+    """Number of pictures in the outputs of the cells."""
     data: list[Mapping[str, Any]] = [
         output.data for cell in _code(notebook) for output in cell.outputs if "data" in output
     ]
@@ -149,49 +149,49 @@ def pictures(notebook: NotebookNode) -> int:
 
 
 MACHINE = re.compile(r"(?<![\w.~*/-])/(home|work|tmp|root|Users|opt|mnt|private|var|usr)/[\w.]")
-"""A path of some machine."""
+"""Pattern of an absolute path."""
 
 
 def faults(notebook: NotebookNode) -> list[str]:
-    """What no output may contain: errors, warnings, paths of a machine."""
-    found = [f"a path: {text}" for text in texts(notebook) if MACHINE.search(text)]
+    """Faults that no output may contain: errors, warnings, absolute paths."""
+    lines = [f"a path: {text}" for text in texts(notebook) if MACHINE.search(text)]
     for cell in _code(notebook):
         for output in cell.outputs:
             if output.output_type == "error":
-                found.append(f"an error: {output.ename}: {output.evalue}")
+                lines.append(f"an error: {output.ename}: {output.evalue}")
             elif output.output_type == "stream" and output.name == "stderr":
-                found.append(f"a warning: {output.text}")
-    return found
+                lines.append(f"a warning: {output.text}")
+    return lines
 
 
 def differences(path: Path) -> list[str]:
-    """Lines of a diff between the output on disk and that of a fresh run; and its faults."""
+    """A diff between the outputs on disk and those of a new run, and the faults of the new run."""
     fresh, kept = run(path), read(path)
     before, after = ("\n".join(texts(of)).splitlines() for of in (kept, fresh))
-    lines = list(unified_diff(before, after, "as committed", "fresh", lineterm=""))
+    lines = list(unified_diff(before, after, "as committed", "new run", lineterm=""))
     if pictures(fresh) != pictures(kept):
-        lines.append(f"{pictures(kept)} pictures as committed, {pictures(fresh)} fresh")
+        lines.append(f"{pictures(kept)} pictures as committed, {pictures(fresh)} in a new run")
     return lines + faults(fresh)
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run all notebooks in place, or those whose names hold one of the given words."""
+    """Run all notebooks in place, or those whose names contain one of the given words."""
     parser = ArgumentParser(prog="python -m notebooks", description=str(main.__doc__))
     parser.add_argument("words", nargs="*")
-    parser.add_argument("--check", action="store_true", help="write nothing; show what differs")
+    parser.add_argument("--check", action="store_true", help="write nothing; show the differences")
     given = parser.parse_args(arguments)
     chosen = [p for p in notebooks() if not given.words or any(w in p.name for w in given.words)]
     if not chosen:
-        parser.error(f"no notebook's name holds {' or '.join(given.words)}")
-    found = []
+        parser.error(f"no notebook has a name that contains {' or '.join(given.words)}")
+    lines = []
     for path in chosen:
         print(path.name, flush=True)
         if given.check:
-            found += differences(path)
+            lines += differences(path)
         else:
             write(run(path), path)
-    print(*found, sep="\n", end="")
-    return int(bool(found))
+    print(*lines, sep="\n", end="")
+    return int(bool(lines))
 
 
 if __name__ == "__main__":
