@@ -63,7 +63,7 @@ of the width."""
 EPS = 2.0**-52
 
 
-class Goal(NamedTuple):
+class Target(NamedTuple):
     """The target of the search for a contact, for E* = 1.
 
     load     load to be carried
@@ -95,7 +95,7 @@ class Search(NamedTuple):
     step: float
 
 
-GOAL: Any = record(Goal, real, real, real, truth)
+TARGET: Any = record(Target, real, real, real, truth)
 SEARCH: Any = record(Search, real, real, real, real, real, real)
 
 
@@ -146,8 +146,8 @@ def _is_contact(now: Any) -> bool:
     return 0 < load < math.inf and 0 < left < math.inf and 0 < right < math.inf
 
 
-@kernel(results(2)(GOAL, real, real, results(5)))
-def _residuals(goal: Any, a: float, c: float, now: Any) -> Any:
+@kernel(results(2)(TARGET, real, real, results(5)))
+def _residuals(target: Any, a: float, c: float, now: Any) -> Any:
     """How far a contact is from its target.
 
     The first value is the logarithm of the target load over the load.  The second value is the
@@ -156,59 +156,59 @@ def _residuals(goal: Any, a: float, c: float, now: Any) -> Any:
     """
     load, moment, tilt, _, _ = now
     h = a + c
-    arm = goal.place + moment / load
-    residual = (goal.tilt - tilt) * h / load if goal.held else 4 * arm / h
-    return math.log(goal.load / load), residual
+    arm = target.place + moment / load
+    residual = (target.tilt - tilt) * h / load if target.held else 4 * arm / h
+    return math.log(target.load / load), residual
 
 
-@kernel(results(2)(GOAL, real, real, results(5)))
-def _step(goal: Any, a: float, c: float, now: Any) -> Any:
+@kernel(results(2)(TARGET, real, real, results(5)))
+def _step(target: Any, a: float, c: float, now: Any) -> Any:
     """Newton's step for a and c."""
     load, moment, _, left, right = now
     h, mid = a + c, (c - a) / 2
-    shortfall, residual = _residuals(goal, a, c, now)
+    shortfall, residual = _residuals(target, a, c, now)
     force = 4 * load / (math.pi * math.sqrt(h))
     both = force * shortfall  # K_left da + K_right dc
-    if goal.held:
+    if target.held:
         odd = -force * math.pi / 4 * residual  # K_right dc - K_left da
     else:
         odd = force * residual - 4 * both * (mid + moment / load) / h
     return (both - odd) / 2 / left, (both + odd) / 2 / right
 
 
-@kernel(real(GOAL, real, real, results(5)))
-def _error(goal: Any, a: float, c: float, now: Any) -> float:
+@kernel(real(TARGET, real, real, results(5)))
+def _error(target: Any, a: float, c: float, now: Any) -> float:
     """The distance of a contact from its target as one number."""
     if not _is_contact(now):
         return math.inf
-    shortfall, residual = _residuals(goal, a, c, now)
+    shortfall, residual = _residuals(target, a, c, now)
     return math.hypot(shortfall, residual)
 
 
 # ---------------------------------------------------------------- Newton's method
 
 
-@kernel(real(LAW, vector, vector, GOAL))
-def _width(law: Any, own: Any, breaks: Any, goal: Any) -> float:
+@kernel(real(LAW, vector, vector, TARGET))
+def _width(law: Any, own: Any, breaks: Any, target: Any) -> float:
     """Width of a contact centred at the place with nearly the target load; NaN if there is none.
 
     The search starts from the curvature at the place, but not far beyond the nearest break.
     """
-    curvature = law.slope(goal.place, own)[1]
+    curvature = law.slope(target.place, own)[1]
     h = nearest = math.inf
     if 0 < curvature < math.inf:
-        h = 4 * math.sqrt(goal.load / (math.pi * curvature))
+        h = 4 * math.sqrt(target.load / (math.pi * curvature))
     for at in breaks:
-        nearest = min(nearest, abs(at - goal.place))
-    h = min(h, max(4 * nearest, goal.load))
+        nearest = min(nearest, abs(at - target.place))
+    h = min(h, max(4 * nearest, target.load))
     search = _begun(0.0, math.inf, math.inf, h)
     for _ in range(STEPS):
         h = math.exp(search.y)
-        now = law.state(h / 2 - goal.place, h / 2 + goal.place, own)
+        now = law.state(h / 2 - target.place, h / 2 + target.place, own)
         load, _, _, left, right = now
         over, rate = (math.inf if load == math.inf else -1.0), 0.0
         if _is_contact(now):
-            over = math.log(load / goal.load)
+            over = math.log(load / target.load)
             rate = math.pi * math.sqrt(h) / 8 * h * (left + right) / load
             if abs(over) < NEAR:
                 return h
@@ -238,17 +238,17 @@ def _moved(edge: float, start: float, by: float) -> float:
     return edge + distance * math.expm1(min(max(by / distance, -LONGEST), LONGEST))
 
 
-@kernel(results(2)(LAW, vector, vector, GOAL, real, real))
-def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> Any:
+@kernel(results(2)(LAW, vector, vector, TARGET, real, real))
+def _newton(law: Any, own: Any, breaks: Any, target: Any, a: float, c: float) -> Any:
     """The contact by Newton's method, or the closest one that the method reached."""
     now = law.state(a, c, own)
-    miss = _error(goal, a, c, now)
+    miss = _error(target, a, c, now)
     for _ in range(STEPS):
         if miss == math.inf:
             break
-        by_a, by_c = _step(goal, a, c, now)
-        from_a = _last_break(a, -goal.place, breaks, -1.0)
-        from_c = _last_break(c, goal.place, breaks, 1.0)
+        by_a, by_c = _step(target, a, c, now)
+        from_a = _last_break(a, -target.place, breaks, -1.0)
+        from_c = _last_break(c, target.place, breaks, 1.0)
         if not (a > from_a and c > from_c):
             break
         length = max(abs(by_a) / (a - from_a), abs(by_c) / (c - from_c))
@@ -258,11 +258,11 @@ def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> A
         part, better = 1.0, False
         while part > FINEST and not better:
             # first from the last breaks, then from the place, so that an edge can pass a break
-            for starts in ((from_a, from_c), (-goal.place, goal.place)):
+            for starts in ((from_a, from_c), (-target.place, target.place)):
                 next_a = _moved(a, starts[0], part * by_a)
                 next_c = _moved(c, starts[1], part * by_c)
                 after = law.state(next_a, next_c, own)
-                missed = _error(goal, next_a, next_c, after)
+                missed = _error(target, next_a, next_c, after)
                 if missed < miss:
                     a, c, now, miss, better = next_a, next_c, after, missed, True
                     break
@@ -275,8 +275,8 @@ def _newton(law: Any, own: Any, breaks: Any, goal: Any, a: float, c: float) -> A
 # ---------------------------------------------------------------- one root inside the other
 
 
-@kernel(results(2)(LAW, vector, GOAL, real, real))
-def _second_condition(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
+@kernel(results(2)(LAW, vector, TARGET, real, real))
+def _second_condition(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
     """A function that grows with c and is zero where the second condition is met; its rate."""
     now = law.state(a, c, own)
     load, moment, tilt, _, right = now
@@ -285,15 +285,15 @@ def _second_condition(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
     if not _is_contact(now):
         return -1.0, 0.0
     h = a + c
-    if goal.held:
-        return goal.tilt - tilt, right / math.sqrt(h)
+    if target.held:
+        return target.tilt - tilt, right / math.sqrt(h)
     centre = -moment / load
     arm = (c - a) / 2 + h / 4 - centre
-    return centre - goal.place, math.pi * math.sqrt(h) / 4 * right * arm / load
+    return centre - target.place, math.pi * math.sqrt(h) / 4 * right * arm / load
 
 
-@kernel(results(2)(LAW, vector, GOAL, real, real))
-def _load_condition(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
+@kernel(results(2)(LAW, vector, TARGET, real, real))
+def _load_condition(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
     """The logarithm of load over target load; its rate with a, the second condition being met."""
     if c == math.inf:
         return -1.0, 0.0
@@ -305,31 +305,31 @@ def _load_condition(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
         return -1.0, 0.0
     h = a + c
     rate = math.pi * math.sqrt(h) / 2 * left / load
-    if not goal.held:
-        arm = (c - a) / 2 + h / 4 - goal.place
+    if not target.held:
+        arm = (c - a) / 2 + h / 4 - target.place
         rate *= h / 4 / arm if arm > 0 else 0.0
-    return math.log(load / goal.load), rate
+    return math.log(load / target.load), rate
 
 
-@kernel(real(LAW, vector, vector, GOAL, real, real))
-def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float, guess: float) -> float:
+@kernel(real(LAW, vector, vector, TARGET, real, real))
+def _right_edge(law: Any, own: Any, breaks: Any, target: Any, a: float, guess: float) -> float:
     """The right edge that meets the second condition for a given left edge, starting from a guess.
 
     Infinite if no contact with this left edge carries any load, NaN if none meets the condition.
     """
-    start, end, top = goal.place, math.inf, math.inf
+    start, end, top = target.place, math.inf, math.inf
     for at in breaks:
         if start < at < end:
-            value, _ = _second_condition(law, own, goal, a, at)
+            value, _ = _second_condition(law, own, target, a, at)
             if value < 0:
                 start = at
             else:
                 end, top = at, value
-    guess = guess if start < guess < end else min(start + a + goal.place, (start + end) / 2)
+    guess = guess if start < guess < end else min(start + a + target.place, (start + end) / 2)
     search = _begun(start, end - start, top, guess - start)
     for _ in range(STEPS):
         far = math.exp(search.y)
-        value, rate = _second_condition(law, own, goal, a, start + far)
+        value, rate = _second_condition(law, own, target, a, start + far)
         search = _next(search, value, rate * far)
         if search.step == 0:
             break
@@ -339,15 +339,15 @@ def _right_edge(law: Any, own: Any, breaks: Any, goal: Any, a: float, guess: flo
     return math.nan if now[0] == math.inf or _is_contact(now) else math.inf
 
 
-@kernel(results(2)(LAW, vector, vector, GOAL, real))
-def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
+@kernel(results(2)(LAW, vector, vector, TARGET, real))
+def _nested(law: Any, own: Any, breaks: Any, target: Any, size: float) -> Any:
     """The contact by two nested root searches; NaN if there is none."""
-    start, end, top, c = -goal.place, math.inf, math.inf, math.nan
+    start, end, top, c = -target.place, math.inf, math.inf, math.nan
     for i in range(breaks.size):
         at = -breaks[breaks.size - 1 - i]
         if start < at < end:
-            c = _right_edge(law, own, breaks, goal, at, c)
-            value, _ = _load_condition(law, own, goal, at, c)
+            c = _right_edge(law, own, breaks, target, at, c)
+            value, _ = _load_condition(law, own, target, at, c)
             if value < 0:
                 start = at
             else:
@@ -355,8 +355,8 @@ def _nested(law: Any, own: Any, breaks: Any, goal: Any, size: float) -> Any:
     search = _begun(start, end - start, top, min(size, (end - start) / 2))
     for _ in range(STEPS):
         far = math.exp(search.y)
-        c = _right_edge(law, own, breaks, goal, start + far, c)
-        value, rate = _load_condition(law, own, goal, start + far, c)
+        c = _right_edge(law, own, breaks, target, start + far, c)
+        value, rate = _load_condition(law, own, target, start + far, c)
         search = _next(search, value, rate * far)
         if search.step == 0:
             break
@@ -407,8 +407,8 @@ def level(law: Any, own: Any, alpha: float) -> float:
 # ---------------------------------------------------------------- the whole solution
 
 
-@kernel(results(2)(LAW, vector, GOAL, real, real))
-def _checked(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
+@kernel(results(2)(LAW, vector, TARGET, real, real))
+def _checked(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
     """The error of a contact apart from rounding, and its tilt, NaN if that is not determined.
 
     Rounding of the edges changes the load; rounding of the given place or tilt moves the edges.
@@ -418,30 +418,30 @@ def _checked(law: Any, own: Any, goal: Any, a: float, c: float) -> Any:
     if not (LEAST < h < MOST and _is_contact(now)):
         return math.inf, math.nan
     load, _, tilt, left, right = now
-    shortfall, residual = _residuals(goal, a, c, now)
+    shortfall, residual = _residuals(target, a, c, now)
     if not (abs(shortfall) < math.inf and abs(residual) < math.inf):
         return math.inf, math.nan
     edges = math.pi / 4 * EPS * math.sqrt(h) * (left * abs(a) + right * abs(c)) / load
-    given = EPS * (abs(goal.tilt) * h / load if goal.held else abs(goal.place) / h)
+    given = EPS * (abs(target.tilt) * h / load if target.held else abs(target.place) / h)
     error = max(abs(shortfall) - 16 * edges, (abs(residual) - 16 * (edges + given)) / 16, 0.0)
     if edges > ROUGHEST or given > UNSURE:
         tilt = math.nan
     return error, tilt
 
 
-@kernel(results(3)(LAW, vector, GOAL))
-def _solved(law: Any, own: Any, goal: Any) -> Any:
+@kernel(results(3)(LAW, vector, TARGET))
+def _solved(law: Any, own: Any, target: Any) -> Any:
     """The contact and its tilt; NaN if there is none."""
-    if not (0 < goal.load < math.inf and abs(goal.place) < MOST):
+    if not (0 < target.load < math.inf and abs(target.place) < MOST):
         return math.nan, math.nan, math.nan
     breaks = law.breaks(own)
-    h = _width(law, own, breaks, goal)
-    a, c = _newton(law, own, breaks, goal, h / 2 - goal.place, h / 2 + goal.place)
-    error, tilt = _checked(law, own, goal, a, c)
+    h = _width(law, own, breaks, target)
+    a, c = _newton(law, own, breaks, target, h / 2 - target.place, h / 2 + target.place)
+    error, tilt = _checked(law, own, target, a, c)
     if error > EXACT:
-        other_a, other_c = _nested(law, own, breaks, goal, goal.load)
-        other_a, other_c = _newton(law, own, breaks, goal, other_a, other_c)
-        other_error, other_tilt = _checked(law, own, goal, other_a, other_c)
+        other_a, other_c = _nested(law, own, breaks, target, target.load)
+        other_a, other_c = _newton(law, own, breaks, target, other_a, other_c)
+        other_error, other_tilt = _checked(law, own, target, other_a, other_c)
         if other_error < error:
             a, c, error, tilt = other_a, other_c, other_error, other_tilt
     if not error < ACCEPTED or tilt != tilt:
@@ -454,13 +454,13 @@ def contact(law: Any, own: Any, P: float, M: float) -> Any:
     """The edges a, c and the tilt under a load and a moment; NaN if there is no contact."""
     if not 0 < P < math.inf:
         return math.nan, math.nan, math.nan
-    return _solved(law, own, Goal(P, -M / P, 0.0, False))
+    return _solved(law, own, Target(P, -M / P, 0.0, False))
 
 
 @kernel(results(2)(LAW, vector, real, real))
 def contact_at_tilt(law: Any, own: Any, P: float, alpha: float) -> Any:
     """The edges a, c under a load at a given tilt; NaN if there is no contact."""
-    a, c, _ = _solved(law, own, Goal(P, level(law, own, alpha), alpha, True))
+    a, c, _ = _solved(law, own, Target(P, level(law, own, alpha), alpha, True))
     return a, c
 
 

@@ -82,7 +82,7 @@ def test_rates_are_those_of_differences(case, cycle, ends):
 
     def off(m, n):
         ((L, R, *rates),) = solved(_each_sums, case, [(*cycle, m, n)], 4)
-        left, right = bounded.pulls(cycle[4], cycle[5], m + n)
+        left, right = bounded.drives(cycle[4], cycle[5], m + n)
         return np.array([L - left, R - right]), rates
 
     (left, right), (by_m, by_n) = off(m, n)
@@ -105,5 +105,5 @@ def test_a_zone_is_found_by_two_unknowns_and_in_a_bracket(case, cycle, ends):
 def test_a_cycle_is_seen_so_that_tension_loads_the_left_edge_more():
     cycle = np.array([1.0, 2.0, 3.0, 4.0, 5.0, -6.0, 7.0])
     assert bounded.sense_of(cycle) == -1 and bounded.sense_of(-cycle) == 1
-    assert bounded.seen(cycle).tolist() == [2, 1, 4, 3, 5, 6, 7]
-    assert bounded.seen(-cycle).tolist() == (-cycle).tolist()
+    assert bounded.oriented(cycle).tolist() == [2, 1, 4, 3, 5, 6, 7]
+    assert bounded.oriented(-cycle).tolist() == (-cycle).tolist()

@@ -19,7 +19,7 @@ def _each_way(law, given, own, out):
     """given: both contacts as rows of a way; out: the way, row by row."""
     law = opened(law)
     for i in range(given.shape[0]):
-        way = growth.followed(law, own[i], given[i].copy().reshape((2, 5)))
+        way = growth.load_path(law, own[i], given[i].copy().reshape((2, 5)))
         for k in range(way.shape[0]):
             for j in range(5):
                 out[i, 5 * k + j] = way[k, j]
@@ -30,7 +30,7 @@ def _each_large(law, given, own, out):
     """given: a cycle of tension that is not negative, m and n, both contacts as rows of a way."""
     law = opened(law)
     for i in range(given.shape[0]):
-        way = growth.followed(law, own[i], given[i, 9:].copy().reshape((2, 5)))
+        way = growth.load_path(law, own[i], given[i, 9:].copy().reshape((2, 5)))
         m, n = given[i, 7], given[i, 8]
         grows = growth.grows_apart(law, own[i], way, given[i, :7].copy(), 1.0, m, n)
         out[i, 0] = 1.0 if grows else 0.0
@@ -69,9 +69,9 @@ def test_a_way_holds_the_contacts_of_loads_in_proportion():
 def test_what_drives_both_edges_by_hand():
     """dP +- 4 h_s (dM + mid dP)/h**2.  A cylinder from [-1, 1] to [-1.1, 0.9]: dP = 0 and
     dM = P/10 = pi/40, and h_s = h = 2 leaves +-2 dM."""
-    left, right = growth.leads(way(hertz, (1.0, 1.0), (1.1, 0.9)), 2.0, 1.0, 1.0)
+    left, right = growth.advances(way(hertz, (1.0, 1.0), (1.1, 0.9)), 2.0, 1.0, 1.0)
     assert (left, right) == pytest.approx((math.pi / 20, -math.pi / 20), rel=1e-12)
-    grown = growth.leads(way(hertz, (1.0, 1.0), (1.1, 1.1)), 2.0, 1.0, 1.0)
+    grown = growth.advances(way(hertz, (1.0, 1.0), (1.1, 1.1)), 2.0, 1.0, 1.0)
     assert grown == pytest.approx((0.21 * math.pi / 4,) * 2, rel=1e-12)
 
 

@@ -256,13 +256,13 @@ def test_from_brackets_alone_it_is_the_same(plain):
     for case, P, M in CASES:
         law, own = plain(case), case.own
         breaks = law.breaks(own)
-        by_moment = inverse.Goal(P, -M / P, 0.0, False)
-        by_tilt = inverse.Goal(P, inverse.level(law, own, M), M, True)
+        by_moment = inverse.Target(P, -M / P, 0.0, False)
+        by_tilt = inverse.Target(P, inverse.level(law, own, M), M, True)
         wanted = solved(case, [P], M)[:2, 0], at_tilt(case, [P], M)[:, 0]
-        for goal, edges in zip((by_moment, by_tilt), wanted, strict=True):
-            if not math.isnan(goal.place):
-                found = inverse._nested(law, own, breaks, goal, P)
-                found = inverse._newton(law, own, breaks, goal, *found)
+        for target, edges in zip((by_moment, by_tilt), wanted, strict=True):
+            if not math.isnan(target.place):
+                found = inverse._nested(law, own, breaks, target, P)
+                found = inverse._newton(law, own, breaks, target, *found)
                 np.testing.assert_allclose(found, edges, rtol=1e-11)
 
 

@@ -11,7 +11,7 @@ from generated.runtime.inverse import contact_at_tilt
 from generated.runtime.kernels import LOOP, Law, kernel, opened
 from generated.runtime.slip import bounded, mixed, newton, tables
 from generated.runtime.slip.large import large_zone
-from generated.runtime.slip.mixed import turned_round, turning
+from generated.runtime.slip.mixed import mixed_zone, zone_by_phases
 from tests.reference.conditions import HalfCycle, Patch
 from tests.reference.loads import State
 from tests.reference.mixed import turning as another_solution
@@ -30,7 +30,7 @@ def each_zone(law, given, own, out):
         load, moment, tilt, _, _ = law.state(a, c, own[i])
         ends = np.array([[a, c, tilt, load, moment], [a, c, tilt, load, moment]])
         cycle = np.array([a, c, a, c, dQ, dsigma, F])
-        out[i, 0], out[i, 1] = turned_round(law, own[i], ends, cycle)
+        out[i, 0], out[i, 1] = mixed_zone(law, own[i], ends, cycle)
         low, lean = load - dQ / (2 * F), tilt - dsigma / (4 * F)
         out[i, 2], out[i, 3] = contact_at_tilt(law, own[i], low, lean)
         out[i, 4], out[i, 5] = large_zone(law, own[i], cycle)
@@ -159,7 +159,7 @@ def test_random_cycles_are_all_solved():
 def test_nothing_turns_round_without_shear_or_tension():
     law, own = laws.wedge.functions, laws.wedge.own
     for dQ, dsigma in ((0.0, 0.2), (0.15, 0.0)):
-        zone = getattr(turning, "py_func", turning)(
+        zone = getattr(zone_by_phases, "py_func", zone_by_phases)(
             law, own, np.array([1.0, 1.0, 1.0, 1.0, dQ, dsigma, F]), 1.0
         )
         assert all(math.isnan(end) for end in zone)
@@ -175,5 +175,5 @@ def test_the_text_gives_what_its_compiled_form_gives(monkeypatch):
     law = Law(*(getattr(function, "py_func", function) for function in laws.wedge.functions))
     a, c, dQ, dsigma = map(float, given[0])
     cycle = np.array([c, a, c, a, dQ, -dsigma, F])  # seen from behind
-    zone = mixed.turning(law, laws.wedge.own, cycle, -1.0)
+    zone = mixed.zone_by_phases(law, laws.wedge.own, cycle, -1.0)
     assert_allclose(zone, (n, m), rtol=1e-11)

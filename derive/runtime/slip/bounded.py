@@ -1,10 +1,10 @@
 r"""Slip zones next to a stick zone at both ends of which the shear traction stays bounded.
 
-A cycle is seen so that tension loads the left edge more, dsigma >= 0; otherwise the body is seen
-from behind.  Slip leaves a change of shear r in both slip zones: f (p1 + p2) on the left, and on
-the right kappa f (p1 + p2), less the shear gained there since it last stuck (mixed.py).  Let h_s =
-m + n and let y be the distance from the stick zone.  With u = sqrt(y/(h_s + y)), the change of
-shear is bounded at both ends of [-m, n] if
+All cycles have dsigma >= 0, so that tension loads the left edge more; for dsigma < 0 the mirror
+image, x -> -x, is considered.  Slip leaves a change of shear r in both slip zones: f (p1 + p2) on
+the left, and on the right kappa f (p1 + p2), less the shear gained there since it last stuck
+(mixed.py).  Let h_s = m + n and let y be the distance from the stick zone.  With u = sqrt(y/(h_s +
+y)), the change of shear is bounded at both ends of [-m, n] if
 
     left:   L = int_left r/u dy + int_right r u dy = dQ + pi h_s dsigma/8,
     right:  R = int_left r u dy + int_right r/u dy = dQ - pi h_s dsigma/8.
@@ -81,8 +81,8 @@ class Friction(NamedTuple):
     """The data that determine r, the traction left by slip.
 
     pressure, own  of the body itself; x there is `sense` times x here
-    sense          1, or -1 if the body is seen from behind
-    cycle          a1, c1, a2, c2, dQ, dsigma, f, as seen
+    sense          1, or -1 for the mirror image
+    cycle          a1, c1, a2, c2, dQ, dsigma, f, as returned by `oriented`
     cuts           points where r changes its formula
     a, c           edges of the smaller contact, to which slip zones extend
     da, dc         how much further out the edges of the larger contact are
@@ -139,19 +139,19 @@ SLIP = record(Slip, real, real, real, real, ZONE, ZONE)
 
 @kernel(real(vector))
 def sense_of(cycle: Any) -> Any:
-    """1, or -1 if a cycle is seen from behind."""
+    """1, or -1 if `oriented` returns the mirror image of a cycle."""
     return -1.0 if cycle[5] < 0 else 1.0
 
 
 @kernel(vector(vector))
-def seen(cycle: Any) -> Any:
-    """The cycle seen so that dsigma >= 0."""
+def oriented(cycle: Any) -> Any:
+    """The cycle or, if dsigma < 0, its mirror image, in which dsigma > 0."""
     if not cycle[5] < 0:
         return cycle
-    behind = cycle.copy()
-    behind[0], behind[1], behind[2], behind[3] = cycle[1], cycle[0], cycle[3], cycle[2]
-    behind[5] = -cycle[5]
-    return behind
+    mirrored = cycle.copy()
+    mirrored[0], mirrored[1], mirrored[2], mirrored[3] = cycle[1], cycle[0], cycle[3], cycle[2]
+    mirrored[5] = -cycle[5]
+    return mirrored
 
 
 @kernel(GAIN())
@@ -162,7 +162,10 @@ def no_gain() -> Any:
 
 @kernel(FRICTION(LAW, vector, vector, real, real, real))
 def friction(law: Any, own: Any, cycle: Any, sense: float, kappa: float, also: float) -> Any:
-    """The friction of a cycle as seen.  also: one more point where integrals are cut."""
+    """The friction of a cycle with dsigma >= 0.
+
+    also: one more point at which integrals are split.
+    """
     a, c = min(cycle[0], cycle[2]), min(cycle[1], cycle[3])
     da, dc = max(cycle[0], cycle[2]) - a, max(cycle[1], cycle[3]) - c
     breaks, nothing = law.breaks(own), no_gain()
@@ -268,7 +271,7 @@ def change(slip: Any, x: float) -> Any:
 
 
 @kernel(results(2)(real, real, real))
-def pulls(dQ: float, dsigma: float, stuck: float) -> Any:
+def drives(dQ: float, dsigma: float, stuck: float) -> Any:
     """The drive of slip by shear and tension at both ends of a stick zone of given width."""
     by_tension = math.pi * stuck * dsigma / 8
     return dQ + by_tension, dQ - by_tension
@@ -309,7 +312,7 @@ def _step(of: Any, slip: Any) -> Any:
     """Newton's step in the logarithms of both slip zones over the stick zone; the squared error."""
     stuck = slip.m + slip.n
     L, R, by_m, by_n = sums(slip)
-    drive_left, drive_right = pulls(of.cycle[4], of.cycle[5], stuck)
+    drive_left, drive_right = drives(of.cycle[4], of.cycle[5], stuck)
     residual_left, residual_right = L - drive_left, R - drive_right
     skew = (residual_right - residual_left) / (2 * stuck)
     left = residual_left, skew - by_m / 2, skew
@@ -344,7 +347,7 @@ def solved(of: Any, left: float, right: float, level: int) -> Any:
             if length < max(small, rounding):
                 if (
                     rounding < small
-                    and error > (MET * pulls(of.cycle[4], of.cycle[5], stuck)[0]) ** 2
+                    and error > (MET * drives(of.cycle[4], of.cycle[5], stuck)[0]) ** 2
                 ):
                     break
                 left, right = moved(width, left, right, to_left, to_right)
@@ -368,7 +371,7 @@ def placed(of: Any, stuck: float, n: float, level: int) -> Any:
     if not least < n < most:
         n = (least + most) / 2
     bracket = (least, most, n, most - least)
-    drive_left, drive_right = pulls(of.cycle[4], of.cycle[5], stuck)
+    drive_left, drive_right = drives(of.cycle[4], of.cycle[5], stuck)
     for _ in range(2 * STEPS):
         n = bracket[2]
         slip = beside(of, stuck - n, n, n - least, most - n, level)

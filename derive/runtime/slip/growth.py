@@ -4,15 +4,15 @@ The conditions of a stick zone are exact only while both slip zones grow all the
 the cycle to the other.  Let the loads change by dP and dM along the path, at a contact of width h,
 and let h_s be the width of the zone that still sticks.  Slip grows at the edges if
 
-    kappa drive > f lead,   drive = dQ -/+ pi h_s dsigma/8,
-    lead = dP -/+ 4 h_s (dM + mid dP)/h**2,
+    kappa drive > f advance,   drive = dQ -/+ pi h_s dsigma/8,
+    advance = dP -/+ 4 h_s (dM + mid dP)/h**2,
 
-with the upper sign at the right edge, as long as the zone ends inside both contacts.  `lead`
+with the upper sign at the right edge, as long as the zone ends inside both contacts.  `advance`
 measures how fast an edge advances.  Shear that has not slipped yet, and has been at friction since
 the last half-cycle, must stay within friction while the pressure falls: kappa dq > f (p1 - p).
 Under moderate tension it does, since p exceeds the pressure of a contact inside its own; under
 large tension it is tested.  The test is made at PARTS points of the path, from both ends, and with
-`lead` at the start.
+`advance` at the start.
 
 Along the path the shear traction grows at the rate
 
@@ -35,7 +35,7 @@ import numpy as np
 
 from ..inverse import contact
 from ..kernels import LAW, kernel, matrix, real, results, truth, vector, whole
-from .bounded import FRICTION, SLIP, change, friction, pressure_at, pulls
+from .bounded import FRICTION, SLIP, change, drives, friction, pressure_at
 from .large import large_slip
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .quadrature import slip_nodes
@@ -54,8 +54,8 @@ AGREED = 1e-8
 
 
 @kernel(matrix(LAW, vector, matrix))
-def followed(law: Any, own: Any, ends: Any) -> Any:
-    """The path between two contacts, loads in proportion; constant loads are left as they are."""
+def load_path(law: Any, own: Any, ends: Any) -> Any:
+    """The path between two contacts, with loads in proportion; just these two if they are equal."""
     if ends[0, A] == ends[1, A] and ends[0, C] == ends[1, C]:
         return ends
     path = np.empty((PARTS + 1, 5))
@@ -70,7 +70,7 @@ def followed(law: Any, own: Any, ends: Any) -> Any:
 
 
 @kernel(results(2)(matrix, real, real, real))
-def leads(path: Any, stuck: float, a: float, c: float) -> Any:
+def advances(path: Any, stuck: float, a: float, c: float) -> Any:
     """The rates at which the loads advance the left and the right edge of the contact [-a, c]."""
     last = path.shape[0] - 1
     more, turn = path[last, LOAD] - path[0, LOAD], path[last, MOMENT] - path[0, MOMENT]
@@ -83,11 +83,11 @@ def slips_at_the_start(path: Any, cycle: Any, right: float) -> Any:
     """Whether slip begins at both ends of the cycle, forward on the left, in sense `right` at c."""
     for end in (0, path.shape[0] - 1):
         a, c = path[end, A], path[end, C]
-        lead_left, lead_right = leads(path, a + c, a, c)
-        drive_left, drive_right = pulls(cycle[4], cycle[5], a + c)
+        advance_left, advance_right = advances(path, a + c, a, c)
+        drive_left, drive_right = drives(cycle[4], cycle[5], a + c)
         if not (
-            drive_left >= cycle[6] * abs(lead_left)
-            and right * drive_right >= cycle[6] * abs(lead_right)
+            drive_left >= cycle[6] * abs(advance_left)
+            and right * drive_right >= cycle[6] * abs(advance_right)
         ):
             return False
     return True
@@ -97,7 +97,7 @@ def slips_at_the_start(path: Any, cycle: Any, right: float) -> Any:
 def sticks_all_over(path: Any, cycle: Any) -> Any:
     """Whether nothing slips at all.
 
-    An edge whose motion reverses on the way, lead = 0, cannot bear any shear at that point.  The
+    An edge whose motion reverses on the way, advance = 0, cannot bear any shear at that point.  The
     rates of shear and of pressure, times w, vary linearly between their values at the edges.  If
     the pressure rises at both edges, or falls at both, friction that holds at the edges holds
     everywhere.  Otherwise the pressure is stationary at some point while the shear changes, and the
@@ -108,11 +108,11 @@ def sticks_all_over(path: Any, cycle: Any) -> Any:
         return True
     if path.shape[0] == 2:
         return False
-    first_left, first_right = leads(path, path[0, A] + path[0, C], path[0, A], path[0, C])
+    first_left, first_right = advances(path, path[0, A] + path[0, C], path[0, A], path[0, C])
     for k in range(path.shape[0]):
         a, c = path[k, A], path[k, C]
-        left, right = leads(path, a + c, a, c)
-        drive_left, drive_right = pulls(dQ, dsigma, a + c)
+        left, right = advances(path, a + c, a, c)
+        drive_left, drive_right = drives(dQ, dsigma, a + c)
         if not (
             (left * right >= 0 or drive_left == drive_right == 0)
             and abs(drive_left) <= f * abs(left)
@@ -137,8 +137,8 @@ def grows(law: Any, own: Any, path: Any, cycle: Any) -> Any:
             point = k if sense > 0 else last - k
             a, c = path[point, A], path[point, C]
             m, n = patch(law, own, path, end, point, k / last, cycle)
-            left, right = leads(path, m + n, a, c)
-            drive_left, drive_right = pulls(cycle[4], cycle[5], m + n)
+            left, right = advances(path, m + n, a, c)
+            drive_left, drive_right = drives(cycle[4], cycle[5], m + n)
             if not (
                 m <= min(a, path[end, A])
                 and n <= min(c, path[end, C])
@@ -154,7 +154,7 @@ def grows(law: Any, own: Any, path: Any, cycle: Any) -> Any:
 
 @kernel(matrix(matrix))
 def mirrored(path: Any) -> Any:
-    """The same path seen from behind."""
+    """The path of the mirror image, x -> -x."""
     behind = path.copy()
     for k in range(path.shape[0]):
         behind[k, A], behind[k, C] = path[k, C], path[k, A]
@@ -173,7 +173,7 @@ def holds_at_the_start(path: Any, cycle: Any, m: float, n: float) -> Any:
     for sense in (1, -1):
         end = 0 if sense > 0 else path.shape[0] - 1
         a, c = path[end, A], path[end, C]
-        left, right = leads(path, a + c, a, c)
+        left, right = advances(path, a + c, a, c)
         for side in (-1, 1):
             x = -m if side < 0 else n
             shear = cycle[4] - math.pi * cycle[5] * (x - (c - a) / 2) / 4
@@ -184,18 +184,20 @@ def holds_at_the_start(path: Any, cycle: Any, m: float, n: float) -> Any:
 
 
 @kernel(results(2)(real, real, real, real, real))
-def _force_rates(slip: float, stuck: float, h: float, own_lead: float, other_lead: float) -> Any:
+def _force_rates(
+    slip: float, stuck: float, h: float, own_advance: float, other_advance: float
+) -> Any:
     """int dp sqrt((stuck + y)/y) dy and int dp sqrt(y/(stuck + y)) dy over one slip zone.
 
     dp = (own (h - s) + other s)/(pi h sqrt(s (h - s))) as the loads change, where s is the distance
-    from the zone's edge, and `own` and `other` are the leads of this edge and of the other one.
+    from the zone's edge, and `own` and `other` are the advances of this edge and the other one.
     """
     nodes = slip_nodes(np.empty(0), 1.0, 0.0, slip, slip, 1)
     near, far = 0.0, 0.0
     for i in range(nodes.shape[1]):
         y = nodes[0, i]
         s, beyond = slip - y, stuck + y
-        dp = (own_lead * (h - s) + other_lead * s) / (math.pi * h * math.sqrt(s * (h - s)))
+        dp = (own_advance * (h - s) + other_advance * s) / (math.pi * h * math.sqrt(s * (h - s)))
         force = nodes[1, i] * dp / math.sqrt(y * beyond)
         near += force * beyond
         far += force * y
@@ -212,10 +214,10 @@ def _still_grows(path: Any, cycle: Any, k: int, sense: float, m: float, n: float
     a, c = path[k, A], path[k, C]
     if not (m < a and n < c and m + n > 0):
         return False
-    left, right = leads(path, a + c, a, c)
+    left, right = advances(path, a + c, a, c)
     near_left, far_left = _force_rates(a - m, m + n, a + c, left, right)
     near_right, far_right = _force_rates(c - n, m + n, a + c, right, left)
-    drive_left, drive_right = pulls(cycle[4], cycle[5], m + n)
+    drive_left, drive_right = drives(cycle[4], cycle[5], m + n)
     moving = sense * cycle[6]
     at_left = drive_left - moving * (near_left - far_right)
     at_right = drive_right - moving * (far_left - near_right)

@@ -1,4 +1,4 @@
-r"""The stick zone between slip zones of opposite signs, of a cycle as returned by `bounded.seen`.
+r"""The stick zone between slip zones of opposite signs, for a cycle with dsigma >= 0.
 
 Newton's method starts from the leading order of both slip zones.  If it fails, the width of the
 stick zone is sought in a bracket: a wider stick zone belongs to a smaller part of the loads.  No
@@ -16,10 +16,10 @@ from .bounded import (
     FRICTION,
     SLIP,
     STEPS,
+    drives,
     friction,
+    oriented,
     placed,
-    pulls,
-    seen,
     sense_of,
     share,
     solved,
@@ -54,7 +54,7 @@ def _first_guess(law: Any, own: Any, of: Any) -> Any:
         K_left, K_right = K_right, K_left
     width = of.a + of.c
     h = width + (of.da + of.dc) / 2
-    left, right = pulls(of.cycle[4], of.cycle[5], h)
+    left, right = drives(of.cycle[4], of.cycle[5], h)
     scale = math.pi * math.sqrt(h) * of.cycle[6] / 2
     left = max(abs(left) / (scale * K_left), LEAST_SLIP * width)
     right = max(abs(right) / (scale * K_right), LEAST_SLIP * width)
@@ -122,6 +122,6 @@ def large_slip(law: Any, own: Any, cycle: Any, sense: float, agreed: float) -> A
 @kernel(results(2)(LAW, vector, vector))
 def large_zone(law: Any, own: Any, cycle: Any) -> Any:
     """m and n under large tension of either sign."""
-    sense, as_seen = sense_of(cycle), seen(cycle)
-    slip = large_slip(law, own, as_seen, sense, EXACT)
+    sense, as_oriented = sense_of(cycle), oriented(cycle)
+    slip = large_slip(law, own, as_oriented, sense, EXACT)
     return (slip.m, slip.n) if sense > 0 else (slip.n, slip.m)

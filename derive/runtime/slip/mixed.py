@@ -1,7 +1,7 @@
 r"""Slip that reverses within a half-cycle at constant normal loads: the exact stick zone.
 
-Tension loads the left edge more, dsigma > 0; otherwise the body is seen from behind.  While [-m, n]
-sticks and the loads change in proportion, its right end is driven by dQ - pi dsigma (m + n)/8,
+Tension loads the left edge more, dsigma > 0; otherwise the mirror image is considered.  While [-m,
+n] sticks and the loads change in proportion, its right end is driven by dQ - pi dsigma (m + n)/8,
 which vanishes at a width m + n = H = 8 dQ/(pi dsigma).  Between the moderate and the large regime a
 half-cycle has three phases:
 
@@ -61,9 +61,9 @@ from .bounded import (
     friction,
     friction_limits,
     no_gain,
+    oriented,
     placed,
     remaining_friction,
-    seen,
     sense_of,
     share,
     solved,
@@ -439,8 +439,8 @@ def _is_sound(of: Any, state: Any) -> bool:
 
 
 @kernel(results(2)(LAW, vector, vector, real))
-def turning(law: Any, own: Any, cycle: Any, sense: float) -> Any:
-    """m and n of a cycle as seen; NaN unless it has these phases and the tables converge."""
+def zone_by_phases(law: Any, own: Any, cycle: Any, sense: float) -> Any:
+    """m and n of a cycle with dsigma >= 0; NaN unless it has the phases and the tables converge."""
     a, c = cycle[0], cycle[1]
     if not (cycle[4] > 0 and cycle[5] > 0 and a + c > 0):
         return math.nan, math.nan
@@ -464,7 +464,7 @@ def turning(law: Any, own: Any, cycle: Any, sense: float) -> Any:
 
 @kernel(results(3)(LAW, vector, matrix, vector, real))
 def _moderate(law: Any, own: Any, ends: Any, cycle: Any, times: float) -> Any:
-    """m and n under moderate tension at `times` the given tension, seen so that this is positive.
+    """m and n under moderate tension at `times` the given tension, oriented so that it is positive.
 
     The third value is (a + n - H)/(a + c).
     """
@@ -479,7 +479,7 @@ def _moderate(law: Any, own: Any, ends: Any, cycle: Any, times: float) -> Any:
 
 
 @kernel(results(2)(LAW, vector, matrix, vector))
-def turned_round(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
+def mixed_zone(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
     """m and n of a cycle of constant loads in which slip reverses; NaN if they are not found.
 
     In a strip beyond the end of the moderate zone, tables fail.  There n departs from the moderate
@@ -488,16 +488,16 @@ def turned_round(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
 
     ends, cycle: as in zone.py.
     """
-    sense, as_seen = sense_of(cycle), seen(cycle)
-    m, n = turning(law, own, as_seen, sense)
+    sense, as_oriented = sense_of(cycle), oriented(cycle)
+    m, n = zone_by_phases(law, own, as_oriented, sense)
     m_0, n_0, past = _moderate(law, own, ends, cycle, 1.0)
     if math.isnan(m) and 0 < past <= STRIP:
         rate = (_moderate(law, own, ends, cycle, 1 + STRIP)[2] - past) / STRIP
         times = 1 + (BESIDE - past) / rate
         m_1, n_1, beyond = _moderate(law, own, ends, cycle, times)
-        more = as_seen.copy()
+        more = as_oriented.copy()
         more[5] *= times
-        m, n = turning(law, own, more, sense)
+        m, n = zone_by_phases(law, own, more, sense)
         part = (past / beyond) ** 2
         m, n = m_0 + part * (m - m_1), n_0 + part * (n - n_1)
     return (m, n) if sense > 0 else (n, m)
@@ -512,6 +512,6 @@ def each_stick_zone(law: Any, given: Any, own: Any, out: Any) -> None:
         m, n, regime = stick_zone(law, body, cycle)
         steady = cycle[0] == cycle[2] and cycle[1] == cycle[3]
         if regime == MIXED and math.isnan(m) and steady:
-            m, n = turned_round(law, body, ends_of(law, body, cycle), cycle)
+            m, n = mixed_zone(law, body, ends_of(law, body, cycle), cycle)
             regime = UNSOLVED if math.isnan(m) else MIXED
         out[i, 0], out[i, 1], out[i, 2] = m, n, regime

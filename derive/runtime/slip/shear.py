@@ -40,7 +40,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, opened, real, results, truth, vector
-from .bounded import ZONE, beside, change, friction, seen, sense_of
+from .bounded import ZONE, beside, change, friction, oriented, sense_of
 
 MODERATE, LARGE, MIXED, FULL_STICK = 1.0, 2.0, 3.0, 5.0
 """Codes of Regime."""
@@ -102,7 +102,7 @@ def change_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float,
         forward = regime != LARGE or on_left != (cycle[5] < 0)
         return (f if forward else -f) * _summed(law, own, cycle, x)
     if regime == LARGE:
-        sense, cycle = sense_of(cycle), seen(cycle)
+        sense, cycle = sense_of(cycle), oriented(cycle)
         of = friction(law, own, cycle, sense, -1.0, math.nan)
         m, n = (m, n) if sense > 0 else (n, m)
         return change(beside(of, m, n, of.a - m, of.c - n, LEVEL), sense * x)
@@ -229,7 +229,7 @@ def slip_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x
         return 0.0
     if regime not in (MODERATE, LARGE):
         return math.nan
-    sense, cycle = sense_of(cycle), seen(cycle)
+    sense, cycle = sense_of(cycle), oriented(cycle)
     x, m, n = (x, m, n) if sense > 0 else (-x, n, m)
     of = friction(law, own, cycle, sense, 1.0 if regime == MODERATE else -1.0, x)
     there = x - n if x > n else -m - x

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector
-from .growth import PARTS, followed, grows, leads
+from .growth import PARTS, advances, grows, load_path
 from .moderate import A, C, closing
 from .zone import ends_of, exists, resolved, slides
 
@@ -33,7 +33,7 @@ def _tensions_at_the_start(ends: Any, cycle: Any) -> Any:
     lower, upper = -math.inf, math.inf
     for i in range(2):
         h = ends[i, A] + ends[i, C]
-        left, right = leads(ends, h, ends[i, A], ends[i, C])
+        left, right = advances(ends, h, ends[i, A], ends[i, C])
         lower = max(lower, -8 * (cycle[4] - cycle[6] * abs(left)) / (math.pi * h))
         upper = min(upper, 8 * (cycle[4] - cycle[6] * abs(right)) / (math.pi * h))
     return lower, upper
@@ -91,7 +91,7 @@ def each_tension_threshold(law: Any, given: Any, own: Any, out: Any) -> None:
         if not lower <= upper:
             lower = upper = math.nan
         elif cycle[0] != cycle[2] or cycle[1] != cycle[3]:
-            path = followed(law, body, ends)
+            path = load_path(law, body, ends)
             lower, upper = _narrowed(law, body, path, cycle, lower, upper)
         out[i, 0], out[i, 1] = lower, upper
 

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, matrix, opened, results, truth, vector
-from .bounded import seen, sense_of
+from .bounded import oriented, sense_of
 from .growth import (
-    followed,
     grows,
     grows_apart,
     holds_at_the_start,
+    load_path,
     mirrored,
     slips_at_the_start,
     sticks_all_over,
@@ -79,7 +79,7 @@ def resolved(ends: Any) -> Any:
 @kernel(results(3)(LAW, vector, matrix, vector))
 def _large(law: Any, own: Any, path: Any, cycle: Any) -> Any:
     """Slip in opposite senses, forward at the edge that tension loads more; otherwise MIXED."""
-    sense, cycle = sense_of(cycle), seen(cycle)
+    sense, cycle = sense_of(cycle), oriented(cycle)
     path = path if sense > 0 else mirrored(path)
     if slips_at_the_start(path, cycle, -1.0):
         slip = large_slip(law, own, cycle, sense, EXACT)
@@ -122,7 +122,7 @@ def stick_zone(law: Any, own: Any, cycle: Any) -> Any:
         return math.nan, math.nan, SLIDING
     if not resolved(ends):
         return math.nan, math.nan, UNSOLVED
-    path = followed(law, own, ends)
+    path = load_path(law, own, ends)
     last = path.shape[0] - 1
     steady = last == 1
     if sticks_all_over(path, cycle):

@@ -3,15 +3,15 @@
 
 quadrature  nodes and weights on a slip zone
 newton      Newton's method in a bracket, and for two slip zones
-bounded     slip zones beside which shear stays bounded
+bounded     slip zones next to which the shear traction stays bounded
 moderate    the stick zone as a contact of the same body
 large       the stick zone between slip zones of opposite signs
-growth      whether slip grows all the way, as both assume
-tables      functions of one variable by Chebyshev series
-zone        which of these a cycle is
-mixed       the stick zone where slip reverses within a half-cycle, too
+growth      whether slip grows throughout the half-cycle, as both of these assume
+tables      functions of one variable as Chebyshev series
+zone        the regime of a cycle, and its stick zone
+mixed       the stick zone where slip reverses within a half-cycle
 threshold   tensions at which a cycle is no longer moderate
 series      slip zones by series in their length
-shear       the change of shear, and how far the surfaces slip
+shear       the change of shear, and the slip range
 march       a cycle instant by instant
 """

@@ -2,22 +2,22 @@
 r"""Slip zones by series in their length over the width of the stick zone.
 
 At a distance s from an edge p = K s**(1/2) + L s**(3/2) + N s**(5/2) + ...  Let h_s be the width of
-the stick zone and e = d/h_s.  A slip zone of length d adds to the conditions for a bounded change
-of shear (derive/theory/slip.py)
+the stick zone and e = d/h_s.  In the conditions for a bounded change of shear
+(derive/theory/slip.py), a slip zone of length d contributes
 
     near = int_0^d p sqrt((h_s + d - s)/(d - s)) ds
          = pi sqrt(h_s) d (K (1/2 + e/16 - e**2/128) + L d (3/8 + e/32) + N d**2 5/16 + ...)
     far  = int_0^d p sqrt((d - s)/(h_s + d - s)) ds
          = pi d**2/sqrt(h_s) (K (1/8 - e/32) + L d/16 + ...)
 
-at its own end of the stick zone and at the other end.  With kappa = +1 or -1 the sense of slip at
-an edge, and summed over the contacts at both ends of the half-cycle, the conditions are
+at its own end of the stick zone and at the other end.  Let kappa = +1 or -1 be the sense of slip at
+an edge.  With sums over the contacts at both ends of the half-cycle, the conditions are
 
     left    sum f (kappa_left near_left + kappa_right far_right) = dQ + pi h_s dsigma/8
     right   sum f (kappa_right near_right + kappa_left far_left) = dQ - pi h_s dsigma/8.
 
-An order keeps powers of d up to itself; orders 2 and 3 are solved as they stand.  The first order
-takes the width of the contact for that of the stick zone: d = |K_T|/(f K) + da/2.
+Order n keeps powers of d up to n.  Orders 2 and 3 are solved without further approximation.  The
+first order takes the width of the contact for that of the stick zone: d = |K_T|/(f K) + da/2.
 """
 
 import math
@@ -28,33 +28,34 @@ from ..types import Array
 from .newton import log_step, moved
 
 NEAR = ((1 / 2, 1 / 16, -1 / 128), (3 / 8, 1 / 32, 0.0), (5 / 16, 0.0, 0.0))
-"""binomial(1/2, j) B(i + 3/2, j + 1/2)/pi: of C_i d**(i + j + 1) h_s**(1/2 - j), C = K, L, N."""
+"""binomial(1/2, j) B(i + 3/2, j + 1/2)/pi, the factor of C_i d**(i + j + 1) h_s**(1/2 - j), C = K,
+L, N."""
 
 FAR = ((1 / 8, -1 / 32, 0.0), (1 / 16, 0.0, 0.0), (0.0, 0.0, 0.0))
-"""binomial(-1/2, j) B(i + 3/2, j + 3/2)/pi: of C_i d**(i + j + 2) h_s**(-1/2 - j)."""
+"""binomial(-1/2, j) B(i + 3/2, j + 3/2)/pi, the factor of C_i d**(i + j + 2) h_s**(-1/2 - j)."""
 
 STEPS = 40
-"""Newton's steps at most; four to six are common."""
+"""Largest number of Newton's steps; four to six are common."""
 
 LONGEST = 1.0
-"""Longest of them, in the logarithm of a slip zone over the stick zone."""
+"""Longest Newton step, in the logarithm of a slip zone over the stick zone."""
 
 LEAST = 1e-14
-"""Shortest slip zone to start from, over the longer one or what the contact gains."""
+"""Shortest initial slip zone, relative to the longer one or to the growth of the contact."""
 
 SMALL = 1e-9
-"""A step after which nothing is left to do: the next would be its square."""
+"""Newton's method ends after a step below this: the next one would be its square."""
 
 ROUNDING = 64 * 2.0**-52
-"""How far a slip zone is rounded, over the longer one or what the contact gains."""
+"""Rounding of a slip zone, relative to the longer one or to the growth of the contact."""
 
 
 class Series(NamedTuple):
     """One half-cycle: its loads over E*, and p = K s**(1/2) + L s**(3/2) + N s**(5/2) at each edge.
 
-    h            width of what both contacts share
+    h            width of the intersection of both contacts
     left, right  K, L, N at the edges of the contact now; left_2, right_2 at the other end
-    da, dc       how much further the edges reach now than at the other end
+    da, dc       how much further out the edges are now than at the other end
     kappa_left   sense of slip at the left edge, times f; kappa_right at the right one
     """
 
@@ -77,7 +78,7 @@ SERIES: Any = record(Series, *(real,) * 7, *(TERMS,) * 4)
 
 @kernel(TERMS(TERMS, real, real, whole, whole))
 def _integral(pressure: Any, d: Array, stuck: Array, order: Array, shift: Array) -> Any:
-    """near (shift 0) or far (shift 1) cut behind an order; its rates with d and with h_s."""
+    """near (shift 0) or far (shift 1) truncated after an order; its rates with d and with h_s."""
     table = NEAR if shift == 0 else FAR
     value = by_d = by_stuck = 0.0
     for i in range(order - shift):
@@ -95,7 +96,7 @@ def _integral(pressure: Any, d: Array, stuck: Array, order: Array, shift: Array)
 def _sum(
     now: Any, then: Any, d: Array, gain: Array, stuck: Array, order: Array, shift: Array
 ) -> Any:
-    """near or far of p_1 + p_2, d the slip zone at the contact that reaches less far."""
+    """near or far of p_1 + p_2, where d is the slip zone in the contact that extends less far."""
     one = _integral(now, d + max(gain, 0.0), stuck, order, shift)
     two = _integral(then, d + max(-gain, 0.0), stuck, order, shift)
     return one[0] + two[0], one[1] + two[1], one[2] + two[2]
@@ -109,7 +110,7 @@ def _step(of: Any, left: Array, right: Array, order: Array) -> Any:
     far_left = _sum(of.left, of.left_2, left, of.da, stuck, order, 1)
     near_right = _sum(of.right, of.right_2, right, of.dc, stuck, order, 0)
     far_right = _sum(of.right, of.right_2, right, of.dc, stuck, order, 1)
-    # what the conditions are off by, and their rates with h_s = h - left - right
+    # residuals of the conditions, and their rates with h_s = h - left - right
     off_left, off_right = -of.dQ - by_tension * stuck, -of.dQ + by_tension * stuck
     off_left += of.kappa_left * near_left[0] + of.kappa_right * far_right[0]
     off_right += of.kappa_right * near_right[0] + of.kappa_left * far_left[0]
@@ -130,10 +131,10 @@ def _step(of: Any, left: Array, right: Array, order: Array) -> Any:
 
 @kernel(results(2)(SERIES, real, real, whole))
 def _solved(of: Any, left: Array, right: Array, order: Array) -> Any:
-    """Both conditions cut behind an order, by Newton's method from slip zones of the first order.
+    """Solve both conditions, truncated after an order, by Newton's method from first-order zones.
 
-    The unknowns are log(d/h_s): slip zones stay positive and leave some stick.  Slip zones are
-    those at the contact that reaches less far; NaN where the steps do not end.
+    The unknowns are log(d/h_s), so that the slip zones stay positive and leave some stick.  The
+    slip zones are those in the contact that extends less far; NaN if the steps do not converge.
     """
     if of.dQ == 0 and of.dsigma == 0 and of.da == 0 and of.dc == 0:
         return 0.0, 0.0
@@ -161,17 +162,17 @@ def _solved(of: Any, left: Array, right: Array, order: Array) -> Any:
 
 @kernel(results(2)(SERIES, real, real, real, real, whole))
 def beside_edges(
-    of: Any, f: Array, h: Array, pull_left: Array, pull_right: Array, order: Array
+    of: Any, f: Array, h: Array, drive_left: Array, drive_right: Array, order: Array
 ) -> Any:
-    """Slip zones to an order, of a contact h wide; pulls are pi sqrt(h) K_T.
+    """Slip zones to an order in a contact of width h; a drive is pi sqrt(h) K_T.
 
-    NaN unless slip reaches in at both edges of both contacts and leaves some stick.
+    NaN unless slip occurs at both edges of both contacts and part of the contact sticks.
     """
     gain_left, gain_right = max(of.da, 0.0), max(of.dc, 0.0)
-    # |K_T|/(f K_N) and half of what the contact has gained, less all of that
+    # |K_T|/(f K_N) plus half of the growth of the contact, less all of its growth
     scale = math.pi * math.sqrt(h) * f
-    left = abs(pull_left) / (scale * of.left[0]) - abs(of.da) / 2
-    right = abs(pull_right) / (scale * of.right[0]) - abs(of.dc) / 2
+    left = abs(drive_left) / (scale * of.left[0]) - abs(of.da) / 2
+    right = abs(drive_right) / (scale * of.right[0]) - abs(of.dc) / 2
     if order > 1:
         left, right = _solved(of, left, right, order)
     left, right = left + gain_left, right + gain_right
@@ -193,9 +194,9 @@ def slip_zones(
     dc: Array,
     order: Array,
 ) -> Any:
-    """Slip zones to an order, as seen from the contact [-a, c]; the other is [-(a - da), c - dc].
+    """Slip zones to an order, seen from the contact [-a, c]; the other is [-(a - da), c - dc].
 
-    NaN unless slip reaches in at both edges of both contacts and leaves some stick.
+    NaN unless slip occurs at both edges of both contacts and part of the contact sticks.
     """
     load, _, _, K_left, K_right = law.state(a, c, own)
     load_2, _, _, K_left_2, K_right_2 = law.state(a - da, c - dc, own)
@@ -205,13 +206,13 @@ def slip_zones(
     L_left, L_right, N_left, N_right = law.series(a, c, own)
     L_left_2, L_right_2, N_left_2, N_right_2 = law.series(a - da, c - dc, own)
     h = a + c
-    pull_left, pull_right = dQ + math.pi * h * dsigma / 8, dQ - math.pi * h * dsigma / 8
+    drive_left, drive_right = dQ + math.pi * h * dsigma / 8, dQ - math.pi * h * dsigma / 8
     of = Series(
         h - max(da, 0.0) - max(dc, 0.0),
         dQ,
         dsigma,
-        -f if pull_left < 0 else f,
-        -f if pull_right < 0 else f,
+        -f if drive_left < 0 else f,
+        -f if drive_right < 0 else f,
         da,
         dc,
         (K_left, L_left, N_left),
@@ -219,12 +220,12 @@ def slip_zones(
         (K_left_2, L_left_2, N_left_2),
         (K_right_2, L_right_2, N_right_2),
     )
-    return beside_edges(of, f, h, pull_left, pull_right, order)
+    return beside_edges(of, f, h, drive_left, drive_right, order)
 
 
 @kernel(LOOP)
 def each_slip_zones(law: Any, given: Array, own: Array, out: Array) -> None:
-    """Slip zones, and what the next order changes, of rows a, c, dQ, dsigma, f, da, dc, order."""
+    """Slip zones and their change by the next order; rows a, c, dQ, dsigma, f, da, dc, order."""
     law = opened(law)
     for i in range(given.shape[0]):
         a, c, dQ, dsigma, f, da, dc = given[i, :7]

@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector
-from .growth import PARTS, followed, grows, leads
+from .growth import PARTS, advances, grows, load_path
 from .moderate import A, C, closing
 from .zone import ends_of, exists, resolved, slides
 
 HALVINGS = 52
-"""Halvings of an interval: to the last bit of float64."""
+"""Number of halvings of an interval, enough to reach the last bit of float64."""
 
 
 @kernel(vector(vector))
 def _without_tension(given: Any) -> Any:
-    """A cycle from a1, c1, a2, c2, dQ, f."""
+    """A cycle without tension from a1, c1, a2, c2, dQ, f."""
     cycle = np.empty(7)
     for i in range(5):
         cycle[i] = given[i]
@@ -30,48 +30,49 @@ def _without_tension(given: Any) -> Any:
 
 @kernel(results(2)(matrix, vector))
 def _tensions_at_the_start(ends: Any, cycle: Any) -> Any:
-    """Between which changes of tension both edges begin to slip forward."""
+    """The changes of tension between which both edges begin to slip forward."""
     lower, upper = -math.inf, math.inf
     for i in range(2):
         h = ends[i, A] + ends[i, C]
-        left, right = leads(ends, h, ends[i, A], ends[i, C])
+        left, right = advances(ends, h, ends[i, A], ends[i, C])
         lower = max(lower, -8 * (cycle[4] - cycle[6] * abs(left)) / (math.pi * h))
         upper = min(upper, 8 * (cycle[4] - cycle[6] * abs(right)) / (math.pi * h))
     return lower, upper
 
 
 @kernel(real(LAW, vector, matrix, vector, real, real))
-def _cut_down(law: Any, own: Any, way: Any, tried: Any, good: float, bound: float) -> Any:
-    """The tension next to a bound up to which moderate slip goes on; it does so under `good`."""
-    tried[5] = bound
-    if grows(law, own, way, tried):
+def _cut_down(law: Any, own: Any, path: Any, trial: Any, good: float, bound: float) -> Any:
+    """The tension closest to a bound at which moderate slip still grows, as it does at `good`."""
+    trial[5] = bound
+    if grows(law, own, path, trial):
         return bound
     bad = bound
     for _ in range(HALVINGS):
-        tried[5] = (good + bad) / 2
-        if tried[5] in (good, bad):
+        trial[5] = (good + bad) / 2
+        if trial[5] in (good, bad):
             break
-        if grows(law, own, way, tried):
-            good = tried[5]
+        if grows(law, own, path, trial):
+            good = trial[5]
         else:
-            bad = tried[5]
+            bad = trial[5]
     return good
 
 
 @kernel(results(2)(LAW, vector, matrix, vector, real, real))
-def _narrowed(law: Any, own: Any, way: Any, cycle: Any, lower: float, upper: float) -> Any:
-    """The interval of tensions cut down to where moderate slip goes on to the end.
+def _narrowed(law: Any, own: Any, path: Any, cycle: Any, lower: float, upper: float) -> Any:
+    """The interval of tensions reduced to those at which moderate slip grows to the end.
 
-    A tension that is inside is looked for first, from the middle on, then each bound by halving.
+    First a tension inside this interval is sought, from the middle outward.  Then each bound is
+    found by halving.
     """
-    tried = cycle.copy()
+    trial = cycle.copy()
     for k in range(2 * PARTS - 1):
-        away = (k + 1) // 2 * (1 if k % 2 else -1)
-        inside = (lower + upper) / 2 + away * (upper - lower) / (2 * PARTS)
-        tried[5] = inside
-        if grows(law, own, way, tried):
-            lower = _cut_down(law, own, way, tried, inside, lower)
-            return lower, _cut_down(law, own, way, tried, inside, upper)
+        offset = (k + 1) // 2 * (1 if k % 2 else -1)
+        inside = (lower + upper) / 2 + offset * (upper - lower) / (2 * PARTS)
+        trial[5] = inside
+        if grows(law, own, path, trial):
+            lower = _cut_down(law, own, path, trial, inside, lower)
+            return lower, _cut_down(law, own, path, trial, inside, upper)
     return math.nan, math.nan
 
 
@@ -91,14 +92,17 @@ def each_tension_threshold(law: Any, given: Any, own: Any, out: Any) -> None:
         if not lower <= upper:
             lower = upper = math.nan
         elif cycle[0] != cycle[2] or cycle[1] != cycle[3]:
-            way = followed(law, body, ends)
-            lower, upper = _narrowed(law, body, way, cycle, lower, upper)
+            path = load_path(law, body, ends)
+            lower, upper = _narrowed(law, body, path, cycle, lower, upper)
         out[i, 0], out[i, 1] = lower, upper
 
 
 @kernel(LOOP)
 def each_closing_tension(law: Any, given: Any, own: Any, out: Any) -> None:
-    """given: a1, c1, a2, c2, dQ, f; out: lower, upper."""
+    """The changes of tension at which one slip zone of the moderate solution closes.
+
+    given: a1, c1, a2, c2, dQ, f; out: lower, upper.
+    """
     law = opened(law)
     for i in range(given.shape[0]):
         cycle = _without_tension(given[i])
