@@ -156,6 +156,7 @@ class Claim:
     seconds      the time limit of the verdict, and then of the search for a correction
     family       claims of one family share their points, so that integrals are computed once
     swaps        symbols that may have been confused with each other
+    unit_of      the units of the names in the equation and of the variables, where they are known
     steps        the steps of the comparison, for `--explain`
     unchecked    the reason why the claim cannot be decided; empty if it can
     expected     the verdict that was found when a person last examined the claim
@@ -183,6 +184,7 @@ class Claim:
     conventions: tuple[Convention, ...] = ()
     through: tuple[Expr, Expr] | None = None
     swaps: tuple[Symbol, ...] = ()
+    unit_of: Mapping[Symbol, str] = field(default_factory=dict)
     cases: tuple[Mapping[Symbol, str], ...] = ()
     source: str = ""
     seconds: float | None = None

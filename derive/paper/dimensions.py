@@ -74,6 +74,16 @@ class Units:
             return str(error)
         return ""
 
+    def unit_of(self, symbol: Symbol) -> str:
+        """Return the unit of a symbol as text, or an empty string if it is not known."""
+        before = dict(self.known), dict(self.solved), set(self._seen)
+        try:
+            unit = self._shown(self._of_symbol(symbol))
+        except _Mismatch:
+            unit = ""
+        self.known, self.solved, self._seen = before
+        return "" if "?" in unit else unit
+
     def _same(self, one: Expr, other: Expr, whole: str) -> Dimension | None:
         """Return the common unit of two terms."""
         first, second = self._of(one), self._of(other)

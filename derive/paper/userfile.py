@@ -83,6 +83,7 @@ from derive.paper.claim import (
 from derive.paper.context import PLACES, Context, Meant, Put, as_text, calls_in, integrals
 from derive.paper.dimensions import Units
 from derive.paper.formula import (
+    IMPROPER,
     Names,
     NoPole,
     UnknownName,
@@ -558,7 +559,8 @@ class _File:
             rounded=rounded,
             conventions=self._conventions(given, where, put, context),
             source=read.text,
-            swaps=self._swaps(read, (left, right), meant, context),
+            swaps=self._swaps(read, meant, context),
+            unit_of=self._units_of(read, meant, context, held),
             **common,
         )
 
@@ -636,18 +638,26 @@ class _File:
             made.append({context.variables[name]: str(value) for name, value in each.items()})
         return tuple(made)
 
-    def _swaps(
-        self, read: "_Read", sides: tuple[Expr, Expr], meant: Meant, context: Context
-    ) -> tuple[Symbol, ...]:
-        """Return the symbols that may have been confused with each other."""
+    def _swaps(self, read: "_Read", meant: Meant, context: Context) -> tuple[Symbol, ...]:
+        """Return the names that may have been confused, by default all names in the equation."""
         if "swaps" not in read.given:
-            return tuple(s for s in meant.ours if any(side.has(s) for side in sides))
+            held = _names_in(read)
+            defined = [s for s in meant.ours if s in held]
+            return (*defined, *sorted(held - set(defined), key=str))
         named = self._list(read.given, "swaps", read.where)
         symbols = {**context.variables, **{s.name: s for s in meant.ours}}
         for name in named:
             if not isinstance(symbols.get(name), Symbol):
                 raise self._bad(f"{read.where}: swaps: {name!r} is not a symbol", "declare it")
         return tuple(symbols[name] for name in named)
+
+    def _units_of(
+        self, read: "_Read", meant: Meant, context: Context, held: set[Symbol]
+    ) -> dict[Symbol, str]:
+        """Return the known units of the variables and of the names in the equation."""
+        units = self.followed.get(id(meant)) or context.followed(meant)
+        found = {s: units.unit_of(s) for s in sorted(_names_in(read) | held, key=str)}
+        return {symbol: unit for symbol, unit in found.items() if unit}
 
     def _follows(
         self, given: Mapping[str, Any], where: str, symbols: Mapping[str, Any], meant: Meant
@@ -944,6 +954,14 @@ def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str])
         why = f"the symbols {listed} have no meaning: define them in [symbols] or [variables]"
     printed = given.get("understood", given.get("printed", ""))
     return Claim(unchecked=why, source=str(printed), **common)
+
+
+def _names_in(read: "_Read") -> set[Symbol]:
+    """Return the names in an equation, except the variables of integrals and limits."""
+    sides = read.left, read.right
+    along = {over.limits[-1][0] for over in integrals(*sides)}
+    along |= {each.args[1] for side in sides for each in side.atoms(Limit, *IMPROPER)}
+    return set().union(*(side.atoms(Symbol) for side in sides)) - along
 
 
 def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:
