@@ -223,7 +223,7 @@ def expand(law: Any, own: Any, a: float, c: float, series: Any) -> int:
 def pressure_at(law: Any, own: Any, series: Any, x: float, a: float, c: float) -> float:
     """The pressure, from its series by Clenshaw's rule if the series converges."""
     if math.isnan(series[0]) or not -a < x < c:
-        return law.pressure(x, a, c, own)  # type: ignore[no-any-return]
+        return law.pressure(x, a, c, own)
     t = (2 * x + a - c) / (a + c)
     u = v = 0.0
     for k in range(series.size - 1, 0, -1):
