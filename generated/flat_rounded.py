@@ -3,10 +3,10 @@
 
 g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 
-In the formulas below
+The formulas below use these definitions:
     h = a + c
     t_1 = edge_angle(a - b, b + c)
     t_3 = edge_angle(-b + c, a + b)
@@ -50,7 +50,7 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 @shared
 def _angles(a: Array, c: Array, b: Array) -> tuple[Array, ...]:
-    """What all formulas hold, as defined above, and whether there is such a contact."""
+    """The shared symbols that are defined above, and whether such a contact exists."""
     h = a + c  # contact width [m]
     t_1 = edge_angle(a - b, b + c)  # angle of part 1 [-]
     t_3 = edge_angle(c - b, a + b)  # angle of part 3 [-]
@@ -75,12 +75,13 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     Returns
     -------
     alpha : ndarray
-        [rad]; NaN unless a + c > 0 and (a > b) | (c > b).
+        [rad]; NaN unless a + c > 0 and (a > b or c > b).
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
+    alpha: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -114,12 +115,13 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     Returns
     -------
     P : ndarray
-        [N/m]; NaN unless a + c > 0 and (a > b) | (c > b).
+        [N/m]; NaN unless a + c > 0 and (a > b or c > b).
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Symbols and source: see the module's docstring.
+    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
+    source, see the docstring of the module.
 
     Examples
     --------
@@ -149,12 +151,13 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     Returns
     -------
     M : ndarray
-        [N]; NaN unless a + c > 0 and (a > b) | (c > b).
+        [N]; NaN unless a + c > 0 and (a > b or c > b).
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-    at 24 points.  Symbols and source: see the module's docstring.
+    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
+    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -181,7 +184,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, b : array_like
@@ -191,22 +194,23 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     Returns
     -------
     p : ndarray
-        [Pa]; NaN unless a + c > 0 and (a > b) | (c > b).
+        [Pa]; NaN unless a + c > 0 and (a > b or c > b).
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
+    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
     '0.392783'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     h, t_1, t_3, exists = _angles(a, c, b)
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # of half the angle of x [-]
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # of half the angle of x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
     p = (E_star * h / (np.pi * R)) * (
         end_pressure(t_1, sin_x, cos_x) + end_pressure(t_3, cos_x, sin_x)
     )
@@ -231,12 +235,12 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     Returns
     -------
     Edges
-        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b) | (c > b).
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b or c > b).
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Symbols and source: see the module's docstring.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -251,7 +255,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = -E_star*k_left/(4*sqrt(h)) + E_star*(-k_left*second_term(t_2, cos_1*cos_2,
             sin_1*sin_2) + (-k_left + 1/R)*second_term(t_3, 0, sin_2))/(3*pi*sqrt(h))
@@ -277,12 +281,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     Returns
     -------
     Edges
-        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b) | (c > b).
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b or c > b).
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 47 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -290,10 +295,14 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     ['-0.148383', '-0.196186']
     """
     h, t_1, t_3, exists = _angles(a, c, b)
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)  # of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)  # of half the angle of x = -b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)  # of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)  # of half the angle of x = b [-]
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # cosine of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # cosine of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
     # angle of part 2 [-]
     t_2 = 2 * np.arctan2(
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
@@ -317,7 +326,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
@@ -333,10 +342,14 @@ def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     R, b = own[0], own[1]
     second = _L_N(a, c, 1.0, R, b)
     h, t_1, t_3, _ = _angles(a, c, b)
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)  # of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)  # of half the angle of x = -b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)  # of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)  # of half the angle of x = b [-]
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # cosine of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # cosine of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
     # angle of part 2 [-]
     t_2 = 2 * np.arctan2(
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
@@ -364,7 +377,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     b = own[1]
     return np.array([-b, b])
 

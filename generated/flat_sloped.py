@@ -3,10 +3,10 @@
 
 g(x) = phi*Max(0, -b + Abs(x)), from derive/geometries/flat_sloped.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 
-In the formulas below
+The formulas below use these definitions:
     edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
     root_ratio(A, B) = Piecewise((sqrt(A/B), (A > 0) & (B > 0)), (0, True))
     kink_logarithm(A, B, d) = log((A/2 + B/2 + sqrt(A*B) - Abs(A - B)/2)/Abs(d) + 1)
@@ -54,17 +54,18 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     b, phi : array_like
-        half-width of the flat [m]; slope of the sides [rad].
+        Half-width of the flat [m]; slope of the sides [rad].
 
     Returns
     -------
     alpha : ndarray
-        [rad]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b.
+        [rad]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
+    alpha: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -97,12 +98,13 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     Returns
     -------
     P : ndarray
-        [N/m]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b.
+        [N/m]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Symbols and source: see the module's docstring.
+    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
+    source, see the docstring of the module.
 
     Examples
     --------
@@ -135,12 +137,13 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     Returns
     -------
     M : ndarray
-        [N]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b.
+        [N]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
-    at 24 points.  Symbols and source: see the module's docstring.
+    M: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
+    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -169,7 +172,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
@@ -179,12 +182,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     Returns
     -------
     p : ndarray
-        [Pa]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b and c > -b.
+        [Pa]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
+    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -228,13 +232,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     Returns
     -------
     Edges
-        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b) | (c > b) and a > -b
+        left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b or c > b) and a > -b
         and c > -b.
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Symbols and source: see the module's docstring.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -242,10 +246,10 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.0306902', '0.0501169']
     """
     h = a + c  # contact width [m]
-    tan_1 = root_ratio(a - b, b + c)  # of half the angle of x = -b [-]
-    cot_1 = root_ratio(b + c, a - b)  # of half the angle of x = -b [-]
-    tan_2 = root_ratio(a + b, c - b)  # of half the angle of x = b [-]
-    cot_2 = root_ratio(c - b, a + b)  # of half the angle of x = b [-]
+    tan_1 = root_ratio(a - b, b + c)  # tangent of half the angle of x = -b [-]
+    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of x = -b [-]
+    tan_2 = root_ratio(a + b, c - b)  # tangent of half the angle of x = b [-]
+    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of x = b [-]
     K_N_left = (E_star * phi / np.pi) * (cot_1 + cot_2) / np.sqrt(h)
     K_N_right = (E_star * phi / np.pi) * (tan_1 + tan_2) / np.sqrt(h)
     exists = (h > LEAST) & ((a > b) | (c > b)) & (a > -b) & (c > -b) & (h < MOST)
@@ -254,7 +258,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = E_star*phi*(cot_1*(2*cot_1**2 + 3) + cot_2*(2*cot_2**2 + 3))/(6*pi*h**(3/2))
         L_N_right = E_star*phi*(tan_1*(2*tan_1**2 + 3) + tan_2*(2*tan_2**2 + 3))/(6*pi*h**(3/2))
@@ -275,13 +279,14 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     Returns
     -------
     Edges
-        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b) | (c > b) and a >
+        left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b or c > b) and a >
         -b and c > -b.
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 46 digits at 24 points.  Symbols and source: see the module's docstring.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -289,10 +294,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     ['0.00539662', '0.0151476']
     """
     h = a + c  # contact width [m]
-    tan_1 = root_ratio(a - b, b + c)  # of half the angle of x = -b [-]
-    cot_1 = root_ratio(b + c, a - b)  # of half the angle of x = -b [-]
-    tan_2 = root_ratio(a + b, c - b)  # of half the angle of x = b [-]
-    cot_2 = root_ratio(c - b, a + b)  # of half the angle of x = b [-]
+    tan_1 = root_ratio(a - b, b + c)  # tangent of half the angle of x = -b [-]
+    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of x = -b [-]
+    tan_2 = root_ratio(a + b, c - b)  # tangent of half the angle of x = b [-]
+    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of x = b [-]
     L_N_left = (
         (E_star * phi / (6 * np.pi))
         * (cot_1 * (2 * cot_1**2 + 3) + cot_2 * (2 * cot_2**2 + 3))
@@ -312,7 +317,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
@@ -328,10 +333,10 @@ def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     b, phi = own[0], own[1]
     second = _L_N(a, c, 1.0, b, phi)
     h = a + c  # contact width [m]
-    tan_1 = root_ratio(a - b, b + c)  # of half the angle of x = -b [-]
-    cot_1 = root_ratio(b + c, a - b)  # of half the angle of x = -b [-]
-    tan_2 = root_ratio(a + b, c - b)  # of half the angle of x = b [-]
-    cot_2 = root_ratio(c - b, a + b)  # of half the angle of x = b [-]
+    tan_1 = root_ratio(a - b, b + c)  # tangent of half the angle of x = -b [-]
+    cot_1 = root_ratio(b + c, a - b)  # cotangent of half the angle of x = -b [-]
+    tan_2 = root_ratio(a + b, c - b)  # tangent of half the angle of x = b [-]
+    cot_2 = root_ratio(c - b, a + b)  # cotangent of half the angle of x = b [-]
     third_left = (
         (phi / (40 * np.pi))
         * (
@@ -360,7 +365,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     b = own[0]
     return np.array([-b, b])
 

@@ -3,8 +3,8 @@
 
 g(x) = x**2/(2*R), from derive/geometries/hertz.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -61,9 +61,10 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, R: Array) -> Contact:
 
     Notes
     -----
-    a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 49 digits at 24
-    points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 49 digits at 24
-    points.  Derived from derive/geometries/hertz.py.
+    a and c: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked
+    numerically, with agreement to 49 digits at 24 points.  Route: substituted into load(a, c),
+    moment(a, c), tilt(a, c).  Derived from derive/geometries/hertz.py.
 
     Examples
     --------
@@ -92,7 +93,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
     P : array_like
         Normal load per unit depth [N/m].
     alpha : array_like, optional
-        Tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
+        Tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad].
     E_star, R : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
         radius of curvature [m].
@@ -104,8 +105,8 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, R: Array) ->
 
     Notes
     -----
-    a and c numerical: put back into load(a, c), tilt(a, c); 49 digits at 24 points.  Derived from
-    derive/geometries/hertz.py.
+    a and c: checked numerically, with agreement to 49 digits at 24 points.  Route: substituted into
+    load(a, c), tilt(a, c).  Derived from derive/geometries/hertz.py.
 
     Examples
     --------
@@ -140,8 +141,9 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/hertz.py.
+    alpha: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  Derived from derive/geometries/hertz.py.
 
     Examples
     --------
@@ -175,8 +177,9 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Derived from derive/geometries/hertz.py.
+    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  Derived from
+    derive/geometries/hertz.py.
 
     Examples
     --------
@@ -210,8 +213,9 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-    at 24 points.  Derived from derive/geometries/hertz.py.
+    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  Derived from
+    derive/geometries/hertz.py.
 
     Examples
     --------
@@ -233,7 +237,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R : array_like
@@ -247,8 +251,9 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/hertz.py.
+    p: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  Derived from derive/geometries/hertz.py.
 
     Examples
     --------
@@ -284,8 +289,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/hertz.py.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  Derived from derive/geometries/hertz.py.
 
     Examples
     --------
@@ -302,7 +307,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = -E_star/(4*R*sqrt(a + c))
         L_N_right = -E_star/(4*R*sqrt(a + c))
@@ -322,8 +327,9 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 48 digits at 24 points.  Derived from derive/geometries/hertz.py.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 48 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  Derived from derive/geometries/hertz.py.
 
     Examples
     --------
@@ -343,7 +349,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0])
 
 
@@ -374,7 +380,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     return np.empty(0)
 
 

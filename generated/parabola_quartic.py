@@ -3,8 +3,8 @@
 
 g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -46,8 +46,8 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     L, R : array_like
-        Distance at which the quartic alone has slope one [m]; relative radius of curvature at the
-        apex [m].
+        Distance from the apex at which the quartic term alone has slope one [m]; relative radius of
+        curvature at the apex [m].
 
     Returns
     -------
@@ -56,8 +56,9 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
+    alpha: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  Derived from derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -86,7 +87,8 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
+        from the apex at which the quartic term alone has slope one [m]; relative radius of
+        curvature at the apex [m].
 
     Returns
     -------
@@ -95,8 +97,9 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Derived from derive/geometries/parabola_quartic.py.
+    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  Derived from
+    derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -125,7 +128,8 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
+        from the apex at which the quartic term alone has slope one [m]; relative radius of
+        curvature at the apex [m].
 
     Returns
     -------
@@ -134,8 +138,9 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-    at 24 points.  Derived from derive/geometries/parabola_quartic.py.
+    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  Derived from
+    derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -163,12 +168,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
+        from the apex at which the quartic term alone has slope one [m]; relative radius of
+        curvature at the apex [m].
 
     Returns
     -------
@@ -177,15 +183,16 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
+    p: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  Derived from derive/geometries/parabola_quartic.py.
 
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
     '0.984375'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
     p = (
         (E_star / (16 * (L * L**2) * R))
@@ -218,7 +225,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
+        from the apex at which the quartic term alone has slope one [m]; relative radius of
+        curvature at the apex [m].
 
     Returns
     -------
@@ -227,8 +235,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/parabola_quartic.py.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  Derived from derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -245,7 +253,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = -E_star*(8*L**3 + 55*R*a**2 + 26*R*a*c - 5*R*c**2)/(32*L**3*R*sqrt(a + c))
         L_N_right = E_star*(-8*L**3 + 5*R*a**2 - 26*R*a*c - 55*R*c**2)/(32*L**3*R*sqrt(a + c))
@@ -256,7 +264,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        at which the quartic alone has slope one [m]; relative radius of curvature at the apex [m].
+        from the apex at which the quartic term alone has slope one [m]; relative radius of
+        curvature at the apex [m].
 
     Returns
     -------
@@ -265,8 +274,9 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 46 digits at 24 points.  Derived from derive/geometries/parabola_quartic.py.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  Derived from derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -290,7 +300,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
@@ -321,7 +331,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     return np.empty(0)
 
 
@@ -334,7 +344,7 @@ _BODY = Body(
         (2.895388737134148, 1.083373931444234, 0.8515625),
         (3.5328570734693616, 2.0505394202654337),
     ),
-    Parameter("L", "distance at which the quartic alone has slope one", "m"),
+    Parameter("L", "distance from the apex at which the quartic term alone has slope one", "m"),
     Parameter("R", "relative radius of curvature at the apex", "m"),
 )
 

@@ -3,8 +3,8 @@
 
 g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -55,8 +55,9 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/quartic.py.
+    alpha: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  Derived from derive/geometries/quartic.py.
 
     Examples
     --------
@@ -90,8 +91,9 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Derived from derive/geometries/quartic.py.
+    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  Derived from
+    derive/geometries/quartic.py.
 
     Examples
     --------
@@ -125,8 +127,9 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-    at 24 points.  Derived from derive/geometries/quartic.py.
+    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  Derived from
+    derive/geometries/quartic.py.
 
     Examples
     --------
@@ -154,7 +157,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L : array_like
@@ -168,15 +171,16 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 50 digits at 24 points.  Derived from derive/geometries/quartic.py.
+    p: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  Derived from derive/geometries/quartic.py.
 
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0):.6g}"
     '0.484375'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     w = np.sqrt(np.maximum((a + x) * (c - x), 0.0))  # root at x [m]
     p = (
         (E_star / (16 * (L * L**2)))
@@ -210,8 +214,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/quartic.py.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  Derived from derive/geometries/quartic.py.
 
     Examples
     --------
@@ -228,7 +232,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = -E_star*(55*a**2 + 26*a*c - 5*c**2)/(32*L**3*sqrt(a + c))
         L_N_right = E_star*(5*a**2 - 26*a*c - 55*c**2)/(32*L**3*sqrt(a + c))
@@ -248,8 +252,9 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 46 digits at 24 points.  Derived from derive/geometries/quartic.py.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  Derived from derive/geometries/quartic.py.
 
     Examples
     --------
@@ -269,7 +274,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0])
 
 
@@ -300,7 +305,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     return np.empty(0)
 
 

@@ -4,10 +4,10 @@
 g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), from
     derive/geometries/rounded_wedge.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 
-In the formulas below
+The formulas below use these definitions:
     h = a + c
     sin_1 = sqrt(Min(h, Max(0, a - b))/h)
     cos_1 = sqrt(Min(h, Max(0, b + c))/h)
@@ -67,12 +67,16 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 @shared
 def _angles(a: Array, c: Array, b: Array) -> tuple[Array, ...]:
-    """What all formulas hold, as defined above, and whether there is such a contact."""
+    """The shared symbols that are defined above, and whether such a contact exists."""
     h = a + c  # contact width [m]
-    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)  # of half the angle of x = -b [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)  # of half the angle of x = -b [-]
-    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)  # of half the angle of x = b [-]
-    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)  # of half the angle of x = b [-]
+    # sine of half the angle of x = -b [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a - b, 0.0), h) / h)
+    # cosine of half the angle of x = -b [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(b + c, 0.0), h) / h)
+    # sine of half the angle of x = b [-]
+    sin_2 = np.sqrt(np.minimum(np.maximum(a + b, 0.0), h) / h)
+    # cosine of half the angle of x = b [-]
+    cos_2 = np.sqrt(np.minimum(np.maximum(c - b, 0.0), h) / h)
     # angle of part 2 [-]
     t_2 = 2 * np.arctan2(
         np.maximum(np.minimum(np.minimum(np.minimum(2 * b, a + b), b + c), h), 0.0),
@@ -96,7 +100,7 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     b, phi : array_like
-        half-width of the rounded apex [m]; slope of the flanks [rad].
+        Half-width of the rounded apex [m]; slope of the flanks [rad].
 
     Returns
     -------
@@ -105,8 +109,9 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 47 digits at 24 points.  Symbols and source: see the module's docstring.
+    alpha: proven symbolically and checked numerically, with agreement to 47 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -146,8 +151,9 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 49 digits at 24 points.
-    Symbols and source: see the module's docstring.
+    P: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
+    source, see the docstring of the module.
 
     Examples
     --------
@@ -181,8 +187,9 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 46 digits
-    at 24 points.  Symbols and source: see the module's docstring.
+    M: proven symbolically and checked numerically, with agreement to 46 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
+    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -213,7 +220,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
@@ -227,18 +234,19 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
+    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, b=1.0, phi=0.125):.6g}"
     '0.0941076'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     h, sin_1, cos_1, sin_2, cos_2, t_2, exists = _angles(a, c, b)
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # of half the angle of x [-]
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # of half the angle of x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
     p = (E_star * h * phi / (np.pi * b)) * part_pressure(
         t_2, -((b + x) / h), (b - x) / h, sin_1, cos_1, sin_2, cos_2, sin_x, cos_x
     )
@@ -267,8 +275,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Symbols and source: see the module's docstring.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -283,7 +291,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = -E_star*k_left/(4*sqrt(h)) + E_star*(-k_left*second_term(t_3, 0, sin_2) +
             (-k_left + phi/b)*second_term(t_2, cos_1*cos_2, sin_1*sin_2))/(3*pi*sqrt(h))
@@ -309,8 +317,9 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 46 digits at 24 points.  Symbols and source: see the module's docstring.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -338,7 +347,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
@@ -378,7 +387,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     b = own[0]
     return np.array([-b, b])
 

@@ -3,10 +3,10 @@
 
 g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geometries/two_radii.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 
-In the formulas below
+The formulas below use these definitions:
     h = a + c
     t_1 = edge_angle(a, c)
     t_2 = edge_angle(c, a)
@@ -50,7 +50,7 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 @shared
 def _angles(a: Array, c: Array) -> tuple[Array, ...]:
-    """What all formulas hold, as defined above, and whether there is such a contact."""
+    """The shared symbols that are defined above, and whether such a contact exists."""
     h = a + c  # contact width [m]
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
     t_2 = edge_angle(c, a)  # angle of part 2 [-]
@@ -79,8 +79,9 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 50 digits at 24 points.  Symbols and source: see the module's docstring.
+    alpha: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -118,8 +119,9 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Symbols and source: see the module's docstring.
+    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
+    source, see the docstring of the module.
 
     Examples
     --------
@@ -153,8 +155,9 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
-    at 24 points.  Symbols and source: see the module's docstring.
+    M: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
+    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -185,7 +188,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R_1, R_2 : array_like
@@ -199,18 +202,19 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 50 digits at 24 points.  Symbols and source: see the module's docstring.
+    p: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R_1=1.0, R_2=1.0):.6g}"
     '0.5'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     h, t_1, t_2, exists = _angles(a, c)
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # of half the angle of x [-]
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # of half the angle of x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
     p = (E_star * h / np.pi) * (
         end_pressure(t_2, cos_x, sin_x) / R_2 + end_pressure(t_1, sin_x, cos_x) / R_1
     )
@@ -239,8 +243,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Symbols and source: see the module's docstring.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -259,7 +263,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = -E_star*k_left/(4*sqrt(h)) + E_star*(-k_left + 1/R_2)*second_term(t_2, 0,
             sin_1)/(3*pi*sqrt(h))
@@ -285,8 +289,9 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 47 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -294,8 +299,8 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
     ['-0.158114', '-0.158114']
     """
     h, t_1, t_2, exists = _angles(a, c)
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # of half the angle of x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
     k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [m**(-1)]
     k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [m**(-1)]
     L_N_left = (E_star / (3 * np.pi)) * (1 / R_2 - k_left) * second_term(t_2, 0, sin_1) / np.sqrt(
@@ -312,7 +317,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
@@ -328,8 +333,8 @@ def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     R_1, R_2 = own[0], own[1]
     second = _L_N(a, c, 1.0, R_1, R_2)
     h, t_1, t_2, _ = _angles(a, c)
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # of half the angle of x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # of half the angle of x = 0 [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
     k_left = where(a > 0, 1 / R_1, 1 / R_2)  # g'' at the left edge [m**(-1)]
     k_right = where(c > 0, 1 / R_2, 1 / R_1)  # g'' at the right edge [m**(-1)]
     third_left = (1 / R_2 - k_left) * third_term(t_2, 0, sin_1) / (
@@ -350,7 +355,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     return np.array([0.0])
 
 

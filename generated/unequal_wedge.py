@@ -3,8 +3,8 @@
 
 g(x) = Piecewise((-phi_1*x, x < 0), (phi_2*x, True)), from derive/geometries/unequal_wedge.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -62,9 +62,10 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
 
     Notes
     -----
-    a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 46 digits at 24
-    points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 46 digits at 24
-    points.  Derived from derive/geometries/unequal_wedge.py.
+    a and c: proven symbolically and checked numerically, with agreement to 46 digits at 24 points.
+    Routes: substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked
+    numerically, with agreement to 46 digits at 24 points.  Route: substituted into load(a, c),
+    moment(a, c), tilt(a, c).  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -73,13 +74,13 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
     """
     e = M / P  # lever arm of the load [m]
     lean = 2 * e
-    reach = np.abs(lean)  # how far the moment moves it [m]
+    reach = np.abs(lean)  # distance by which the moment shifts the contact [m]
     base = (2 / (E_star * (phi_1 + phi_2))) * P  # half-width without the moment [m]
     longer = np.maximum(base, reach)
     quotient = np.minimum(base, reach) / longer
     root = longer * np.sqrt(quotient**2 + 1)
     far = reach + root  # the farther edge [m]
-    leaning = far * np.sign(lean)  # the farther edge, with the side's sign [m]
+    leaning = far * np.sign(lean)  # the farther edge, with the sign of its side [m]
     near = base * (2 * P / ((phi_1 + phi_2) * (E_star * far)))  # the nearer edge [m]
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
@@ -106,7 +107,7 @@ def contact_at_tilt(
     P : array_like
         Normal load per unit depth [N/m].
     alpha : array_like, optional
-        Tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
+        Tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad].
     E_star, phi_1, phi_2 : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
         the left flank [rad]; slope of the right flank [rad].
@@ -118,8 +119,8 @@ def contact_at_tilt(
 
     Notes
     -----
-    a and c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.  Derived from
-    derive/geometries/unequal_wedge.py.
+    a and c: checked numerically, with agreement to 48 digits at 24 points.  Route: substituted into
+    load(a, c), tilt(a, c).  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -128,11 +129,12 @@ def contact_at_tilt(
     """
     angle = (np.pi / (2 * (phi_1 + phi_2))) * (phi_1 - alpha)  # half the angle of the corner [-]
     scale = (2 / (E_star * phi_1 + E_star * phi_2)) * P
-    rest = (np.pi / (2 * (phi_1 + phi_2))) * (alpha + phi_2)  # what it lacks of a right angle [-]
+    # its difference from a right angle [-]
+    rest = (np.pi / (2 * (phi_1 + phi_2))) * (alpha + phi_2)
     tangent = np.tan(np.minimum(angle, rest))
-    far = scale / tangent  # to the farther edge [m]
-    leaning = far * np.sign(rest - angle)  # the farther edge, with the side's sign [m]
-    near = scale * tangent  # from the corner to the nearer edge [m]
+    far = scale / tangent  # distance from the corner to the farther edge [m]
+    leaning = far * np.sign(rest - angle)  # the farther edge, with the sign of its side [m]
+    near = scale * tangent  # distance from the corner to the nearer edge [m]
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
@@ -161,8 +163,9 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 47 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
+    alpha: proven symbolically and checked numerically, with agreement to 47 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -198,8 +201,9 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 49 digits at 24 points.
-    Derived from derive/geometries/unequal_wedge.py.
+    P: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  Derived from
+    derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -233,8 +237,9 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-    at 24 points.  Derived from derive/geometries/unequal_wedge.py.
+    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  Derived from
+    derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -259,7 +264,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, phi_1, phi_2 : array_like
@@ -273,8 +278,9 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
+    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -282,8 +288,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     '0.0567155'
     """
     h = a + c  # contact width [m]
-    left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
-    right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
+    left_1 = (a + x) * (2 * c / h)  # zero at the left edge [m]
+    right_1 = (c - x) * (2 * a / h)  # zero at the right edge [m]
     logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
     p = (E_star * (phi_1 + phi_2) / (2 * np.pi)) * logarithm_1
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
@@ -312,8 +318,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/unequal_wedge.py.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -330,7 +336,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = E_star*sqrt(a*c)*(3*a + 2*c)*(phi_1 + phi_2)/(6*pi*a**2*(a + c)**(3/2))
         L_N_right = E_star*sqrt(a*c)*(2*a + 3*c)*(phi_1 + phi_2)/(6*pi*c**2*(a + c)**(3/2))
@@ -350,8 +356,9 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 46 digits at 24 points.  Derived from derive/geometries/unequal_wedge.py.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -371,7 +378,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
@@ -402,7 +409,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     return np.array([0.0])
 
 

@@ -3,8 +3,8 @@
 
 g(x) = phi*Abs(x), from derive/geometries/wedge.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 """
 
 import numpy as np
@@ -61,9 +61,10 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
 
     Notes
     -----
-    a and c proved: put back symbolically; put back into load(a, c), moment(a, c); 44 digits at 24
-    points.  alpha numerical: put back into load(a, c), moment(a, c), tilt(a, c); 48 digits at 24
-    points.  Derived from derive/geometries/wedge.py.
+    a and c: proven symbolically and checked numerically, with agreement to 44 digits at 24 points.
+    Routes: substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked
+    numerically, with agreement to 48 digits at 24 points.  Route: substituted into load(a, c),
+    moment(a, c), tilt(a, c).  Derived from derive/geometries/wedge.py.
 
     Examples
     --------
@@ -72,13 +73,13 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     """
     e = M / P  # lever arm of the load [m]
     lean = 2 * e
-    reach = np.abs(lean)  # how far the moment moves it [m]
+    reach = np.abs(lean)  # distance by which the moment shifts the contact [m]
     base = P / (E_star * phi)  # half-width without the moment [m]
     longer = np.maximum(base, reach)
     quotient = np.minimum(base, reach) / longer
     root = longer * np.sqrt(quotient**2 + 1)
     far = reach + root  # the farther edge [m]
-    leaning = far * np.sign(lean)  # the farther edge, with the side's sign [m]
+    leaning = far * np.sign(lean)  # the farther edge, with the sign of its side [m]
     near = base * (P / (phi * (E_star * far)))  # the nearer edge [m]
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
@@ -100,7 +101,7 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     P : array_like
         Normal load per unit depth [N/m].
     alpha : array_like, optional
-        Tilt, anticlockwise positive: the slope in contact is g'(x) + alpha [rad].
+        Tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad].
     E_star, phi : array_like
         Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
         the flanks [rad].
@@ -112,8 +113,8 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
 
     Notes
     -----
-    a and c numerical: put back into load(a, c), tilt(a, c); 48 digits at 24 points.  Derived from
-    derive/geometries/wedge.py.
+    a and c: checked numerically, with agreement to 48 digits at 24 points.  Route: substituted into
+    load(a, c), tilt(a, c).  Derived from derive/geometries/wedge.py.
 
     Examples
     --------
@@ -128,9 +129,9 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
         (np.pi / 4) * ((phi - np.abs(alpha)) / phi),
     )
     tangent = np.tan(angle)
-    far = scale / tangent  # to the farther edge [m]
-    leaning = far * np.sign(alpha)  # the farther edge, with the side's sign [m]
-    near = scale * tangent  # from the corner to the nearer edge [m]
+    far = scale / tangent  # distance from the corner to the farther edge [m]
+    leaning = far * np.sign(alpha)  # the farther edge, with the sign of its side [m]
+    near = scale * tangent  # distance from the corner to the nearer edge [m]
     a = np.maximum(leaning, near)
     c = np.maximum(-leaning, near)
     h = a + c  # contact width [m]
@@ -159,8 +160,9 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/wedge.py.
+    alpha: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  Derived from derive/geometries/wedge.py.
 
     Examples
     --------
@@ -194,8 +196,9 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Derived from derive/geometries/wedge.py.
+    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  Derived from
+    derive/geometries/wedge.py.
 
     Examples
     --------
@@ -229,8 +232,9 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 50 digits
-    at 24 points.  Derived from derive/geometries/wedge.py.
+    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  Derived from
+    derive/geometries/wedge.py.
 
     Examples
     --------
@@ -255,7 +259,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, phi : array_like
@@ -269,8 +273,9 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Derived from derive/geometries/wedge.py.
+    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  Derived from derive/geometries/wedge.py.
 
     Examples
     --------
@@ -278,8 +283,8 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     '0.0567155'
     """
     h = a + c  # contact width [m]
-    left_1 = (a + x) * (2 * c / h)  # vanishes at the left edge [m]
-    right_1 = (c - x) * (2 * a / h)  # vanishes at the right edge [m]
+    left_1 = (a + x) * (2 * c / h)  # zero at the left edge [m]
+    right_1 = (c - x) * (2 * a / h)  # zero at the right edge [m]
     logarithm_1 = kink_logarithm(left_1, right_1, x)  # twice the logarithm of the kink x = 0 [-]
     p = (E_star * phi / np.pi) * logarithm_1
     exists = (np.minimum(a, c) > LEAST) & (h < MOST)
@@ -308,8 +313,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Derived from derive/geometries/wedge.py.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  Derived from derive/geometries/wedge.py.
 
     Examples
     --------
@@ -326,7 +331,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = E_star*phi*sqrt(a*c)*(3*a + 2*c)/(3*pi*a**2*(a + c)**(3/2))
         L_N_right = E_star*phi*sqrt(a*c)*(2*a + 3*c)/(3*pi*c**2*(a + c)**(3/2))
@@ -346,8 +351,9 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 45 digits at 24 points.  Derived from derive/geometries/wedge.py.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 45 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  Derived from derive/geometries/wedge.py.
 
     Examples
     --------
@@ -367,7 +373,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0])
 
 
@@ -398,7 +404,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     return np.array([0.0])
 
 

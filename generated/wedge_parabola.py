@@ -3,10 +3,10 @@
 
 g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/wedge_parabola.py.
 
-Arguments broadcast, and results are float64 of the broadcast shape; NaN unless material and
-geometry are positive and lengths are between 1e-75 and 1e75 m.
+Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
 
-In the formulas below
+The formulas below use these definitions:
     h = a + c
     t_2 = edge_angle(c, a)
     edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
@@ -59,7 +59,7 @@ __all__ += ["stick_margin", "stick_zone", "tension_threshold", "tilt", "why"]
 
 @shared
 def _angles(a: Array, c: Array) -> tuple[Array, ...]:
-    """What all formulas hold, as defined above, and whether there is such a contact."""
+    """The shared symbols that are defined above, and whether such a contact exists."""
     h = a + c  # contact width [m]
     t_2 = edge_angle(c, a)  # angle of part 2 [-]
     exists = (h > LEAST) & (c > 0) & (h < MOST)
@@ -87,8 +87,9 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
 
     Notes
     -----
-    alpha proved: I_0 by antiderivatives that differentiate back; quadrature of the defining
-    integral of g(x); 48 digits at 24 points.  Symbols and source: see the module's docstring.
+    alpha: proven symbolically and checked numerically, with agreement to 48 digits at 24 points.
+    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
+    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -122,8 +123,9 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
     Notes
     -----
-    P proved: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature; 50 digits at 24 points.
-    Symbols and source: see the module's docstring.
+    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
+    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
+    source, see the docstring of the module.
 
     Examples
     --------
@@ -159,8 +161,9 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
     Notes
     -----
-    M proved: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature; 49 digits
-    at 24 points.  Symbols and source: see the module's docstring.
+    M: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
+    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -186,7 +189,7 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     Parameters
     ----------
     x : array_like
-        Position along the interface, right positive [m].
+        Position along the interface, positive to the right [m].
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, phi : array_like
@@ -200,18 +203,19 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
 
     Notes
     -----
-    p proved: grows by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x); 49 digits at 24 points.  Symbols and source: see the module's docstring.
+    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
+    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
+    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
     '0.359742'
     """
-    x = np.minimum(np.maximum(x, -a), c)  # beyond the edges all is zero [m]
+    x = np.minimum(np.maximum(x, -a), c)  # p is zero beyond the edges [m]
     h, t_2, exists = _angles(a, c)
-    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # of half the angle of x [-]
-    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # of half the angle of x [-]
+    sin_x = np.sqrt(np.maximum(a + x, 0.0) / h)  # sine of half the angle of x [-]
+    cos_x = np.sqrt(np.maximum(c - x, 0.0) / h)  # cosine of half the angle of x [-]
     p = (E_star * phi / (2 * np.pi)) * kink_logarithm(
         (np.maximum(c, 0.0) / h) * (2 * a + 2 * x), (np.maximum(a, 0.0) / h) * (2 * c - 2 * x), x
     ) + (E_star * h / (np.pi * R)) * end_pressure(t_2, cos_x, sin_x)
@@ -243,8 +247,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
     Notes
     -----
-    K_N_left and K_N_right proved: (2/pi) P'(c)/sqrt(a + c) and a'(c), P and alpha differentiated.
-    Symbols and source: see the module's docstring.
+    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
+    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -252,8 +256,8 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     ['0.118599', '0.621996']
     """
     h, t_2, exists = _angles(a, c)
-    tan_1 = root_ratio(a, c)  # of half the angle of x = 0 [-]
-    cot_1 = root_ratio(c, a)  # of half the angle of x = 0 [-]
+    tan_1 = root_ratio(a, c)  # tangent of half the angle of x = 0 [-]
+    cot_1 = root_ratio(c, a)  # cotangent of half the angle of x = 0 [-]
     K_N_left = (E_star * phi / np.pi) * cot_1 / np.sqrt(h) + (E_star / (np.pi * R)) * segment(
         t_2 / 2
     ) * np.sqrt(h)
@@ -265,7 +269,7 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
 @elementwise
 def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
-    """Coefficients of s**(3/2) in the pressure next to the edges.
+    """Coefficients of s**(3/2) in the pressure at a distance s from the edges.
 
         L_N_left = E_star*cot_1*phi*(2*cot_1**2 + 3)/(6*pi*h**(3/2)) - E_star*k_left/(4*sqrt(h))
             + E_star*(-k_left + 1/R)*second_term(t_2, 0, sin_1)/(3*pi*sqrt(h))
@@ -294,8 +298,9 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
 
     Notes
     -----
-    L_N_left and L_N_right proved: K_N grows with its edge by flat punches; p - K_N sqrt(s) close to
-    the edge; 47 digits at 24 points.  Symbols and source: see the module's docstring.
+    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 47 digits
+    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
+    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -303,10 +308,10 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     ['0.0301586', '-0.204532']
     """
     h, t_2, exists = _angles(a, c)
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # of half the angle of x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # of half the angle of x = 0 [-]
-    tan_1 = root_ratio(a, c)  # of half the angle of x = 0 [-]
-    cot_1 = root_ratio(c, a)  # of half the angle of x = 0 [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
+    tan_1 = root_ratio(a, c)  # tangent of half the angle of x = 0 [-]
+    cot_1 = root_ratio(c, a)  # cotangent of half the angle of x = 0 [-]
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
     k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [m**(-1)]
     k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [m**(-1)]
@@ -328,7 +333,7 @@ _p, _K_N, _L_N = by_position(pressure), by_position(K_N), by_position(L_N)
 
 
 def _pressure(x: Array, a: Array, c: Array, own: Array) -> Array:
-    """The pressure at x for E* = 1."""
+    """Pressure at x for E* = 1."""
     return _p(x, a, c, 1.0, own[0], own[1])
 
 
@@ -344,10 +349,10 @@ def _series(a: Array, c: Array, own: Array) -> tuple[Array, ...]:
     R, phi = own[0], own[1]
     second = _L_N(a, c, 1.0, R, phi)
     h, t_2, _ = _angles(a, c)
-    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # of half the angle of x = 0 [-]
-    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # of half the angle of x = 0 [-]
-    tan_1 = root_ratio(a, c)  # of half the angle of x = 0 [-]
-    cot_1 = root_ratio(c, a)  # of half the angle of x = 0 [-]
+    sin_1 = np.sqrt(np.minimum(np.maximum(a, 0.0), h) / h)  # sine of half the angle of x = 0 [-]
+    cos_1 = np.sqrt(np.minimum(np.maximum(c, 0.0), h) / h)  # cosine of half the angle of x = 0 [-]
+    tan_1 = root_ratio(a, c)  # tangent of half the angle of x = 0 [-]
+    cot_1 = root_ratio(c, a)  # cotangent of half the angle of x = 0 [-]
     t_1 = edge_angle(a, c)  # angle of part 1 [-]
     k_left = where(a > 0, 0, 1 / R)  # g'' at the left edge [m**(-1)]
     k_right = where(c > 0, 1 / R, 0)  # g'' at the right edge [m**(-1)]
@@ -379,7 +384,7 @@ def _slope(x: Array, own: Array) -> tuple[Array, ...]:
 
 
 def _breaks(own: Array) -> Array:
-    """Where the curve changes its formula."""
+    """Points at which the formula of the curve changes."""
     return np.array([0.0])
 
 
