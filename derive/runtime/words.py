@@ -69,7 +69,7 @@ EXAMPLES = {
 '{{reduced}}'""",
     "why": f"""\
 {_HERE}>>> why(here, here, -1.0, 0.0, f=0.5, **law)
-'dQ = -1 is negative: give the half-cycle that raises the shear load'""",
+'dQ = -1 is negative: pass the half-cycle that raises the shear load'""",
     "tension_threshold": f"""\
 {_HERE}>>> lower, upper = tension_threshold(here, here, {{dQ}}, f=0.5, **law)
 >>> f"{{{{upper:.6g}}}}"  # 8 dQ/(pi (a + c))
