@@ -5,7 +5,7 @@ symbols by our variables: as a formula of a sheet, an integral, a root of the co
 or another symbol.  A change of sign is an ordinary entry of this mapping, such as `M: -M`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -153,6 +153,7 @@ class Claim:
                  used for a definition, which cannot be wrong by itself
     cases        the points to use, with numbers as text, if only a few can be afforded
     source       the printed equation as text, which keeps its form; SymPy would simplify it
+    reading      reads a changed form of `source` as both sides; None for one that cannot be read
     seconds      the time limit of the verdict, and then of the search for a correction
     family       claims of one family share their points, so that integrals are computed once
     swaps        symbols that may have been confused with each other
@@ -187,6 +188,7 @@ class Claim:
     unit_of: Mapping[Symbol, str] = field(default_factory=dict)
     cases: tuple[Mapping[Symbol, str], ...] = ()
     source: str = ""
+    reading: Callable[[str], tuple[Expr, Expr] | None] | None = None
     seconds: float | None = None
     family: str = ""
     steps: tuple[str, ...] = ()

@@ -559,6 +559,7 @@ class _File:
             rounded=rounded,
             conventions=self._conventions(given, where, put, context),
             source=read.text,
+            reading=partial(_reading, Names(where, _known(context, put), context.arities), put),
             swaps=self._swaps(read, meant, context),
             unit_of=self._units_of(read, meant, context, held),
             **common,
@@ -733,7 +734,7 @@ class _File:
         (one,) = found
         constant = Symbol("constant", positive=True)
         text = f"{read.text[: one.start()]}constant{read.text[one.end() :]}"
-        symbols = {**context.variables, **{s.name: s for s in put.meaning}, "constant": constant}
+        symbols = {**_known(context, put), "constant": constant}
         left, _, right = equation(text, Names(read.where, symbols, context.arities), rough=True)
         power = (right / left).as_independent(constant)[1].as_base_exp()
         if power[0] != constant or power[1] not in (1, -1):
@@ -954,6 +955,21 @@ def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str])
         why = f"the symbols {listed} have no meaning: define them in [symbols] or [variables]"
     printed = given.get("understood", given.get("printed", ""))
     return Claim(unchecked=why, source=str(printed), **common)
+
+
+def _known(context: Context, put: Put) -> dict[str, Expr]:
+    """Return the variables and the symbols that an equation may hold, by name."""
+    return {**context.variables, **{symbol.name: symbol for symbol in put.meaning}}
+
+
+def _reading(names: Names, put: Put, text: str) -> tuple[Expr, Expr] | None:
+    """Read an equation with the same calls as the printed one; None if it has others."""
+    try:
+        left, _, right = equation(text, names, rough=True)
+    except BadFormula:
+        return None
+    left, right = put.without_calls(left), put.without_calls(right)
+    return None if calls_in(left, right) else (left, right)
 
 
 def _names_in(read: "_Read") -> set[Symbol]:
