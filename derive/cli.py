@@ -530,7 +530,8 @@ def _accept(file: Path | None, label: str | None) -> None:
 
     if file is None or label is not None:
         raise click.UsageError("--accept needs a claims file, without --explain: give FILE alone")
-    readings = open_readings(file)
+    found = open_readings(file)
+    readings = [reading for reading in found if reading.understood]
     accepted = []
     for number, reading in enumerate(readings, 1):
         click.echo(f"\n{number} of {len(readings)}: {reading.label}")
@@ -538,6 +539,10 @@ def _accept(file: Path | None, label: str | None) -> None:
         click.echo(f"  understood  {reading.understood}")
         if reading.accepted:
             click.echo(f"  in the file {reading.accepted}")
+        for key, entry in reading.beside.items():
+            click.echo(f"  {key:<11} {entry}")
+        if reading.why:
+            click.echo(f"  unchecked   {reading.why}")
         answer = click.prompt(
             "Is this what is printed?",
             type=click.Choice(["y", "n", "q"]),
@@ -552,6 +557,9 @@ def _accept(file: Path | None, label: str | None) -> None:
         accept(file, accepted)
     left = len(readings) - len(accepted)
     click.echo(f"{len(accepted)} accepted, {left} left")
+    for reading in found:
+        if not reading.understood:
+            click.echo(f"not read: {reading.label}: {reading.why}")
 
 
 def _paper(file: Path | None, label: str | None) -> "Paper":

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from mpmath import mpf
-from sympy import Abs, Expr, Rational, S, Symbol
+from sympy import Expr, Rational, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 Meaning = Mapping[Symbol, Expr]
@@ -207,11 +207,6 @@ class Claim:
     def is_inequality(self) -> bool:
         """Whether the claim is judged by which side is larger."""
         return self.relation.is_ordered and self.reached is None
-
-    @property
-    def has_modulus(self) -> bool:
-        """Whether a side contains a modulus."""
-        return bool(self.right.has(Abs) or self.left.has(Abs))
 
 
 @dataclass(frozen=True)

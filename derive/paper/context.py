@@ -14,9 +14,10 @@ from sympy import Derivative, Expr, Integral, Limit, Symbol
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
+from derive.errors import UserError
 from derive.paper.bodies import Body, placed
 from derive.paper.claim import Meaning
-from derive.paper.dimensions import Call, Units
+from derive.paper.dimensions import Call, Units, ordinary
 from derive.paper.formula import FROM_POLE, IMPROPER, PrincipalValue, ToInfinity, proper
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, e, f, x
@@ -29,17 +30,22 @@ _CALLS = (AppliedUndef, Derivative, Limit, *IMPROPER)
 
 @dataclass(frozen=True)
 class Context:
-    """The body of a claim, if there is one, and the variables with their units."""
+    """The body of a claim, if there is one, and the variables with their units.
+
+    units      units that the file declares
+    inherited  units of the parameters of the file's body, if the claim has another one
+    """
 
     body: Body | None
     variables: Mapping[str, Expr]
     units: Mapping[Symbol, Dimension]
+    inherited: Mapping[Symbol, Dimension] = field(default_factory=dict)
 
     def followed(self, meant: "Meant") -> Units:
         """Return the known units."""
-        known, calls = {**_UNITS, **self.units}, dict[str, Call]()
+        known, calls = {**self.inherited, **_UNITS, **self.units}, dict[str, Call]()
         if self.sheet is not None:
-            known = {**self.sheet.geometry.dimensions, **known}
+            known |= {**self.sheet.geometry.dimensions, **_UNITS, **self.units}
             for place in PLACES.values():
                 known.setdefault(place, parse_unit("m"))
             own = self.sheet.dimensions
@@ -95,13 +101,15 @@ class Meant:
 
     written  meanings as in the file, with other symbols substituted and calls kept
     ours     meanings in terms of variables only
-    lost     names of symbols whose definitions are circular
+    wrong    the error in the formula of a symbol, or of one that it uses, by the symbol's name
+    lacks    for a symbol whose formula uses one without a meaning, the name of that one
     needs    for each symbol, the names of all symbols that its definition uses
     """
 
     written: dict[Symbol, Expr]
     ours: dict[Symbol, Expr]
-    lost: set[str] = field(default_factory=set)
+    wrong: dict[str, UserError] = field(default_factory=dict)
+    lacks: dict[str, str] = field(default_factory=dict)
     needs: dict[str, set[str]] = field(default_factory=dict)
 
     def without(self, changed: Iterable[str]) -> "Meant":
@@ -112,7 +120,7 @@ class Meant:
             {symbol: expr for symbol, expr in table.items() if symbol.name in kept}
             for table in (self.written, self.ours)
         )
-        return Meant(written, ours, set(self.lost), kept)
+        return Meant(written, ours, needs=kept)
 
 
 @dataclass(frozen=True)
@@ -157,6 +165,17 @@ def as_text(call: Expr) -> str:
 def integrals(*exprs: Expr) -> list[Integral]:
     """Return all integrals in the expressions, in a fixed order."""
     return sorted({over for expr in exprs for over in expr.atoms(Integral)}, key=str)
+
+
+def free(*exprs: Expr) -> set[Symbol]:
+    """Return the symbols that are not only variables of integration, of a sum or of a limit."""
+    return set().union(*(ordinary(expr).free_symbols for expr in exprs))
+
+
+def with_real_bound(expr: Expr, symbols: Iterable[Symbol]) -> Expr:
+    """Make those symbols real that are only variables of integration in an expression."""
+    bound = set(symbols) & expr.atoms(Symbol) - free(expr)
+    return expr.xreplace({symbol: Symbol(symbol.name, real=True) for symbol in bound})
 
 
 def calls_in(*exprs: Expr) -> list[Expr]:

@@ -37,6 +37,11 @@ Call = tuple[tuple[Dimension, ...], Dimension]
 """The units of the arguments of a formula, and the unit of its value."""
 
 
+def ordinary(expr: Expr) -> Expr:
+    """Write principal values and integrals to infinity as integrals, for units and symbols."""
+    return expr.replace(lambda node: isinstance(node, IMPROPER), _between)
+
+
 def _between(improper: Expr) -> Integral:
     inside, along, low, *high = improper.args
     return Integral(inside, (along, low, *(high or [low])))

@@ -52,7 +52,7 @@ The variables x, s and xi are positions, whose default range is symmetric about 
 import re
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import cache, partial
 from os.path import isdir
@@ -62,7 +62,15 @@ from typing import Any, TypeGuard, TypeVar
 from sympy import Expr, Limit, Rational, Symbol, false, true
 from sympy.logic.boolalg import Boolean
 
-from derive.errors import BadClaimsFile, BadFormula, BadText, BadUnit, NotAccepted, UserError
+from derive.errors import (
+    BadClaimsFile,
+    BadFormula,
+    BadText,
+    BadUnit,
+    NotAccepted,
+    NotProven,
+    UserError,
+)
 from derive.files import Unreadable, bytes_of
 from derive.library import is_in_library, library
 from derive.limit import LimitReached, within
@@ -80,12 +88,21 @@ from derive.paper.claim import (
     Rounded,
     Verdict,
 )
-from derive.paper.context import PLACES, Context, Meant, Put, as_text, calls_in, integrals
+from derive.paper.context import (
+    PLACES,
+    Context,
+    Meant,
+    Put,
+    as_text,
+    calls_in,
+    free,
+    integrals,
+    with_real_bound,
+)
 from derive.paper.dimensions import Units
 from derive.paper.formula import (
     IMPROPER,
     Names,
-    NoPole,
     UnknownName,
     approach,
     equation,
@@ -130,27 +147,35 @@ _OF_A_CLAIM = (
     | {"allowed", "beyond", "leading", "swaps", "cases", "family", "equation", "against", "steps"}
     | {"consequence"}
 )
+_BESIDE = ("as", "order", "require", "given")
+"""The entries that are shown with a reading, because its verdict depends on them."""
 
 
 @dataclass(frozen=True)
 class Reading:
     """The reading of a claim's LaTeX that the file does not accept yet.
 
-    number  the number of the claim in the file, counted from 1
+    number      the number of the claim in the file, counted from 1
+    understood  the equation as text; empty if the LaTeX cannot be read
+    accepted    the different reading that the file accepts; empty if there is none
+    beside      the entries of the claim that its verdict depends on, such as `as` and `require`
+    why         the reason why the claim cannot be judged even if this reading is accepted
     """
 
     number: int
     label: str
     latex: str
     understood: str
-    accepted: str
+    accepted: str = ""
+    beside: Mapping[str, str] = field(default_factory=dict)
+    why: str = ""
 
 
 def read_claims(path: Path) -> Paper:
     """Read the claims of a file, or of all files in a folder in the order of their names.
 
-    Raises BadClaimsFile or BadFormula for one error, and Mistakes for several.  A claim without an
-    accepted reading, or with a symbol that has no meaning, is returned as unchecked.
+    Raises BadClaimsFile or BadFormula for one error, and Mistakes for several.  A claim that cannot
+    be read or compared is returned as unchecked, with the reason.
     """
     if not isdir(path):  # noqa: PTH112 - False for a name that no file can have
         return _file(path).paper()
@@ -171,7 +196,10 @@ def built_in() -> Paper:
 
 
 def open_readings(path: Path) -> list[Reading]:
-    """Return the readings that are not accepted yet; raises the errors of `read_claims`."""
+    """Return the readings that are not accepted yet, and the LaTeX that cannot be read.
+
+    Raises the errors of `read_claims`.
+    """
     file = _file(path)
     file.paper()
     return file.readings
@@ -209,6 +237,7 @@ class _File:
     declared: dict[str, Expr] = field(default_factory=dict)
     contexts: dict[str, Context] = field(default_factory=dict)
     mistakes: list[UserError] = field(default_factory=list)
+    of_claims: list[UserError] = field(default_factory=list)
     readings: list[Reading] = field(default_factory=list)
     read: dict[str, tuple[Expr, Expr]] = field(default_factory=dict)
     units: dict[Symbol, Dimension] = field(default_factory=dict)
@@ -222,7 +251,8 @@ class _File:
                     self._bad(f"the text {text!r} holds a control character", "remove it")
                 )
         demand_none(self.mistakes)
-        self._demand_known(self.data, _KEYS, "the file")
+        with self._noted():
+            self._demand_known(self.data, _KEYS, "the file")
         self.seconds = _SECONDS
         with self._noted():
             self.seconds = self._limit()
@@ -244,7 +274,8 @@ class _File:
                 name: self._list(self._table("signs"), name, "signs")
                 for name in self._table("signs")
             }
-        demand_none(self.mistakes)
+        if self.mistakes:
+            demand_none([*self.mistakes, *self.of_claims])
         return Paper(str(self.data.get("title", self.name)), claims, signs)
 
     def _context(self, given: object, where: str) -> Context:
@@ -252,9 +283,10 @@ class _File:
         key = repr(given)
         if key not in self.contexts:
             body = self._body(given, where)
-            own = {q.name: q.symbol for q in body.sheet.geometry.parameters} if body else {}
-            variables = {**_FROM_THE_START, **own, **self.declared}
-            self.contexts[key] = Context(body, variables, self.units)
+            file, own = self.context, Context(body, {}, {}).parameters
+            variables = {**_FROM_THE_START, **file.parameters, **self.declared, **own}
+            units = file.sheet.geometry.dimensions if file.sheet else {}
+            self.contexts[key] = Context(body, variables, self.units, units)
         return self.contexts[key]
 
     def _body(self, given: object, where: str) -> Body | None:
@@ -312,7 +344,8 @@ class _File:
                     why = f"{where}, the value of the symbol {name!r} is not a text"
                     raise self._bad(why, f'write {name} = "a formula"')
                 if isinstance(said, dict):
-                    self._demand_known(said, _OF_A_SYMBOL, f"{where}, the symbol {name!r}")
+                    with self._noted():
+                        self._demand_known(said, _OF_A_SYMBOL, f"{where}, the symbol {name!r}")
                     symbol = taken.get(name, Symbol(name))
                     if symbol not in self.units and symbol not in self.context.parameters.values():
                         self._say_unit(symbol, said, f"{where}, the symbol {name!r}")
@@ -323,13 +356,24 @@ class _File:
                         raise self._bad(why, "remove the symbol, or rename one of them")
                     del self.symbols[name]  # it is that variable
         with self._noted():
-            self._spellings(self._names(self.name, self.symbols, self.context))
+            self._spellings()
         self.meant = dict[str, Meant]()
-        if not self.mistakes:
-            self._meant(self.context)
+        tables = [self._meant(context) for context in self._all_contexts()]
+        for name in self.symbols:
+            if all(name in meant.wrong for meant in tables):
+                self.mistakes.append(tables[0].wrong[name])
+
+    def _all_contexts(self) -> list[Context]:
+        """Return the contexts of the file's body and of the bodies of its claims."""
+        contexts, claims = [self.context], self.data.get("claims", [])
+        for given in claims if isinstance(claims, list) else []:
+            with suppress(UserError):
+                if isinstance(given, dict) and "body" in given:
+                    contexts.append(self._context(given["body"], self.name))
+        return contexts
 
     def _meant(self, context: Context, own: Mapping[str, Any] | None = None) -> Meant:
-        """Return the meanings of all symbols for a body and a claim; record each error once."""
+        """Return the meanings of all symbols for a body and a claim."""
         key = repr((id(context), sorted((own or {}).items(), key=str)))
         if key not in self.meant:
             self.meant[key] = Meant({}, {})
@@ -337,8 +381,7 @@ class _File:
                 self.meant[key] = self._meant(context).without(own)
             symbols = {**self.symbols, **(own or {})}
             for name in symbols:
-                with self._noted():
-                    self._define(name, symbols, context, self.meant[key], ())
+                self._define(name, symbols, context, self.meant[key], ())
         return self.meant[key]
 
     def _define(
@@ -351,7 +394,7 @@ class _File:
     ) -> bool:
         """Add the meaning of a symbol and of those that it uses; return whether it has one."""
         symbol = Symbol(name)
-        if symbol in meant.ours or name in meant.lost:
+        if symbol in meant.ours or name in meant.wrong:
             return symbol in meant.ours
         text = _formula_of(symbols[name])
         if not text:
@@ -361,19 +404,29 @@ class _File:
         if name in outer:
             round_ = outer[outer.index(name) :]
             told = ", ".join(round_)
-            meant.lost.update(round_)
             why = f"{where} has a circular definition through {told}"
-            raise self._bad(why, "define one of these symbols without the others")
+            error = self._bad(why, "define one of these symbols without the others")
+            meant.wrong.update(dict.fromkeys(round_, error))
+            return False
         others = {n: Symbol(n) for n in symbols if n != name}
         names = Names(where, {**context.variables, **others}, context.arities)
-        found = self._in_time(where, lambda: read_formula(text, names))
-        for inner in sorted(found.free_symbols & set(others.values()), key=str):
-            if not self._define(inner.name, symbols, context, meant, (*outer, name)):
-                return False
+        try:
+            found = self._in_time(where, lambda: read_formula(text, names))
+            for inner in sorted(free(found) & set(others.values()), key=str):
+                if not self._define(inner.name, symbols, context, meant, (*outer, name)):
+                    if inner.name in meant.wrong:
+                        meant.wrong.setdefault(name, meant.wrong[inner.name])
+                    meant.lacks[name] = meant.lacks.get(inner.name, inner.name)
+                    return False
+            found = with_real_bound(found, others.values() - meant.ours.keys())
+            written = found.xreplace(meant.written)
+            ours = self._in_time(where, lambda: context.put_in(written))
+        except UserError as error:
+            meant.wrong[name] = error
+            return False
         needed = {each.name for each in found.free_symbols}
         meant.needs[name] = needed.union(*(meant.needs.get(each, ()) for each in needed))
-        meant.written[symbol] = found.xreplace(meant.written)
-        meant.ours[symbol] = self._in_time(where, lambda: context.put_in(meant.written[symbol]))
+        meant.written[symbol], meant.ours[symbol] = written, ours
         return True
 
     def _claims(self) -> tuple[Claim, ...]:
@@ -413,13 +466,17 @@ class _File:
             raise self._bad(why, "simplify it, or increase seconds") from None
         except RecursionError:
             raise self._bad(f"{where} is nested too deeply", "simplify it") from None
+        except NotProven as error:
+            why = f"{where} uses a formula that is not proven: {error}"
+            raise self._bad(why, "use another formula, or a simpler body") from error
 
     def _declare(self, name: str, said: object) -> None:
         line = line_of(self.text, "variables", name)
         where = f"{self.name}:{line}, variable {name!r}" if line else f"variable {name!r}"
         self._demand_name(name, ())
         given: dict[str, Any] = said if isinstance(said, dict) else {}
-        self._demand_known(given, _OF_A_VARIABLE, where)
+        with self._noted():
+            self._demand_known(given, _OF_A_VARIABLE, where)
         low, high = given.get("low"), given.get("high")
         if isinstance(said, str) or (given and low is high is None):
             self._drawn(name, SCALE, positive=True)
@@ -464,7 +521,6 @@ class _File:
             raise self._bad(why, "write [[claims]] before each claim")
         label = self._text(given, "label", f"{at}, claim {number}")
         where = f"{at}, claim {label!r}"
-        self._demand_known(given, _OF_A_CLAIM, where)
         common: dict[str, Any] = {
             "label": label,
             "place": str(given.get("place", Path(self.name).name)),
@@ -472,20 +528,28 @@ class _File:
             "latex": str(given.get("latex", "")),
             "equation": str(given.get("equation", "")),
             "consequence": str(given.get("consequence", "")),
-            "steps": self._list(given, "steps", where),
             "seconds": self.seconds,
         }
-        with self._noted():
-            common["expected"] = self._verdict(given, where)
+        told = str(given.get("understood", given.get("printed", "")))
+        try:
+            return self._stated(number, given, where, told, common)
+        except UserError as error:
+            self.of_claims.append(error)
+            return Claim(unchecked=_reason(error, where), source=told, **common)
+
+    def _stated(
+        self, number: int, given: Mapping[str, Any], where: str, told: str, common: dict[str, Any]
+    ) -> Claim:
+        """Return a claim; raise UserError if one of its entries is not allowed."""
+        self._demand_known(given, _OF_A_CLAIM, where)
+        common["steps"] = self._list(given, "steps", where)
+        common["expected"] = self._verdict(given, where)
+        context = self._context(given["body"], where) if "body" in given else self.context
         own = self._inner(given, "symbols", where)
         for name in own:
             self._demand_name(name, ())
-        context = self.context
-        if "body" in given:
-            context = self._context(given["body"], where)
         symbols = {**self.symbols, **own}
         names = self._names(where, symbols, context)
-        told = str(given.get("understood", given.get("printed", "")))
         meant = self._meant(context, own)
         common["units"] = self._mismatch(context, meant, told, names) if told else ""
         if "unchecked" in given:
@@ -496,25 +560,30 @@ class _File:
                 where, lambda: equation(text, names, rough=_may_be_rough(given, text))
             )
         except NotAccepted as error:
-            return self._waiting(number, given, common, error)
+            return self._waiting(number, given, common, error, names)
         except UnknownName as error:
             missing = unknown(error.given, names) or ["oo"]
-            return _lacking(given, common, missing)
+            return _lacking(given, common, missing, meant)
+        except BadFormula as error:
+            if "latex" in given:
+                why, latex = _reason(error, where), common["latex"]
+                self.readings.append(Reading(number, common["label"], latex, "", why=why))
+            raise
         if "given" in given:
             meant = self._follows(given, where, symbols, meant)
-        self.read[label] = left, right
+        open_ = {Symbol(name) for name in symbols} - meant.ours.keys()
+        left, right = (with_real_bound(side, open_) for side in (left, right))
+        self.read[common["label"]] = left, right
         through = self._through(given, where, left, names)
         sides = (left, right)
         if through is not None:
             sides = through[0].xreplace({left: right}), through[1].xreplace({left: right})
-        lacking = [n for n in symbols if Symbol(n) not in meant.ours and _held(n, *sides)]
+        held = free(*sides)
+        lacking = [name for name in symbols if Symbol(name) in held & open_]
         if lacking:
-            return _lacking(given, common, lacking)
+            return _lacking(given, common, lacking, meant)
         read = _Read(given, where, text, left, relation, right, through)
-        try:
-            return self._judged(read, context, meant, common)
-        except NoPole as error:
-            return Claim(unchecked=f"{error.why}: {error.remedy}", source=text, **common)
+        return self._judged(read, context, meant, common)
 
     def _judged(
         self, read: "_Read", context: Context, meant: Meant, common: dict[str, Any]
@@ -530,6 +599,7 @@ class _File:
         called = {**meant.ours, **put.called(meant.ours)}
         self._demand_bound(where, left, right, called)
         held = _variables(*compared, called) - _inside(*compared, called)
+        self._demand_one_parameter(read, context, meant, held)
         rounded = self._rounded(read, context, put)
         relation = read.relation
         if relation == Relation.LIKE and not given.keys() & {"as", "leading"}:
@@ -743,11 +813,30 @@ class _File:
         return Rounded(Rational(one[0]), half, int(power[1]))
 
     def _waiting(
-        self, number: int, given: Mapping[str, Any], common: dict[str, Any], error: NotAccepted
+        self,
+        number: int,
+        given: Mapping[str, Any],
+        common: dict[str, Any],
+        error: NotAccepted,
+        names: Names,
     ) -> Claim:
         """Return an unchecked claim whose reading is not accepted, and record the reading."""
+        beside = {key: _shown(given[key]) for key in _BESIDE if key in given}
+        why = ""
+        try:
+            equation(error.understood, names, rough=_may_be_rough(given, error.understood))
+        except BadFormula as fault:
+            why = _reason(fault, names.where)
         self.readings.append(
-            Reading(number, common["label"], given["latex"], error.understood, error.accepted)
+            Reading(
+                number,
+                common["label"],
+                given["latex"],
+                error.understood,
+                error.accepted,
+                beside,
+                why,
+            )
         )
         said = f"the file accepts {error.accepted}" if error.accepted else "this is not accepted"
         by_hand = "accepted = true"
@@ -770,7 +859,7 @@ class _File:
             raise self._bad(why, "give exactly one of them")
         if "printed" in given:
             return self._text(given, "printed", where)
-        spellings = {**{n: n for n in names.symbols}, **_usual(names), **self._spellings(names)}
+        spellings = {**{n: n for n in names.symbols}, **_usual(names), **self._spellings()}
         latex = self._part(given, where)
         understood = Latex(where, latex, spellings).understood()
         accepted = str(given.get("understood", ""))
@@ -792,24 +881,37 @@ class _File:
             raise self._bad(why, f"write a number from 1 to {len(found)}")
         return found[part - 1].latex
 
-    def _spellings(self, names: Names) -> dict[str, str]:
+    def _spellings(self) -> dict[str, str]:
+        """Return [latex]; its names are declared in the file, or bound in the claims."""
         found = self._table("latex")
         for spelling, name in found.items():
-            if not isinstance(name, str) or name not in names.symbols:
-                why = f"[latex] {spelling!r} = {name!r} is not a declared name"
-                raise self._bad(why, "declare it in [symbols] or [variables]")
+            if not isinstance(name, str) or not usable(name):
+                why = f"[latex] {spelling!r} = {name!r} is not a name"
+                raise self._bad(why, "write a name of [symbols] or [variables]")
         return found
 
     def _demand_bound(self, where: str, left: Expr, right: Expr, meaning: Meaning) -> None:
         """Refuse variables of integration, except positions, that are also used outside."""
-        held = _variables(left, right, meaning)
         meant = (meaning[s] for s in left.free_symbols | right.free_symbols if s in meaning)
-        for over in integrals(left, right, *meant):
-            along = over.limits[-1][0]
-            if along in PLACES.values() or along not in held | meaning.keys():
-                continue
+        bound = {over.limits[-1][0] for over in integrals(left, right, *meant)}
+        bound -= set(PLACES.values())
+        table = {s: expr for s, expr in meaning.items() if s not in bound}
+        held = left.xreplace(table).free_symbols | right.xreplace(table).free_symbols
+        for along in sorted(bound & (held | meaning.keys()), key=str):
             why = f"{where}: {along} is a variable of integration and also used outside"
             raise self._bad(why, "use another variable of integration, such as s or xi")
+
+    def _demand_one_parameter(
+        self, read: "_Read", context: Context, meant: Meant, held: set[Symbol]
+    ) -> None:
+        """Refuse a parameter that a claim defines anew although formulas of the body hold it."""
+        for name in self._inner(read.given, "symbols", read.where):
+            symbol, ours = context.variables.get(name), meant.ours.get(Symbol(name))
+            if ours is None or name not in {*context.parameters, "E_star", "f"}:
+                continue
+            if symbol in held - ours.free_symbols:
+                why = f"{read.where}: {name} is {ours}, but formulas of the body hold {name} too"
+                raise self._bad(why, f"express the other symbols by {name} instead")
 
     def _conventions(
         self,
@@ -883,11 +985,10 @@ class _File:
         return tuple(found)
 
     def _demand_known(self, data: Mapping[str, Any], known: frozenset[str], where: str) -> None:
-        for key in data:
-            if key not in known:
-                allowed = ", ".join(sorted(known))
-                why = f"{where} has the unknown key {key!r}"
-                self.mistakes.append(self._bad(why, f"use one of {allowed}"))
+        wrong = ", ".join(repr(key) for key in data if key not in known)
+        if wrong:
+            why = f"{where}: the key {wrong} is unknown"
+            raise self._bad(why, f"use one of {', '.join(sorted(known))}")
 
     def _demand_name(self, name: str, taken: object) -> None:
         if not usable(name):
@@ -947,12 +1048,21 @@ def _may_be_rough(given: Mapping[str, Any], text: str) -> bool:
     return bool(given.keys() & {"as", "leading"}) or may_be_rounded(text)
 
 
-def _lacking(given: Mapping[str, Any], common: dict[str, Any], names: list[str]) -> Claim:
-    """Return an unchecked claim, because some of its symbols have no meaning."""
+def _no_meaning(names: list[str]) -> str:
     listed = ", ".join(names)
-    why = f"the symbol {listed} has no meaning: define it in [symbols] or [variables]"
     if len(names) > 1:
-        why = f"the symbols {listed} have no meaning: define them in [symbols] or [variables]"
+        return f"the symbols {listed} have no meaning: define them in [symbols] or [variables]"
+    return f"the symbol {listed} has no meaning: define it in [symbols] or [variables]"
+
+
+def _lacking(
+    given: Mapping[str, Any], common: dict[str, Any], names: list[str], meant: Meant
+) -> Claim:
+    """Return an unchecked claim, because some of its symbols have no meaning."""
+    why = _no_meaning([*dict.fromkeys(meant.lacks.get(name, name) for name in names)])
+    if wrong := next((name for name in names if name in meant.wrong), ""):
+        told = _reason(meant.wrong[wrong], None)
+        why = f"the symbol {wrong} has no meaning in this claim: {told}"
     printed = given.get("understood", given.get("printed", ""))
     return Claim(unchecked=why, source=str(printed), **common)
 
@@ -1020,8 +1130,29 @@ def _texts(data: object) -> Iterator[str]:
             left += each
 
 
-def _held(name: str, *sides: Expr) -> bool:
-    return any(side.has(Symbol(name)) for side in sides)
+def _reason(error: UserError, where: str | None) -> str:
+    """Describe an error of one claim, or of its symbols, in one line without its location."""
+    if isinstance(error, BadFormula):
+        place = error.where.removeprefix(where).lstrip(": ") if where else ""
+        rest = " ".join(error.given[error.column :].split())
+        at = f"at {_cut(rest)}" if rest else "at the end"
+        return f"{place}{': ' * bool(place)}{error.why}, {at}: {error.remedy}"
+    if isinstance(error, BadClaimsFile):
+        label = where.partition(", ")[2] if where else ""
+        return f"{error.why.removeprefix(label).lstrip(': ')}: {error.remedy}"
+    return error.message
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
+
+
+_SHOWN = 30
+"""The largest number of characters of a formula that a reason shows."""
+
+
+def _shown(entry: object) -> str:
+    return " and ".join(map(str, entry)) if isinstance(entry, list) else str(entry)
 
 
 def _usual(names: Names) -> dict[str, str]:

@@ -127,36 +127,14 @@ BAD = {
     "no claims": (HEAD, "number of [[claims]]"),
     "claims no list": (HEAD + "\n[claims]\n", "number of [[claims]]"),
     "unknown key": ('colour = "red"\n' + CIRCLE, "'colour'"),
-    "unknown key of a claim": (CIRCLE + 'colour = "red"\n', "'colour'"),
+    "a key of a variable": (CIRCLE.replace("high = 0.9", "high = 0.9, step = 1"), "'step'"),
     "no label": (HEAD + '[[claims]]\nprinted = "A = R"\n', "no label"),
-    "no equation": (HEAD + '[[claims]]\nlabel = "x"\n', "printed and latex"),
-    "no relation": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A"\n', "no relation"),
-    "two relations": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = R = 1"\n', "two relations"),
-    "unknown function": (
-        HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = eval(R)"\n',
-        "not a function",
-    ),
-    "attribute": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = R.__class__"\n', "attributes"),
-    "text": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = \'R\'"\n', "quotes"),
-    "large power": (HEAD + '[[claims]]\nlabel = "x"\nprinted = "A = 9**9**9**9"\n', "too large"),
-    "deep": (HEAD + f'[[claims]]\nlabel = "x"\nprinted = "A = {"(" * 60}R"\n', "nested deeper"),
     "unknown body": ('body = "sphere"\n' + CIRCLE, "not in the library"),
-    "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "not a verdict"),
     "bad name": (CIRCLE.replace("[symbols]", '[symbols]\n"a b" = "r"'), "not a valid name"),
     "bad range": (CIRCLE.replace("low = 0.1", "low = 3"), "no valid range"),
     "twice": (CIRCLE + '[[claims]]\nlabel = "area"\nprinted = "A = R"\n', "label 'area'"),
-    "conventions": (CIRCLE + "conventions = 3\n", "not a list"),
     "control character": (CIRCLE.replace('"area"', '"a\\u001b[2J"'), "control character"),
-    "no spelling": (
-        CIRCLE.replace("printed", "latex") + '[latex]\n"x" = ["a"]\n',
-        "not a declared name",
-    ),
-    "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ cannot be checked"),
-    "key of a range": (CIRCLE.replace("high = 0.9", "high = 0.9, step = 1"), "'step'"),
-    "key of a convention": (
-        CIRCLE + 'conventions = [{ what = "w", contradicts = "c", symbol = 1 }]\n',
-        "'symbol'",
-    ),
+    "no spelling": (CIRCLE + '[latex]\n"x" = ["a"]\n', "is not a name"),
     "bad symbol": (CIRCLE.replace('R = "r"', 'R = "pi*q"'), "does not define q"),
 }
 
@@ -169,6 +147,49 @@ def test_bad_input_is_one_message_and_status_two(case: str, tmp_path: Path) -> N
     assert part in done.stderr
     assert "Traceback" not in done.stderr
     assert done.stdout == ""
+
+
+BAD_CLAIMS = {
+    "unknown key": (CIRCLE + 'colour = "red"\n', "the key 'colour' is unknown"),
+    "no equation": (CIRCLE.replace("printed", "says"), "printed and latex"),
+    "no relation": (CIRCLE.replace("A = pi", "A + pi"), "no relation"),
+    "two relations": (CIRCLE.replace("pi*R", "R = 1*R"), "two relations"),
+    "unknown function": (CIRCLE.replace("pi*R", "eval(R)*R"), "not a function"),
+    "attribute": (CIRCLE.replace("pi*R", "R.__class__"), "attributes"),
+    "text": (CIRCLE.replace("pi*R", "'R'"), "quotes"),
+    "large power": (CIRCLE.replace("pi*R**2", "9**9**9**9"), "too large"),
+    "deep": (CIRCLE.replace("pi*R", "(" * 60 + "R"), "nested deeper"),
+    "unknown verdict": (CIRCLE + 'expected = "maybe"\n', "not a verdict"),
+    "conventions": (CIRCLE + "conventions = 3\n", "not a list"),
+    "key of a convention": (
+        CIRCLE + 'conventions = [{ what = "w", contradicts = "c", symbol = 1 }]\n',
+        "'symbol'",
+    ),
+    "likeness": (CIRCLE.replace("A = pi", "A ~ pi"), "~ cannot be checked"),
+    "unread LaTeX": (CIRCLE.replace("printed", "latex"), "p is neither"),
+    "unknown spelling": (
+        CIRCLE.replace('printed = "A = pi*R**2"', "latex = 'A = T'\nunderstood = 'A = B'")
+        + "[latex]\nT = 'B'\n",
+        "the symbol B has no meaning",
+    ),
+    "body": (CIRCLE + 'body = "sphere"\n', "not in the library"),
+    "own symbol": (CIRCLE + "symbols = { R = 'r*q' }\n", "the symbol R has no meaning in this"),
+    "require": (CIRCLE + "require = 'q > 0'\n", "require: the claims file does not define q"),
+    "limit": (CIRCLE + "as = 'r - 0'\n", "as: this is not a limit"),
+    "part": (CIRCLE.replace("printed", "latex") + "part = 9\n", "part = 9"),
+    "given": (CIRCLE + "given = ['nothing']\n", "given names 'nothing'"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_CLAIMS)
+def test_what_concerns_one_claim_leaves_the_others_judged(case: str, tmp_path: Path) -> None:
+    text, part = BAD_CLAIMS[case]
+    right = '[[claims]]\nlabel = "right"\nprinted = "A = pi*R**2"\n'
+    done = run(written(tmp_path, text + right), "--format", "json")
+    wrong, other = json.loads(done.stdout)
+    assert (done.exit_code, other["verdict"], wrong["verdict"]) == (1, "holds", "unchecked")
+    assert part in wrong["reason"]
+    assert "claims.toml" not in wrong["reason"]
 
 
 def test_powers_of_powers_end_in_time(tmp_path: Path) -> None:
@@ -268,8 +289,39 @@ def test_an_integral_inside_another(tmp_path: Path, printed: str, expected: str)
 )
 def test_a_variable_of_integration_is_not_used_outside(tmp_path: Path, printed: str) -> None:
     claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
-    done = run(written(tmp_path, TWO + claim))
-    assert (done.exit_code, "also used outside" in done.stderr) == (2, True)
+    (told,) = json.loads(run(written(tmp_path, TWO + claim), "--format", "json").stdout)
+    assert (told["verdict"], "also used outside" in told["reason"]) == ("unchecked", True)
+
+
+@pytest.mark.parametrize(
+    ("printed", "expected"),
+    [
+        ("V = integral(2*pi*b*h, b, 0, a)", "numerical"),
+        ("V = integral(pi*b*h, b, 0, a)", "fails"),
+        ("V = integral(2*pi*t*k, t, 0, a)", "numerical"),
+        ("V = integral(2*pi*t*w, t, 0, a)", "unchecked"),
+    ],
+)
+def test_a_symbol_may_depend_on_a_variable_of_integration(
+    tmp_path: Path, printed: str, expected: str
+) -> None:
+    """A cap of height a - b**2/a at the distance b from its axis has the volume pi a**3/2.
+
+    t is a symbol without a meaning, which an integral over t does not need.
+    """
+    text = TWO + 'h = "a - b**2/a"\nV = "pi*a**3/2"\nk = "a/2"\nt = ""\nw = "k + t"\n'
+    claim = f"[[claims]]\nlabel = 'it'\nprinted = '{printed}'\n"
+    (told,) = json.loads(run(written(tmp_path, text + claim), "--format", "json").stdout)
+    assert told["verdict"] == expected, told["reason"]
+
+
+@pytest.mark.parametrize("name", ["t", "tau_1"])
+def test_a_spelling_may_belong_to_a_variable_of_integration(tmp_path: Path, name: str) -> None:
+    text = f"{TWO}[latex]\n'T' = '{name}'\n[[claims]]\nlabel = 'it'\nlatex = "
+    text += "'a = 2 a \\int_0^1 T dT'\npart = 1\nunderstood = "
+    text += f"'a = 2*a*integral({name}, {name}, 0, 1)'\n"
+    (told,) = json.loads(run(written(tmp_path, text), "--format", "json").stdout)
+    assert told["verdict"] == "numerical", told["reason"]
 
 
 @pytest.mark.parametrize(
@@ -529,6 +581,23 @@ def test_readings_are_accepted_one_by_one(tmp_path: Path) -> None:
     assert "# a remark before the second" in path.read_text()
 
 
+def test_what_a_verdict_depends_on_is_shown_with_the_reading(tmp_path: Path) -> None:
+    text = HEAD + (
+        "[[claims]]\nlabel = 'limit'\nlatex = 'A \\sim R'\nas = 'r -> 0'\norder = 2\n"
+        "[[claims]]\nlabel = 'rest'\nlatex = 'A \\sim R'\nrequire = ['r > k', 'k > 0']\n"
+        "given = ['limit']\n[[claims]]\nlabel = 'unread'\nlatex = 'A = R ?'\n"
+    )
+    path = Path(written(tmp_path, text))
+    first, second = answered(path, "n\ny\n").output.split("2 of 2")
+    for line in ("as          r -> 0", "order       2"):
+        assert line in first
+    for line in ("require     r > k and k > 0", "given       limit", "unchecked   ~ cannot be"):
+        assert line in second
+    assert "not read: unread: ? is neither" in second
+    told = json.loads(run(str(path), "--format", "json").stdout)
+    assert [each["verdict"] for each in told] == ["unchecked"] * 3
+
+
 def test_what_cannot_be_written_is_left_as_it_was(tmp_path: Path) -> None:
     """Claims in one line have no line of their own to which a reading could be put."""
     text = HEAD.replace("[variables]", "claims = [{ label = 'x', latex = 'A = R' }]\n[variables]")
@@ -546,7 +615,7 @@ def test_all_mistakes_are_told_at_once(tmp_path: Path) -> None:
     )
     done = run(written(tmp_path, text))
     assert (done.exit_code, done.stdout) == (2, "")
-    assert "6 errors" in done.stderr
+    assert "5 errors" in done.stderr
     for place in (":5: variable 'k'", ":7, symbols", ":9: claim 'area'", ":14, claim 'next'"):
         assert f"claims.toml{place}" in done.stderr
 
@@ -556,6 +625,60 @@ def test_a_symbol_that_hides_a_parameter_is_a_mistake(tmp_path: Path) -> None:
     done = run(written(tmp_path, text + '[[claims]]\nlabel = "x"\nprinted = "R = 2*l"\n'))
     assert (done.exit_code, "'R' is already a parameter of the body" in done.stderr) == (2, True)
     assert "claims.toml:5: the symbol" in done.stderr
+
+
+BODIES = """
+body = "hertz"
+[variables]
+a = { unit = "m" }
+R_1 = { unit = "m" }
+R_2 = { unit = "m" }
+[symbols]
+P = "load(a, a)"
+Q = "P/2"
+[latex]
+'\\phi' = "phi"
+"""
+RADIUS = "symbols = { R = 'R_1*R_2/(R_1 + R_2)' }\n"
+LATEX = "latex = 'Q = \\phi a E_star/2'\nunderstood = 'Q = phi*a*E_star/2'"
+
+
+@pytest.mark.parametrize(
+    ("claim", "verdict", "part"),
+    [
+        (f"body = 'none'\n{RADIUS}printed = '1/R = 1/R_1 + 1/R_2'", "holds", ""),
+        (f"{RADIUS}printed = '1/R = 1/R_1 + 1/R_2'", "holds", ""),
+        (f"{RADIUS}printed = 'P = pi*E_star*a**2/(4*R)'", "unchecked", "hold R too"),
+        ("symbols = { R = '2*R' }\nprinted = 'P = pi*E_star*a**2/(2*R)'", "holds", ""),
+        ("body = 'none'\nprinted = '(R + a)*(R - a) = R**2 - a**2'", "holds", ""),
+        ("body = 'none'\nprinted = 'Q = R'", "unchecked", "the symbol Q has no meaning in this"),
+        ("body = 'wedge'\nprinted = 'Q = phi*a*E_star/2'", "holds", ""),
+        (f"body = 'wedge'\n{LATEX}", "holds", ""),
+        (LATEX, "unchecked", "the symbol phi has no meaning"),
+    ],
+)
+def test_a_claim_may_have_another_body_or_none(
+    tmp_path: Path, claim: str, verdict: str, part: str
+) -> None:
+    """P is pi E* a**2/(4 R) under a cylinder, and E* phi a under a wedge."""
+    path = written(tmp_path, f"{BODIES}[[claims]]\nlabel = 'it'\n{claim}\n")
+    (told,) = json.loads(run(path, "--format", "json").stdout)
+    assert told["verdict"] == verdict, told["reason"]
+    assert part in told["reason"]
+
+
+def test_a_symbol_that_no_body_can_read_is_a_mistake_of_the_file(tmp_path: Path) -> None:
+    claim = "[[claims]]\nlabel = 'it'\nbody = 'none'\nprinted = 'a = a'\n"
+    done = run(written(tmp_path, BODIES.replace("load(a, a)", "lod(a, a)") + claim))
+    assert (done.exit_code, "symbols: P: lod is not a function" in done.stderr) == (2, True)
+
+
+def test_the_symbol_to_define_is_named(tmp_path: Path) -> None:
+    text = CIRCLE.replace("[symbols]", '[symbols]\nT = ""\nU = "2*T"\nV = "U**2"')
+    (told,) = json.loads(
+        run(written(tmp_path, text.replace("A = pi", "V = pi")), "--format", "json").stdout
+    )
+    assert "the symbol T has no meaning: define it" in told["reason"]
 
 
 def test_what_can_be_judged_is_judged(tmp_path: Path) -> None:
