@@ -1,6 +1,7 @@
 """A user's own claims: what is read, what is refused and how, in which formats it is told."""
 
 import json
+import re
 import tomllib
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from derive.paper.userfile import open_readings
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "cattaneo_mindlin.toml"
+PAGE = (ROOT / "docs" / "claims.md").read_text()
+TOML_OF_THE_PAGE = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
 
 HEAD = """
 title = "A disc"
@@ -665,6 +668,22 @@ def test_a_claim_may_have_another_body_or_none(
     (told,) = json.loads(run(path, "--format", "json").stdout)
     assert told["verdict"] == verdict, told["reason"]
     assert part in told["reason"]
+
+
+@pytest.mark.parametrize("body", ["hertz", "wedge"])
+def test_implicit_equations_are_checked_as_the_page_says(body: str, tmp_path: Path) -> None:
+    """The stick zone is the contact at P - dQ/(2 f) and alpha - dsigma/(4 f E*)."""
+    (shown,) = [text for text in TOML_OF_THE_PAGE if text.startswith("[variables]\na = ")]
+    claim = "printed = 'stick_m(P, tilt(a, c), dQ, dsigma) = m'\nrequire = 'm < a and n < c'"
+    path = written(tmp_path, f"body = '{body}'\n{shown}[[claims]]\nlabel = 'm'\n{claim}\n")
+    (told,) = json.loads(run(path, "--format", "json").stdout)
+    assert told["verdict"] == "holds", told["reason"]
+
+
+def test_a_parameter_is_defined_as_the_page_says(tmp_path: Path) -> None:
+    (shown,) = [text for text in TOML_OF_THE_PAGE if text.startswith("[[claims]]")]
+    (told,) = json.loads(run(written(tmp_path, BODIES + shown), "--format", "json").stdout)
+    assert told["verdict"] == "holds", told["reason"]
 
 
 def test_a_symbol_that_no_body_can_read_is_a_mistake_of_the_file(tmp_path: Path) -> None:
