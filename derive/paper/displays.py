@@ -18,8 +18,9 @@ _START = re.compile(
     rf"\\begin\s*\{{((?:{'|'.join((*_ONE, *_ROWS))})\*?|subequations)\}}"
     r"|\\end\s*\{(subequations)\}|(?<!\\)(\\\[)|(?<!\\)(\$\$)"
 )
-_LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
-_TAG = re.compile(r"\\tag\*?\s*\{([^{}]*)\}")
+LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
+"""The label of an equation."""
+_TAG = re.compile(r"\\tag\*?\s*\{([^{}]*)\}|\\l?eqno(?![A-Za-z])\s*\(?([^(){}$]*)")
 _UNNUMBERED = re.compile(r"\\(?:nonumber|notag)(?![A-Za-z])")
 _MACRO = re.compile(
     r"\\(?:(?:re|provide)?newcommand|DeclareMathOperator)\*?\s*\{?\s*(\\[A-Za-z]+)\s*\}?"
@@ -33,6 +34,8 @@ _LONGEST_LINE = 300
 """The number of characters that a formula in the text must stay below."""
 _EXPANDED = 20_000
 """The largest number of characters in a display after its macros are expanded."""
+_LONGEST_COMMAND = 80
+"""The largest number of characters of a command."""
 _PASSES = 10
 """The largest nesting depth of macros that are expanded."""
 
@@ -84,7 +87,7 @@ def displays(path: Path, inline: bool = False) -> Source:
         gaps.append((text_start, span[0]))
         text_start = span[1]
         for offset, latex, number in _groups(body, kind, numbers):
-            labels = tuple(each[1] for each in _LABEL.finditer(latex))
+            labels = tuple(each[1] for each in LABEL.finditer(latex))
             line = text.count("\n", 0, offset_of_body + offset) + 1
             collected.append(Display(number, labels, line, _expanded(latex, macros).strip()))
     if inline:
@@ -146,23 +149,39 @@ def _expanded(latex: str, macros: dict[str, tuple[int, str]]) -> str:
             if match.start() < position or match[0] not in macros:
                 continue
             count, body = macros[match[0]]
-            end = match.end()
-            for n in range(1, count + 1):
+            end, given = match.end(), list[str]()
+            for _argument in range(count):
                 start = end + len(latex[end:]) - len(latex[end:].lstrip())
                 end = _closed(latex, start)
-                given = latex[start:end]
-                inner = given[1:-1] if given[:1] == "{" else given
-                body = body.replace(f"#{n}", inner)
-            after = " " if not count and latex[end : end + 1].isalpha() else ""
-            parts += [latex[position : match.start()], body, after]
+                one = latex[start:end]
+                given.append(one[1:-1] if one[:1] == "{" else one)
+            parts += [latex[position : match.start()], *_filled(body, given)]
             position = end
         if not parts:
             break
         parts.append(latex[position:])
         if sum(map(len, parts)) > _EXPANDED:
             break
-        latex = "".join(parts)
+        latex = _together(parts)
     return latex
+
+
+def _filled(body: str, given: list[str]) -> list[str]:
+    """Return the replacement text of a macro, in pieces, with its arguments."""
+    pieces = re.split(r"#([1-9])", body)
+    return [
+        piece if n % 2 == 0 else (given[int(piece) - 1] if int(piece) <= len(given) else "")
+        for n, piece in enumerate(pieces)
+    ]
+
+
+def _together(parts: list[str]) -> str:
+    """Join texts, with a space where a letter would lengthen the command before it."""
+    joined = ""
+    for part in parts:
+        is_glued = part[:1].isalpha() and re.search(r"\\[A-Za-z]+$", joined[-_LONGEST_COMMAND:])
+        joined += f" {part}" if is_glued else part
+    return joined
 
 
 class _Numbers:
@@ -213,7 +232,7 @@ def _groups(body: str, kind: str, numbers: _Numbers) -> Iterator[tuple[int, str,
         yield 0, body, _number(body, starred, numbers)
         return
     begin, row_numbers = 0, list[str]()
-    rows = list(_rows(body))
+    rows = list(rows_of(body))
     for n, (start, end) in enumerate(rows):
         if n and _begins(body[start:end]):
             yield begin, body[begin:start].removesuffix(r"\\"), ", ".join(filter(None, row_numbers))
@@ -232,8 +251,8 @@ def _begins(row: str) -> bool:
     return bool(re.search(r"=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z])", plain))
 
 
-def _rows(body: str) -> Iterator[tuple[int, int]]:
-    """Yield the spans of the rows; inner environments are not split."""
+def rows_of(body: str) -> Iterator[tuple[int, int]]:
+    """Yield the spans of the rows of a display; inner environments are not split."""
     start, depth = 0, 0
     for match in re.finditer(r"\\begin(?![A-Za-z])|\\end(?![A-Za-z])|\\\\", body):
         if match[0] == r"\\":
@@ -248,5 +267,5 @@ def _rows(body: str) -> Iterator[tuple[int, int]]:
 
 def _number(row: str, starred: bool, numbers: _Numbers) -> str:
     if tag := _TAG.search(row):
-        return tag[1]
+        return (tag[1] or tag[2] or "").strip()
     return "" if starred or _UNNUMBERED.search(row) else numbers.next()
