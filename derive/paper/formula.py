@@ -10,7 +10,7 @@ substituted, and
     diff(f, x)    diff(f, x, 2)   limit(f, x, end)
 
 The variable of an integral, a sum or a limit need not be declared; it is then known only inside
-that call.  Their ends may be `oo`.
+that call.  Their ends may be `oo` or `-oo`.
 """
 
 import operator
@@ -41,7 +41,7 @@ from sympy.logic.boolalg import Boolean
 
 from derive.errors import BadFormula, BadText
 from derive.paper.claim import Relation
-from derive.writing.grammar import Call, Name, Node, parse
+from derive.writing.grammar import Call, Name, Negative, Node, parse
 from derive.writing.limits import fault
 from derive.writing.meaning import Meaning, walk
 from derive.writing.tokens import LONGEST
@@ -142,13 +142,16 @@ def unknown(text: str, names: Names) -> list[str]:
 
 
 def _open_names(tree: Node, names: Names) -> set[str]:
-    bound = {
-        node.arguments[1].name
-        for node in walk(tree)
-        if isinstance(node, Call) and node.function in _OWN and isinstance(node.arguments[1], Name)
-    }
-    held = {node.name for node in walk(tree) if isinstance(node, Name)}
-    return held - bound - names.symbols.keys() - {"oo"}
+    """Return the unknown names of a tree; a bound variable is known only inside its call."""
+    bound = set[int]()
+    for node in walk(tree):
+        if isinstance(node, Call) and node.function in _OWN:
+            inside, along, *_ = node.arguments
+            if isinstance(along, Name):
+                held = [along, *(n for n in walk(inside) if isinstance(n, Name))]
+                bound |= {id(each) for each in held if each.name == along.name}
+    held_names = {n.name for n in walk(tree) if isinstance(n, Name) and id(n) not in bound}
+    return held_names - names.symbols.keys() - {"oo"}
 
 
 def formula(text: str, names: Names) -> Expr:
@@ -237,12 +240,24 @@ class _Reader(Meaning):
 
     def _end(self, node: Node, function: str) -> Expr:
         """Return an end of an integral, a sum or a limit, which may be infinite."""
-        if isinstance(node, Name) and node.name == "oo" and function != "diff":
-            return oo
+        inner = node.operand if isinstance(node, Negative) else node
+        if isinstance(inner, Name) and inner.name == "oo" and function != "diff":
+            if function == "pv":
+                why = "an end of this principal value is infinite"
+                raise self.refusal(node.column, why, "split off an integral without a pole")
+            return -oo if isinstance(node, Negative) else oo
         return self.value(node)
 
     def _made(self, node: Call, inside: Expr, variable: Symbol, limits: list[Expr]) -> Expr:
+        mirrored = inside.subs(variable, -variable) if -oo in limits else inside
         match node.function:
+            case "integral" if limits[0] == oo or limits[1] == -oo:
+                why = "the ends of this integral are in the wrong order"
+                raise self.refusal(node.column, why, "write the smaller end first")
+            case "integral" if limits == [-oo, oo]:
+                return ToInfinity(mirrored, variable, S.Zero) + ToInfinity(inside, variable, S.Zero)
+            case "integral" if limits[0] == -oo:
+                return ToInfinity(mirrored, variable, -limits[1])
             case "integral" if limits[1] == oo:
                 return ToInfinity(inside, variable, limits[0])
             case "integral":
