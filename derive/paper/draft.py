@@ -6,15 +6,24 @@ No claim in the draft is judged before a user has accepted its reading and defin
 import os
 import re
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
-from sympy import Symbol
+from sympy import Expr, Integral, Mul, Symbol, degree, denom, solve, together
 
 from derive.errors import BadClaimsFile, BadFormula
 from derive.limit import LimitReached, within
-from derive.paper.displays import Display, displays
-from derive.paper.formula import Names, approach, condition, equation, may_be_rounded
+from derive.paper.displays import LABEL, Display, displays, rows_of
+from derive.paper.formula import (
+    Names,
+    UnknownName,
+    approach,
+    condition,
+    equation,
+    may_be_rounded,
+    unknown,
+)
 from derive.paper.latex import Latex
 from derive.paper.lines import quoted
 from derive.paper.spellings import (
@@ -25,7 +34,7 @@ from derive.paper.spellings import (
     unclear_call,
     words_for,
 )
-from derive.paper.statements import Statement, statements
+from derive.paper.statements import Statement, remarks, statements
 
 _SECONDS = 10.0
 """The time limit for reading one equation, in seconds."""
@@ -47,12 +56,22 @@ _HEAD = """
 
 @dataclass(frozen=True)
 class _Read:
-    """The reading of a statement: its text, its condition, and the reason if it is not judged."""
+    """The reading of a statement.
+
+    understood  the equation as text; empty if it was not read
+    require     the condition as text
+    limit       the limit as text, such as x -> 0
+    order       the order of the remainder in this limit; 0 if there is none
+    why         the reason if it is not judged
+    note        advice to the user
+    """
 
     understood: str = ""
     require: str = ""
     limit: str = ""
+    order: float = 0
     why: str = ""
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -70,13 +89,13 @@ class Draft:
     """The content of a paper that was read.
 
     environments  the number of displays in the file
-    said          descriptions of symbols in the text
+    source        the text of the paper
     spelled       the LaTeX of each symbol -> its name
     """
 
     name: str
     environments: int
-    said: dict[str, str]
+    source: str
     spelled: dict[str, str] = field(default_factory=dict)
     parts: list[_Part] = field(default_factory=list)
 
@@ -88,6 +107,28 @@ class Draft:
             for p in self.parts
             if not p.read.understood or p.read.why
         ]
+
+    @property
+    def notes(self) -> list[str]:
+        """Advice on statements that were read, with their location."""
+        return [f"{self._place(p)}: {p.read.note}" for p in self.parts if p.read.note]
+
+    @cached_property
+    def said(self) -> dict[str, str]:
+        """The descriptions of symbols in the text."""
+        return described(self.source)
+
+    def drop_bound(self) -> None:
+        """Leave out the symbols that are only known inside integrals, sums and limits."""
+        read = [part.read for part in self.parts]
+        texts = [text for r in read for text in (r.understood, r.require, *r.limit.split("->"))]
+        argued = {a for n in self.spelled.values() for a in n.partition("_at_")[2].split("_")}
+        for spelled, name in list(self.spelled.items()):
+            held = [text for text in texts if re.search(rf"\b{name}\b", text)]
+            names = Names("", {n: Symbol(n) for n in self.spelled.values() if n != name}, {})
+            is_open = name in argued or name in _KNOWN or not held
+            if not is_open and not any(name in unknown(text, names) for text in held):
+                del self.spelled[spelled]
 
     @property
     def understood(self) -> int:
@@ -129,31 +170,26 @@ class Draft:
 
     def _proposed(self, name: str) -> str:
         """The proposal for a symbol as a TOML table; empty if there is none."""
-        known = proposal(name)
         spelled = [latex for latex, own in self.spelled.items() if own == name]
         words = next(filter(None, (words_for(latex, self.said) for latex in spelled)), "")
-        given = {
-            "proposal": known.formula,
-            "meaning": words or known.meaning,
-            "unit": known.unit,
-        }
+        known = proposal(name, words, self.source)
+        given = {"proposal": known.formula, "meaning": known.meaning, "unit": known.unit}
         inside = ", ".join(f"{key} = {_text(text)}" for key, text in given.items() if text)
         return f"{{ {inside} }}" if inside else ""
 
     def _claim(self, part: _Part, labels: Counter[str]) -> list[str]:
         display, read = part.display, part.read
-        own = part.count > 1 and len(display.labels) == part.count
-        label = display.labels[part.number - 1] if own else ", ".join(display.labels)
-        label = label or (f"({display.number})" if display.number else f"line {display.line}")
-        label = _line(label) + ("" if own or part.count == 1 else f"/{part.number}")
+        label, number, count = self._row(part)
+        label = _line(label) + ("" if count == 1 else f"/{number}")
         labels[label] += 1
         label += f" [{labels[label]}]" if labels[label] > 1 else ""
         lines = [
+            *([f"# {_line(read.note)}"] if read.note else []),
             "[[claims]]",
             f"label = {_text(label)}",
             f"place = {_text(self._place(part))}",
         ]
-        if words := _words(display.latex):
+        if words := _line(", ".join(remarks(display.latex))):
             lines.append(f"says = {_text(words)}")
         lines.append(f"latex = {_text(display.latex)}")
         if part.number:
@@ -164,9 +200,33 @@ class Draft:
             lines.append(f"require = {_text(read.require)}")
         if read.limit:
             lines.append(f"as = {_text(read.limit)}")
+        if read.order and read.limit:
+            lines.append(f"order = {read.order:g}")
         if read.why:
             lines.append(f"unchecked = {_text(_line(read.why))}")
         return lines
+
+    def _row(self, part: _Part) -> tuple[str, int, int]:
+        """Return the label of a statement's row, its number in the row, and their count."""
+        display = part.display
+        told = f"({display.number})" if display.number else f"line {display.line}"
+        label, number, count = ", ".join(display.labels) or told, part.number, part.count
+        if len(display.labels) < 2 or count == 1:
+            return label, number, count
+        ends = list[int]()
+        rows = list(rows_of(display.latex))
+        for _, end in rows:
+            try:
+                ends.append(len(statements(self.name, display.latex[:end])))
+            except BadFormula:
+                return label, number, count
+        if ends[-1] != count or ends != sorted(ends):
+            return label, number, count
+        row = next(n for n, end in enumerate(ends) if number <= end)
+        before = ends[row - 1] if row else 0
+        own = re.search(LABEL, display.latex[slice(*rows[row])])
+        line = display.line + display.latex[: rows[row][0]].count("\n")
+        return own[1] if own else f"line {line}", number - before, ends[row] - before
 
 
 _NOTHING = '""'
@@ -181,7 +241,7 @@ def draft(path: Path, inline: bool = False) -> Draft:
     if not source.found:
         why = "the file has no displayed equations"
         raise BadClaimsFile(str(path), why, "give a paper in LaTeX")
-    made = Draft(path.name, source.environments, described(source.text))
+    made = Draft(path.name, source.environments, source.text)
     known = list[tuple[Display, list[Statement], str]]()
     for display in source.found:
         try:
@@ -203,62 +263,91 @@ def draft(path: Path, inline: bool = False) -> Draft:
             made.parts.append(
                 _Part(display, number, len(each), _read(statement, made.spelled, alone))
             )
+    made.drop_bound()
     return made
 
 
 def _read(statement: Statement, spelled: dict[str, str], alone: set[str]) -> _Read:
     """Read a statement and its condition; give the reason if it cannot be judged."""
+    names = Names("", {n: Symbol(n) for n in spelled.values()}, {})
+    require, limit, unclear = _conditions(statement, spelled, names)
+    read = _Read("", require, limit, statement.order, statement.why)
     if statement.why:
-        return _Read(why=statement.why)
+        return read
     if called := unclear_call(statement.latex, spelled, alone):
         why = f"{called} is a function elsewhere, so it is unclear whether it is a factor here"
-        return _Read(why=f"{why}: write the claim as text")
-    names = Names("", {n: Symbol(n) for n in spelled.values()}, {})
+        return replace(read, why=f"{why}: write the claim as text")
     try:
         with within(_SECONDS):
             understood = Latex("the draft", statement.latex, spelled).understood()
-            equation(understood, names, rough=statement.is_rough)
+            left, _, right = equation(understood, names, rough=statement.is_rough)
     except BadFormula as error:
-        return _Read(why=f"{error.why}: {error.remedy}")
+        return replace(read, why=_told(error))
     except LimitReached:
-        return _Read(why=f"it could not be read within {_SECONDS:g} s")
+        return replace(read, why=f"it could not be read within {_SECONDS:g} s")
     except RecursionError:
-        return _Read(why="it is nested too deeply")
-    require, limit, why = _conditions(statement.condition, spelled, names)
+        return replace(read, why="it is nested too deeply")
+    why = unclear
     if statement.is_rough and not limit and not why and not may_be_rounded(understood):
         why = "it is an approximation: add its limit, such as as = 'x -> 0', or write it with ="
-    return _Read(understood, require, limit, why)
+    return replace(read, understood=understood, why=why, note=_pole(left, right))
 
 
-def _conditions(latex: str, spelled: dict[str, str], names: Names) -> tuple[str, str, str]:
+def _told(error: BadFormula) -> str:
+    """Return the reason for an error, with the LaTeX where it occurred."""
+    if isinstance(error, UnknownName):
+        return error.why
+    here = error.given[error.column :].split()
+    shown = "".join(f" {each}" for each in here[:_SHOWN]).strip()
+    return f"{error.why}{f', at `{shown}`' if shown else ''}: {error.remedy}"
+
+
+_SHOWN = 4
+"""The number of words of LaTeX that show where an error occurred."""
+
+
+def _pole(left: Expr, right: Expr) -> str:
+    """Describe an integral whose integrand may have a pole between its limits."""
+    for over in sorted(left.atoms(Integral) | right.atoms(Integral), key=str):
+        along, low, high = over.limits[0]
+        for factor in Mul.make_args(denom(together(over.function))):
+            if not (factor.is_polynomial(along) and degree(factor, along) == 1):
+                continue
+            pole = solve(factor, along)[0]
+            inside = not pole.is_number or low.could_extract_minus_sign()
+            if inside and pole not in (low, high):
+                where = rf"\int may run over a pole at {along} = {pole}"
+                return where + r": if a principal value is meant, write \fint for \int in `latex`"
+    return ""
+
+
+def _conditions(
+    statement: Statement, spelled: dict[str, str], names: Names
+) -> tuple[str, str, str]:
     """Read the conditions and the limit; return both as text, and the reason if this fails."""
-    if not latex.strip():
-        return "", "", ""
-    told, limit = list[str](), ""
-    for part in re.split(r",|\\andword", latex):
-        reading = Latex("the draft", part.strip(" ,.;"), spelled)
+    told, limits, joint = list[str](), list[str](), r" \orword "
+    parts = [statement.condition]
+    if joint not in statement.condition:
+        parts = re.split(r",|\\andword", statement.condition)
+    for part in filter(None, (each.strip(" ,.;") for each in parts)):
+        reading = Latex("the draft", part, spelled)
         try:
             if r"\to" in part:
-                limit = reading.approach()
-                approach(limit, names)
+                limits.append(reading.approach())
+                approach(limits[-1], names)
             else:
                 told.append(reading.condition())
                 condition(told[-1], names)
         except BadFormula:
-            why = f"its condition {part.strip()} could not be read: write it as require"
+            why = f"its condition {part} could not be read: write it as require or as"
             return "", "", why
-    return " and ".join(told), limit, ""
-
-
-def _words(latex: str) -> str:
-    r"""Return the words in a display, without short ones such as \text{for}."""
-    found = re.findall(r"\\(?:text|mbox|textrm)\s*\{([^{}]*)\}", latex)
-    words = [" ".join(each.split()).strip(" ,.;") for each in found]
-    return _line(", ".join(each for each in words if len(each) > _SHORT_WORD))
-
-
-_SHORT_WORD = 9
-"""Words with at most as many letters as `otherwise` are ignored."""
+    require, limit = " and ".join(told), "".join(limits[:1])
+    small = spelled.get(statement.small, statement.small)
+    if len(limits) > 1:
+        return require, "", f"it holds in several limits, {', '.join(limits)}: write one as `as`"
+    if statement.order and limit != f"{small} -> 0":
+        return require, "", f"its remainder is small with {small}, but its limit is {limit}"
+    return require, limit, ""
 
 
 def write(made: Draft, path: Path) -> None:
@@ -281,6 +370,7 @@ def _text(text: str) -> str:
     text = "".join(c if c.isprintable() or c in "\n\t" else " " for c in text)
     if "'" not in text and "\n" not in text:
         return f"'{text}'"
-    if "'''" not in text and "\n" in text and not text.endswith("'"):
+    is_long = "\n" in text or "\\" in text
+    if "'''" not in text and is_long and not text.endswith("'"):
         return f"'''\n{text}'''"
     return quoted(text)

@@ -18,6 +18,7 @@ from typing import NoReturn
 
 from derive.errors import BadFormula
 from derive.paper.claim import Relation
+from derive.paper.spellings import GREEK
 
 _LONGEST = 2000
 """The largest number of characters in an equation."""
@@ -25,8 +26,8 @@ _DEEPEST = 60
 """The largest nesting depth of groups."""
 
 _TOKEN = re.compile(
-    r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|[A-Za-z]"
-    r"|[-+*/=<>()\[\]{}^_|']|\s+|.",
+    r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}|\\text\{[^{}]*\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?"
+    r"|[A-Za-z]|[-+*/=<>()\[\]{}^_|']|\s+|.",
     re.DOTALL,
 )
 _SPACES = frozenset((r"\,", r"\;", r"\:", r"\!", r"\ ", r"\quad", r"\qquad", r"\left", r"\right"))
@@ -44,7 +45,15 @@ _FUNCTIONS = {
     r"\max": "Max",
     r"\min": "Min",
     r"\Gamma": "gamma_function",
+    r"\arsinh": "asinh",
+    r"\arcosh": "acosh",
+    r"\artanh": "atanh",
 }
+_CIRCULAR = frozenset(
+    name for name in _FUNCTIONS if name.endswith(("sin", "cos", "tan", "sinh", "cosh", "tanh"))
+) | {r"\cot", r"\sec", r"\csc"}
+"""Functions of angles and their inverses: the name of the next function ends their argument."""
+_NEXT = _CIRCULAR | {r"\exp", r"\log", r"\ln"}
 _OF_SEVERAL = frozenset((r"\max", r"\min"))
 _INVERSES = {r"\sin": "asin", r"\cos": "acos", r"\tan": "atan"} | {
     rf"\{name}": f"a{name}" for name in ("sinh", "cosh", "tanh")
@@ -52,11 +61,12 @@ _INVERSES = {r"\sin": "asin", r"\cos": "acos", r"\tan": "atan"} | {
 _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac", r"\cfrac", r"\nicefrac")
 _INTEGRALS = {r"\int": "integral", r"\pvint": "pv"}
 _BIG = (*_INTEGRALS, r"\sum", r"\lim")
+_UNEQUAL = (r"\ne", r"\neq")
 _CASES, _ENDCASES = r"\begin{cases}", r"\end{cases}"
-_WORDS = frozenset((r"\whereword", r"\andword", r"\caserow", r"\casecol"))
+_WORDS = frozenset((r"\whereword", r"\andword", r"\orword", r"\elseword", r"\caserow", r"\casecol"))
 _COMMANDS = frozenset(
     (*_FUNCTIONS, *_FRACTIONS, *_BIG, *_WORDS, _CASES, _ENDCASES, r"\sqrt", r"\cdot", r"\times")
-) | {r"\dd", "_", ",", r"\to", r"\rightarrow", r"\infty"}
+) | {r"\dd", "_", ",", r"\to", r"\rightarrow", r"\infty", r"\euler", *_UNEQUAL}
 _CLOSING = {"(": ")", "{": "}", "[": "]", _CASES: _ENDCASES}
 _ENDS = frozenset(("+", "-", ")", "}", "]", "|", ",", r"\dd", _ENDCASES, *_WORDS))
 """Tokens that may follow the argument of a function."""
@@ -136,12 +146,9 @@ class Latex:
         return f"{sides[0]} {Relation(_RELATIONS[between[0].text])} {sides[1]}"
 
     def condition(self) -> str:
-        """Return a chain of relations, such as -a < x < c, as text; raises BadFormula."""
-        sides, between = self._sides()
-        if not between:
-            raise self.refusal(0, "this is not a condition", "write the condition as text")
-        signs = [_RELATIONS[each.text] for each in between]
-        return sides[0] + "".join(f" {s} {side}" for s, side in zip(signs, sides[1:], strict=True))
+        """Return a condition such as -a < x < c and b > 0 as text; raises BadFormula."""
+        side = _Side(self, self._pieces(), len(self.text), 0)
+        return side.conditions(side.pieces, 0)
 
     def approach(self) -> str:
         r"""Return a limit as text, such as c - x -> 0 for c-x \to 0; raises BadFormula."""
@@ -180,6 +187,7 @@ class Latex:
         ]
         marked, position = [], 0
         integrates = any(piece.text in _INTEGRALS for piece in pieces)
+        bound = _bound(pieces)
         while position < len(pieces):
             if integrates and pieces[position].text == r"\dd":
                 marked.append(pieces[position])
@@ -190,7 +198,11 @@ class Latex:
                 marked.append(_Piece(f"={name}", pieces[position].column, length))
                 position += length
                 continue
-            marked.append(self._known(pieces[position]))
+            known = pieces[position].text in bound
+            text = "=" + pieces[position].text.removeprefix("\\")
+            marked.append(
+                _Piece(text, pieces[position].column) if known else self._known(pieces[position])
+            )
             position += 1
         return marked
 
@@ -222,6 +234,10 @@ class Latex:
             return _Piece("=pi" if text == r"\pi" else "=oo", piece.column)
         if text in _COMMANDS or text in _PLAIN or text in _RELATIONS:
             return _Piece(text, piece.column)
+        if text.startswith(r"\text{"):
+            why = f"the words {piece.text[6:-1]!r} are not understood here"
+            remedy = "remove them, and write numbers in the units of the file"
+            raise self.refusal(piece.column, why, remedy)
         why = f"{text} is neither a declared symbol nor a supported command"
         remedy = "declare it under [latex], or write the claim as text"
         raise self.refusal(piece.column, why, remedy)
@@ -379,7 +395,7 @@ class _Side:
         text = self.here.text
         if text == "|":
             return any(piece.text == "|" for piece in self.pieces[self.position + 1 :])
-        starts = (*_CLOSING, r"\sqrt", *_FRACTIONS, *_FUNCTIONS, *_BIG)
+        starts = (*_CLOSING, r"\sqrt", r"\euler", *_FRACTIONS, *_FUNCTIONS, *_BIG)
         return self.here.is_mark or text in starts
 
     def _factor(self) -> _Code:
@@ -401,10 +417,29 @@ class _Side:
             self._unread()
         if head.is_mark:
             self.position += 1
+            self._demand_not_euler(head)
             return _Code(head.text[1:], _ATOM)
         if head.text in _FUNCTIONS:
             return self._application()
         return self._readers[head.text](self)
+
+    def _demand_not_euler(self, head: _Piece) -> None:
+        """Refuse e^{-x}, in which e may be a symbol or the base of natural logarithms."""
+        if head.text != "=e" or self.here.text != "^" or self.position + 1 == len(self.pieces):
+            return
+        end = self.latex.group(self.pieces, self.position + 1)
+        inner = [p for p in self.pieces[self.position + 1 : end] if p.text not in ("{", "}")]
+        if len(inner) != 1 or not inner[0].is_number:
+            why = "it is unclear whether e is a symbol here"
+            remedy = "write \\exp(...) or \\mathrm{e}^{...}, or rename the symbol"
+            raise self.latex.refusal(head.column, why, remedy)
+
+    def _euler(self) -> _Code:
+        self.position += 1
+        if self.here.text != "^":
+            return _Code("exp(1)", _ATOM)
+        self.position += 1
+        return _Code(f"exp({self._grouped().text})", _ATOM)
 
     def _parenthesised(self) -> _Code:
         return self._grouped()
@@ -416,6 +451,9 @@ class _Side:
         side = _Side(self.latex, inner, self.pieces[self.position - 1].column, self.depth + 1)
         if self.depth > _DEEPEST:
             self._refuse("the groups are nested too deeply", "use fewer brackets")
+        if [piece.text for piece in inner] == [","]:
+            why = "it is unclear whether this comma divides thousands"
+            raise self.latex.refusal(column, why, "write a decimal point, or no comma")
         starts = bool(inner) and (side._starts_factor() or inner[0].text == "|")
         made = side._factor() if starts else None
         if made is None or side.position != len(inner):
@@ -451,19 +489,28 @@ class _Side:
     def _application(self) -> _Code:
         """Read a function with its argument."""
         head = self.here
-        power, name = "", _FUNCTIONS[head.text]
+        power, name, base = "", _FUNCTIONS[head.text], ""
         if head.text in _INVERSES and self._is_inverse():
             name = _INVERSES[head.text]
             self.position += 6
         else:
             self.position += 1
+            if head.text == r"\log" and self.here.text == "_":
+                self.position += 1
+                base = f"/log({self._grouped().text})"
             power = self._power_of_function()
         if self.position == len(self.pieces):
             raise self.latex.refusal(self.end, f"{head.text} has no argument", "add one")
         inner = self._argument(head)
         over, _, name = name.rpartition("/")
         call = f"{name}({inner}){power}"
-        return _Code(f"1/{call}", _PRODUCT) if over else _Code(call, _POWER if power else _ATOM)
+        if base and power:
+            raise self.latex.refusal(
+                head.column, "the power of this logarithm is unclear", "use ()"
+            )
+        if over or base:
+            return _Code(f"1/{call}" if over else call + base, _PRODUCT)
+        return _Code(call, _POWER if power else _ATOM)
 
     def _is_inverse(self) -> bool:
         after = [piece.text for piece in self.pieces[self.position + 1 : self.position + 6]]
@@ -485,7 +532,10 @@ class _Side:
     def _argument(self, head: _Piece) -> str:
         """Read the argument of a function; raise BadFormula if its end is unclear."""
         first, start = self.here, self.position
-        if first.text in _FRACTIONS:
+        if head.text in _CIRCULAR and (count := self._multiple()):
+            self.position += count
+            text = self._inner(self.pieces[start : start + count], first.column).text
+        elif first.text in _FRACTIONS:
             text = self._fraction().text
         elif first.text == r"\sqrt":
             text = self._root().text
@@ -506,11 +556,23 @@ class _Side:
             raise self.latex.refusal(first.column, why, "put the argument in parentheses")
         shown = self.pieces[start].text in ("(", "|", "[")
         allowed = _ENDS | _AFTER_BRACKETS if shown else _ENDS
+        allowed = allowed | _NEXT if head.text in _CIRCULAR else allowed
         if self.here.text and self.here.text not in allowed:
             why = "the end of the function's argument is unclear"
             remedy = "put the function and its argument in parentheses, as in (\\sin(a)) b"
             self._refuse(why, remedy)
         return text
+
+    def _multiple(self) -> int:
+        r"""Return the length of a multiple such as 2 \varphi or 2 \pi x; 0 if it is none."""
+        after = self.pieces[self.position : self.position + 3]
+        for pattern in (after, after[:2]):
+            if pattern and pattern[-1].is_mark and not pattern[-1].is_number:
+                first, *between = pattern[:-1] or [_NOTHING]
+                numbers = first.is_number or first.text == "=pi"
+                if numbers and all(piece.text == "=pi" for piece in between):
+                    return len(pattern)
+        return 0
 
     def _limits(self) -> dict[str, list[_Piece]]:
         """Read the lower and upper limits of an integral, a sum or a limit."""
@@ -601,16 +663,36 @@ class _Side:
         row = row[:-1] if row and row[-1].text == "," else row
         rest = [piece for piece in rest if piece.text not in (r"\casecol", r"\whereword")]
         value = self._inner(row, column).text
-        parts, _ = _divided(rest, (",", r"\andword"))
-        conditions = " and ".join(self._condition(part, column) for part in parts if part)
-        return f"({value}, {conditions or 'True'})"
+        if [piece.text for piece in rest] == [r"\elseword"]:
+            return f"({value}, True)"
+        if not rest:
+            why = "this row has no condition"
+            raise self.latex.refusal(column, why, "write \\text{otherwise}, or a condition")
+        return f"({value}, {self.conditions(rest, column)})"
+
+    def conditions(self, pieces: list[_Piece], column: int) -> str:
+        """Return several conditions as text."""
+        either = [
+            _divided(part, (",", r"\andword"))[0] for part in _divided(pieces, (r"\orword",))[0]
+        ]
+        if len(either) > 1 and any(len(parts) > 1 for parts in either):
+            why = "these conditions hold both and, or a comma, and or"
+            raise self.latex.refusal(column, why, "write the condition as text")
+        return " or ".join(
+            " and ".join(self._condition(part, column) for part in parts if part)
+            for parts in either
+        )
 
     def _condition(self, pieces: list[_Piece], column: int) -> str:
-        sides, between = _divided(pieces, _RELATIONS)
-        if not between:
+        sides, between = _divided(pieces, (*_RELATIONS, *_UNEQUAL))
+        unequal = [sign for sign in between if sign.text in _UNEQUAL]
+        if not between or len(unequal) not in (0, len(between)) or len(unequal) > 1:
             why = "this is not a condition"
-            raise self.latex.refusal(pieces[0].column, why, "write a relation, such as x < a")
+            at = pieces[0].column if pieces else column
+            raise self.latex.refusal(at, why, "write a relation, such as x < a")
         texts = [self._inner(side, column).text for side in sides]
+        if unequal:
+            return f"({texts[0]} < {texts[1]} or {texts[0]} > {texts[1]})"
         pairs = zip(between, texts[1:], strict=True)
         return texts[0] + "".join(f" {_RELATIONS[sign.text]} {text}" for sign, text in pairs)
 
@@ -627,6 +709,7 @@ class _Side:
         "{": _in_braces,
         "|": _modulus,
         r"\sqrt": _root,
+        r"\euler": _euler,
         r"\sum": _all_sum,
         r"\lim": _limit,
         _CASES: _cases,
@@ -636,6 +719,18 @@ class _Side:
 
 
 _NOTHING = _Piece("", 0)
+
+
+def _bound(pieces: list[_Piece]) -> frozenset[str]:
+    """Return the letters along which an integral, a sum or a limit is taken."""
+    texts = [piece.text for piece in pieces]
+    found = set[str]()
+    for n, text in enumerate(texts):
+        if text == r"\dd" and any(each in _INTEGRALS for each in texts):
+            found.update(texts[n + 1 : n + 2])
+        if text in (r"\sum", r"\lim") and texts[n + 1 : n + 3] == ["_", "{"]:
+            found.update(texts[n + 3 : n + 4])
+    return frozenset(t for t in found if (len(t) == 1 and t.isalpha()) or t in GREEK)
 
 
 def _divided(pieces: list[_Piece], at: object) -> tuple[list[list[_Piece]], list[_Piece]]:

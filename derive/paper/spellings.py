@@ -12,7 +12,9 @@ from dataclasses import dataclass
 
 from derive.paper.formula import usable
 
-_TOKEN = re.compile(r"\\(?:begin|end)\s*\{[a-z]+\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|\S")
+_TOKEN = re.compile(
+    r"\\(?:begin|end)\s*\{[a-z]+\}|\\text\{[^{}]*\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|\S"
+)
 _NAMES = """
 alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa lambda mu nu xi rho
 varrho sigma tau upsilon phi varphi chi psi omega ell Gamma Delta Theta Lambda Xi Pi Sigma Upsilon
@@ -22,53 +24,95 @@ _ACCENTS = {
     **{rf"\{name}": name for name in ("bar", "hat", "tilde", "dot", "vec")},
     **{r"\overline": "bar", r"\widehat": "hat", r"\widetilde": "tilde"},
 }
-_GREEK = frozenset(f"\\{name}" for name in _NAMES.split())
+_SIDES = {"+": "plus", "-": "minus"}
+GREEK = frozenset(f"\\{name}" for name in _NAMES.split())
 PROPOSALS = {
-    "P": ("load(a, c)", "normal load", "N/m"),
-    "M": ("moment(a, c)", "moment", "N"),
-    "alpha": ("tilt(a, c)", "angle of tilt", "rad"),
-    "a": ("", "left edge of the contact at x = -a, or half-width", "m"),
-    "b": ("", "a length of the profile, or half-width", "m"),
-    "c": ("", "right edge of the contact, or right end of the stick zone", "m"),
-    "m": ("", "left end of the stick zone", "m"),
-    "n": ("", "right end of the stick zone", "m"),
-    "d": ("", "size of a slip zone, or half-width of the stick zone", "m"),
-    "e": ("", "eccentricity of the stick zone", "m"),
-    "R": ("", "relative radius of curvature", "m"),
-    "phi": ("", "angle of a wedge's face", "rad"),
-    "Q": ("", "shear load", "N/m"),
-    "sigma": ("", "differential bulk tension", "Pa"),
-    "E": ("", "Young's modulus", "Pa"),
-    "nu": ("", "Poisson's ratio", "-"),
-    "mu": ("", "coefficient of friction", "-"),
-    "Delta_Q": ("", "range of the shear load", "N/m"),
-    "Delta_P": ("", "range of the normal load", "N/m"),
-    "Delta_sigma": ("", "range of the differential bulk tension", "Pa"),
-    "Delta_q": ("", "change of the shear traction", "Pa"),
-    "Delta_K_T": ("", "change of the coefficient of 1/sqrt(s) in the shear traction", "Pa*sqrt(m)"),
-    "Delta_a": ("", "movement of the edge", "m"),
-    "K_N": ("K_N_left(a, c)", "coefficient of sqrt(s) in the pressure", "Pa/sqrt(m)"),
-    "K_T": ("", "coefficient of 1/sqrt(s) in the shear traction", "Pa*sqrt(m)"),
-    "p": ("pressure(x, a, c)", "contact pressure", "Pa"),
-    "p_0": ("", "maximum contact pressure", ""),
-    "q": ("", "shear traction", "Pa"),
-    "g": ("", "profile of the body", "m"),
-    "g_prime": ("", "slope of the profile", "rad"),
-    "F": ("punch(s, s)", "weight of the flat punches", "Pa"),
-    "P_prime": ("load_rate(a, c)", "slope of the contact law at fixed tilt", "Pa"),
-    "a_prime": ("edge_ratio(a, c)", "change of the left edge over that of the right one", "-"),
-    "dQ": ("", "small change of the shear load", "N/m"),
-    "dP": ("", "small change of the normal load", "N/m"),
-    "dM": ("", "small change of the moment", "N"),
-    "dsigma": ("", "small change of the bulk tension", "Pa"),
-    "dP_dc": ("load_rate(a, c)", "slope of the contact law at fixed tilt", "Pa"),
-    "dP_da": ("", "slope of the contact law", "Pa"),
-    "gamma": ("", "a ratio or an angle", ""),
-    "chi": ("", "modulus of elliptic integrals", "-"),
-    "E_at_chi": ("elliptic_e(chi**2)", "complete elliptic integral of the second kind", "-"),
-    "K_at_chi": ("elliptic_k(chi**2)", "complete elliptic integral of the first kind", "-"),
+    "P": ("load(a, c)", "normal load", "N/m", "force|weight", ""),
+    "M": ("moment(a, c)", "moment", "N", "couple|torque", ""),
+    "alpha": ("tilt(a, c)", "angle of tilt", "rad", "rotation|inclination", ""),
+    "a": ("", "left edge of the contact at x = -a, or half-width", "m", "radius|length", ""),
+    "b": ("", "a length of the profile, or half-width", "m", "width|radius|flat", ""),
+    "c": ("", "right edge of the contact, or right end of the stick zone", "m", "width|radius", ""),
+    "m": ("", "left end of the stick zone", "m", "", "stick"),
+    "n": ("", "right end of the stick zone", "m", "", "stick"),
+    "d": ("", "size of a slip zone, or half-width of the stick zone", "m", "width", "slip|stick"),
+    "e": ("", "eccentricity of the stick zone", "m", "shift|offset", "stick"),
+    "R": ("", "relative radius of curvature", "m", "", ""),
+    "phi": ("", "angle of a wedge's face", "rad", "", "wedge"),
+    "Q": ("", "shear load", "N/m", "force", ""),
+    "sigma": ("", "differential bulk tension", "Pa", "stress", "tension"),
+    "E": ("", "Young's modulus", "Pa", "elastic", ""),
+    "nu": ("", "Poisson's ratio", "-", "", ""),
+    "mu": ("", "coefficient of friction", "-", "", "friction"),
+    "Delta_Q": ("", "range of the shear load", "N/m", "force|change", ""),
+    "Delta_P": ("", "range of the normal load", "N/m", "force|change", ""),
+    "Delta_sigma": ("", "range of the differential bulk tension", "Pa", "change|stress", ""),
+    "Delta_q": ("", "change of the shear traction", "Pa", "stress", ""),
+    "Delta_K_T": (
+        "",
+        "change of the coefficient of 1/sqrt(s) in the shear traction",
+        "Pa*sqrt(m)",
+        "factor|multiplier|intensity",
+        "",
+    ),
+    "Delta_a": ("", "movement of the edge", "m", "change", ""),
+    "K_N": (
+        "K_N_left(a, c)",
+        "coefficient of sqrt(s) in the pressure",
+        "Pa/sqrt(m)",
+        "factor|multiplier|intensity",
+        "",
+    ),
+    "K_T": (
+        "",
+        "coefficient of 1/sqrt(s) in the shear traction",
+        "Pa*sqrt(m)",
+        "factor|multiplier|intensity",
+        "",
+    ),
+    "p": ("pressure(x, a, c)", "contact pressure", "Pa", "traction|stress", ""),
+    "p_0": ("", "maximum contact pressure", "", "", ""),
+    "q": ("", "shear traction", "Pa", "stress|shear", ""),
+    "g": ("", "profile of the body", "m", "gap|shape|form", ""),
+    "g_prime": ("", "slope of the profile", "rad", "", ""),
+    "F": ("punch(s, s)", "weight of the flat punches", "Pa", "", "flat(?:-| | rigid )punch"),
+    "P_prime": ("load_rate(a, c)", "slope of the contact law at fixed tilt", "Pa", "", ""),
+    "a_prime": (
+        "edge_ratio(a, c)",
+        "change of the left edge over that of the right one",
+        "-",
+        "",
+        "",
+    ),
+    "dQ": ("", "small change of the shear load", "N/m", "force", ""),
+    "dP": ("", "small change of the normal load", "N/m", "force", ""),
+    "dM": ("", "small change of the moment", "N", "", ""),
+    "dsigma": ("", "small change of the bulk tension", "Pa", "", ""),
+    "dP_dc": ("load_rate(a, c)", "slope of the contact law at fixed tilt", "Pa", "", ""),
+    "dP_da": ("", "slope of the contact law", "Pa", "", ""),
+    "gamma": ("", "a ratio or an angle", "", "", ""),
+    "chi": ("", "modulus of elliptic integrals", "-", "", "elliptic"),
+    "E_at_chi": (
+        "elliptic_e(chi**2)",
+        "complete elliptic integral of the second kind",
+        "-",
+        "",
+        "elliptic",
+    ),
+    "K_at_chi": (
+        "elliptic_k(chi**2)",
+        "complete elliptic integral of the first kind",
+        "-",
+        "",
+        "elliptic",
+    ),
 }
-"""Proposals for common symbols: a formula of the body if there is one, a meaning, and a unit."""
+"""Proposals for common symbols: a formula of the body if there is one, a meaning, a unit, further
+words of a paper that fit, and words without which the paper gives no reason for the proposal."""
+
+
+_ARGUMENTS = {"p": "x", "F": "s"}
+"""The arguments of proposed formulas, if they are not c."""
 
 
 @dataclass(frozen=True)
@@ -80,22 +124,72 @@ class Proposal:
     unit: str = ""
 
 
-def proposal(name: str) -> Proposal:
-    """Return the proposal for a name, with or without its index and arguments."""
+def proposal(name: str, words: str = "", text: str = "") -> Proposal:
+    """Return the proposal for a name, with or without its index and arguments.
+
+    words: the description in the paper, which replaces the meaning and which formula and unit fit
+    text: the text of the paper
+    """
     stem = name.partition("_at_")[0]
-    for known in (name, stem, re.sub(r"_(?:[0-9itABZS]|asy|LHS|RHS|star|[ac])(?=_|$)", "", stem)):
-        if known in PROPOSALS:
-            formula, words, unit = PROPOSALS[known]
-            exact = known == name or name.removeprefix(known) in ("_at_x", "_at_c")
-            # an indexed angle, such as alpha_1, may be any quantity
-            unit = "" if unit == "rad" and known not in (name, stem) else unit
-            return Proposal(formula if exact else "", words, unit)
-    return Proposal()
+    for known in (name, stem, re.sub(r"_(?:[0-9AB]|asy|LHS|RHS|star)(?=_|$)", "", stem)):
+        if known not in PROPOSALS:
+            continue
+        formula, meaning, unit, fitting, needed = PROPOSALS[known]
+        if needed and not _speaks_of(needed, known, text):
+            break
+        if words and not _fits(words, meaning, fitting):
+            break
+        exact = name in (known, f"{known}_at_{_ARGUMENTS.get(known, 'c')}")
+        # an indexed angle, such as alpha_1, may be any quantity
+        unit = "" if unit == "rad" and known not in (name, stem) else unit
+        return Proposal(formula if exact else "", words or meaning, unit)
+    return Proposal(meaning=words)
 
 
-_AFTER = r"(?:,|\s)*(?:is|denotes|are|being)\s+(?:the|an?)\s+([A-Za-z][^.,;:$\\()]{2,60})"
-_BEFORE = r"\b(?:the|an?|The|An?)\s+((?:[A-Za-z-]+\s+){0,4}[A-Za-z-]+),?\s*$"
+def _speaks_of(needed: str, name: str, text: str) -> bool:
+    """Whether the text holds these words, for a letter near one of its occurrences."""
+    letter = name if len(name) == 1 else rf"\\{name}"
+    if not (len(name) == 1 or rf"\{name}" in GREEK):
+        return bool(re.search(needed, text, re.IGNORECASE))
+    for each in re.finditer(r"(?<![\\$])\$([^$]{1,80})\$", text):
+        if re.search(rf"(?<![A-Za-z\\]){letter}(?![A-Za-z])", each[1]):
+            around = text[max(each.start() - _NEAR, 0) : each.end() + _NEAR]
+            if re.search(needed, around, re.IGNORECASE):
+                return True
+    return False
+
+
+_NEAR = 150
+"""The number of characters between a symbol and words that belong to it."""
+
+
+def _fits(words: str, meaning: str, fitting: str) -> bool:
+    """Whether a description in a paper may be that of a proposal."""
+    own = {each for each in re.findall(r"[a-z]+", meaning.lower()) if each not in _SMALL}
+    said = set(re.findall(r"[a-z]+", words.lower()))
+    return bool(own & said) or bool(fitting and re.search(fitting, words, re.IGNORECASE))
+
+
+_SMALL = frozenset(
+    ("the", "a", "an", "of", "in", "or", "at", "over", "by", "to", "that", "one", "x", "normal")
+) | {"right", "left", "contact"}
+"""Words of a meaning that fit many symbols."""
+_STOPS = "which|that|where|when|and|as|so|if|while|with|but|or|for|because|since"
+_AFTER = (
+    r"(?:,|\s)*(?:is|denotes|being|are(?!\s[^.$]*\sand\s))\s+(?:the|an?)\s+"
+    rf"((?:(?!(?:{_STOPS})\b)[A-Za-z'-]+\s*)+)"
+)
+_BEFORE = r"\b(?:the|an?|The|An?)\s+((?:[A-Za-z'-]+\s+){0,4}[A-Za-z'-]+),?\s*$"
 _LONGEST_BEFORE = 90
+_MOST_WORDS = 8
+"""The largest number of words in a meaning."""
+_LINKS = "to|by|from|into|with|and|or|on|at|for|as|in|between|is|are|be|moves|under|until|than"
+_QUANTITY = re.compile(
+    r"(?:coefficient|radius|angle|modulus|range|change|size|rate|length|width|depth|centre|center"
+    r"|work|half-\w+|semi-\w+|ratio|position|end|edge|distance|amplitude|slope|degree|number|force"
+    r"|load|pressure|tension|stress|moment|curvature|factor|product|sum|mean|value)s?\b"
+)
+"""Nouns after which `of` belongs to the meaning."""
 
 
 def described(text: str) -> dict[str, str]:
@@ -105,13 +199,31 @@ def described(text: str) -> dict[str, str]:
     """
     descriptions = dict[str, str]()
     for each in re.finditer(r"(?<![\\$])\$([^$]{1,40})\$", text):
-        after = re.match(_AFTER, text[each.end() : each.end() + _LONGEST_BEFORE])
+        after = re.match(_AFTER, text[each.end() : each.end() + 2 * _LONGEST_BEFORE])
         start = max(0, each.start() - _LONGEST_BEFORE)
         before = re.search(_BEFORE, text[start : each.start()])
-        words = after[1] if after else before[1] if before else ""
+        words = _phrase(after[1]) if after else _noun(before[1]) if before else ""
         if words:
-            descriptions.setdefault(_bare(each[1]), " ".join(words.split()))
+            descriptions.setdefault(_bare(each[1]), words)
     return descriptions
+
+
+def _phrase(words: str) -> str:
+    """Return a description that follows its symbol; empty if it does not end sensibly."""
+    told = words.split()
+    while told and re.fullmatch(f"{_LINKS}|of|the|an?", told[-1]):
+        told.pop()
+    return " ".join(told) if len(told) <= _MOST_WORDS else ""
+
+
+def _noun(words: str) -> str:
+    """Return the last noun before a symbol, such as depth in "a half-plane to the depth $z$"."""
+    words = re.sub(r"\s+(?:being|is|are|called|denoted|say)$", "", words)
+    told = re.split(rf"\b(?:{_LINKS})\s+(?:(?:the|an?)\s+)?", " ".join(words.split()) + " ")[-1]
+    first, _, rest = told.partition(" of ")
+    if rest and not _QUANTITY.search(first):
+        told = rest
+    return " ".join(re.sub(r"^(?:the|an?)\s+", "", told).split())
 
 
 def words_for(spelled: str, descriptions: Mapping[str, str]) -> str:
@@ -191,7 +303,7 @@ def _symbol(tokens: Sequence[str], position: int) -> tuple[int, str]:
             return position, ""
         end, name = _hung(tokens, end, f"{name}_{_ACCENTS[head]}")
         return _called(tokens, end, name)
-    if not (len(head) == 1 and head.isalpha()) and head not in _GREEK:
+    if not (len(head) == 1 and head.isalpha()) and head not in GREEK:
         return position, ""
     if head == r"\Gamma" and tokens[position + 1 : position + 2] == ["("]:
         return position, ""
@@ -210,9 +322,13 @@ def _hung(tokens: Sequence[str], position: int, name: str) -> tuple[int, str]:
             break
         inner, end = _group(tokens, position + 1)
         words = [t.removeprefix("\\") for t in inner if t not in "(),"]
-        plain = bool(words) and all(word.isalnum() for word in words)
+        plain = _plain(words)
         if tokens[position] == "_" and plain:
             name = f"{name}_{_index(inner)}"
+        elif inner in (["+"], ["-"]):
+            name = f"{name}_{_SIDES[inner[0]]}"
+        elif tokens[position] == "_" and _is_sided(inner):
+            name = f"{name}_{_index(inner[:-1])}_{_SIDES[inner[-1]]}"
         elif inner == ["*"]:
             name = f"{name}_star"
         elif inner == ["'"]:
@@ -223,6 +339,16 @@ def _hung(tokens: Sequence[str], position: int, name: str) -> tuple[int, str]:
             break
         position = end
     return position, name
+
+
+def _is_sided(inner: Sequence[str]) -> bool:
+    """Whether an index ends with a sign after a comma, as in K_{N,+}."""
+    words = [token.removeprefix("\\") for token in inner[:-2]]
+    return inner[-1:] != [] and inner[-1] in _SIDES and inner[-2:-1] == [","] and _plain(words)
+
+
+def _plain(words: Sequence[str]) -> bool:
+    return bool(words) and all(word.isalnum() for word in words)
 
 
 def _index(inner: Sequence[str]) -> str:
@@ -253,7 +379,7 @@ def _called(tokens: Sequence[str], position: int, name: str) -> tuple[int, str]:
     arguments, depth = [list[str]()], 0
     for token in inner:
         depth += (token in "({") - (token in ")}")
-        if token == "," and depth == 0:
+        if token in (",", ";") and depth == 0:
             arguments.append([])
         else:
             arguments[-1].append(token)

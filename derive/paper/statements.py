@@ -2,12 +2,17 @@ r"""Split a display into statements: layout commands are dropped, chains and lis
 
 a = b = c          a = b and a = c
 a < b = c          a < b and b = c
-u, v   u and v     u and v, if each has its own relation
+u, v   u and v     u and v, if each has its own relation; a wide space also divides
 \pm, \mp           the equation with the upper signs, then with the lower signs
 u for v            u under the condition v; an inequality after an equation is also a condition
+u + O(s^2)         u without the remainder, which is of the order 2 as s -> 0
+
+Nothing that is printed is dropped.  Words that are not understood remain in the statement, which
+is then not read, unless they stand apart from it like a remark.
 """
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from derive.errors import BadFormula
@@ -16,24 +21,38 @@ _MOST = 20_000
 """The largest number of characters in a display."""
 _DEEPEST = 60
 _TOKEN = re.compile(
-    r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}|\\[A-Za-z]+|\\.|[0-9]+(?:\.[0-9]+)?|\s+|.", re.DOTALL
+    r"\\(?:begin|end)\s*\{[A-Za-z]+\*?\}|\\(?:text|under)\{[^{}]*\}|\\[A-Za-z]+|\\."
+    r"|[0-9]+(?:\.[0-9]+)?|\s+|.",
+    re.DOTALL,
 )
 _DROPPED = (
     r"\\(?:label|tag\*?|hspace\*?|vspace\*?|mathstrut|phantom)\s*\{[^{}]*\}"
-    r"|\\(?:nonumber|notag|displaystyle|textstyle|limits|quad|qquad|[bB]igg?[lrm]?|mathrm|rm|it)"
-    r"(?![A-Za-z])"
-    r"|\\(?:left|right)\s*\.|\\(?:left|right)(?![A-Za-z])|\\[,;:! >]|~|&"
+    r"|\\(?:nonumber|notag|displaystyle|textstyle|limits|[bB]igg?[lrm]?)(?![A-Za-z])"
+    r"|\\(?:left|right)\s*\.|\\(?:left|right)(?![A-Za-z])|\\[,;:! >]|~"
 )
-_WORDS = re.compile(
-    r"\\(?:text|mbox|mathrm|textrm|textit|mathit|operatorname|mathbf|rm|textsf|mathsf)"
-    r"\s*\{([^{}]*)\}"
-)
+_FONTS = "text|mbox|hbox|textnormal|mathrm|textrm|textit|mathit|operatorname|mathbf|textsf|mathsf"
+_WORDS = re.compile(rf"\\({_FONTS})\*?\s*(?:\{{([^{{}}]*)\}}|([A-Za-z])(?![A-Za-z]))")
+_ROMAN = re.compile(r"\{\s*\\(?:(?:rm|it|bf|sf)(?![A-Za-z])\s*([^{}\\]*)|mathrm\s+([A-Za-z])\s*)\}")
+_MIXED = re.compile(r"\\(?:text|mbox|hbox|textrm|textnormal)\s*(?=\{)")
 _CASES = re.compile(
     r"(?:\\left\s*\\\{\s*)?\\begin\s*\{(cases|dcases|rcases|array)\}(?:\s*\{[^{}]*\})?"
     r"((?:(?!\\begin).)*?)\\end\s*\{\1\}(?:\s*\\right\s*\.)?",
     re.DOTALL,
 )
+_SYSTEM = re.compile(
+    r"((?:\s|\\label\s*\{[^{}]*\}|\{?\\displaystyle)*)(?:(?:\\left)?\s*\\\{)?"
+    r"\s*\\begin\s*\{(array|cases|dcases)\}(?:\s*\{[^{}]*\})?"
+    r"((?:(?!\\begin).)*?)\\end\s*\{\2\}(?:\s*\\right\s*\.)?([\s.,;}]*(?:\\label\s*\{[^{}]*\})?\s*)",
+    re.DOTALL,
+)
+"""An array with nothing printed before or after it: its rows are statements."""
 _SPLIT = re.compile(r"\\begin\s*\{(split|aligned|gathered|alignedat)\}(?:\s*\{\d+\})?")
+_UNDER = re.compile(
+    r"\\(?:underset|overset|stackrel)\s*\{([^{}]*\\(?:to|rightarrow)(?![A-Za-z])[^{}]*)\}"
+    r"\s*\{?\s*(\\(?:sim|simeq|approx|cong)(?![A-Za-z])|=)\s*\}?"
+)
+_DECIMAL_COMMA = re.compile(r"(?<![\d.])(0|\d+(?=\{,\}(?!\d{3}(?!\d))))\{,\}(\d+)")
+"""A decimal comma.  Before three digits it may also divide thousands, unless 0 stands before it."""
 _ALIKE = {
     r"\lvert": "|",
     r"\rvert": "|",
@@ -45,21 +64,57 @@ _ALIKE = {
     r"\cfrac": r"\frac",
     r"\leqslant": r"\le",
     r"\geqslant": r"\ge",
-    r"\ast": "*",
     r"\prime": "'",
     r"\fint": r"\pvint",
     r"\dashint": r"\pvint",
     r"\rightarrow": r"\to",
+    r"\longrightarrow": r"\to",
+    r"\quad": r"\gap",
+    r"\qquad": r"\gap",
+    "&": r"\gap",
+    r"\coloneqq": "=",
+    r"\triangleq": "=",
+    r"\neq": r"\ne",
+    r"\not=": r"\ne",
 }
+_STARS = frozenset((r"\ast", r"\star"))
 _PRINCIPAL = frozenset(("pv", "p.v", "p. v", "cpv"))
-_ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong", r"\propto", r"\to"))
-_RELATIONS = frozenset(("=", "<", ">", r"\le", r"\leq", r"\ge", r"\geq", r"\equiv")) | _ROUGHLY
+_ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong"))
+_NEVER = {
+    r"\propto": r"\propto does not give the factor: write the equation with it",
+    r"\to": r"\to is no equation: write it with \sim, or as text, limit(f, x, end) = ...",
+    r"\ll": r"\ll is no equation: write the limit of the other claims in `as`",
+    r"\gg": r"\gg is no equation: write the limit of the other claims in `as`",
+    r"\ne": r"\ne cannot be checked: write it as a condition of the other claims",
+    r"\in": r"\in is no equation: write it as a condition of the other claims",
+}
+"""Relations that are only understood in a condition, if at all, with the reason."""
 _ORDERED = frozenset(("<", ">", r"\le", r"\leq", r"\ge", r"\geq"))
-_AND = frozenset(("and", "or", "so that", "with", "hence", "thus", "therefore", "i.e", "where"))
+_RELATIONS = frozenset(("=", r"\equiv")) | _ORDERED | _ROUGHLY | _NEVER.keys()
+_CONDITIONS = _ORDERED | _NEVER.keys() - {r"\propto"}
+"""Relations of a condition, if they follow an equation after a comma or a wide space."""
+_AND = frozenset(("and", "so that", "with", "hence", "thus", "therefore", "i.e", "where"))
+_OR = frozenset(("or", "or else"))
+_WHERE = frozenset(
+    ("for", "for all", "for any", "for every", "if", "when", "whenever", "where", "as", "at", "in")
+) | {"on", "provided", "provided that", "while", "as long as", "in the limit", "valid for"}
+_ELSE = frozenset(("otherwise", "else", "elsewhere"))
+_AS_COMMANDS = {
+    **{name: rf"\{name}" for name in ("sin", "cos", "tan", "cot", "sinh", "cosh", "tanh")},
+    **{name: rf"\{name}" for name in ("exp", "log", "ln", "arcsin", "arccos", "arctan", "max")},
+    **{f"ar{part}{name}": rf"\ar{name}" for name in ("sinh", "cosh", "tanh") for part in ("", "c")},
+    **{f"a{name}": rf"\ar{name}" for name in ("sinh", "cosh", "tanh")},
+    **{f"a{name}": rf"\arc{name}" for name in ("sin", "cos", "tan")},
+    **{"min": r"\min", "sgn": r"\sgn", "sign": r"\sgn", "d": r"\dd", "e": r"\euler"},
+}
+"""Functions and constants whose name is printed upright."""
 _OPERATOR = r"\derivativeof"
+_REMAINDER = r"\bigo"
 _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac")
 _OPENING, _CLOSING = frozenset(("(", "{", "[", r"\begin{cases}")), frozenset(")}]")
 _CLOSED = _CLOSING | {r"\end{cases}"}
+_JOINING = frozenset(("+", "-", "/", "*", r"\cdot", r"\times", r"\pm", r"\mp")) | _RELATIONS
+"""Tokens after which, or before which, an expression goes on."""
 
 
 @dataclass(frozen=True)
@@ -70,12 +125,16 @@ class Statement:
     why        the reason why it cannot be compared; empty if it can
     is_rough   whether it is printed as an approximation
     condition  the LaTeX after "for", "as" or "if"; empty if there is no condition
+    order      the order of the remainder that is printed, such as 2 for O(s^2); 0 if there is none
+    small      the LaTeX of the quantity in the remainder, such as s
     """
 
     latex: str
     why: str = ""
     is_rough: bool = False
     condition: str = ""
+    order: float = 0
+    small: str = ""
 
 
 def statements(where: str, latex: str) -> list[Statement]:
@@ -90,37 +149,51 @@ def statements(where: str, latex: str) -> list[Statement]:
     if _OPERATOR in tokens:
         why = "d/dx before its operand is not supported: write it as text, diff(f, x)"
         return [Statement(latex, why)]
-    collected = list[Statement]()
-    parts = list[tuple[list[str], list[str]]]()
-    for part in _listed(tokens, depths):
-        relations = set(part) & _RELATIONS
-        is_bound = part[0] == r"\whereword" or (relations <= _ORDERED and r"\whereword" not in part)
-        if parts and is_bound and (parts[-1][1] or set(parts[-1][0]) & _RELATIONS - _ORDERED):
-            more = [token for token in part if token != r"\whereword"]
-            parts[-1][1].extend([",", *more] if parts[-1][1] else more)
-        else:
-            parts.append(_without_condition(part))
-    for part, condition in parts:
-        collected += _chain(part, condition)
+    parts = list[_Part]()
+    for row in _listed(tokens, depths):
+        part = _divided(row)
+        if parts and parts[-1].takes(part):
+            more = [*part.tokens, *([","] if part.tokens and part.condition else [])]
+            parts[-1].require([*more, *part.condition], part.is_other)
+        elif part.tokens or part.condition:
+            parts.append(part)
+    parts = _with_fragments(parts)
+    collected = [each for part in parts for each in _chain(part)]
     return [signed for each in collected for signed in _signs(each)]
+
+
+def remarks(latex: str) -> list[str]:
+    """Return the words in a display that are neither conditions nor parts of formulas."""
+    return [t[6:-1] for t in _tokens(_plain(latex[:_MOST])) if t.startswith(r"\text{")]
 
 
 def _plain(latex: str) -> str:
     """Remove layout commands from the text, and replace words by commands."""
-    text = _CASES.sub(_marked_cases, latex)
+    text = re.sub(r"\\l?eqno(?![A-Za-z]).*$", " ", latex, flags=re.DOTALL)
+    text = re.sub(r"\s+", " ", text)
+    text = re.sub(r"\\(left|right)\s*([{}])", r"\\\1\\\2", text)
+    text = _DECIMAL_COMMA.sub(r"\1.\2", text)
+    if system := _SYSTEM.fullmatch(text):
+        text = system[1] + system[3] + system[4]
+    text = _CASES.sub(_marked_cases, text)
     for kind in _SPLIT.findall(text):
         text = text.replace(rf"\end{{{kind}}}", " ")
     text = _SPLIT.sub(" ", text)
     text = re.sub(r"(?<!\\)\\\\\*?(?:\[[^\]]*\])?", " \n ", text)
-    text = re.sub(r"\\text\s*\{\s*\$([^${}]*)\$([^${}]*)\}", r"\1\2", text)
     text = re.sub(r"-(?:\s|\\!|\{\})*\\int(?![A-Za-z])", _dashed, text)
-    text = re.sub(r"\{\s*\\(?:rm|mathrm)\s+d\s*\}", r"\\dd ", text)
-    text = _WORDS.sub(_word, text)
+    text = re.sub(r"\\(?:mathcal|mathscr)\s*(?:\{\s*O\s*\}|O)", r"\\bigo ", text)
+    text = _UNDER.sub(r"\2 \\under{\1} ", text)
+    text = _ROMAN.sub(r"\\mathrm{\1\2}", text)
+    text = re.sub(rf"(?<![_^])(?<![_^] )\{{\s*(\\(?:{_FONTS})\s*\{{[^{{}}]*\}})\s*\}}", r"\1", text)
+    text = _WORDS.sub(_word, _unmixed(text))
     text = re.sub(r"\\not\s*=", r"\\ne ", text)
-    return re.sub(_DROPPED, " ", text)
+    text = re.sub(_DROPPED, " ", text)
+    return re.sub(r":\s*=", "=", text)
 
 
 def _marked_cases(match: re.Match[str]) -> str:
+    if match[1] == "array" and r"\{" not in match[0].partition(r"\begin")[0]:
+        return match[0]
     rows = re.sub(r"(?<!\\)\\\\(?:\[[^\]]*\])?", r" \\caserow ", match[2])
     cells = re.sub(r"(?<!\\)&", r" \\casecol ", rows)
     return rf"\begin{{cases}}{cells}\end{{cases}}"
@@ -131,30 +204,82 @@ def _dashed(match: re.Match[str]) -> str:
     return r"\pvint" if r"\!" in match[0] else match[0]
 
 
+def _unmixed(text: str) -> str:
+    r"""Write \text{for $x > 0$} as \text{for} x > 0."""
+    made, position = "", 0
+    while match := _MIXED.search(text, position):
+        end = _closing(text, match.end())
+        inner = text[match.end() + 1 : end - 1]
+        made += text[position : match.start()]
+        if "$" in inner:
+            for n, part in enumerate(re.split(r"(?<!\\)\$", inner)):
+                made += f" {part} " if n % 2 else rf"\text{{{part}}}" if part.strip() else ""
+        else:
+            made += text[match.start() : end]
+        position = end
+    return made + text[position:]
+
+
+def _closing(text: str, start: int) -> int:
+    """Return the end of the braced group that starts at `start`."""
+    depth = 0
+    for match in re.finditer(r"(?<!\\)[{}]", text[start:]):
+        depth += 1 if match[0] == "{" else -1
+        if depth == 0:
+            return start + match.end()
+    return len(text)
+
+
 def _word(match: re.Match[str]) -> str:
-    inner = match[1].strip()
+    inner = (match[2] if match[2] is not None else match[3]).strip()
     before = match.string[: match.start()].rstrip()
-    if inner == "d":
-        return r"\dd "
-    if inner == "sgn":
-        return r"\sgn "
+    if before.endswith(("_", "^")):
+        return f"{{{inner}}}"
+    if re.search(r"[_^]\s*\{[^{}]*$", before):
+        return inner
+    if inner in _AS_COMMANDS and match[1] not in ("mathit", "textit", "mathbf"):
+        return f"{_AS_COMMANDS[inner]} "
     if inner.lower().strip(" .") in _PRINCIPAL:
         return r"\pvword "
-    if before.endswith(("_", "^", "_{", "^{")):
-        return f"{{{inner}}}" if before.endswith(("_", "^")) else inner
     if len(inner) <= 1 or not any(map(str.isalpha, inner)):
         return f" {inner} "
-    word = inner.strip(" ,.;")
-    return r" \andword " if word in _AND else r" \whereword "
+    word = " ".join(re.sub(r"\\[,;:! ]|~", " ", inner).split()).strip(" ,.;:")
+    lower = word.lower()
+    for known, command in ((_AND, "and"), (_OR, "or"), (_WHERE, "where"), (_ELSE, "else")):
+        if lower in known:
+            return rf" \{command}word "
+    return rf" \text{{{word}}} "
 
 
 def _tokens(text: str) -> list[str]:
     tokens = [t for t in _TOKEN.findall(text) if "\n" in t or not t.isspace()]
-    cleaned = ["\n" if t.isspace() else _ALIKE.get(t, re.sub(r"\s", "", t)) for t in tokens]
+    cleaned = ["\n" if t.isspace() else _token(t) for t in tokens]
     for index, token in enumerate(cleaned[:-1]):
-        if token == r"\pvword" and cleaned[index + 1] == r"\int":
+        after = cleaned[index + 1]
+        if token == r"\pvword" and after == r"\int":
             cleaned[index + 1] = r"\pvint"
-    return [token for token in cleaned if token != r"\pvword"]
+        if token in _STARS and _is_raised(cleaned, index):
+            cleaned[index] = "*"
+        if token == "O" and after == "(" and cleaned[index - 1 : index] in (["+"], ["-"]):
+            cleaned[index] = _REMAINDER
+    ends = (r"\caserow", r"\casecol", r"\end{cases}")
+    after_each = [*cleaned[1:], ""]
+    return [
+        token
+        for token, after in zip(cleaned, after_each, strict=True)
+        if token != r"\pvword" and not (token in (",", ".", ";") and after in ends)
+    ]
+
+
+def _token(token: str) -> str:
+    words = token.startswith((r"\text{", r"\under{"))
+    return token if words else _ALIKE.get(token, re.sub(r"\s", "", token))
+
+
+def _is_raised(tokens: list[str], at: int) -> bool:
+    """Whether a token is an exponent or an index, alone or in braces."""
+    before = tokens[max(at - 2, 0) : at]
+    return before[-1:] in (["^"], ["_"]) or (before[-1:] == ["{"] and before[0] in ("^", "_"))
 
 
 def _bare(tokens: list[str]) -> list[str]:
@@ -277,68 +402,300 @@ def _depths(where: str, tokens: list[str]) -> list[int]:
 def _listed(tokens: list[str], depths: list[int]) -> list[list[str]]:
     """Divide a list; a row without a relation, or with a sign first, continues the one before."""
     parts: list[list[str]] = [[]]
-    for token, depth in zip(tokens, depths, strict=True):
-        cut = token in (",", ";", r"\andword", "\n")
-        if depth == 0 and cut:
-            parts.append(["\n"] if token == "\n" else [])
+    for at, (token, depth) in enumerate(zip(tokens, depths, strict=True)):
+        cut = token in (",", ";", r"\andword", r"\orword", "\n")
+        if token == r"\gap":
+            if depth == 0 and _is_whole(parts[-1]) and _begins(tokens, depths, at):
+                parts.append([])
+            elif depth == 0:
+                parts[-1].append(token)
+        elif depth == 0 and cut:
+            parts.append([token] if token in ("\n", r"\orword") else [])
         elif token != "\n":
             parts[-1].append(token)
     rows = list[list[str]]()
     for part in parts:
         row, inside = part[:1] == ["\n"], part[1:] if part[:1] == ["\n"] else part
+        inside = _trimmed(inside)
         goes_on = row and inside and (inside[0] in {"+", "-", *_RELATIONS} or not _has(inside))
         if goes_on and rows:
             rows[-1] += inside
         elif inside:
             rows.append(inside)
-    return [part[:-1] if part[-1] == "." else part for part in rows]
+    return [part[:-1] if part[-1] == "." else part for part in rows if part != ["."]]
+
+
+def _trimmed(part: list[str]) -> list[str]:
+    """Remove wide spaces at both ends."""
+    while part[:1] == [r"\gap"]:
+        part = part[1:]
+    while part[-1:] == [r"\gap"]:
+        part = part[:-1]
+    return part
+
+
+def _outside(part: list[str]) -> Iterator[tuple[int, str]]:
+    """Yield the tokens outside all brackets, with their positions."""
+    depth = 0
+    for at, token in enumerate(part):
+        depth -= token in _CLOSED
+        if depth == 0 and token not in _OPENING:
+            yield at, token
+        depth += token in _OPENING
 
 
 def _has(part: list[str]) -> bool:
-    return any(token in _RELATIONS for token in part)
+    return any(token in _RELATIONS for _, token in _outside(part))
 
 
-def _without_condition(part: list[str]) -> tuple[list[str], list[str]]:
-    """Return the tokens before and after the first word outside brackets."""
+def _is_whole(part: list[str]) -> bool:
+    """Whether a part has a relation and a right side that may end here."""
+    last = next((t for t in reversed(part) if t != r"\gap"), "")
+    return _has(part) and last not in _JOINING and not last.endswith("word")
+
+
+def _begins(tokens: list[str], depths: list[int], at: int) -> bool:
+    """Whether a new relation with a left side of its own starts after a position."""
+    seen = False
+    for token, depth in zip(tokens[at + 1 :], depths[at + 1 :], strict=True):
+        if token == r"\gap":
+            continue
+        if depth:
+            seen = True
+            continue
+        if token in _RELATIONS:
+            return seen
+        ends = token in (",", ";", "\n") or token.endswith("word") or _is_text(token)
+        if ends or (token in _JOINING and not seen):
+            return False
+        seen = True
+    return False
+
+
+@dataclass
+class _Part:
+    """One entry of a list: its tokens and its condition.
+
+    why       the reason if it is not read
+    is_other  whether it follows the word "or"
+    """
+
+    tokens: list[str]
+    condition: list[str]
+    why: str = ""
+    is_other: bool = False
+
+    def takes(self, other: "_Part") -> bool:
+        """Whether an entry that follows is a condition of this one."""
+        if not self.condition and not self._is_equation():
+            return False
+        relations = {token for _, token in _outside(other.tokens) if token in _RELATIONS}
+        return relations <= _CONDITIONS if relations else not other.tokens
+
+    def _is_equation(self) -> bool:
+        return any(token in _RELATIONS - _CONDITIONS for _, token in _outside(self.tokens))
+
+    def require(self, more: list[str], is_other: bool = False) -> None:
+        """Add a condition."""
+        joint = [r"\orword" if is_other else ","] if self.condition and more else []
+        self.condition = [*self.condition, *joint, *more]
+
+
+def _with_fragments(parts: list[_Part]) -> list[_Part]:
+    """Join entries without a relation to their neighbours, which are then not read."""
+    made = list[_Part]()
+    for part in parts:
+        if made and (_is_fragment(part) or _is_fragment(made[-1])):
+            alone = made[-1].tokens if _is_fragment(made[-1]) else part.tokens
+            made[-1].tokens = [*made[-1].tokens, ",", *part.tokens]
+            made[-1].require(part.condition)
+            made[-1].why = made[-1].why or _unclear(alone)
+        else:
+            made.append(part)
+    return made
+
+
+def _is_fragment(part: _Part) -> bool:
+    return not part.why and not _has(part.tokens)
+
+
+def _unclear(tokens: list[str]) -> str:
+    shown = _joined(tokens) or "a condition"
+    return f"{shown} stands without a relation, so it is unclear what it belongs to"
+
+
+def _divided(part: list[str]) -> _Part:
+    """Divide an entry into its formula and the condition after the first word."""
+    is_other, part = part[0] == r"\orword", _trimmed(part[part[0] == r"\orword" :])
+    under = [token for token in part if token.startswith(r"\under{")]
+    part = [token for token in part if not token.startswith(r"\under{")]
+    while part and _is_text(part[0]):
+        part = _trimmed(part[1:])
+    at = next((n for n, t in _outside(part) if _is_text(t) or t.endswith("word")), len(part))
+    body, rest = part[:at], part[at:]
+    if rest and _is_text(rest[0]):
+        if _may_be_unit(body, rest[0][len(r"\text{") : -1]):
+            return _Part([token for token in part if token != r"\gap"], [], is_other=is_other)
+        after = next((n for n, t in enumerate(rest) if not _is_text(t) and t != r"\gap"), len(rest))
+        rest = rest[after:] if rest[after:] == [] or rest[after].endswith("word") else rest
+    body = [token for token in _trimmed(body) if token != r"\gap"]
+    made = _Part(body, [], is_other=is_other)
+    if body[-1:] == [")"] and _has(body[(start := _opening(body)) + 1 : -1]):
+        made = _Part(body[:start], body[start + 1 : -1], is_other=is_other)
+    rest = rest[1:] if rest[:1] == [r"\whereword"] else rest
+    made.require(["," if t == r"\whereword" else t for t in rest if t != r"\gap"])
+    for each in under:
+        made.require(_tokens(each[len(r"\under{") : -1]))
+    return made
+
+
+def _is_text(token: str) -> bool:
+    return token.startswith(r"\text{")
+
+
+def _may_be_unit(body: list[str], words: str) -> bool:
+    """Whether the words after a formula may be a unit or another part of it."""
+    if not body or words.startswith("(") or words.split()[0].lower() in _STARTS:
+        return False
+    last = next((token for token in reversed(body) if token != r"\gap"), "")
+    if last[:1].isdigit():
+        return True
+    return " " not in words and (body[-1] != r"\gap" or last == "}")
+
+
+_STARTS = frozenset(each.split()[0] for each in (*_WHERE, *_AND, *_OR)) | {"which", "that", "since"}
+"""Words that start a clause."""
+
+
+def _opening(part: list[str]) -> int:
+    """Return the position of the bracket that the last token closes."""
     depth = 0
-    for at, token in enumerate(part):
-        depth += (token in _OPENING) - (token in _CLOSED)
-        if depth == 0 and token == r"\whereword":
-            rest = part[at + 1 :]
-            return part[:at], [token for token in rest if token != r"\whereword"]
-    return part, []
+    for at in range(len(part) - 1, -1, -1):
+        depth += (part[at] in _CLOSED) - (part[at] in _OPENING)
+        if depth == 0:
+            return at
+    return 0
 
 
-def _chain(part: list[str], condition: list[str]) -> list[Statement]:
+def _chain(part: _Part) -> list[Statement]:
     """Return the statements of a chain of relations; equal sides are compared with the first."""
-    sides, between, depth = [list[str]()], list[str](), 0
-    for token in part:
-        depth += (token in _OPENING) - (token in _CLOSED)
-        if depth == 0 and token in _RELATIONS:
+    if part.why or not _has(part.tokens):
+        why = part.why or _unclear(part.tokens)
+        tokens = part.tokens or part.condition
+        return [Statement(_joined(tokens), why, condition=_joined(part.condition))]
+    sides, between, last = [list[str]()], list[str](), 0
+    for at, token in _outside(part.tokens):
+        if token in _RELATIONS:
+            sides[-1] = part.tokens[last:at]
             between.append("=" if token == r"\equiv" else token)
             sides.append([])
-        else:
-            sides[-1].append(token)
+            last = at + 1
+    sides[-1] = part.tokens[last:]
     collected, first = list[Statement](), 0
     for n, relation in enumerate(between):
         if n and not (relation == "=" == between[n - 1]):
             first = n
         rough = relation if relation in _ROUGHLY else ""
-        left, right = sides[first], _without_dots(sides[n + 1])
-        if first and _without_dots(left) != left:
-            left, rough = sides[0], next((r for r in between[:n] if r in _ROUGHLY), "")
+        left, (right, rest) = sides[first], _without_rest(sides[n + 1])
+        if first and _without_rest(left)[0] != left:
+            left, rough = sides[0], next((r for r in between[:n] if r in _ROUGHLY), rough)
+        if rest == _DOTS and relation == "=":
+            rough = rough or r"\sim"
         text = _joined([*left, rough or relation, *right])
-        why = ""
-        if not left or not right or rough in (r"\to", r"\propto"):
-            why, rough = "this is not an equation with two sides", ""
-        collected.append(Statement(text, why, bool(rough), _joined(condition)))
+        made = Statement(text, _fault(relation, left, right, rest), bool(rough))
+        collected.append(_with_rest(made, rest, _from_one_side(part.condition)))
     return collected
 
 
-def _without_dots(side: list[str]) -> list[str]:
-    """Remove the dots that stand for higher-order terms."""
-    dots = re.sub(r"\+ (?:\. ?\. ?\.|\\(?:l|c|)dots)(?= |$)", "", " ".join(side))
-    return dots.split() if dots != " ".join(side) else side
+_DOTS = [r"\dots"]
+_DOT = (["."], [r"\dots"], [r"\ldots"], [r"\cdots"])
+
+
+def _fault(relation: str, left: list[str], right: list[str], rest: list[str]) -> str:
+    """Return the reason why a relation between two sides cannot be compared."""
+    if relation in _NEVER:
+        return _NEVER[relation]
+    if _REMAINDER in (*left, *right):
+        return (
+            "a remainder O(...) is only understood as the last term: write the equation without it"
+        )
+    if not left or not right:
+        side = "right" if left else "left"
+        return f"nothing stands to the {side} of {relation}: write both sides"
+    if rest and relation in _ORDERED:
+        return "an inequality with a remainder cannot be checked: write it without the remainder"
+    return ""
+
+
+def _from_one_side(condition: list[str]) -> list[str]:
+    r"""Write s \to 0^+ as s \to 0, s > 0."""
+    made = list[str]()
+    for part in _cut(condition):
+        tokens = part[:-1] if part[-1:] == ["}"] and part[-2:-1] in (["+"], ["-"]) else part
+        if r"\to" not in tokens or tokens[-1] not in ("+", "-"):
+            made += [*([","] if made else []), *part]
+            continue
+        sign = ">" if tokens[-1] == "+" else "<"
+        tokens = tokens[:-1]
+        while tokens[-1] in ("^", "_", "{"):
+            tokens = tokens[:-1]
+        at = tokens.index(r"\to")
+        made += [*([","] if made else []), *tokens, ",", *tokens[:at], sign, *tokens[at + 1 :]]
+    return made
+
+
+def _cut(tokens: list[str]) -> list[list[str]]:
+    """Divide tokens at commas."""
+    parts: list[list[str]] = [[]]
+    for token in tokens:
+        if token == ",":
+            parts.append([])
+        else:
+            parts[-1].append(token)
+    return [part for part in parts if part]
+
+
+def _with_rest(made: Statement, rest: list[str], condition: list[str]) -> Statement:
+    """Add the condition, and the limit and order of a printed remainder."""
+    told = _joined(condition)
+    if made.why or not rest or rest == _DOTS:
+        return replace(made, condition=told)
+    size = _SIZE.fullmatch(_joined(rest).replace(" ", ""))
+    if size is None:
+        why = f"the remainder of order {_joined(rest)} is not understood: write the equation "
+        return replace(made, why=f"{why}without it, with as = '...' and order = ...")
+    if r"\to" not in condition:
+        told = ", ".join(filter(None, (told, rf"{size[1]} \to 0")))
+    over, _, under = (size[2] or size[3] or "1").partition("/")
+    return replace(made, condition=told, order=float(over) / float(under or 1), small=size[1])
+
+
+_SIZE = re.compile(
+    r"((?:\\[A-Za-z]+|[A-Za-z])(?:_(?:\w|\\[A-Za-z]+|\{[^{}]*\}))?)"
+    r"(?:\^(?:([1-9])|\{(\d+(?:\.\d+)?(?:/[1-9]\d*)?)\}))?"
+)
+"""A symbol, or a power of it."""
+
+
+def _without_rest(side: list[str]) -> tuple[list[str], list[str]]:
+    """Remove dots and O(...) for terms of higher order; return also what the O(...) holds."""
+    kept, position = list[str](), 0
+    while position < len(side):
+        end = position + 1
+        while side[position] in ("+", "-") and side[end : end + 1] in _DOT:
+            end += 1
+        is_last = end == len(side) or side[end] in _CLOSED
+        if is_last and end - position > 1 and side[position + 1 : end] != ["."]:
+            position = end
+            continue
+        kept.append(side[position])
+        position += 1
+    if len(kept) < len(side):
+        return kept, _DOTS
+    start = _opening(side) if side[-1:] == [")"] else 0
+    if start > 1 and side[start - 1] == _REMAINDER and side[start - 2] in ("+", "-"):
+        return side[: start - 2], side[start + 1 : -1]
+    return side, []
 
 
 def _joined(tokens: list[str]) -> str:
@@ -346,13 +703,23 @@ def _joined(tokens: list[str]) -> str:
 
 
 def _signs(statement: Statement) -> list[Statement]:
-    r"""Return both readings of \pm and \mp."""
-    if not re.search(r"\\(?:pm|mp)(?![A-Za-z])", statement.latex):
+    r"""Return both readings of \pm and \mp; x_{1,2} is x_1 with the upper signs."""
+    signs = re.compile(r"\\(?:pm|mp)(?![A-Za-z])")
+    if not signs.search(statement.latex + statement.condition):
         return [statement]
-    made = []
-    for upper, lower in (("+", "-"), ("-", "+")):
-        text = re.sub(r"\\pm(?![A-Za-z])", upper, statement.latex)
-        text = re.sub(r"\\mp(?![A-Za-z])", lower, text)
-        text = re.sub(r"(^|[{(\[=<>])\s*\+", r"\1 ", text)
-        made.append(replace(statement, latex=text))
-    return made
+    return [
+        replace(
+            statement,
+            latex=_signed(statement.latex, upper),
+            condition=_signed(statement.condition, upper),
+        )
+        for upper in (True, False)
+    ]
+
+
+def _signed(text: str, upper: bool) -> str:
+    plus, minus = "+-" if upper else "-+"
+    text = re.sub(r"\\pm(?![A-Za-z])", plus, text)
+    text = re.sub(r"\\mp(?![A-Za-z])", minus, text)
+    text = re.sub(r"_\{(\d) ?, ?(\d)\}", r"_{\1}" if upper else r"_{\2}", text)
+    return re.sub(r"(^|[{(\[=<>,]|\\to)\s*\+(?!\})", r"\1 ", text)
