@@ -521,6 +521,8 @@ def _draft(file: Path | None, new: Path, inline: bool) -> None:
     click.echo(f"{symbols} symbols, {named} with a proposed meaning")
     for line in made.unread:
         click.echo(f"not read: {line}")
+    for line in made.notes:
+        click.echo(f"note: {line}")
 
 
 def _accept(file: Path | None, label: str | None) -> None:
