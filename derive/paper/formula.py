@@ -45,7 +45,7 @@ from derive.writing.grammar import Call, Name, Negative, Node, parse
 from derive.writing.limits import fault
 from derive.writing.meaning import Meaning, walk
 from derive.writing.tokens import LONGEST
-from derive.writing.vocabulary import FUNCTIONS, Words
+from derive.writing.vocabulary import FUNCTIONS, KEYWORDS, Words
 from derive.writing.vocabulary import Function as Known
 
 _DEEPEST = 40
@@ -357,4 +357,5 @@ def may_be_rounded(text: str) -> bool:
 def usable(name: str, taken: Collection[str] = ()) -> bool:
     """Whether a name may be declared in a claims file."""
     plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) is not None
-    return plain and name not in {"pi", "oo", "and", "or", "not", *_FUNCTIONS, *_BOUND, *taken}
+    reserved = {"pi", "oo", "and", "or", "not", *KEYWORDS, *_FUNCTIONS, *_BOUND, *taken}
+    return plain and name not in reserved

@@ -18,7 +18,7 @@ from typing import NoReturn
 
 from derive.errors import BadFormula
 from derive.paper.claim import Relation
-from derive.paper.spellings import GREEK
+from derive.paper.spellings import GREEK, letter_name
 
 _LONGEST = 2000
 """The largest number of characters in an equation."""
@@ -199,7 +199,7 @@ class Latex:
                 position += length
                 continue
             known = pieces[position].text in bound
-            text = "=" + pieces[position].text.removeprefix("\\")
+            text = f"={letter_name(pieces[position].text)}"
             marked.append(
                 _Piece(text, pieces[position].column) if known else self._known(pieces[position])
             )

@@ -307,9 +307,14 @@ def _symbol(tokens: Sequence[str], position: int) -> tuple[int, str]:
         return position, ""
     if head == r"\Gamma" and tokens[position + 1 : position + 2] == ["("]:
         return position, ""
-    name, position = head.removeprefix("\\"), position + 1
+    name, position = letter_name(head), position + 1
     position, name = _hung(tokens, position, name)
     return _called(tokens, position, name)
+
+
+def letter_name(letter: str) -> str:
+    r"""Return the name of a letter; \lambda is lam, because formulas may not hold lambda."""
+    return "lam" if letter == r"\lambda" else letter.removeprefix("\\")
 
 
 def _hung(tokens: Sequence[str], position: int, name: str) -> tuple[int, str]:

@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from derive.errors import BadFormula
+from derive.paper.spellings import GREEK
 
 _MOST = 20_000
 """The largest number of characters in a display."""
@@ -27,7 +28,7 @@ _TOKEN = re.compile(
 )
 _DROPPED = (
     r"\\(?:label|tag\*?|hspace\*?|vspace\*?|mathstrut|phantom)\s*\{[^{}]*\}"
-    r"|\\(?:nonumber|notag|displaystyle|textstyle|limits|[bB]igg?[lrm]?)(?![A-Za-z])"
+    r"|\\(?:nonumber|notag|displaystyle|textstyle|limits|boxed|[bB]igg?[lrm]?)(?![A-Za-z])"
     r"|\\(?:left|right)\s*\.|\\(?:left|right)(?![A-Za-z])|\\[,;:! >]|~"
 )
 _FONTS = "text|mbox|hbox|textnormal|mathrm|textrm|textit|mathit|operatorname|mathbf|textsf|mathsf"
@@ -41,7 +42,7 @@ _CASES = re.compile(
 )
 _SYSTEM = re.compile(
     r"((?:\s|\\label\s*\{[^{}]*\}|\{?\\displaystyle)*)(?:(?:\\left)?\s*\\\{)?"
-    r"\s*\\begin\s*\{(array|cases|dcases)\}(?:\s*\{[^{}]*\})?"
+    r"\s*\\begin\s*\{(array|cases|dcases|aligned|gathered)\}(?:\s*\{[^{}]*\})?"
     r"((?:(?!\\begin).)*?)\\end\s*\{\2\}(?:\s*\\right\s*\.)?([\s.,;}]*(?:\\label\s*\{[^{}]*\})?\s*)",
     re.DOTALL,
 )
@@ -109,7 +110,7 @@ _AS_COMMANDS = {
 }
 """Functions and constants whose name is printed upright."""
 _OPERATOR = r"\derivativeof"
-_REMAINDER = r"\bigo"
+_REMAINDER, _SMALLER = r"\bigo", r"\smallo"
 _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac")
 _OPENING, _CLOSING = frozenset(("(", "{", "[", r"\begin{cases}")), frozenset(")}]")
 _CLOSED = _CLOSING | {r"\end{cases}"}
@@ -182,6 +183,7 @@ def _plain(latex: str) -> str:
     text = re.sub(r"(?<!\\)\\\\\*?(?:\[[^\]]*\])?", " \n ", text)
     text = re.sub(r"-(?:\s|\\!|\{\})*\\int(?![A-Za-z])", _dashed, text)
     text = re.sub(r"\\(?:mathcal|mathscr)\s*(?:\{\s*O\s*\}|O)", r"\\bigo ", text)
+    text = re.sub(r"\\stackrel\s*\{\s*\\\w+\s*\{?\s*def\.?\s*\}?\s*\}\s*\{\s*=\s*\}", "=", text)
     text = _UNDER.sub(r"\2 \\under{\1} ", text)
     text = _ROMAN.sub(r"\\mathrm{\1\2}", text)
     text = re.sub(rf"(?<![_^])(?<![_^] )\{{\s*(\\(?:{_FONTS})\s*\{{[^{{}}]*\}})\s*\}}", r"\1", text)
@@ -243,7 +245,7 @@ def _word(match: re.Match[str]) -> str:
         return r"\pvword "
     if len(inner) <= 1 or not any(map(str.isalpha, inner)):
         return f" {inner} "
-    word = " ".join(re.sub(r"\\[,;:! ]|~", " ", inner).split()).strip(" ,.;:")
+    word = " ".join(re.sub(r"\\(?:[,;:! ]|$)|~", " ", inner).split()).strip(" ,.;:")
     lower = word.lower()
     for known, command in ((_AND, "and"), (_OR, "or"), (_WHERE, "where"), (_ELSE, "else")):
         if lower in known:
@@ -260,8 +262,8 @@ def _tokens(text: str) -> list[str]:
             cleaned[index + 1] = r"\pvint"
         if token in _STARS and _is_raised(cleaned, index):
             cleaned[index] = "*"
-        if token == "O" and after == "(" and cleaned[index - 1 : index] in (["+"], ["-"]):
-            cleaned[index] = _REMAINDER
+        if token in ("O", "o") and after == "(" and cleaned[index - 1 : index] in (["+"], ["-"]):
+            cleaned[index] = _REMAINDER if token == "O" else _SMALLER
     ends = (r"\caserow", r"\casecol", r"\end{cases}")
     after_each = [*cleaned[1:], ""]
     return [
@@ -359,7 +361,7 @@ def _is_in_fraction(tokens: list[str], at: int) -> bool:
 
 
 def _may_be_variable(token: str) -> bool:
-    return (len(token) == 1 and token.isalpha()) or token in (r"\xi", r"\eta", r"\theta", r"\tau")
+    return (len(token) == 1 and token.isalpha()) or token in GREEK
 
 
 def _out_of_numerators(tokens: list[str]) -> list[str]:
@@ -622,6 +624,8 @@ def _fault(relation: str, left: list[str], right: list[str], rest: list[str]) ->
     if not left or not right:
         side = "right" if left else "left"
         return f"nothing stands to the {side} of {relation}: write both sides"
+    if _SMALLER in (*left, *right):
+        return "a remainder o(...) has no order: write the equation with \\sim and its limit"
     if rest and relation in _ORDERED:
         return "an inequality with a remainder cannot be checked: write it without the remainder"
     return ""

@@ -10,6 +10,7 @@ from derive.paper.displays import displays
 from derive.paper.draft import Draft, draft
 from derive.paper.formula import Names, equation, unknown
 from derive.paper.latex import Latex
+from derive.paper.lines import heads, with_lines
 from derive.paper.spellings import proposal, spellings
 from derive.paper.statements import statements
 from derive.paper.userfile import read_claims
@@ -58,6 +59,8 @@ def understood(latex: str) -> list[str]:
             ["h = acosh(x/a) + asinh(x/a)"],
         ),
         (r"a = \left{ b + c \right}", ["a = (b + c)"]),
+        (r"\boxed{a \stackrel{\mathrm{def}}{=} b}", ["a = b"]),
+        (r"\left\{\begin{aligned} a &= b \\ c &= d \end{aligned}\right.", ["a = b", "c = d"]),
         (r"p_m := \frac{P}{2a}", ["p_m = P/(2*a)"]),
         (r"E^\star = E^{\ast}_1", ["E_star = E_star_1"]),
         (r"p = p_0 \eqno(4.3)", ["p = p_0"]),
@@ -78,6 +81,7 @@ def understood(latex: str) -> list[str]:
             ["y = sin(varphi)*log(abs(tan(a/2)*tan(b/2)))"],
         ),
         (r"y = b \sin 2\varphi_0 - \cos 2\pi x", ["y = b*sin(2*varphi_0) - cos(2*pi*x)"]),
+        (r"y = \lambda_1 \int_0^1 \lambda\,d\lambda", ["y = lam_1*integral(lam, lam, 0, 1)"]),
         (r"y = \sin\phi\cos\phi", ["y = sin(phi)*cos(phi)"]),
     ],
 )
@@ -99,6 +103,7 @@ def test_what_is_read(latex: str, texts: list[str]) -> None:
         (r"P = c [1 + O(a/R)]", "only understood as the last term"),
         (r"P = c + \mathcal{O}(a/R)", "the remainder of order a / R is not understood"),
         (r"P < c + O(a)", "an inequality with a remainder"),
+        (r"P = c + o(a)", "a remainder o(...) has no order"),
         (r"P \propto a^2", r"\propto does not give the factor"),
         (r"W \to a^2", r"\to is no equation"),
         (r"a \ll R", r"\ll is no equation"),
@@ -135,6 +140,7 @@ def test_what_is_not_read_and_why(latex: str, why: str, tmp_path: Path) -> None:
         (r"a = b \quad (x > 0)", {"require": "x > 0"}),
         (r"a = b \text{ for } x > 0 \text{ and } y < 0", {"require": "x > 0 and y < 0"}),
         (r"a = b \text{ for } x > 0 \text{ or } x < -1", {"require": "x > 0 or x < -1"}),
+        (r"a = b \mathrm{\ for\ } x > 0", {"require": "x > 0"}),
         (r"a = b, \quad \nu \neq 0", {"require": "(nu < 0 or nu > 0)"}),
         (r"a = b \text{ for $x_{1} > 0$}", {"require": "x_1 > 0"}),
         (r"a = b \qquad\text{for moderate tension}", {"says": "for moderate tension"}),
@@ -310,3 +316,10 @@ def test_integrals_and_limits_at_minus_infinity(printed: str, verdict: str, tmp_
 def test_ends_that_no_integral_may_have(text: str, why: str) -> None:
     with pytest.raises(BadFormula, match=why):
         equation(text, Names("", {}, {}))
+
+
+def test_a_line_of_latex_that_looks_like_a_table_does_not_hinder_the_acceptance() -> None:
+    text = "[[claims]]\nlabel = 'a'\nlatex = '''\na = b\n[[claims]]\n [c]'''\naccepted = false\n"
+    assert heads(text, 1) == [1]
+    new = with_lines(text, 1, {1: "a = b"})
+    assert new == f'{text.replace("false", "true")}understood = "a = b"\n'
