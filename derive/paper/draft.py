@@ -290,7 +290,12 @@ def _read(statement: Statement, spelled: dict[str, str], alone: set[str]) -> _Re
     why = unclear
     if statement.is_rough and not limit and not why and not may_be_rounded(understood):
         why = "it is an approximation: add its limit, such as as = 'x -> 0', or write it with ="
-    return replace(read, understood=understood, why=why, note=_pole(left, right))
+    try:
+        with within(_SECONDS):
+            note = _pole(left, right)
+    except LimitReached:
+        note = ""
+    return replace(read, understood=understood, why=why, note=note)
 
 
 def _told(error: BadFormula) -> str:

@@ -265,11 +265,11 @@ def _tokens(text: str) -> list[str]:
         if token in ("O", "o") and after == "(" and cleaned[index - 1 : index] in (["+"], ["-"]):
             cleaned[index] = _REMAINDER if token == "O" else _SMALLER
     ends = (r"\caserow", r"\casecol", r"\end{cases}")
-    after_each = [*cleaned[1:], ""]
     return [
         token
-        for token, after in zip(cleaned, after_each, strict=True)
-        if token != r"\pvword" and not (token in (",", ".", ";") and after in ends)
+        for n, token in enumerate(cleaned)
+        if token != r"\pvword"
+        and not (token in (",", ".", ";") and cleaned[n + 1 : n + 2] in [[end] for end in ends])
     ]
 
 
@@ -604,7 +604,8 @@ def _chain(part: _Part) -> list[Statement]:
         if rest == _DOTS and relation == "=":
             rough = rough or r"\sim"
         text = _joined([*left, rough or relation, *right])
-        made = Statement(text, _fault(relation, left, right, rest), bool(rough))
+        why = _fault(relation, left, right, rest) or _of_example(right, part.tokens)
+        made = Statement(text, why, bool(rough))
         collected.append(_with_rest(made, rest, _from_one_side(part.condition)))
     return collected
 
@@ -657,6 +658,15 @@ def _cut(tokens: list[str]) -> list[list[str]]:
         else:
             parts[-1].append(token)
     return [part for part in parts if part]
+
+
+def _of_example(side: list[str], chain: list[str]) -> str:
+    """Return the reason why numbers in a chain with a unit cannot be compared."""
+    words = next((token[len(r"\text{") : -1] for token in chain if _is_text(token)), "")
+    letters = any(_is_text(t) or t in GREEK or (len(t) == 1 and t.isalpha()) for t in side)
+    if not words or letters:
+        return ""
+    return f"numbers with the words {words!r} are an example: write it as text, without symbols"
 
 
 def _with_rest(made: Statement, rest: list[str], condition: list[str]) -> Statement:

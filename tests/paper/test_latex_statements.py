@@ -96,6 +96,10 @@ def test_what_is_read(latex: str, texts: list[str]) -> None:
         (r"p_0 = 412~{\rm MPa}", "the words 'MPa' are not understood"),
         (r"p_0 = 412 \text{ N per mm}", "the words 'N per mm' are not understood"),
         (r"p_0 = 2\times10^{3}\quad\mathrm{MPa}", "the words 'MPa' are not understood"),
+        (
+            r"a = \sqrt{4\times10^5} = 0.105\ \mathrm{mm}",
+            "numbers with the words 'mm' are an example",
+        ),
         (r"y = 1,5 a", "5 a stands without a relation"),
         (r"x_1, x_2 = e", "x_1 stands without a relation"),
         (r"a = b, c, d = e", "c stands without a relation"),
