@@ -28,8 +28,14 @@
     dimensions     equation, known units     the term whose units do not fit
     context        body, symbols, equation   the equation with its calls replaced by formulas
     lines          claims file               the lines of its claims; the file with some changed
-    mistakes       claims file               all of its errors
+    entries        table of a claims file    typed entries, or an error with its place
+    mistakes       errors in a claims file   one error that reports all; the reason for one claim
     geometry_file  geometry file             g(x) as text, and units; the file is not executed
+    variables      [variables] and bodies    ranges and units; what an equation with a body may hold
+    meanings       [symbols] and [latex]     the meanings of symbols for a body and a claim
+    printed        a claim's equation        its text, or the reading of its LaTeX to be accepted
+    claim_options  a claim's other entries   typed values
+    claim_table    table [[claims]]          a claim, which is unchecked if an entry is wrong
     userfile       claims file in TOML       its claims
     andresen2020/                            claims files of the paper that introduced the method
 

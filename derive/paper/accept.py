@@ -1,4 +1,8 @@
-"""Write the readings that a user accepts into the claims file: either all of them or none."""
+"""Write the readings that a user accepts into the claims file: either all of them or none.
+
+In:   the path of a claims file, and the accepted readings.
+Out:  the file with these readings, or an error and the file as it was.
+"""
 
 import tomllib
 from collections.abc import Sequence
@@ -7,7 +11,8 @@ from pathlib import Path
 from derive.errors import BadClaimsFile
 from derive.files import write_whole
 from derive.paper.lines import with_lines
-from derive.paper.userfile import Reading, source
+from derive.paper.printed import Reading
+from derive.paper.userfile import source
 
 _REMEDY = "add the lines `understood = ...` by hand"
 

@@ -1,4 +1,8 @@
-"""Provide the formulas of a body, each of them proven before use."""
+"""Provide the formulas of a body, each of them proven before use.
+
+In:   a geometry.
+Out:  Body: its parameters, its formula sheet, and its formulas.
+"""
 
 from functools import cache
 
@@ -20,6 +24,11 @@ class Body:
         self.sheet: FormulaSheet = derive_sheet(geometry)
         self._routes = NumericalRoutes(self.sheet)
         self._known: dict[str, Expr] = {}
+
+    @property
+    def parameters(self) -> dict[str, Expr]:
+        """The parameters of the geometry by name."""
+        return {each.name: each.symbol for each in self.sheet.geometry.parameters}
 
     def formula(self, name: str) -> Expr:
         """Return a formula that is proven symbolically or else to 30 digits; raises NotProven."""

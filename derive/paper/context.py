@@ -63,7 +63,7 @@ class Context:
     @cached_property
     def parameters(self) -> dict[str, Expr]:
         """The parameters of the body by name."""
-        return {q.name: q.symbol for q in self.sheet.geometry.parameters} if self.sheet else {}
+        return self.body.parameters if self.body else {}
 
     @cached_property
     def arities(self) -> dict[str, int]:

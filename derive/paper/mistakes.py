@@ -1,8 +1,18 @@
-"""Collect all errors of a claims file and report them together."""
+"""Collect the errors of a claims file, and describe them.
 
-from dataclasses import dataclass
+In:   errors in a file, each with its place.
+Out:  one error that reports all of them; or the reason why one claim cannot be judged.
+"""
 
-from derive.errors import UserError
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from derive.errors import BadClaimsFile, BadFormula, UserError
+from derive.paper.entries import Place
+
+_SHOWN = 30
+"""The largest number of characters of a formula that a reason shows."""
 
 
 @dataclass
@@ -24,3 +34,35 @@ def demand_none(errors: list[UserError]) -> None:
         raise errors[0]
     if messages:
         raise Mistakes(messages)
+
+
+@dataclass
+class Collected:
+    """The errors of a file that have been found so far."""
+
+    errors: list[UserError] = field(default_factory=list)
+
+    @contextmanager
+    def noted(self) -> Iterator[None]:
+        """Leave the block at its first error and record this error."""
+        try:
+            yield
+        except UserError as error:
+            self.errors.append(error)
+
+
+def reason(error: UserError, place: Place | None = None) -> str:
+    """Describe an error in one line, without the place of the claim in which it is."""
+    if isinstance(error, BadFormula):
+        part = error.where.removeprefix(str(place)).lstrip(": ") if place else ""
+        rest = " ".join(error.given[error.column :].split())
+        at = f"at {_cut(rest)}" if rest else "at the end"
+        return f"{part}{': ' * bool(part)}{error.why}, {at}: {error.remedy}"
+    if isinstance(error, BadClaimsFile):
+        why = error.why.removeprefix(place.what).lstrip(": ") if place else error.why
+        return f"{why}: {error.remedy}"
+    return error.message
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."

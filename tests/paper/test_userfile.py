@@ -11,6 +11,7 @@ from sympy import Integral, Symbol, elliptic_k, pi, sqrt, symbols
 
 from derive.cli import main
 from derive.errors import BadClaimsFile, BadFormula, NotAccepted, UserError
+from derive.paper.claim_table import OF_A_CLAIM
 from derive.paper.formula import Names, equation, formula
 from derive.paper.latex import Latex
 from derive.paper.userfile import open_readings
@@ -180,7 +181,7 @@ BAD_CLAIMS = {
     "require": (CIRCLE + "require = 'q > 0'\n", "require: the claims file does not define q"),
     "limit": (CIRCLE + "as = 'r - 0'\n", "as: this is not a limit"),
     "part": (CIRCLE.replace("printed", "latex") + "part = 9\n", "part = 9"),
-    "given": (CIRCLE + "given = ['nothing']\n", "given names 'nothing'"),
+    "given": (CIRCLE + "given = ['nothing']\n", "given: 'nothing' is not a claim"),
 }
 
 
@@ -713,6 +714,11 @@ def test_what_can_be_judged_is_judged(tmp_path: Path) -> None:
     assert "the symbol T has no meaning" in told["waits"]["reason"]
     assert told["names"]["printed"] == "A = Z + W*Z"
     assert "the symbol T has no meaning" in run(written(tmp_path, text)).stdout
+
+
+def test_the_page_lists_every_key_of_a_claim() -> None:
+    listed = set(re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", PAGE, re.MULTILINE))))
+    assert listed >= OF_A_CLAIM
 
 
 def test_every_mistake_is_a_user_s() -> None:
