@@ -236,7 +236,7 @@ class Latex:
             return _Piece(text, piece.column)
         if text.startswith(r"\text{"):
             why = f"the words {piece.text[6:-1]!r} are not understood here"
-            remedy = "remove them, and write numbers in the units of the file"
+            remedy = "write the claim as text, with numbers in the units of the file"
             raise self.refusal(piece.column, why, remedy)
         why = f"{text} is neither a declared symbol nor a supported command"
         remedy = "declare it under [latex], or write the claim as text"

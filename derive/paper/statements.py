@@ -32,7 +32,7 @@ _DROPPED = (
     r"|\\(?:left|right)\s*\.|\\(?:left|right)(?![A-Za-z])|\\[,;:! >]|~"
 )
 _FONTS = "text|mbox|hbox|textnormal|mathrm|textrm|textit|mathit|operatorname|mathbf|textsf|mathsf"
-_WORDS = re.compile(rf"\\({_FONTS})\*?\s*(?:\{{([^{{}}]*)\}}|([A-Za-z])(?![A-Za-z]))")
+_WORDS = re.compile(rf"\\({_FONTS})\*?\s*(?:\{{([^{{}}]*)\}}|(?<=\s)([A-Za-z]))")
 _ROMAN = re.compile(r"\{\s*\\(?:(?:rm|it|bf|sf)(?![A-Za-z])\s*([^{}\\]*)|mathrm\s+([A-Za-z])\s*)\}")
 _MIXED = re.compile(r"\\(?:text|mbox|hbox|textrm|textnormal)\s*(?=\{)")
 _CASES = re.compile(
@@ -77,7 +77,13 @@ _ALIKE = {
     r"\triangleq": "=",
     r"\neq": r"\ne",
     r"\not=": r"\ne",
+    r"\therefore": r"\andword",
+    **dict.fromkeys((r"\Rightarrow", r"\Longrightarrow"), r"\implies"),
+    **dict.fromkeys((r"\Leftrightarrow", r"\Longleftrightarrow"), r"\iff"),
 }
+_IMPLIES, _EQUIVALENT = r"\implies", r"\iff"
+_JOINTS = (r"\orword", _IMPLIES, _EQUIVALENT)
+"""Tokens between two entries of a list that are kept with the second one."""
 _STARS = frozenset((r"\ast", r"\star"))
 _PRINCIPAL = frozenset(("pv", "p.v", "p. v", "cpv"))
 _ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong"))
@@ -109,6 +115,8 @@ _AS_COMMANDS = {
     **{"min": r"\min", "sgn": r"\sgn", "sign": r"\sgn", "d": r"\dd", "e": r"\euler"},
 }
 """Functions and constants whose name is printed upright."""
+_UNITS = frozenset("gmsJNW")
+"""Units of one letter.  K may be an elliptic integral."""
 _OPERATOR = r"\derivativeof"
 _REMAINDER, _SMALLER = r"\bigo", r"\smallo"
 _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac")
@@ -155,8 +163,13 @@ def statements(where: str, latex: str) -> list[Statement]:
         part = _divided(row)
         if parts and parts[-1].takes(part):
             more = [*part.tokens, *([","] if part.tokens and part.condition else [])]
-            parts[-1].require([*more, *part.condition], part.is_other)
+            parts[-1].require([*more, *part.condition], part.joint)
         elif part.tokens or part.condition:
+            if part.joint == _IMPLIES and parts and not parts[-1].is_equation():
+                part.why = "it follows from a condition: write the condition as require"
+            if part.joint == _EQUIVALENT and parts:
+                why = "equivalent statements may be false together: write what holds as text"
+                part.why = parts[-1].why = why
             parts.append(part)
     parts = _with_fragments(parts)
     collected = [each for part in parts for each in _chain(part)]
@@ -173,6 +186,7 @@ def _plain(latex: str) -> str:
     text = re.sub(r"\\l?eqno(?![A-Za-z]).*$", " ", latex, flags=re.DOTALL)
     text = re.sub(r"\s+", " ", text)
     text = re.sub(r"\\(left|right)\s*([{}])", r"\\\1\\\2", text)
+    text = re.sub(r"(?:(?:~|\\[;:, >])\s*){2,}", r" \\quad ", text)
     text = _DECIMAL_COMMA.sub(r"\1.\2", text)
     if system := _SYSTEM.fullmatch(text):
         text = system[1] + system[3] + system[4]
@@ -243,10 +257,12 @@ def _word(match: re.Match[str]) -> str:
         return f"{_AS_COMMANDS[inner]} "
     if inner.lower().strip(" .") in _PRINCIPAL:
         return r"\pvword "
+    if inner in _UNITS and re.search(r"\d\}?(?:\s|~|\\[,;:! ])*$", before):
+        return rf" \text{{{inner}}} "
     if len(inner) <= 1 or not any(map(str.isalpha, inner)):
         return f" {inner} "
-    word = " ".join(re.sub(r"\\(?:[,;:! ]|$)|~", " ", inner).split()).strip(" ,.;:")
-    lower = word.lower()
+    word = " ".join(re.sub(r"\\(?:[,;:! ]|$)|~", " ", inner).split()).strip(" ,.;")
+    lower = word.lower().strip(" :")
     for known, command in ((_AND, "and"), (_OR, "or"), (_WHERE, "where"), (_ELSE, "else")):
         if lower in known:
             return rf" \{command}word "
@@ -405,14 +421,14 @@ def _listed(tokens: list[str], depths: list[int]) -> list[list[str]]:
     """Divide a list; a row without a relation, or with a sign first, continues the one before."""
     parts: list[list[str]] = [[]]
     for at, (token, depth) in enumerate(zip(tokens, depths, strict=True)):
-        cut = token in (",", ";", r"\andword", r"\orword", "\n")
+        cut = token in (",", ";", r"\andword", "\n", *_JOINTS)
         if token == r"\gap":
             if depth == 0 and _is_whole(parts[-1]) and _begins(tokens, depths, at):
                 parts.append([])
             elif depth == 0:
                 parts[-1].append(token)
         elif depth == 0 and cut:
-            parts.append([token] if token in ("\n", r"\orword") else [])
+            parts.append([token] if token in ("\n", *_JOINTS) else [])
         elif token != "\n":
             parts[-1].append(token)
     rows = list[list[str]]()
@@ -478,29 +494,29 @@ def _begins(tokens: list[str], depths: list[int], at: int) -> bool:
 class _Part:
     """One entry of a list: its tokens and its condition.
 
-    why       the reason if it is not read
-    is_other  whether it follows the word "or"
+    why    the reason if it is not read
+    joint  the token before it: a comma, "or", or an arrow
     """
 
     tokens: list[str]
     condition: list[str]
     why: str = ""
-    is_other: bool = False
+    joint: str = ","
 
     def takes(self, other: "_Part") -> bool:
         """Whether an entry that follows is a condition of this one."""
-        if not self.condition and not self._is_equation():
+        if other.joint in (_IMPLIES, _EQUIVALENT) or not (self.condition or self.is_equation()):
             return False
         relations = {token for _, token in _outside(other.tokens) if token in _RELATIONS}
         return relations <= _CONDITIONS if relations else not other.tokens
 
-    def _is_equation(self) -> bool:
+    def is_equation(self) -> bool:
+        """Whether it has a relation that does not only state a condition."""
         return any(token in _RELATIONS - _CONDITIONS for _, token in _outside(self.tokens))
 
-    def require(self, more: list[str], is_other: bool = False) -> None:
+    def require(self, more: list[str], joint: str = ",") -> None:
         """Add a condition."""
-        joint = [r"\orword" if is_other else ","] if self.condition and more else []
-        self.condition = [*self.condition, *joint, *more]
+        self.condition += [*([joint] if self.condition and more else []), *more]
 
 
 def _with_fragments(parts: list[_Part]) -> list[_Part]:
@@ -528,22 +544,23 @@ def _unclear(tokens: list[str]) -> str:
 
 def _divided(part: list[str]) -> _Part:
     """Divide an entry into its formula and the condition after the first word."""
-    is_other, part = part[0] == r"\orword", _trimmed(part[part[0] == r"\orword" :])
+    joint = part[0] if part[0] in _JOINTS else ","
+    part = _trimmed(part[part[0] == joint :])
     under = [token for token in part if token.startswith(r"\under{")]
     part = [token for token in part if not token.startswith(r"\under{")]
-    while part and _is_text(part[0]):
+    while part and _is_text(part[0]) and _is_remark(part[0], part[1:2]):
         part = _trimmed(part[1:])
     at = next((n for n, t in _outside(part) if _is_text(t) or t.endswith("word")), len(part))
     body, rest = part[:at], part[at:]
     if rest and _is_text(rest[0]):
-        if _may_be_unit(body, rest[0][len(r"\text{") : -1]):
-            return _Part([token for token in part if token != r"\gap"], [], is_other=is_other)
+        if not body or _may_be_unit(body, rest[0][len(r"\text{") : -1]):
+            return _Part([token for token in part if token != r"\gap"], [], joint=joint)
         after = next((n for n, t in enumerate(rest) if not _is_text(t) and t != r"\gap"), len(rest))
         rest = rest[after:] if rest[after:] == [] or rest[after].endswith("word") else rest
     body = [token for token in _trimmed(body) if token != r"\gap"]
-    made = _Part(body, [], is_other=is_other)
+    made = _Part(body, [], joint=joint)
     if body[-1:] == [")"] and _has(body[(start := _opening(body)) + 1 : -1]):
-        made = _Part(body[:start], body[start + 1 : -1], is_other=is_other)
+        made = _Part(body[:start], body[start + 1 : -1], joint=joint)
     rest = rest[1:] if rest[:1] == [r"\whereword"] else rest
     made.require(["," if t == r"\whereword" else t for t in rest if t != r"\gap"])
     for each in under:
@@ -555,9 +572,15 @@ def _is_text(token: str) -> bool:
     return token.startswith(r"\text{")
 
 
+def _is_remark(token: str, after: list[str]) -> bool:
+    """Whether words before a formula stand apart from it; a single word may be an operator."""
+    words = token[len(r"\text{") : -1]
+    return words.endswith(":") or " " in words or after in ([], [r"\gap"])
+
+
 def _may_be_unit(body: list[str], words: str) -> bool:
     """Whether the words after a formula may be a unit or another part of it."""
-    if not body or words.startswith("(") or words.split()[0].lower() in _STARTS:
+    if words.startswith("(") or words.split()[0].lower() in _STARTS:
         return False
     last = next((token for token in reversed(body) if token != r"\gap"), "")
     if last[:1].isdigit():
@@ -662,7 +685,7 @@ def _cut(tokens: list[str]) -> list[list[str]]:
 
 def _of_example(side: list[str], chain: list[str]) -> str:
     """Return the reason why numbers in a chain with a unit cannot be compared."""
-    words = next((token[len(r"\text{") : -1] for token in chain if _is_text(token)), "")
+    words = chain[-1][len(r"\text{") : -1] if _is_text(chain[-1]) else ""
     letters = any(_is_text(t) or t in GREEK or (len(t) == 1 and t.isalpha()) for t in side)
     if not words or letters:
         return ""

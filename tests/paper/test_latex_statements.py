@@ -82,6 +82,8 @@ def understood(latex: str) -> list[str]:
         ),
         (r"y = b \sin 2\varphi_0 - \cos 2\pi x", ["y = b*sin(2*varphi_0) - cos(2*pi*x)"]),
         (r"y = \lambda_1 \int_0^1 \lambda\,d\lambda", ["y = lam_1*integral(lam, lam, 0, 1)"]),
+        (r"a = b \quad\Rightarrow\quad c = d", ["a = b", "c = d"]),
+        (r"P = 2\mathrm{K}(k) \int_0^a p\,\mathrm dx", ["P = 2*K_at_k*integral(p, x, 0, a)"]),
         (r"y = \sin\phi\cos\phi", ["y = sin(phi)*cos(phi)"]),
     ],
 )
@@ -100,6 +102,9 @@ def test_what_is_read(latex: str, texts: list[str]) -> None:
             r"a = \sqrt{4\times10^5} = 0.105\ \mathrm{mm}",
             "numbers with the words 'mm' are an example",
         ),
+        (r"\operatorname{div} u = 0", "the words 'div' are not understood"),
+        (r"u = \mathrm{Re}\, z", "the words 'Re' are not understood"),
+        (r"a = 5\,\mathrm{N}/\mathrm{m}", "the words 'N' are not understood"),
         (r"y = 1,5 a", "5 a stands without a relation"),
         (r"x_1, x_2 = e", "x_1 stands without a relation"),
         (r"a = b, c, d = e", "c stands without a relation"),
@@ -141,6 +146,7 @@ def test_what_is_not_read_and_why(latex: str, why: str, tmp_path: Path) -> None:
         (r"e = \frac{a}{b} + O(a^2)", {"as": "a -> 0", "order": 2}),
         (r"e = b + \mathcal{O}(a^{3/2}), \quad a \to 0", {"as": "a -> 0", "order": 1.5}),
         (r"a = b \quad |x| < a", {"require": "abs(x) < a"}),
+        (r"a = b ~~~ |x| < a", {"require": "abs(x) < a"}),
         (r"a = b \quad (x > 0)", {"require": "x > 0"}),
         (r"a = b \text{ for } x > 0 \text{ and } y < 0", {"require": "x > 0 and y < 0"}),
         (r"a = b \text{ for } x > 0 \text{ or } x < -1", {"require": "x > 0 or x < -1"}),
@@ -148,7 +154,8 @@ def test_what_is_not_read_and_why(latex: str, why: str, tmp_path: Path) -> None:
         (r"a = b, \quad \nu \neq 0", {"require": "(nu < 0 or nu > 0)"}),
         (r"a = b \text{ for $x_{1} > 0$}", {"require": "x_1 > 0"}),
         (r"a = b \qquad\text{for moderate tension}", {"says": "for moderate tension"}),
-        (r"\text{Hertz:}\quad a = b", {"says": "Hertz"}),
+        (r"\text{Hertz:}\quad a = b", {"says": "Hertz:"}),
+        (r"\text{which gives } a = b", {"says": "which gives"}),
     ],
 )
 def test_conditions_limits_and_words_are_kept(
@@ -175,6 +182,15 @@ def test_what_is_read_but_not_judged(latex: str, why: str, tmp_path: Path) -> No
     (one,) = claims(tmp_path, rf"\[ {latex} \]")
     assert "understood" in one
     assert why in str(one["unchecked"])
+
+
+def test_what_follows_from_a_condition_is_not_read(tmp_path: Path) -> None:
+    first, second = claims(tmp_path, r"\[ x > 0 \Rightarrow a = b \]")
+    assert first["understood"] == "x > 0"
+    assert "it follows from a condition" in str(second["unchecked"])
+    both = claims(tmp_path, r"\[ a = b \iff c = d \]")
+    assert all("may be false together" in str(each["unchecked"]) for each in both)
+    assert not any("understood" in each for each in both)
 
 
 def test_an_unread_statement_keeps_its_limit_and_condition(tmp_path: Path) -> None:
