@@ -93,7 +93,11 @@ def _part(claim: Entries) -> str:
     if type(part) is not int or not 1 <= part <= len(found):
         why = f"part = {part!r} is not the number of a statement in this display"
         raise claim.place.bad(why, f"write a number from 1 to {len(found)}")
-    return found[part - 1].latex
+    printed = found[part - 1]
+    if printed.condition and not claim.data.keys() & {"require", "as"}:
+        why = f"the display also says {printed.condition}, but neither require nor as is given"
+        raise claim.place.bad(why, "write the condition as require, or the limit as as")
+    return printed.latex
 
 
 def _shown(entry: object) -> str:

@@ -343,3 +343,20 @@ def test_a_line_of_latex_that_looks_like_a_table_does_not_hinder_the_acceptance(
     assert heads(text, 1) == [1]
     new = with_lines(text, 1, {1: "a = b"})
     assert new == f'{text.replace("false", "true")}understood = "a = b"\n'
+
+
+@pytest.mark.parametrize(
+    ("entry", "verdict"), [("", "unchecked"), ("require = 'a > 1'\n", "holds")]
+)
+def test_the_condition_of_a_display_is_not_forgotten(
+    entry: str, verdict: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "claims.toml"
+    path.write_text(
+        "[variables]\na = 'x'\n[symbols]\nb = 'Abs(a - 1) + 1'\n[[claims]]\nlabel = 'x'\n"
+        f"latex = 'b = a \\text{{ for }} a > 1'\npart = 1\nunderstood = 'b = a'\n{entry}"
+    )
+    finding = check(read_claims(path).claims[0])
+    assert finding.verdict in (verdict, "numerical")
+    if not entry:
+        assert "also says a > 1" in read_claims(path).claims[0].unchecked
