@@ -5,7 +5,6 @@ Out:  typed values for the data class Claim: its limit, conditions, ranges, poin
 """
 
 from collections.abc import Mapping
-from functools import partial
 
 from sympy import Expr, Limit, Rational, Symbol, false, true
 from sympy.logic.boolalg import Boolean
@@ -13,7 +12,7 @@ from sympy.logic.boolalg import Boolean
 from derive.errors import BadFormula
 from derive.paper.claim import Range, Rounded, Verdict
 from derive.paper.context import Context, Meant, Put, calls_in, integrals
-from derive.paper.entries import Entries, TimeLimit
+from derive.paper.entries import Entries
 from derive.paper.formula import IMPROPER, Names, approach, condition, equation, rounded_in
 from derive.paper.meanings import names_of
 from derive.paper.variables import is_bound
@@ -31,15 +30,12 @@ def expected(claim: Entries) -> Verdict | None:
         raise claim.place.bad(why, f"write one of {', '.join(Verdict)}") from None
 
 
-def toward(
-    claim: Entries, context: Context, meant: Meant, limit: TimeLimit
-) -> tuple[Expr, Expr] | None:
+def toward(claim: Entries, context: Context, meant: Meant) -> tuple[Expr, Expr] | None:
     """Return the expression that tends to an end, and this end, in our variables."""
     if "as" not in claim.data:
         return None
-    text, place = claim.text("as"), claim.place.inside("as")
-    names = names_of(place, context, [s.name for s in meant.ours])
-    first, end = limit.read(place, lambda: approach(text, names))
+    names = names_of(claim.place.inside("as"), context, [s.name for s in meant.ours])
+    first, end = approach(claim.text("as"), names)
     return context.put_in(first.xreplace(meant.ours)), context.put_in(end.xreplace(meant.ours))
 
 
@@ -58,7 +54,6 @@ def conditions(
     context: Context,
     meant: Meant,
     held: set[Symbol],
-    limit: TimeLimit,
 ) -> tuple[Boolean, ...]:
     """Return the conditions of the formulas that are called, and those of the claim."""
     found, bound = set[Boolean](), set[Symbol]()
@@ -68,11 +63,9 @@ def conditions(
         bound |= {over.limits[-1][0] for over in integrals(written)}
         bound |= {each.args[1] for each in written.atoms(Limit)}
     listed = claim.data.get("require", [])
-    place = claim.place.inside("require")
-    names = names_of(place, context, [s.name for s in meant.ours])
+    names = names_of(claim.place.inside("require"), context, [s.name for s in meant.ours])
     for text in [listed] if isinstance(listed, str) else listed:
-        needed = limit.read(place, partial(condition, str(text), names))
-        found.add(needed.xreplace(meant.ours))
+        found.add(condition(str(text), names).xreplace(meant.ours))
     inside = bound - held
     kept = [each for each in found if each != true and not each.free_symbols & inside]
     if false in found:

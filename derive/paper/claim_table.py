@@ -89,7 +89,9 @@ class ClaimReader:
         }
         told = str(given.get("understood", given.get("printed", "")))
         try:
-            return self._claim(number, entries, told, common)
+            return self.limit.read(
+                entries.place, lambda: self._claim(number, entries, told, common)
+            )
         except UserError as error:
             self.mistakes.append(error)
             return Claim(unchecked=reason(error, entries.place), source=told, **common)
@@ -114,9 +116,9 @@ class ClaimReader:
         if "unchecked" in given:
             return Claim(unchecked=entries.text("unchecked"), source=told, **common)
         try:
-            text = self.limit.read(place, lambda: printed(entries, names, self.meanings.spellings))
+            text = printed(entries, names, self.meanings.spellings)
             rough = may_be_rough(entries, text)
-            left, relation, right = self.limit.read(place, lambda: equation(text, names, rough))
+            left, relation, right = equation(text, names, rough)
         except NotAccepted as error:
             self.readings.append(waiting(number, entries, error, names))
             why = not_accepted(entries, error)
@@ -162,11 +164,9 @@ class ClaimReader:
         relation = stated.relation
         if relation == Relation.LIKE and not given.keys() & {"as", "leading"}:
             relation = Relation.EQUAL
-        sides, named = (
-            (stated.left, stated.right),
-            claim_options.names_in(stated.left, stated.right),
-        )
-        conditions = claim_options.conditions(entries, sides, context, meant, held, self.limit)
+        sides = stated.left, stated.right
+        named = claim_options.names_in(*sides)
+        conditions = claim_options.conditions(entries, sides, context, meant, held)
         held = held.union(*(each.free_symbols for each in conditions))
         reached = self._reached(entries, put)
         if reached is not None:
@@ -185,7 +185,7 @@ class ClaimReader:
             defined=_is_defined(stated),
             through=compared if stated.through else None,
             cases=claim_options.cases(entries, context),
-            toward=claim_options.toward(entries, context, meant, self.limit),
+            toward=claim_options.toward(entries, context, meant),
             order=claim_options.order(entries),
             rounded=rounded,
             conventions=self._conventions(entries, put),
@@ -206,7 +206,8 @@ class ClaimReader:
             f", given {claims}" if claims else ""
         )
 
-    def _through(self, entries: Entries, left: Expr, names: Names) -> tuple[Expr, Expr] | None:
+    @staticmethod
+    def _through(entries: Entries, left: Expr, names: Names) -> tuple[Expr, Expr] | None:
         """Return both sides of the equation by which a definition is judged."""
         if "through" not in entries.data:
             return None
@@ -214,8 +215,7 @@ class ClaimReader:
         if not isinstance(left, Symbol):
             why = "the left side is not a symbol, although through is given"
             raise place.bad(why, "write the claim in the form symbol = ...")
-        text = entries.text("through")
-        first, relation, second = self.limit.read(place, lambda: equation(text, names))
+        first, relation, second = equation(entries.text("through"), names)
         if relation != Relation.EQUAL or not (first.has(left) or second.has(left)):
             why = f"through is not an equation that contains {left}"
             raise place.bad(why, "write one that is true if the claim is true")

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
-from derive.errors import BadClaimsFile, NotProven
+from derive.errors import BadClaimsFile, NotProven, UserError
 from derive.limit import LimitReached, within
 
 Read = TypeVar("Read")
@@ -101,3 +101,8 @@ class TimeLimit:
         except NotProven as error:
             why = f"it uses a formula that is not proven: {error}"
             raise place.bad(why, "use another formula, or a simpler body") from error
+        except UserError:
+            raise
+        except Exception as error:  # an error in SymPy must not stop the other claims
+            why = f"it could not be read ({type(error).__name__}: {error})"
+            raise place.bad(why, "write it in another form") from error

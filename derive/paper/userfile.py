@@ -4,7 +4,7 @@ In:   the path of a file, or of a folder with several.
 Out:  the Paper with all claims, and the readings that wait for the user.
 
     title = "..."
-    seconds = 30                      # time limit of a verdict, and then of a correction
+    seconds = 30                      # time limit of reading, of a verdict and of a correction
     body = "hertz"                    # its formulas may be called, such as load(a, c);
     # body = { g = "x**2/(2*R)", units = { R = "m" } }    or another body, or a geometry file
 
@@ -80,7 +80,7 @@ _LARGEST = 200_000
 _MOST = 500
 """The largest number of claims in a file."""
 _SECONDS = 30.0
-"""The default time limit of a verdict, and then of the search for a correction, in seconds."""
+"""The default time limit for reading a claim, its verdict and its correction, in seconds."""
 _MOST_SECONDS = 86_400
 _KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims", "signs"})
 

@@ -185,6 +185,25 @@ BAD_CLAIMS = {
 }
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("printed", "reason"),
+    [
+        ("limit(integral(exp(-s**2*r)/(s + 1)**r, s, r, k), r, oo) = k", "within 2 s"),
+        ("limit(Piecewise((r, r > x), (x**r, True)), r, x) = k", "could not be read"),
+    ],
+)
+def test_what_sympy_does_not_know_leaves_the_others_judged(
+    tmp_path: Path, printed: str, reason: str
+) -> None:
+    """The first never ends, and the second raises an error inside SymPy."""
+    claim = f'[[claims]]\nlabel = "it"\nprinted = "{printed}"\n'
+    done = run(written(tmp_path, "seconds = 2\n" + CIRCLE + claim), "--format", "json")
+    other, told = json.loads(done.stdout)
+    assert (other["verdict"], told["verdict"]) == ("holds", "unchecked")
+    assert reason in told["reason"]
+
+
 @pytest.mark.parametrize("case", BAD_CLAIMS)
 def test_what_concerns_one_claim_leaves_the_others_judged(case: str, tmp_path: Path) -> None:
     text, part = BAD_CLAIMS[case]
