@@ -131,17 +131,17 @@ class ClaimReader:
                 label, latex, why = common["label"], common["latex"], reason(error, place)
                 self.readings.append(Reading(number, label, latex, understood="", why=why))
             raise
+        known = {Symbol(name) for name in symbols}
+        left, right = (with_real_bound(side, known - meant.ours.keys()) for side in (left, right))
         if "given" in given:
             meant = self._follows(entries, symbols, meant)
-        open_ = {Symbol(name) for name in symbols} - meant.ours.keys()
-        left, right = (with_real_bound(side, open_) for side in (left, right))
         self._read[common["label"]] = left, right
         through = self._through(entries, left, names)
         sides = (left, right)
         if through is not None:
             sides = through[0].xreplace({left: right}), through[1].xreplace({left: right})
-        held = free(*sides)
-        if lacking := [name for name in symbols if Symbol(name) in held & open_]:
+        open_ = free(*sides) & known - meant.ours.keys()
+        if lacking := [name for name in symbols if Symbol(name) in open_]:
             return Claim(unchecked=_lacking(lacking, meant), source=told, **common)
         stated = _Stated(entries, context, meant, names, text, left, relation, right, through)
         return self._judged(stated, common)

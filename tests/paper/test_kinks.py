@@ -15,7 +15,7 @@ from time import monotonic
 
 import pytest
 
-from derive.errors import BadClaimsFile, BadFormula
+from derive.errors import BadClaimsFile
 from derive.paper.claim import Verdict
 from derive.paper.report import corrected, evidence
 from derive.paper.userfile import read_claims
@@ -346,10 +346,10 @@ def test_a_correction_that_is_proven_is_told(tmp_path: Path) -> None:
 def test_a_verdict_that_takes_too_long_is_none(tmp_path: Path) -> None:
     slow = "integral(log(abs(sin(40*s) - w)), s, 0, a) = integral(log(abs(cos(40*s) - b)), s, 0, w)"
     began = monotonic()
-    finding = judged(tmp_path, slow, "seconds = 0.05\n" + HEAD)
+    finding = judged(tmp_path, slow, "seconds = 1\n" + HEAD)
     assert finding.verdict == Verdict.UNCHECKED
-    assert "not finished within 0.05 s" in evidence(finding)
-    assert monotonic() - began < 5
+    assert "not finished within 1 s" in evidence(finding)
+    assert monotonic() - began < 6
 
 
 def test_a_search_that_takes_too_long_leaves_the_verdict(tmp_path: Path) -> None:
@@ -371,9 +371,9 @@ def test_what_is_no_limit_is_refused(tmp_path: Path, given: str) -> None:
     "printed",
     ["a = " + "(" * 300 + "a" + ")" * 300, "a = " + "sin(" * 300 + "a" + ")" * 300],
 )
-def test_what_is_nested_too_deep_is_one_error(tmp_path: Path, printed: str) -> None:
-    with pytest.raises(BadFormula, match="nested deeper"):
-        judged(tmp_path, printed)
+def test_what_is_nested_too_deep_is_unchecked(tmp_path: Path, printed: str) -> None:
+    finding = judged(tmp_path, printed)
+    assert (finding.verdict, "nested deeper" in evidence(finding)) == (Verdict.UNCHECKED, True)
 
 
 def test_what_is_nested_deep_is_judged(tmp_path: Path) -> None:
