@@ -72,12 +72,13 @@ def points(claim: Claim, count: int = POINTS, seed: str = "") -> Iterator[Point]
 def is_allowed(claim: Claim, point: Point) -> bool:
     """Whether a point meets the conditions of a claim."""
     try:
-        return all(_is_met(each, point) for each in claim.conditions)
+        return all(is_met(each, point) for each in claim.conditions)
     except (ArithmeticError, TypeError, ValueError):  # undefined, or not real
         return False
 
 
-def _is_met(condition: Boolean, point: Point) -> bool:
+def is_met(condition: Boolean, point: Point) -> bool:
+    """Whether a condition is true at a point."""
     met, held = _for_a_point(condition)
     return bool(met(*(point[symbol] for symbol in held)))
 
@@ -146,7 +147,7 @@ def variables(claim: Claim) -> list[Symbol]:
     sides = claim.sides(claim.left, claim.right)
     held = set().union(*(side.free_symbols for side in sides))
     symbols: set[Symbol] = set(claim.ranges)
-    for condition in claim.conditions:
+    for condition in (*claim.conditions, *(claim.toward or ())):
         symbols |= condition.free_symbols
     for symbol in held:
         symbols |= claim.meaning.get(symbol, symbol).free_symbols

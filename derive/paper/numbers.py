@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import mpmath
 from mpmath import mpf
-from sympy import Add, Expr, Integral, Symbol
+from sympy import Add, Expr, Integral, Piecewise, Symbol
 
 from derive.paper.claim import Meaning, Point
-from derive.paper.draw import in_order
+from derive.paper.draw import in_order, is_met
 from derive.paper.quadrature import Value
 from derive.paper.quick import Unknown, approximately
 from derive.paper.values import Care, Undecided, Undefined, evaluated, integrand
@@ -255,7 +255,10 @@ def _parts(side: Expr, numbers: Point) -> Iterator[mpf]:
     """Yield the sizes of an expression and its parts; an integrand is evaluated at one point."""
     yield abs(evaluated(side, numbers))
     if not isinstance(side, Integral):
-        for part in side.args:
+        parts = side.args
+        if isinstance(side, Piecewise):  # only the branch that is taken here
+            parts = tuple(value for value, where in side.args if is_met(where, numbers))[:1]
+        for part in parts:
             yield from _parts(part, numbers)
         return
     variable, low, high = side.limits[-1]
