@@ -99,7 +99,7 @@ def demand_no_pole(along: Along, parts: Sequence[Cut], variable: str) -> None:
                 where = mpmath.nstr(cut.position, 6)
                 raise NotComputed(
                     f"the integral diverges: its integrand has a pole at {variable} = {where} "
-                    "(write pv if a principal value is meant)"
+                    "(write pv, or \\fint in LaTeX, if a principal value is meant)"
                 )
 
 
