@@ -1,16 +1,18 @@
-"""Describe how the two sides of a false equation differ if no correction was found.
+"""Describe how the two sides of a false equation differ, and where it is true nevertheless.
 
-If the ratio of the two sides is a constant times powers of the variables, it is reported.
+If the ratio of the two sides is a constant times powers of the variables, it is reported.  If the
+equation is true at some points and false at others, a comparison of two names with the same unit,
+or the sign of one name, may tell these points apart.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice, product
+from itertools import islice, permutations, product
 
 import mpmath
 from mpmath import mpf
-from sympy import Symbol
+from sympy import Expr, Rational, Symbol, pi, root
 
 from derive.paper.claim import Claim, Point
 from derive.paper.draw import further, has_integral, is_allowed, points, variables
@@ -27,6 +29,11 @@ _STEPS = (mpf(2), mpf("1.125"), mpf("0.875"))
 """Factors by which a variable is changed; the first one that the conditions allow is used."""
 _NAMED = 18
 """Digits to which a constant must agree with its exact form."""
+_SIMPLE = 20
+"""The largest integer in a constant that may be a misprint."""
+_FALSE, _EACH = 6, 3
+"""A claim that is false at this many points at first is false everywhere; the number of points at
+which a claim must be true, and false, to be called true in part."""
 _ROOTS = {2: "sqrt", 3: "cbrt"}
 _STEEPEST, _LARGEST = 6, 1000
 """The largest power of a variable, and the largest integer in the exact form of a constant."""
@@ -44,6 +51,15 @@ class Quotient:
     powers: Mapping[Symbol, Fraction]
     named: str
     count: int
+
+    @property
+    def simple_factor(self) -> Expr | None:
+        """The ratio as an exact number, or None if it is no constant or not a simple one."""
+        form = None if self.powers else _form(self.constant, _SIMPLE)
+        if form is None:
+            return None
+        size = Rational(*form.near.as_integer_ratio()) * pi**form.power
+        return root(size, form.root) * (-1 if self.constant < 0 else 1)
 
     @property
     def as_text(self) -> str:
@@ -152,16 +168,94 @@ def named(constant: Value) -> str:
     >>> named(mpmath.mpf(4) / mpmath.pi)
     '4/pi'
     """
-    for root, power in product((1, 2, 3), (0, 1, -1, 2, -2)):
-        rest = abs(constant) ** root / mpmath.pi**power
-        near = Fraction(int(mpmath.nint(rest * 2**80)), 2**80).limit_denominator(_LARGEST)
-        gap = abs(rest - mpf(near.numerator) / near.denominator)
-        if near == 0 or near.numerator > _LARGEST or gap > mpf(10) ** -_NAMED:
-            continue
-        over, under = str(near.numerator), str(near.denominator)
-        pis = "pi" if abs(power) == 1 else "pi**2"
-        over = (f"{over}*{pis}" if over != "1" else pis) if power > 0 else over
-        under = (f"{under}*{pis}" if under != "1" else pis) if power < 0 else under
-        inner = over if under == "1" else f"{over}/({under})" if "*" in under else f"{over}/{under}"
-        return ("-" if constant < 0 else "") + (inner if root == 1 else f"{_ROOTS[root]}({inner})")
+    form = _form(constant, _LARGEST)
+    if form is None:
+        return ""
+    over, under = map(str, form.near.as_integer_ratio())
+    power = form.power
+    pis = "pi" if abs(power) == 1 else "pi**2"
+    over = (f"{over}*{pis}" if over != "1" else pis) if power > 0 else over
+    under = (f"{under}*{pis}" if under != "1" else pis) if power < 0 else under
+    inner = over if under == "1" else f"{over}/({under})" if "*" in under else f"{over}/{under}"
+    outer = inner if form.root == 1 else f"{_ROOTS[form.root]}({inner})"
+    return ("-" if constant < 0 else "") + outer
+
+
+@dataclass(frozen=True)
+class _Form:
+    """The modulus of a constant as a root of a rational number times a power of pi."""
+
+    root: int
+    near: Fraction
+    power: int
+
+
+def _form(constant: Value, largest: int) -> _Form | None:
+    """Return the exact form of a real constant with integers up to `largest`, or None."""
+    if mpmath.im(constant) != 0:
+        return None
+    with mpmath.workdps(_DIGITS):
+        for degree, power in product((1, 2, 3), (0, 1, -1, 2, -2)):
+            rest = abs(constant) ** degree / mpmath.pi**power
+            near = Fraction(int(mpmath.nint(rest * 2**80)), 2**80).limit_denominator(largest)
+            gap = abs(rest - mpf(near.numerator) / near.denominator)
+            if near != 0 and near.numerator <= largest and gap <= mpf(10) ** -_NAMED:
+                return _Form(degree, near, power)
+    return None
+
+
+# ------------------------------------------------------------------ true at some points
+
+
+def where_true(claim: Claim, is_true: Callable[[Point], bool | None]) -> str:
+    """Describe where a false claim is true; empty if it is true at too few points.
+
+    is_true: whether the claim is true at a point, or None if this is not known.
+    """
+    true, false = list[Point](), list[Point]()
+    for point in points(claim, seed="part"):
+        found = is_true(point)
+        if found is not None:
+            (true if found else false).append(point)
+        if len(false) >= _FALSE and not true:
+            return ""
+    if min(len(true), len(false)) < _EACH:
+        return ""
+    share = f"true at {len(true)} of {len(true) + len(false)} points"
+    where = _comparison(claim, true, false)
+    return f"{share}: wherever {where} (write it as require if it is meant)" if where else share
+
+
+def _comparison(claim: Claim, true: list[Point], false: list[Point]) -> str:
+    """Return a comparison that is true at all true points and at none of the others."""
+    names = list(dict.fromkeys((*claim.swaps, *variables(claim))))
+    units = claim.unit_of
+    values = {name: [_value(claim, name, point) for point in (*true, *false)] for name in names}
+    signed = [(f"{one} {sign} 0", values[one], sign) for one in names for sign in "<>"]
+    compared = [
+        (
+            f"{one} < {other}",
+            [_minus(*pair) for pair in zip(values[one], values[other], strict=True)],
+            "<",
+        )
+        for one, other in permutations(names, 2)
+        if units.get(one, "") == units.get(other, "")
+    ]
+    for told, differences, sign in (*signed, *compared):
+        met = [d is not None and (d < 0 if sign == "<" else d > 0) for d in differences]
+        if all(met[: len(true)]) and not any(met[len(true) :]):
+            return told
     return ""
+
+
+def _value(claim: Claim, name: Symbol, point: Point) -> mpf | None:
+    """Return the value of a name if it is a real number."""
+    try:
+        value = evaluated(claim.meaning.get(name, name), point)
+    except (Undecided, KeyError):
+        return None
+    return None if mpmath.im(value) != 0 else mpmath.re(value)
+
+
+def _minus(one: mpf | None, other: mpf | None) -> mpf | None:
+    return None if one is None or other is None else one - other

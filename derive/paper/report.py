@@ -75,6 +75,8 @@ def evidence(finding: Finding) -> str:
             f"with {finding.convention.what}: {finding.under.why}; "
             f"this contradicts {finding.convention.contradicts}"
         )
+    if finding.partly:
+        parts.append(finding.partly)
     if finding.repair:
         parts.append(f"corrected ({_changes(finding.repair)}): {finding.repair.judged.why}")
     if finding.diagnosis:
@@ -126,10 +128,19 @@ def remarks(findings: Iterable[Finding]) -> list[tuple[Finding, str]]:
         elif finding.convention is not None:
             parts.append(f"true with {finding.convention.what}")
         elif finding.verdict == Verdict.FAILS:
-            parts.append(corrected(finding) or finding.diagnosis or "no correction was found")
+            parts += _remarks_on_failure(finding)
         if parts:
             lines.append((finding, "; ".join(parts)))
     return lines
+
+
+def _remarks_on_failure(finding: Finding) -> list[str]:
+    """Return the corrected equation or how both sides differ, and where the claim is true."""
+    parts = [corrected(finding) or finding.diagnosis]
+    if finding.stopped:
+        parts.append(f"the search for a correction: {finding.stopped}")
+    parts.append(finding.partly)
+    return list(filter(None, parts)) or ["no correction was found"]
 
 
 _SENSES = {
@@ -292,12 +303,12 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
         ("compared with", [claim.against] if claim.against else []),
         ("steps", list(claim.steps)),
         ("symbols", [f"{s} = {text_of(claim.meaning[s])}" for s in _held(claim)]),
-        ("verdict", [f"{finding.verdict}: {finding.judged.why}"]),
+        ("verdict", [f"{finding.verdict}: {finding.judged.why}", finding.partly]),
         ("convention", _convention(finding)),
         ("corrected", _correction(finding)),
         ("consequence", [finding.claim.consequence]),
     ]
-    return [(heading, lines) for heading, lines in entries if any(lines)]
+    return [(heading, list(filter(None, lines))) for heading, lines in entries if any(lines)]
 
 
 def _held(claim: Claim) -> list[Symbol]:

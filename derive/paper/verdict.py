@@ -7,10 +7,10 @@ is judged like the printed one, at the same points and by the same steps.
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import chain, islice
 from typing import TypeVar
 
 import mpmath
@@ -32,7 +32,7 @@ from derive.paper.claim import (
     Rounded,
     Verdict,
 )
-from derive.paper.diagnosis import diagnosis, quotient
+from derive.paper.diagnosis import diagnosis, quotient, where_true
 from derive.paper.draw import (
     LEAST,
     further,
@@ -43,7 +43,7 @@ from derive.paper.draw import (
     variables,
 )
 from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
-from derive.paper.repair import KINDS, Edit, edits, plain_edits
+from derive.paper.repair import KINDS, Edit, edits, plain_edits, regrouped
 from derive.paper.tending import Approach
 from derive.paper.values import Care, Undecided, Undefined
 from derive.paper.zero import constant, vanishes, vanishes_at
@@ -106,6 +106,7 @@ class Finding:
     tried       the number of corrections of each kind that were tried
     stopped     the reason why the search for a correction was not completed, if any
     diagnosis   how both sides differ, if no correction was found
+    partly      where the claim is true, if it is true at some points and false at others
     """
 
     claim: Claim
@@ -117,6 +118,7 @@ class Finding:
     tried: Counter[str] | None = None
     stopped: str = ""
     diagnosis: str = ""
+    partly: str = ""
 
     @property
     def as_expected(self) -> bool:
@@ -139,10 +141,21 @@ def check(claim: Claim) -> Finding:
         return _nowhere_real(claim, judged) or Finding(claim, judged.verdict, judged)
     finding, stopped = _attempted(claim, lambda look: _mended(claim, judged, look))
     finding = finding or Finding(claim, Verdict.FAILS, judged, stopped=stopped)
+    partly, _ = _attempted(claim, lambda look: _partly(claim, look))
+    finding = replace(finding, partly=partly or "")
     if finding.repair is None and finding.convention is None:
         difference, _ = _attempted(claim, lambda look: diagnosis(claim))
         return replace(finding, diagnosis=difference or "")
     return finding
+
+
+def _partly(claim: Claim, look: LookAtClock) -> str:
+    """Describe where a false claim is true, if it is true at some points; empty if it is not."""
+    if claim.toward is not None or claim.reached is not None:
+        return ""
+    left, right = claim.sides(claim.left, claim.right)
+    judging = _Judging(claim, left, right, claim.meaning, look)
+    return where_true(claim, judging.is_true)
 
 
 def _nowhere_real(claim: Claim, judged: Judged) -> Finding | None:
@@ -275,6 +288,15 @@ class _Judging:
             if wrong:
                 return self._judged(Verdict.FAILS, wrong)
         return self._proven()
+
+    def is_true(self, point: Point) -> bool | None:
+        """Whether the claim is true at a point; None if this is not known."""
+        seen = self.unreal
+        try:
+            found = self._is_true_at(self._pair(point))
+        except Undecided:
+            return None
+        return None if self.unreal > seen else found
 
     def _too_few(self) -> str:
         """Explain why there are too few points."""
@@ -431,16 +453,12 @@ def _example(pair: Pair) -> str:
 
 
 def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None, Counter[str]]:
-    """Return the simplest change that makes the claim true, and the numbers of changes tried.
-
-    Single changes are tried first.  If none is sufficient, pairs of changes are tried, of which
-    the first is a sign or a swap.
-    """
+    """Return the simplest change that makes the claim true, and the numbers of changes tried."""
     if claim.is_inequality:
         return _other_relation(claim, look)
     tried: Counter[str] = Counter()
-    screened = _Screen(claim)
-    for candidates in (_single(claim), _double(claim)):
+    screened = _Screen(claim, look)
+    for candidates in _batches(claim):
         fitting = []
         for left, right, edit in candidates:
             look()
@@ -508,24 +526,76 @@ def _plainness(candidate: Candidate) -> tuple[int, int, str]:
     return int(count_ops(left) + count_ops(right)), KINDS.index(kind), edit.what
 
 
+def _batches(claim: Claim) -> Iterator[Iterable[Candidate]]:
+    """Yield changes of which the simplest true one is chosen, batch by batch.
+
+    Single changes come first, and then the constant by which the sides differ.  If none of them is
+    sufficient, pairs of changes are tried, of which the first is a sign or a swap.  If each trial
+    is slow, single changes are tried kind by kind, beginning with those of a whole side.
+    """
+    if has_integral(claim) or claim.toward is not None:
+        single = list(_single(claim))
+        whole = [c for c in single if c[2].what.endswith("the whole")]
+        yield whole
+        yield _scaled(claim)
+        for kind in KINDS:
+            yield [c for c in single if c[2].kind == kind and c not in whole]
+    else:
+        yield _single(claim)
+        yield _scaled(claim)
+    yield _double(claim)
+
+
 def _single(claim: Claim) -> Iterator[Candidate]:
-    for edit in edits(claim.right, claim.swaps):
+    seen = set[tuple[Expr, Expr]]()
+    for left, right, edit in chain(_changed(claim), _regrouped(claim)):
+        if (left, right) not in seen:
+            seen.add((left, right))
+            yield left, right, edit
+
+
+def _changed(claim: Claim) -> Iterator[Candidate]:
+    units = {} if claim.units else claim.unit_of
+    for edit in edits(claim.right, claim.swaps, units):
         yield claim.left, edit.expr, edit
     if not isinstance(claim.left, Symbol):
-        for edit in edits(claim.left, claim.swaps):
+        for edit in edits(claim.left, claim.swaps, units):
             yield edit.expr, claim.right, edit
+
+
+def _regrouped(claim: Claim) -> Iterator[Candidate]:
+    """Yield the printed text with another exponent on one bracket or root."""
+    if claim.reading is None or claim.through is not None:
+        return
+    for text, what in regrouped(claim.source):
+        sides = claim.reading(text)
+        if sides is not None:
+            yield *sides, Edit("exponent", what, sides[1])
+
+
+def _scaled(claim: Claim) -> Iterator[Candidate]:
+    """Yield the equation with the constant by which its sides differ, if it is simple."""
+    if claim.through is not None or claim.toward is not None or not variables(claim):
+        return
+    ratio = quotient(claim)
+    factor = ratio.simple_factor if ratio is not None else None
+    if factor is not None:
+        edit = Edit("factor", f"{factor} on the whole", factor * claim.right)
+        yield claim.left, edit.expr, edit
 
 
 def _double(claim: Claim) -> Iterator[Candidate]:
     """Yield pairs of changes of the right side, of which the first is a sign or a swap."""
-    firsts = [e for e in plain_edits(claim.right, claim.swaps) if e.kind in ("sign", "swap")]
+    units = {} if claim.units else claim.unit_of
+    firsts = [e for e in plain_edits(claim.right, claim.swaps, units) if e.kind in _FIRST_KINDS]
     for first in firsts[:_FIRSTS]:
-        for second in plain_edits(first.expr, claim.swaps):
+        for second in plain_edits(first.expr, claim.swaps, units):
             what = f"{first.what}; {second.what}"
             edit = Edit(f"{first.kind} and {second.kind}", what, second.expr)
             yield claim.left, second.expr, edit
 
 
+_FIRST_KINDS = ("sign", "swap")
 _FIRSTS = 12
 """The largest number of first changes that are combined with a second one."""
 
@@ -533,17 +603,22 @@ _FIRSTS = 12
 class _Screen:
     """Tests candidates at a few points; the values that they share are computed only once."""
 
-    def __init__(self, claim: Claim) -> None:
-        self.claim = claim
+    def __init__(self, claim: Claim, look: LookAtClock) -> None:
+        self.claim, self.look = claim, look
         self.points = list(points(claim, _SCREENED, "screen"))
         self.known: dict[tuple[int, int, Care], Point] = {}
         self.integrals = has_integral(claim)
 
     def fits(self, left: Expr, right: Expr) -> bool:
         """Whether a candidate agrees at the points, or near the limit of a claim that has one."""
-        if self.claim.toward is not None:
-            return judge(self.claim, left, right, self.claim.meaning).good
         left, right = self.claim.sides(left, right)
+        if self.claim.toward is not None:
+            table = dict(self.claim.meaning)
+            sides = [side.xreplace(table) for side in (left, right)]
+            try:
+                return Approach(self.claim, sides, self.claim.toward).is_true(self.look)
+            except Undecided:
+                return False
         if left.has(Integral) or right.has(Integral):
             table = dict(self.claim.meaning)
             left, right = left.xreplace(table), right.xreplace(table)

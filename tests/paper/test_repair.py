@@ -1,0 +1,172 @@
+"""Corrections of likely misprints, what is said without one, and which variable of a limit moves.
+
+By hand, for a cylinder of radius R: p(0) = E* a/(2 R), P = pi E* a**2/(4 R), hence p(0)**2 =
+E* P/(pi R), dP/da = pi E* a/(2 R).
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from derive.limit import LimitReached
+from derive.paper.claim import Verdict
+from derive.paper.repair import regrouped
+from derive.paper.report import corrected, evidence, remarks
+from derive.paper.userfile import read_claims
+from derive.paper.verdict import Finding, check
+
+HEAD = """
+body = "hertz"
+[variables]
+a = { unit = "m" }
+c = { unit = "m" }
+t = { unit = "-", low = 0.1, high = 1.4 }
+n = { unit = "-" }
+k = { unit = "-", low = 0.05, high = 1 }
+[symbols]
+P = "load(a, a)"
+p_0 = "pressure(0, a, a)"
+l = "k*a"
+"""
+
+
+def judged(folder: Path, printed: str, **more: object) -> Finding:
+    path = folder / "claims.toml"
+    entries = {"label": "it", "printed": printed, **more}
+    lines = [f"{key} = {json.dumps(value)}" for key, value in entries.items()]
+    path.write_text("\n".join([HEAD, "[[claims]]", *lines, ""]), encoding="utf-8")
+    return check(read_claims(path).claims[0])
+
+
+# ------------------------------------------------------------------ corrections
+
+
+@pytest.mark.parametrize(
+    ("printed", "right"),
+    [
+        ("diff(P, a) = pi*E_star*c/(2*R)", "diff(P, a) = pi*E_star*a/(2*R)"),
+        ("pressure(0, c, c) = (a/c)*p_0", "pressure(0, c, c) = c*p_0/a"),
+        ("p_0 = (P*E_star/(pi*R))**2", "p_0 = sqrt(E_star*P/(pi*R))"),
+        ("p_0 = (P*E_star/(pi*R))**(1/3)", "p_0 = sqrt(E_star*P/(pi*R))"),
+        ("cos(t)/sin(t)*n = n*tan(t)", "n*sin(t)/cos(t) = n*tan(t)"),
+        ("n*cos(t)**2 = n*(1 - cos(t)**2)", "n*cos(t)**2 = n*(1 - sin(t)**2)"),
+        ("asin(t/2) + n = pi/2 - asin(t/2) + n", "n + asin(t/2) = n - acos(t/2) + pi/2"),
+        (
+            "(sqrt(pi*n) + t)**2 = pi*n + 2*sqrt(n)*t + t**2",
+            "(t + sqrt(pi*n))**2 = pi*n + t**2 + 2*t*sqrt(pi*n)",
+        ),
+        ("gamma_function(n + 1) = n*gamma_function(n/2)", "gamma(n + 1) = n*gamma(n)"),
+        ("P = pi*E_star*a**2/(5*R)", "P = pi*E_star*a**2/(4*R)"),
+        ("(n + t)**2 = n**2 + 3*n*t + t**2", "(n + t)**2 = n**2 + 2*n*t + t**2"),
+        ("(a + c)**2 = a**2 + 2*a*c + c", "(a + c)**2 = a**2 + 2*a*c + c**2"),
+        ("sin(2*t) = 2*sin(t)*cos(2*t)", "sin(2*t) = 2*sin(t)*cos(t)"),
+    ],
+)
+def test_a_misprint_is_corrected(tmp_path: Path, printed: str, right: str) -> None:
+    finding = judged(tmp_path, printed)
+    assert finding.verdict == Verdict.FAILS
+    assert corrected(finding) == right
+
+
+def test_a_quotient_of_functions_upside_down_is_turned(tmp_path: Path) -> None:
+    finding = judged(tmp_path, "2 + n = 2 + 2*gamma_function(n/2)/gamma_function(n/2 + 1)")
+    assert corrected(finding) == "n + 2 = 2 + 2*gamma(n/2 + 1)/gamma(n/2)"
+
+
+def test_names_of_different_units_are_not_swapped(tmp_path: Path) -> None:
+    """R and c are lengths, E* and p_0 are pressures: no length is tried for a pressure."""
+    finding = judged(tmp_path, "P = exp(n)*E_star*a**2/R")
+    assert finding.verdict == Verdict.FAILS
+    assert finding.tried is not None
+    assert finding.repair is None
+
+
+def test_another_exponent_on_a_bracket() -> None:
+    found = dict(regrouped("y = 2*(a*b)**2 - sqrt(c*d)/sin(x)**(1/2)"))
+    assert "y = 2*((a*b)**(1/2)) - sqrt(c*d)/sin(x)**(1/2)" in found
+    assert "y = 2*(a*b)**2 - ((c*d)**(1))/sin(x)**(1/2)" in found
+    assert not any("(x)" in what or what.endswith("(1/2)") for what in found.values())
+
+
+def test_a_correction_is_no_identity(tmp_path: Path) -> None:
+    """Without its root, or with the constant 1/2, the right side is the left side itself."""
+    for printed in ("sqrt(a*c) = a*c", "a*c = 2*a*c", "exp(a) = 2*exp(a)"):
+        finding = judged(tmp_path, printed)
+        assert finding.verdict == Verdict.FAILS
+        assert finding.repair is None
+
+
+# ------------------------------------------------------------------ what is said besides
+
+
+def test_a_search_that_is_stopped_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stopped(*_: object) -> None:
+        raise LimitReached
+
+    monkeypatch.setattr("derive.paper.verdict.repaired", stopped)
+    finding = judged(tmp_path, "P = exp(n)*E_star*a**2/R")
+    assert remarks([finding])[0][1] == "the search for a correction: not finished within 30 s"
+
+
+@pytest.mark.parametrize(
+    ("printed", "where"),
+    [
+        ("sqrt((a - c)**2) = a - c", "wherever c < a"),
+        ("abs(x) = x", "wherever x > 0"),
+        ("Max(a, l*n) = a", ""),
+        ("a = 2*c", None),
+    ],
+)
+def test_it_is_told_where_a_false_claim_is_true(
+    tmp_path: Path, printed: str, where: str | None
+) -> None:
+    finding = judged(tmp_path, printed)
+    assert finding.verdict == Verdict.FAILS
+    if where is None:
+        assert not finding.partly
+    else:
+        assert finding.partly.startswith("true at ")
+        assert where in finding.partly
+        assert finding.partly in remarks([finding])[0][1]
+        assert finding.partly in evidence(finding)
+
+
+def test_an_integral_over_a_pole_names_the_principal_value(tmp_path: Path) -> None:
+    finding = judged(tmp_path, "integral(1/(s - k*a), s, -2*a, 2*a) = log((2 - k)/(2 + k))")
+    assert finding.verdict == Verdict.UNCHECKED
+    assert r"write pv, or \fint in LaTeX" in evidence(finding)
+
+
+def test_a_branch_that_is_zero(tmp_path: Path) -> None:
+    right = "Piecewise((0, x <= a), (x - a, True))"
+    assert judged(tmp_path, f"Max(0, x - a) = {right}").judged.good
+    finding = judged(tmp_path, "Max(0, x - a) = Piecewise((0, x <= a), (x + a, True))")
+    assert finding.verdict == Verdict.FAILS
+    assert corrected(finding) == "Max(0, -a + x) = Piecewise((0, a >= x), (-a + x, True))"
+
+
+# ------------------------------------------------------------------ which variable moves
+
+
+@pytest.mark.parametrize("end", ["a - l -> 0", "l -> a", "l - a -> 0", "k -> 1"])
+def test_a_limit_does_not_let_all_lengths_vanish(tmp_path: Path, end: str) -> None:
+    """l = k a tends to a as k -> 1, and not as a -> 0."""
+    printed = "a**2 - l**2 ~ {}*a*(a - l)"
+    assert judged(tmp_path, printed.format(2), **{"as": end}).verdict == Verdict.NUMERICAL
+    finding = judged(tmp_path, printed.format(3), **{"as": end})
+    assert finding.verdict == Verdict.FAILS
+    assert corrected(finding) == "a**2 - l**2 ~ 2*a*(a - l)"
+
+
+def test_a_limit_that_depends_on_what_moves_is_unchecked(tmp_path: Path) -> None:
+    finding = judged(tmp_path, "n + t*n ~ n", **{"as": "n*t -> 0"})
+    assert finding.verdict == Verdict.UNCHECKED
+    assert "if n moves" in evidence(finding)
+    assert "if t moves" in evidence(finding)
+    assert judged(tmp_path, "n + t*n ~ n", **{"as": "t -> 0"}).judged.good
+
+
+def test_a_limit_at_an_end_of_a_range_has_one_side(tmp_path: Path) -> None:
+    """1 - k is never negative, since k is at most 1."""
+    assert judged(tmp_path, "abs(1 - k) ~ 1 - k", **{"as": "k -> 1"}).judged.good
