@@ -561,7 +561,7 @@ def _accept(file: Path | None, label: str | None) -> None:
     click.echo(f"{len(accepted)} accepted, {left} left")
     for reading in found:
         if not reading.understood:
-            click.echo(f"not read: {reading.label}: {reading.why}")
+            click.echo(f"unchecked: {reading.label}: {reading.why}")
 
 
 def _paper(file: Path | None, label: str | None) -> "Paper":

@@ -12,7 +12,7 @@ from typing import Any
 
 from sympy import Expr, Symbol
 
-from derive.errors import BadFormula, NotAccepted, UserError
+from derive.errors import NotAccepted, UserError
 from derive.paper import claim_options
 from derive.paper.claim import SIGNED, Bound, Claim, Convention, Meaning, Range, Relation
 from derive.paper.context import (
@@ -63,7 +63,7 @@ class _Stated:
 class ClaimReader:
     """Reads the claims of a file in their order, because one may follow from others.
 
-    readings  the LaTeX that is not accepted yet or cannot be read
+    readings  the claims in LaTeX that are not accepted yet or cannot be read
     mistakes  the errors in claims, each of which makes its claim unchecked
     """
 
@@ -94,7 +94,9 @@ class ClaimReader:
             )
         except UserError as error:
             self.mistakes.append(error)
-            return Claim(unchecked=reason(error, entries.place), source=told, **common)
+            why = reason(error, entries.place)
+            self._unread(number, entries, why)
+            return Claim(unchecked=why, source=told, **common)
 
     def _claim(self, number: int, entries: Entries, told: str, common: dict[str, Any]) -> Claim:
         """Return a claim; raise UserError if one of its entries is wrong."""
@@ -124,13 +126,10 @@ class ClaimReader:
             why = not_accepted(entries, error)
             return Claim(unchecked=why, source=error.understood, **common)
         except UnknownName as error:
-            missing = unknown(error.given, names) or ["oo"]
-            return Claim(unchecked=_lacking(missing, meant), source=told, **common)
-        except BadFormula as error:
-            if "latex" in given:
-                label, latex, why = common["label"], common["latex"], reason(error, place)
-                self.readings.append(Reading(number, label, latex, understood="", why=why))
-            raise
+            why = _lacking(unknown(error.given, names) or ["oo"], meant)
+            if not told:
+                self._unread(number, entries, why)
+            return Claim(unchecked=why, source=told, **common)
         known = {Symbol(name) for name in symbols}
         left, right = (with_real_bound(side, known - meant.ours.keys()) for side in (left, right))
         if "given" in given:
@@ -145,6 +144,12 @@ class ClaimReader:
             return Claim(unchecked=_lacking(lacking, meant), source=told, **common)
         stated = _Stated(entries, context, meant, names, text, left, relation, right, through)
         return self._judged(stated, common)
+
+    def _unread(self, number: int, entries: Entries, why: str) -> None:
+        """Record that a claim in LaTeX cannot be read."""
+        if "latex" in entries.data:
+            label, latex = entries.text("label"), str(entries.data["latex"])
+            self.readings.append(Reading(number, label, latex, understood="", why=why))
 
     def _judged(self, stated: _Stated, common: Mapping[str, Any]) -> Claim:
         """Return a claim that can be judged."""

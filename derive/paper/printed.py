@@ -24,7 +24,7 @@ class Reading:
     """The reading of a claim's LaTeX that the file does not accept yet.
 
     number      the number of the claim in the file, counted from 1
-    understood  the equation as text; empty if the LaTeX cannot be read
+    understood  the equation as text; empty if the claim cannot be read
     accepted    the different reading that the file accepts; empty if there is none
     beside      the entries of the claim that its verdict depends on, such as `as` and `require`
     why         the reason why the claim cannot be judged even if this reading is accepted

@@ -110,7 +110,7 @@ def built_in() -> Paper:
 
 
 def open_readings(path: Path) -> list[Reading]:
-    """Return the readings that are not accepted yet, and the LaTeX that cannot be read.
+    """Return the readings that are not accepted yet, and the claims in LaTeX that cannot be read.
 
     Raises the errors of `read_claims`.
     """

@@ -609,6 +609,8 @@ def test_what_a_verdict_depends_on_is_shown_with_the_reading(tmp_path: Path) -> 
         "[[claims]]\nlabel = 'limit'\nlatex = 'A \\sim R'\nas = 'r -> 0'\norder = 2\n"
         "[[claims]]\nlabel = 'rest'\nlatex = 'A \\sim R'\nrequire = ['r > k', 'k > 0']\n"
         "given = ['limit']\n[[claims]]\nlabel = 'unread'\nlatex = 'A = R ?'\n"
+        "[[claims]]\nlabel = 'part'\nlatex = 'A = R'\npart = 2\n"
+        "[[claims]]\nlabel = 'key'\nlatex = 'A = R'\nrequier = 'r > k'\n"
     )
     path = Path(written(tmp_path, text))
     first, second = answered(path, "n\ny\n").output.split("2 of 2")
@@ -616,9 +618,11 @@ def test_what_a_verdict_depends_on_is_shown_with_the_reading(tmp_path: Path) -> 
         assert line in first
     for line in ("require     r > k and k > 0", "given       limit", "unchecked   ~ cannot be"):
         assert line in second
-    assert "not read: unread: ? is neither" in second
+    assert "unchecked: unread: ? is neither" in second
+    assert "unchecked: part: part = 2 is not the number" in second
+    assert "unchecked: key: the key 'requier' is unknown" in second
     told = json.loads(run(str(path), "--format", "json").stdout)
-    assert [each["verdict"] for each in told] == ["unchecked"] * 3
+    assert [each["verdict"] for each in told] == ["unchecked"] * 5
 
 
 def test_what_cannot_be_written_is_left_as_it_was(tmp_path: Path) -> None:
