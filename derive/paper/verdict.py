@@ -16,7 +16,7 @@ from typing import TypeVar
 import mpmath
 from mpmath import mpf
 from mpmath.libmp import to_rational
-from sympy import Expr, Integral, Pow, Rational, Symbol, count_ops, exp, sign
+from sympy import Expr, Integral, Pow, Rational, S, Symbol, count_ops, exp, pi, sign
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 
 from derive.limit import LimitReached, LookAtClock, within
@@ -457,6 +457,8 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
     if claim.is_inequality:
         return _other_relation(claim, look)
     tried: Counter[str] = Counter()
+    if claim.rounded is not None and (repair := _to_the_digits_with_a_factor(claim, claim.rounded)):
+        return repair, tried
     screened = _Screen(claim, look)
     for candidates in _batches(claim):
         fitting = []
@@ -473,6 +475,36 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
                 relation = claim.relation
                 return Repair(left, right, edit.kind, edit.what, judged, relation, also), tried
     return None, tried
+
+
+def _to_the_digits_with_a_factor(claim: Claim, rounded: Rounded) -> Repair | None:
+    """Return a correction with a lost factor, or with another rounded constant, if one is true."""
+    ratio = quotient(claim) if variables(claim) else None
+    if ratio is None or ratio.powers or mpmath.im(ratio.constant) != 0:
+        return None
+    true = mpf(rounded.value.p) / rounded.value.q * ratio.constant**rounded.power
+    digit = 2 * rounded.half
+    other = digit * int(mpmath.nint(true * digit.q / digit.p))
+    corrections = [
+        (claim.left, factor * claim.right, rounded, f"{factor} on the whole") for factor in _LOST
+    ]
+    if other > 0:
+        larger, new = other / rounded.value, replace(rounded, value=other)
+        told = f"{mpf(other.p) / other.q} for {mpf(rounded.value.p) / rounded.value.q}"
+        on_left = rounded.power < 0
+        sides = (
+            (larger * claim.left, claim.right) if on_left else (claim.left, larger * claim.right)
+        )
+        corrections.append((*sides, new, told))
+    for left, right, number, what in corrections:
+        judged = _to_the_digits(replace(claim, left=left, right=right), number)
+        if judged is not None and left != right:
+            return Repair(left, right, "factor", what, judged, claim.relation)
+    return None
+
+
+_LOST = (S.NegativeOne, S(2), S.Half, pi, 1 / pi)
+"""Factors that may have been lost beside a rounded constant."""
 
 
 def is_carried(claim: Claim, left: Expr, right: Expr, judged: Judged) -> bool:

@@ -74,6 +74,17 @@ def test_a_quotient_of_functions_upside_down_is_turned(tmp_path: Path) -> None:
     assert corrected(finding) == "n + 2 = 2 + 2*gamma(n/2 + 1)/gamma(n/2)"
 
 
+@pytest.mark.parametrize("printed", ["1.273*sqrt(P*R/E_star)", "-1.128*sqrt(P*R/E_star)"])
+def test_a_rounded_constant_is_kept_or_replaced(tmp_path: Path, printed: str) -> None:
+    """sqrt(4/pi) = 1.12837917."""
+    finding = judged(tmp_path, f"a = {printed}")
+    assert finding.verdict == Verdict.FAILS
+    assert finding.repair is not None
+    assert corrected(finding) == "a = 141*sqrt(P*R/E_star)/125"
+    assert "1.128 stands for 1.12837916" in finding.repair.judged.why
+    assert judged(tmp_path, "1.273*pi = 2.273*pi").repair is None
+
+
 def test_names_of_different_units_are_not_swapped(tmp_path: Path) -> None:
     """R and c are lengths, E* and p_0 are pressures: no length is tried for a pressure."""
     finding = judged(tmp_path, "P = exp(n)*E_star*a**2/R")
