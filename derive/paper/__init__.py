@@ -14,7 +14,7 @@
     quick          expression                a few digits, to compare candidates quickly
     bodies         geometry                  its formulas, each proven
     tending        claim about a limit       whether the sides approach each other, and how fast
-    diagnosis      false equation            the constant and the powers by which its sides differ
+    diagnosis      false equation            by what its sides differ, and where it is true
     verdict        claim                     Finding: verdict, evidence, corrected equation
     report         findings                  rows, JSON, Markdown, LaTeX, errata
     page           findings                  one page of HTML
