@@ -465,7 +465,7 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
         for left, right, edit in candidates:
             look()
             tried[edit.kind] += 1
-            if left != right and screened.fits(left, right):
+            if left != right and screened.fits(left, right) and not _is_same(left, right):
                 fitting.append((left, right, edit))
         fitting.sort(key=_plainness)
         for left, right, edit in fitting:
@@ -475,6 +475,13 @@ def repaired(claim: Claim, look: LookAtClock = _no_clock) -> tuple[Repair | None
                 relation = claim.relation
                 return Repair(left, right, edit.kind, edit.what, judged, relation, also), tried
     return None, tried
+
+
+def _is_same(left: Expr, right: Expr) -> bool:
+    """Whether both sides are the same expression, as p and sqrt(p**2) are for positive p."""
+    held = left.free_symbols | right.free_symbols
+    table = {s: Symbol(s.name, positive=True) for s in held if s.is_real is None}
+    return bool(left.xreplace(table) == right.xreplace(table))
 
 
 def _to_the_digits_with_a_factor(claim: Claim, rounded: Rounded) -> Repair | None:
@@ -498,7 +505,7 @@ def _to_the_digits_with_a_factor(claim: Claim, rounded: Rounded) -> Repair | Non
         corrections.append((*sides, new, told))
     for left, right, number, what in corrections:
         judged = _to_the_digits(replace(claim, left=left, right=right), number)
-        if judged is not None and left != right:
+        if judged is not None and not _is_same(left, right):
             return Repair(left, right, "factor", what, judged, claim.relation)
     return None
 
