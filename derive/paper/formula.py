@@ -267,7 +267,7 @@ class _Reader(Meaning):
             case "sum":
                 return self._sum(node, inside, variable, *limits)
             case "limit":
-                return Limit(inside, variable, *limits)
+                return Limit(inside, variable, *limits, dir="+-")  # from both sides
         times = limits[0] if limits else S.One
         if not (times.is_Integer and 0 < times < 5):
             why = "the order of this derivative is not allowed"

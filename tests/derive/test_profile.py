@@ -423,7 +423,9 @@ REFUSED = {
         Piecewise((x**2 / (2 * R), x**5 - b**4 * x - b**5 < 0), (x**2 / R, True)),
         x**2 / R + Max(0, x**5 - b**4 * x - b**5) / b**4,
     ],
-    "not supported; use <, <=, > or >=": [Piecewise((beyond**2 / R, Xor(x > -b, x < b)), (0, True))],
+    "not supported; use <, <=, > or >=": [
+        Piecewise((beyond**2 / R, Xor(x > -b, x < b)), (0, True))
+    ],
 }
 """Bodies by why they are refused, and what the remedy says."""
 
