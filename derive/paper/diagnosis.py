@@ -55,11 +55,7 @@ class Quotient:
     @property
     def simple_factor(self) -> Expr | None:
         """The ratio as an exact number, or None if it is no constant or not a simple one."""
-        form = None if self.powers else _form(self.constant, _SIMPLE)
-        if form is None:
-            return None
-        size = Rational(*form.near.as_integer_ratio()) * pi**form.power
-        return root(size, form.root) * (-1 if self.constant < 0 else 1)
+        return None if self.powers else simple(self.constant)
 
     @property
     def as_text(self) -> str:
@@ -190,7 +186,16 @@ class _Form:
     power: int
 
 
-def _form(constant: Value, largest: int) -> _Form | None:
+def simple(constant: Value, digits: int = _NAMED) -> Expr | None:
+    """Return the simple exact number that a constant is to so many digits, or None."""
+    form = _form(constant, _SIMPLE, digits)
+    if form is None:
+        return None
+    size = Rational(*form.near.as_integer_ratio()) * pi**form.power
+    return root(size, form.root) * (-1 if constant < 0 else 1)
+
+
+def _form(constant: Value, largest: int, digits: int = _NAMED) -> _Form | None:
     """Return the exact form of a real constant with integers up to `largest`, or None."""
     if mpmath.im(constant) != 0:
         return None
@@ -199,7 +204,7 @@ def _form(constant: Value, largest: int) -> _Form | None:
             rest = abs(constant) ** degree / mpmath.pi**power
             near = Fraction(int(mpmath.nint(rest * 2**80)), 2**80).limit_denominator(largest)
             gap = abs(rest - mpf(near.numerator) / near.denominator)
-            if near != 0 and near.numerator <= largest and gap <= mpf(10) ** -_NAMED:
+            if near != 0 and near.numerator <= largest and gap <= mpf(10) ** -digits:
                 return _Form(degree, near, power)
     return None
 

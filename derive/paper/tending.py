@@ -70,6 +70,16 @@ class Approach:
         ]
         return any(found) and all(one is None or one[0] == Verdict.NUMERICAL for one in found)
 
+    def ratio(self) -> Value:
+        """Return the ratio of left to right close to the limit, or zero if there is none."""
+        for variable, moves in _movers(*self.toward).items():
+            for value in moves:
+                for base in points(self.claim, _BASES, "limit"):
+                    row = list(self._row(base, variable, value))
+                    if len(row) == len(_DISTANCES) and row[-1][2] != 0:
+                        return row[-1][1] / row[-1][2]
+        return mpf(0)
+
     def _along(
         self, variable: Symbol, moves: list[Expr], look: LookAtClock
     ) -> tuple[Verdict, str] | None:

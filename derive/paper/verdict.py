@@ -32,7 +32,7 @@ from derive.paper.claim import (
     Rounded,
     Verdict,
 )
-from derive.paper.diagnosis import diagnosis, quotient, where_true
+from derive.paper.diagnosis import diagnosis, quotient, simple, where_true
 from derive.paper.draw import (
     LEAST,
     further,
@@ -45,13 +45,15 @@ from derive.paper.draw import (
 from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
 from derive.paper.repair import KINDS, Edit, edits, plain_edits, regrouped
 from derive.paper.tending import Approach
-from derive.paper.values import Care, Undecided, Undefined
+from derive.paper.values import Care, Undecided, Undefined, evaluated
 from derive.paper.zero import constant, vanishes, vanishes_at
 
 Result = TypeVar("Result")
 
 _SCREENED = 3
 """Number of points at which a correction is screened before it is judged in full."""
+_DRAWN = 16
+"""Number of points from which they are chosen."""
 _MORE_DRAWN = 4
 """How often more points are drawn if a side was not a real number."""
 _OFF = 6
@@ -614,10 +616,16 @@ def _regrouped(claim: Claim) -> Iterator[Candidate]:
 
 def _scaled(claim: Claim) -> Iterator[Candidate]:
     """Yield the equation with the constant by which its sides differ, if it is simple."""
-    if claim.through is not None or claim.toward is not None or not variables(claim):
+    if claim.through is not None or not variables(claim):
         return
-    ratio = quotient(claim)
-    factor = ratio.simple_factor if ratio is not None else None
+    factor: Expr | None
+    if claim.toward is not None:
+        table = dict(claim.meaning)
+        sides = [side.xreplace(table) for side in (claim.left, claim.right)]
+        factor = simple(Approach(claim, sides, claim.toward).ratio(), _OF_LIMITS)
+    else:
+        ratio = quotient(claim)
+        factor = ratio.simple_factor if ratio is not None else None
     if factor is not None:
         edit = Edit("factor", f"{factor} on the whole", factor * claim.right)
         yield claim.left, edit.expr, edit
@@ -634,9 +642,29 @@ def _double(claim: Claim) -> Iterator[Candidate]:
             yield claim.left, second.expr, edit
 
 
+_OF_LIMITS = 6
+"""Digits to which the limit of a ratio must agree with a simple constant."""
 _FIRST_KINDS = ("sign", "swap")
 _FIRSTS = 12
 """The largest number of first changes that are combined with a second one."""
+
+
+def _screening(claim: Claim) -> list[Point]:
+    """Return a few points, if possible such that both printed sides are real numbers there."""
+    if claim.cases or claim.toward is not None:
+        return list(points(claim, _SCREENED, "screen"))
+    table = dict(claim.meaning)
+    sides = [side.xreplace(table) for side in claim.sides(claim.left, claim.right)]
+    drawn = list(points(claim, _DRAWN, "screen"))
+    real = list(islice((p for p in drawn if _are_real(sides, p)), _SCREENED))
+    return real if len(real) == _SCREENED else drawn[:_SCREENED]
+
+
+def _are_real(sides: list[Expr], point: Point) -> bool:
+    try:
+        return all(mpmath.im(evaluated(side, point, Care.QUICK)) == 0 for side in sides)
+    except Undecided:
+        return False
 
 
 class _Screen:
@@ -644,7 +672,7 @@ class _Screen:
 
     def __init__(self, claim: Claim, look: LookAtClock) -> None:
         self.claim, self.look = claim, look
-        self.points = list(points(claim, _SCREENED, "screen"))
+        self.points = _screening(claim)
         self.known: dict[tuple[int, int, Care], Point] = {}
         self.integrals = has_integral(claim)
 

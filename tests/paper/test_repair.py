@@ -102,7 +102,7 @@ def test_another_exponent_on_a_bracket() -> None:
 
 
 def test_a_correction_is_no_identity(tmp_path: Path) -> None:
-    """Without its root, with the constant 1/2, or with q for p_0, the right side is the left one."""
+    """Without its root, with the constant 1/2, or with q for p_0, the right side is the left."""
     for printed in (
         "sqrt(a*c) = a*c",
         "a*c = 2*a*c",
@@ -175,6 +175,18 @@ def test_a_limit_does_not_let_all_lengths_vanish(tmp_path: Path, end: str) -> No
     finding = judged(tmp_path, printed.format(3), **{"as": end})
     assert finding.verdict == Verdict.FAILS
     assert corrected(finding) == "a**2 - l**2 ~ 2*a*(a - l)"
+
+
+def test_a_limit_with_another_constant_is_corrected(tmp_path: Path) -> None:
+    finding = judged(tmp_path, "1 - cos(t*n) ~ 7*(t*n)**2/13", **{"as": "t -> 0"})
+    assert corrected(finding) == "1 - cos(n*t) ~ n**2*t**2/2"
+
+
+def test_trials_are_made_where_both_sides_are_real(tmp_path: Path) -> None:
+    """For x**2 > a**2, sqrt(1/w) and 1/sqrt(w) are imaginary and have opposite signs."""
+    finding = judged(tmp_path, "n*sqrt(1/(1 - x**2/a**2)) = n/(2*sqrt(1 - x**2/a**2))")
+    assert finding.repair is not None
+    assert finding.repair.what == "2 on the whole"
 
 
 def test_a_limit_that_depends_on_what_moves_is_unchecked(tmp_path: Path) -> None:
