@@ -340,10 +340,10 @@ def _convention(finding: Finding) -> list[str]:
 
 def _correction(finding: Finding) -> list[str]:
     tried = [f"corrections tried: {_tried(finding.tried)}"] if finding.tried else []
+    diagnosis = [finding.diagnosis] if finding.diagnosis else []
     if finding.stopped:
-        return [f"the search for a correction: {finding.stopped}"]
+        return [*diagnosis, f"the search for a correction: {finding.stopped}"]
     if finding.repair is None:
-        diagnosis = [finding.diagnosis] if finding.diagnosis else []
         return [*diagnosis, *tried, "none of them is true"] if tried else diagnosis
     repair = finding.repair
     equation = _text(repair, repair.relation)
