@@ -136,11 +136,9 @@ def remarks(findings: Iterable[Finding]) -> list[tuple[Finding, str]]:
 
 def _remarks_on_failure(finding: Finding) -> list[str]:
     """Return the corrected equation or how both sides differ, and where the claim is true."""
-    parts = [corrected(finding) or finding.diagnosis]
-    if finding.stopped:
-        parts.append(f"the search for a correction: {finding.stopped}")
-    parts.append(finding.partly)
-    return list(filter(None, parts)) or ["no correction was found"]
+    stopped = f"the search for a correction: {finding.stopped}" if finding.stopped else ""
+    told = corrected(finding) or finding.diagnosis or ("" if stopped else "no correction was found")
+    return list(filter(None, (told, stopped, finding.partly)))
 
 
 _SENSES = {
