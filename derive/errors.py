@@ -270,18 +270,23 @@ class RanAway(UserError):
 
     what: str
     stage: str
-    seconds: float
-    gigabytes: float
+    seconds: float | None = None
+    gigabytes: float | None = None
 
     @property
     def message(self) -> str:
-        """State which stage was reached, what its limits were, and what to try."""
+        """State which stage was reached, which limit was exceeded, if any, and what to try."""
+        if self.seconds is not None:
+            why = f"took longer than its limit of {self.seconds:g} s"
+            remedy = "the profile, or the file that defines it, takes too long: simplify it"
+        elif self.gigabytes is not None:
+            why = f"needed more memory than its limit of {self.gigabytes:g} GB"
+            remedy = "simplify the profile, or the file that defines it"
+        else:
+            why = "made its process fail, as numbers that are too large do"
+            remedy = "simplify the profile, for example with fewer nested functions"
         what, stage = self.what or "this body", self.stage or "starting"
-        limits = f"{self.seconds:g} s and {self.gigabytes:g} GB of memory"
-        return (
-            f"{what}: the stage '{stage}' exceeded its limits of {limits}: write g(x) with fewer "
-            "kinks, fewer parameters or fewer nested functions"
-        )
+        return f"{what}: the stage '{stage}' {why}: {remedy}"
 
 
 @dataclass

@@ -42,6 +42,8 @@ _MOST = 60
 """Largest number of processes that one process can wait for on every system."""
 _INTERVAL = 0.2
 """Seconds between two checks for Ctrl-C, on systems where waiting delays it."""
+_NO_MEMORY = 77
+"""Exit status of a process that has no memory left."""
 
 
 @dataclass(frozen=True)
@@ -86,17 +88,17 @@ def in_processes(
     jobs = min(jobs, len(items), _MOST)
     if not items or (jobs <= 1 and bounds is None):
         return [function(item, report) for item in items]
-    with _processes(function, jobs, bounds) as lines:
-        return _results(lines, items, report, bounds)
+    with _processes(function, jobs, bounds) as processes:
+        return _results(processes, items, report, bounds)
 
 
 @contextmanager
 def _processes(
     function: Callable[[Item, Report], Result], jobs: int, bounds: Bounds | None
-) -> Iterator[list[Connection]]:
-    """Connections to processes that work until the end of the block, and no longer."""
+) -> Iterator[dict[Connection, BaseProcess]]:
+    """Processes that work until the end of the block, and no longer, by their connections."""
     context = get_context("spawn")
-    started: list[BaseProcess] = []
+    started: dict[Connection, BaseProcess] = {}
     lines: list[Connection] = []
     try:
         with _interrupts_held_back(), _safe_path():
@@ -107,20 +109,23 @@ def _processes(
                     target=_work, args=(function, other_end, bounds), daemon=True
                 )
                 process.start()
-                started.append(process)
+                started[line] = process
                 other_end.close()
-        yield lines
+        yield started
     finally:
-        for each in started:
+        for each in started.values():
             each.terminate()
-        for each in started:
+        for each in started.values():
             each.join()
         for line in lines:
             line.close()
 
 
 def _results(
-    lines: Sequence[Connection], items: Sequence[Item], report: Report, bounds: Bounds | None
+    processes: Mapping[Connection, BaseProcess],
+    items: Sequence[Item],
+    report: Report,
+    bounds: Bounds | None,
 ) -> list[Result]:
     """Distribute the items one by one; pass reports on, and raise the first failure."""
     waiting = iter(range(len(items)))
@@ -131,11 +136,12 @@ def _results(
     def hand_out(line: Connection) -> None:
         number = next(waiting, None)
         if number is not None:
-            at_work[line], watches[line] = number, _Watch(bounds, len(lines))
+            at_work[line] = number
+            watches[line] = _Watch(processes[line], bounds, len(processes))
             with watches[line].no_loss():
                 line.send(items[number])
 
-    for line in lines:
+    for line in processes:
         hand_out(line)
     while at_work:
         ready = wait([*at_work], _INTERVAL)
@@ -158,8 +164,8 @@ def _results(
 class _Watch:
     """The work of one process on one item: the present stage, and when it began."""
 
-    def __init__(self, bounds: Bounds | None, jobs: int) -> None:
-        self.bounds, self.jobs = bounds, jobs
+    def __init__(self, process: BaseProcess, bounds: Bounds | None, jobs: int) -> None:
+        self.process, self.bounds, self.jobs = process, bounds, jobs
         self.enter("", "")
 
     def enter(self, what: str, stage: str) -> None:
@@ -169,7 +175,7 @@ class _Watch:
     def look(self) -> None:
         """Raise RanAway if the time of the stage is over."""
         if self.bounds and monotonic() - self.since > self.bounds.at(self.stage):
-            raise self._ran_away()
+            raise RanAway(self.what, self.stage, seconds=self.bounds.at(self.stage))
 
     @contextmanager
     def no_loss(self) -> Iterator[None]:
@@ -177,11 +183,12 @@ class _Watch:
         try:
             yield
         except (EOFError, ConnectionError):
-            raise (self._ran_away() if self.bounds else LostProcess(self.jobs)) from None
-
-    def _ran_away(self) -> RanAway:
-        assert self.bounds is not None
-        return RanAway(self.what, self.stage, self.bounds.at(self.stage), self.bounds.gigabytes)
+            if self.bounds is None:
+                raise LostProcess(self.jobs) from None
+            self.process.join(_INTERVAL)
+            full = self.process.exitcode == _NO_MEMORY
+            gigabytes = self.bounds.gigabytes if full else None
+            raise RanAway(self.what, self.stage, gigabytes=gigabytes) from None
 
 
 def _with_note(error: Exception, note: str) -> Exception:
@@ -243,7 +250,7 @@ def _do(function: Callable[[Item, Report], Result], item: Item, line: Connection
     try:
         line.send(("result", function(item, report)))
     except MemoryError:
-        os._exit(1)  # the first process notices that the connection closes
+        os._exit(_NO_MEMORY)  # the first process notices that the connection closes
     except Exception as error:
         line.send(("failure", _portable(error), f"in another process:\n{traceback.format_exc()}"))
 

@@ -62,6 +62,7 @@ ERRORS: dict[str, Callable[[], BaseException]] = {
     "strange": lambda: Strange(1, 2),
     "fault": lambda: AssertionError("a fault of the program"),
     "end": lambda: EOFError("of a file"),
+    "memory": lambda: MemoryError(),
 }
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from derive.errors import LostProcess, NotProven
-from derive.parallel import in_processes
+from derive.errors import LostProcess, NotProven, RanAway
+from derive.parallel import Bounds, in_processes
 from tests.tasks import ERRORS, fails, late, meeting, process
 
 pytestmark = pytest.mark.slow
@@ -102,6 +102,25 @@ def test_a_process_that_is_lost_is_told_with_what_to_do(place: int) -> None:
     items.insert(place, "exit")
     with pytest.raises(LostProcess, match=r"one of 3 processes ended .* --jobs 1"):
         in_processes(fails, items, silent, 3)
+
+
+# ------------------------------------------------------------------ limits
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("wait", "the stage 'begun' took longer than its limit of 1 s: "),
+        ("memory", "the stage 'begun' needed more memory than its limit of 1 GB: "),
+        ("exit", "the stage 'begun' made its process fail"),
+    ],
+)
+def test_what_stopped_a_process_is_told(name: str, told: str) -> None:
+    """One limit of its own, or none: never both limits."""
+    with pytest.raises(RanAway) as caught:
+        in_processes(fails, [name], silent, 1, Bounds(60, 1, {"begun": 1}))
+    assert told in str(caught.value)
+    assert "kinks" not in str(caught.value)
 
 
 ORPHANS = """
