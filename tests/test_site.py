@@ -3,6 +3,7 @@
 import importlib.util
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,10 +19,19 @@ def listed() -> set[str]:
     return {re.sub(r".*<(.*)>", r"\1", line) for line in lines}
 
 
+def module(name: str) -> Any:
+    """A module of docs/site, which is no package."""
+    spec = importlib.util.spec_from_file_location(name, SITE / f"{name}.py")
+    assert spec is not None and spec.loader is not None
+    found = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(found)
+    return found
+
+
 def test_the_index_leads_to_every_page() -> None:
     pages = [*ROOT.glob("docs/*.md"), *ROOT.glob("notebooks/*.md"), *ROOT.glob("notebooks/*.ipynb")]
     there = {path.relative_to(ROOT).with_suffix("").as_posix() for path in pages}
-    made = {"theory", "api"}
+    made = {"theory", "handbook", "api", "api_edge", "api_geometry", "api_plot"}
     assert there <= listed()
     for name in listed() - there - made:
         assert (ROOT / f"{name}.md").exists(), name
@@ -31,14 +41,87 @@ def test_the_theory_numbers_every_formula_of_its_sheets() -> None:
     from derive.derivation import derive_sheet
     from derive.library import load_geometry
 
-    spec = importlib.util.spec_from_file_location("pages", SITE / "pages.py")
-    assert spec is not None and spec.loader is not None
-    pages = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(pages)
+    pages = module("pages")
     text = "\n".join(pages.theory())
     for body in pages.BODIES:
         sheet = derive_sheet(load_geometry(body))
         assert len(re.findall(rf"^\$\$ \({body}-", text, re.M)) == len(sheet)
+
+
+DOCSTRING = """The slip zone, |K_T|/(f K_N) + O(d**2) of `edge`.
+
+    d = K_T/(f*K_N)
+        for any body
+
+K_N  coefficient of s**(1/2),
+     signed
+E*   a modulus
+
+Parameters
+----------
+a, K_T_ : array_like
+    Edge; E* > 0.
+
+Examples
+--------
+>>> 2 * 3 ** 1
+6
+""".splitlines()
+
+RESTRUCTURED = r"""The slip zone, \|K_T\|/(f K_N) + O(d\ :sup:`2`\ ) of ``edge``.
+
+.. code-block:: text
+
+       d = K_T/(f*K_N)
+           for any body
+
+K_N  coefficient of s\ :sup:`1/2`\ ,
+     signed
+E\*   a modulus
+
+Parameters
+----------
+a, K_T_ : array_like
+    Edge; E\* > 0.
+
+Examples
+--------
+>>> 2 * 3 ** 1
+6
+""".splitlines()
+
+
+def test_docstrings_become_restructured_text() -> None:
+    docstrings = module("docstrings")
+    found = docstrings.restructured(DOCSTRING, ("K_N", "a", "K_T_"), "Parameters")
+    assert [line for line in found if line] == [line for line in RESTRUCTURED if line]
+
+
+def test_a_list_of_names_becomes_a_list_of_fields() -> None:
+    docstrings = module("docstrings")
+    lines = ["a, c  the edges,", "      signed", "f: of friction"]
+    assert docstrings.restructured(lines, ("a", "c", "f"), "Fields") == [
+        ":Fields:",
+        "   * **a, c** -- the edges,",
+        "     signed",
+        "   * **f** -- of friction",
+        "",
+    ]
+
+
+def test_the_references_describe_all_public_names() -> None:
+    pages = module("pages")
+    text = "\n".join(line for write in pages.REFERENCES.values() for line in write())
+    described = set(re.findall(r"auto(?:class|function):: ([\w.]+)", text))
+    from derive import plot
+    from generated import edge, wedge
+
+    assert {f"generated.edge.{name}" for name in edge.__all__} <= described
+    drawing = {f"derive.plot.{name}" for name in plot.__all__} - described
+    assert drawing == {"derive.plot.COLOURS", "derive.plot.LINES"}
+    for name in wedge.__all__:
+        homes = ("wedge", "full_stick", "runtime.types")
+        assert any(f"generated.{home}.{name}" in described for home in homes), name
 
 
 def test_the_example_of_pictures_runs() -> None:

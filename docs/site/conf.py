@@ -4,14 +4,22 @@ Nothing is downloaded when the website is built or read: formulas are MathML, wh
 without a script.
 """
 
+import sys
+from enum import EnumType
+from pathlib import Path
+
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
 
+sys.path.insert(0, str(Path(__file__).parent))
+
+from docstrings import label_of, names_of, restructured
+
 project = "contact-derive"
 author = "The contact-derive contributors"
 copyright = f"{author}, MIT licence"
-extensions = ["myst_nb", "sphinx.ext.autodoc"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 exclude_patterns = ["docs/site"]
 
 html_theme = "furo"
@@ -33,7 +41,10 @@ myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
 math_eqref_format = "({number})"
 autodoc_member_order = "bysource"
-autodoc_typehints_format = "short"
+autodoc_typehints = "none"  # the docstrings say what each argument is
+napoleon_google_docstring = False
+napoleon_use_param = False  # several arguments share one description
+napoleon_use_rtype = False
 suppress_warnings = [
     "mystnb.mime_priority",  # a slider has no static image, so its code is shown
     "misc.highlighting_failure",  # the output of a terminal is not Python
@@ -53,14 +64,22 @@ def _block(self: object, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
-def _as_written(
+def _restructured(
     app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]
 ) -> None:
-    """Show a docstring as literal text: its formulas are Python, not reStructuredText."""
-    lines[:] = [".. code-block:: text", "", *(f"   {line}" for line in lines), ""]
+    """Rewrite a docstring, which is written for a terminal, before napoleon reads it."""
+    lines[:] = restructured(lines, names_of(obj), label_of(obj))
+
+
+def _called(
+    app: Sphinx, what: str, name: str, obj: object, options: object, signature: str, returns: str
+) -> tuple[str, str] | None:
+    """Show no arguments for an enumeration: nobody calls it."""
+    return ("", "") if isinstance(obj, EnumType) else None
 
 
 def setup(app: Sphinx) -> None:
-    """Render formulas as MathML, and show docstrings as literal text."""
+    """Render formulas as MathML, and docstrings with their sections."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
-    app.connect("autodoc-process-docstring", _as_written)
+    app.connect("autodoc-process-docstring", _restructured, priority=100)
+    app.connect("autodoc-process-signature", _called)

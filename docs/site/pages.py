@@ -1,26 +1,27 @@
 """Prepare the input of Sphinx: run `python docs/site/pages.py DIR` in the root of the repository.
 
-The pages keep their relative paths, so that their links work as they do in the repository.  Two
+The pages keep their relative paths, so that their links work as they do in the repository.  Some
 pages are written here.  The theory comes from formula sheets that are proven in this run.  The
-reference of the functions names the modules whose docstrings Sphinx reads.
+references name the modules whose docstrings Sphinx reads.
 """
 
 import re
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
 
 from derive.derivation import derive_sheet
 from derive.handbook.prose import prose
-from derive.library import load_geometry
+from derive.library import library, load_geometry
 from derive.notation import latex_of
 from derive.proof.prove import prove_sheet
 
 ROOT = Path(__file__).parents[2]
 PAGES = ("*.md", "docs/*.md", "notebooks/*.md", "notebooks/*.ipynb", "notebooks/*.svg")
-ALSO = ("tests/reference/FINDINGS.md", "docs/site/conf.py", "docs/site/style/site.css")
+ALSO = ("tests/reference/FINDINGS.md", "docs/site/style/site.css")
+SETTINGS = ("conf.py", "docstrings.py")
 BODIES = ("hertz", "wedge")
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)#:]+)(#[^)]*)?\)")
 
@@ -39,9 +40,12 @@ def lay_out(target: Path) -> None:
         else:
             shutil.copy(path, copy)
     shutil.copy(ROOT / "docs" / "site" / "index.md", target / "index.md")
-    shutil.copy(ROOT / "docs" / "site" / "conf.py", target / "conf.py")
+    for name in SETTINGS:
+        shutil.copy(ROOT / "docs" / "site" / name, target / name)
     (target / "theory.md").write_text("\n".join(theory()))
-    (target / "api.md").write_text("\n".join(reference()))
+    (target / "handbook.md").write_text("\n".join(handbook()))
+    for name, write in REFERENCES.items():
+        (target / f"{name}.md").write_text("\n".join(write()))
 
 
 def _linked(path: Path, pages: set[Path]) -> str:
@@ -89,6 +93,26 @@ def theory() -> Iterator[str]:
             yield f"- {_capitalised(_plain(str(formula.proof)))}.\n"
 
 
+def handbook() -> Iterator[str]:
+    """Yield the page that leads to the handbook, which `derive show` writes beside the website."""
+    yield "# Handbook of bodies\n"
+    yield (
+        f"{_handbook('index', 'The handbook')} has one page for each body of the library: its "
+        "profile and pressure, all formulas with their units, conditions, proofs and LaTeX, and "
+        "the generated module.\n"
+    )
+    yield "| body | description | $g(x)$ |\n| --- | --- | --- |"
+    for name in library():
+        geometry = load_geometry(name)
+        title = _plain(geometry.title.removesuffix("."))
+        yield f"| {_handbook(name, name)} | {title} | ${latex_of(geometry.g)}$ |"
+
+
+def _handbook(page: str, words: str, root: str = "") -> str:
+    """A link to a page of the handbook, which Sphinx does not know."""
+    return f'<a href="{root}handbook/{page}.html">{words}</a>'
+
+
 def _capitalised(words: str) -> str:
     """Capitalise the first letter of a sentence, unless it is a symbol such as P'(c)."""
     return f"{words[0].upper()}{words[1:]}" if words[1:2].isalpha() else words
@@ -99,28 +123,80 @@ def _plain(text: str) -> str:
     return re.sub(r"([*_$|\[\]])", r"\\\1", prose(text))
 
 
-def reference() -> Iterator[str]:
-    """Yield the reference page: functions of one body, and functions that all bodies share."""
-    yield "# Functions, with their docstrings\n"
+def body_reference() -> Iterator[str]:
+    """Yield the reference page of a body: its functions, those that all bodies share, results."""
+    yield "# Functions of a body\n"
     yield (
-        "All generated modules have the same functions. They differ in the parameters of the body "
-        "and in the formulas that they evaluate. This page shows the functions of the wedge. For "
+        "Every generated module has the functions on this page, with the same names, arguments and "
+        "results. The modules differ only in the parameters of the body and in the formulas that "
+        "they evaluate. This page shows the functions of the wedge, whose parameter is `phi`. For "
         "another body, use `help(hertz.load)`, for example, or its page in the "
-        '<a href="handbook/index.html">handbook</a>.\n'
+        "[handbook](handbook.md).\n"
     )
     wedge = import_module("generated.wedge")
     shared = ("K_T", "L_T", "stick_margin")
     own = [name for name in wedge.__all__ if name not in shared]
     results = [name for name in own if isinstance(getattr(wedge, name), type)]
     functions = [name for name in own if name not in results]
-    for title, module, kind, names in (
-        ("A body: the wedge", "wedge", "function", functions),
-        ("The same for every body", "full_stick", "function", shared),
-        ("Results", "runtime.types", "class", results),
-    ):
-        yield f"## {title}\n"
-        for name in names:
-            yield f"```{{eval-rst}}\n.. auto{kind}:: generated.{module}.{name}\n```\n"
+    yield from _described("A body: the wedge", "generated.wedge", functions)
+    yield from _described("The same formulas for every body", "generated.full_stick", shared)
+    yield from _described("Results", "generated.runtime.types", results)
+
+
+def edge_reference() -> Iterator[str]:
+    """Yield the reference page of `generated.edge`."""
+    yield "# Functions of an edge\n"
+    yield (
+        "`generated.edge` needs the coefficients of an edge, but no body. "
+        "[An edge without its geometry](docs/edge.md) shows how to use it.\n"
+    )
+    edge = import_module("generated.edge")
+    results = [name for name in edge.__all__ if isinstance(getattr(edge, name), type)]
+    functions = [name for name in edge.__all__ if name not in results]
+    yield from _described("Functions", "generated.edge", functions)
+    yield from _described("Arguments and results", "generated.edge", results)
+
+
+def geometry_reference() -> Iterator[str]:
+    """Yield the reference page of what a geometry file and a derivation need."""
+    yield "# Geometry and derivation\n"
+    yield (
+        "A geometry file needs `Geometry`, `parameter` and the symbol `x`, the position along the "
+        "contact; [a notebook](notebooks/02_your_own_geometry.ipynb) shows how to write one. The "
+        "other functions derive and prove the formula sheet of a body.\n"
+    )
+    derive = import_module("derive")
+    names = [name for name in derive.__all__ if name != "x"]
+    yield from _described("The package `derive`", "derive", names)
+
+
+def plot_reference() -> Iterator[str]:
+    """Yield the reference page of `derive.plot`."""
+    yield "# Functions for pictures\n"
+    yield (
+        "`derive.plot` draws with matplotlib; [Pictures](docs/pictures.md) shows an example. "
+        "`COLOURS` and `LINES` are dictionaries of the colours and line styles.\n"
+    )
+    plot = import_module("derive.plot")
+    names = [name for name in plot.__all__ if not isinstance(getattr(plot, name), dict)]
+    yield from _described("Functions", "derive.plot", names)
+
+
+REFERENCES = {
+    "api": body_reference,
+    "api_edge": edge_reference,
+    "api_geometry": geometry_reference,
+    "api_plot": plot_reference,
+}
+
+
+def _described(title: str, module: str, names: Iterable[str]) -> Iterator[str]:
+    """Yield one section, in which Sphinx describes objects of a module."""
+    home = import_module(module)
+    yield f"## {title}\n"
+    for name in names:
+        kind = "class" if isinstance(getattr(home, name), type) else "function"
+        yield f"```{{eval-rst}}\n.. auto{kind}:: {module}.{name}\n```\n"
 
 
 if __name__ == "__main__":
