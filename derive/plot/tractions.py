@@ -270,7 +270,7 @@ def _shade(axes: Sequence[Axes], at: Any, zone: Any, dsigma: float, length: Meas
     """Shade the slip zones by their direction of slip; the last of the Axes gets the labels."""
     if not np.isfinite(zone.m):
         return
-    reversing = "slip turns round" if int(zone.regime) == MIXED else ""
+    reversing = "slip reverses" if int(zone.regime) == MIXED else ""
     named = set()
     for (start, end), sense in zip(
         ((-at.a, -zone.m), (zone.n, at.c)), senses(zone, dsigma), strict=True

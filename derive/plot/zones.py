@@ -141,7 +141,7 @@ AREAS: dict[str, Any] = {
     "stick": {"color": STICK, "linewidth": 0},
     "forward slip": {"color": FORWARD, "linewidth": 0},
     "reverse slip": {"color": REVERSE, "linewidth": 0},
-    "slip turns round": {"facecolor": "w", "edgecolor": "#999999", "hatch": "...", "linewidth": 0},
+    "slip reverses": {"facecolor": "w", "edgecolor": "#999999", "hatch": "...", "linewidth": 0},
     "not known": {"facecolor": "w", "edgecolor": "#bbbbbb", "hatch": "////", "linewidth": 0},
 }
 
@@ -183,7 +183,7 @@ def _areas(
         for name, where in (
             ("forward slip", known & (sense == 1)),
             ("reverse slip", known & (sense == -1)),
-            ("slip turns round", reverses),
+            ("slip reverses", reverses),
         ):
             if np.any(where):
                 yield name, edges, where

@@ -29,7 +29,7 @@ P, M, DQ = 1e6, 60.0, 1.5e5
 STATE = hertz.contact(P, M, **STEEL)
 MODERATE_PULL, LARGE_PULL = 100e6, 500e6
 WINDOW = 262e6
-"""A tension at which slip turns round: 8 dQ/(pi h) = 256.7 MPa, and the zone closes at 274 MPa."""
+"""A tension at which slip reverses: 8 dQ/(pi h) = 256.7 MPa, and the zone closes at 274 MPa."""
 
 
 @pytest.fixture(autouse=True)
@@ -181,7 +181,7 @@ def test_a_mixed_cycle_shows_its_zone_where_it_is_asked_for() -> None:
     assert (right.get_x(), right.get_width()) == pytest.approx(
         (1e3 * zone.n, 1e3 * (STATE.c - zone.n))
     )
-    assert "slip turns round" in [text.get_text() for text in below.get_legend().get_texts()]
+    assert "slip reverses" in [text.get_text() for text in below.get_legend().get_texts()]
     assert [text.get_text() for text in below.texts] == ["mixed: the shear is not known"]
     above, _ = plot.slip(hertz, STATE, STATE, DQ, WINDOW, mixed=True, **FRICTION)
     assert len(above.patches) == 2
