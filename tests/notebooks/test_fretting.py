@@ -89,7 +89,7 @@ def test_the_study_takes_other_loads(study: Any, rows: tuple[str, ...], f: float
         kind = Regime(regime[i]).name.lower().replace("_", " ")
         assert f"| {name} | {kind} |" in said
         if not np.isfinite(zone.m[i]):
-            why = "slip turns round" if regime[i] == Regime.MIXED else "nothing sticks"
+            why = "slip reverses" if regime[i] == Regime.MIXED else "nothing sticks"
             assert any(name in part and why in part for part in said.split("*"))
     assert ("All of these stick zones are known." in said) == bool(np.all(np.isfinite(zone.m)))
     whole_contact(names)
