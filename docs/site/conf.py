@@ -4,17 +4,22 @@ Nothing is downloaded when the website is built or read: formulas are MathML, wh
 without a script.
 """
 
+import re
 import sys
 from enum import EnumType
 from pathlib import Path
 
 from docutils import nodes
-from latex2mathml.converter import convert
 from sphinx.application import Sphinx
+
+from derive.handbook.mathml import mathml
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 from docstrings import label_of, names_of, restructured
+
+NUMBER = re.compile(r"[~−-]?\d[\d.,e+×% −-]*(\w{1,2}|\([^()]{1,12}\))?")
+"""A cell such as 7.7e-16 (2 of 9)."""
 
 project = "contact-derive"
 author = "The contact-derive contributors"
@@ -52,16 +57,23 @@ suppress_warnings = [
 
 
 def _inline(self: object, node: nodes.math) -> None:
-    self.body.append(f'<span class="math">{convert(node.astext())}</span>')  # type: ignore[attr-defined]
+    self.body.append(f'<span class="math">{mathml(node.astext(), "inline")}</span>')  # type: ignore[attr-defined]
     raise nodes.SkipNode
 
 
 def _block(self: object, node: nodes.math_block) -> None:
     ids = "".join(f'<span id="{name}"></span>' for name in node["ids"])
     number = f'<span class="eqno">({node["number"]})</span>' if node.get("number") else ""
-    formula = convert(node.astext(), display="block")
+    formula = mathml(node.astext())
     self.body.append(f'<div class="math">{ids}{formula}{number}</div>')  # type: ignore[attr-defined]
     raise nodes.SkipNode
+
+
+def _numbers(app: Sphinx, doctree: nodes.document) -> None:
+    """Mark the cells of tables that contain numbers, which must not break at a hyphen."""
+    for cell in doctree.findall(nodes.entry):
+        if NUMBER.fullmatch(cell.astext()):
+            cell["classes"].append("number")
 
 
 def _restructured(
@@ -81,5 +93,6 @@ def _called(
 def setup(app: Sphinx) -> None:
     """Render formulas as MathML, and docstrings with their sections."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
+    app.connect("doctree-read", _numbers)
     app.connect("autodoc-process-docstring", _restructured, priority=100)
     app.connect("autodoc-process-signature", _called)
