@@ -595,9 +595,19 @@ def _single(claim: Claim) -> Iterator[Candidate]:
             yield left, right, edit
 
 
+def swaps_on_right(claim: Claim) -> tuple[Symbol, ...]:
+    """Return the names that may be swapped on the right side, which does not define the left one.
+
+    If a = c, the equations a = a and a = (a + c)/2 are true, but correct nothing.
+    """
+    if claim.right.has(claim.left):
+        return claim.swaps
+    return tuple(name for name in claim.swaps if name != claim.left)
+
+
 def _changed(claim: Claim) -> Iterator[Candidate]:
     units = {} if claim.units else claim.unit_of
-    for edit in edits(claim.right, claim.swaps, units):
+    for edit in edits(claim.right, swaps_on_right(claim), units):
         yield claim.left, edit.expr, edit
     if not isinstance(claim.left, Symbol):
         for edit in edits(claim.left, claim.swaps, units):
@@ -634,9 +644,11 @@ def _scaled(claim: Claim) -> Iterator[Candidate]:
 def _double(claim: Claim) -> Iterator[Candidate]:
     """Yield pairs of changes of the right side, of which the first is a sign or a swap."""
     units = {} if claim.units else claim.unit_of
-    firsts = [e for e in plain_edits(claim.right, claim.swaps, units) if e.kind in _FIRST_KINDS]
+    firsts = [
+        e for e in plain_edits(claim.right, swaps_on_right(claim), units) if e.kind in _FIRST_KINDS
+    ]
     for first in firsts[:_FIRSTS]:
-        for second in plain_edits(first.expr, claim.swaps, units):
+        for second in plain_edits(first.expr, swaps_on_right(claim), units):
             what = f"{first.what}; {second.what}"
             edit = Edit(f"{first.kind} and {second.kind}", what, second.expr)
             yield claim.left, second.expr, edit

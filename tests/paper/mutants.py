@@ -9,7 +9,7 @@ from sympy import Expr, count_ops, pi
 from derive.paper.claim import Claim, Verdict
 from derive.paper.draw import has_integral
 from derive.paper.repair import Edit, edits
-from derive.paper.verdict import Judged, judge
+from derive.paper.verdict import Judged, judge, swaps_on_right
 
 FEWEST = 5
 """Ways in which a claim is broken at least."""
@@ -51,7 +51,8 @@ def _of_kind(claim: Claim, kind: str) -> Iterator[Mutant]:
 
 
 def _wanted(expr: Expr, claim: Claim, kind: str) -> Iterator[Edit]:
-    for edit in edits(expr, claim.swaps):
+    swaps = claim.swaps if expr != claim.right else swaps_on_right(claim)
+    for edit in edits(expr, swaps):
         if edit.kind != kind:
             continue
         if kind == "factor" and not edit.what.startswith(("2 on", f"{pi} on", "1/2 on")):
