@@ -312,14 +312,19 @@ def test_pressure_that_falls_faster_than_shear_is_mixed() -> None:
 
 
 def elliptic(a: mpf, c: mpf, m: mpf, n: mpf) -> tuple[mpf, mpf]:
-    """int_n^c sqrt((a + x)(c - x)) times sqrt((x + m)/(x - n)), and times its inverse, dx.
+    """Integrals of sqrt((a + x)(c - x)) r and sqrt((a + x)(c - x))/r, r = sqrt((x + m)/(x - n)).
 
-    With u = c - x and tau = (x - n)/u, U_k = int u**k/sqrt(Q) du, Q = u (u1 - u)(u2 - u)(u3 - u),
-    u1 = c - n, u2 = c + m, u3 = c + a, is u1**k/sqrt(u2 u3) int (1 + tau)**-k dtau/sqrt(tau (tau +
-    alpha)(tau + beta)), alpha = (a + n)/u3, beta = (m + n)/u2: Carlson's R_F and R_J for k = 0, 1.
-    k = 2 by the derivative of sqrt(tau (tau + alpha)/(tau + beta))/(1 + tau), which brings R_D in,
-    k = 3 by that of sqrt(Q).  These two differ little from each other where u1 is small, so that
-    float64 would lose (u1/h)**2 of its digits: the program integrates instead.
+    Both extend from n to c.  With u = c - x they are sums of U_k = int u**k/sqrt(Q) du, where
+    Q = u (u1 - u)(u2 - u)(u3 - u), u1 = c - n, u2 = c + m and u3 = c + a.  The substitution
+    tau = (x - n)/u gives
+
+        U_k = u1**k/sqrt(u2 u3) int (1 + tau)**-k dtau/sqrt(tau (tau + alpha)(tau + beta))
+
+    with alpha = (a + n)/u3 and beta = (m + n)/u2.  For k = 0 and 1 these are Carlson's R_F and
+    R_J.  For k = 2 the derivative of sqrt(tau (tau + alpha)/(tau + beta))/(1 + tau) reduces the
+    integral to these and R_D; for k = 3 the derivative of sqrt(Q) reduces it to the other U_k.
+    If u1 is small, the terms nearly cancel, and float64 would lose a factor of about (h/u1)**2
+    in precision.  The program therefore uses quadrature.
     """
     u1, u2, u3 = c - n, c + m, c + a
     alpha, beta = (a + n) / u3, (m + n) / u2
