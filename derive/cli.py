@@ -14,7 +14,7 @@ from dataclasses import replace
 from math import inf
 from pathlib import Path
 from shutil import which
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 from rich.console import Console, RenderableType
@@ -26,7 +26,11 @@ from derive.limit import DEFAULT
 if TYPE_CHECKING:
     from derive.body import Body
     from derive.paper.claim import Paper
+    from derive.parallel import Report
     from derive.pipeline import Order
+    from derive.sheet import FormulaSheet
+
+Shown = TypeVar("Shown")
 
 _WIDE = 10_000
 """Columns of output that is not a terminal, if COLUMNS is not set: wide enough that no line that
@@ -128,7 +132,7 @@ def list_() -> None:
 @click.option("--latex", is_flag=True, help="Print the sheet as one LaTeX display.")
 @click.option(
     "--code",
-    type=click.Choice(["c", "fortran", "javascript", "julia", "matlab"]),
+    type=click.Choice(["c", "fortran", "javascript", "julia", "matlab"], case_sensitive=False),
     help="Print the closed formulas as functions in this language.",
 )
 @click.option("--html", is_flag=True, help="Write a page for the browser, NAME.html.")
@@ -169,59 +173,112 @@ def show(
     if (name is None) != every:
         raise click.UsageError("give either NAME, a geometry or geometry file, or --all --html")
     if html:
-        _show_pages(name, out, limit)
+        _show_page(name, out, limit) if name else _show_pages(out, limit)
         return
     assert name is not None
     if slip:
-        _show_slip(name, slip)
+        click.echo(_apart(_slip_of, name, slip))
         return
+    shown, remark = _apart(_sheet_of, name, "latex" if latex else code or "", limit)
+    if remark:
+        click.echo(remark, err=True)
+    if isinstance(shown, str):
+        click.echo(shown)
+    else:
+        _print(shown)
+
+
+def _apart(
+    function: "Callable[[tuple[Any, ...], Report], Shown]", name: str, *more: object
+) -> Shown:
+    """Apply a function to a geometry, for a file in another process with limits.
+
+    In the other process a geometry file can neither end this one nor take time without end.
+    """
+    from derive import pipeline
+    from derive.library import is_in_library
+    from derive.parallel import in_processes
+
+    bounds = None if is_in_library(name) else pipeline.STRANGERS
+    with _console(stderr=True).status(f"reading {name}") as status:
+
+        def report(what: str, stage: str) -> None:
+            status.update(f"{what}: {stage}")
+
+        (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
+    return shown
+
+
+def _sheet_of(asked: tuple[str, str, float], report: "Report") -> tuple[RenderableType, str]:
+    """The proven sheet of a body for the terminal, in LaTeX or in a language, and a remark."""
     from derive import derive_sheet, load_geometry, prove_sheet, view
     from derive.derivation import NONE_IN_TIME, with_closed_forms
 
+    name, form, limit = asked
+    report(name, "reading g(x)")
     geometry = load_geometry(name)
-    with _console(stderr=True).status(f"deriving {geometry.name}") as status:
-        sheet = derive_sheet(geometry)
-        if not sheet.is_closed("load"):
-            status.update(f"looking for closed forms of {geometry.name}, {limit:g} s at most")
-            sheet = with_closed_forms(sheet, limit)
-        status.update(f"proving {geometry.name}")
-        sheet = prove_sheet(sheet).demand_proven()
-    if sheet.remark.startswith(NONE_IN_TIME):
-        click.echo(f"{geometry.name}: {sheet.remark}", err=True)
-    if latex:
-        click.echo(sheet.latex)
-    elif code:
+    report(name, "deriving")
+    sheet = derive_sheet(geometry)
+    if not sheet.is_closed("load"):
+        report(name, f"looking for closed forms, {limit:g} s at most")
+        sheet = with_closed_forms(sheet, limit)
+    report(name, "proving")
+    sheet = prove_sheet(sheet).demand_proven()
+    struck = sheet.remark.startswith(NONE_IN_TIME)
+    remark = f"{geometry.name}: {sheet.remark}" if struck else ""
+    if form == "latex":
+        return sheet.latex, remark
+    if form:
         from derive.codegen.languages import code_of
 
-        click.echo(code_of(sheet, code))
-    else:
-        _print(view.formulas(sheet))
+        return code_of(sheet, form), remark
+    return view.formulas(sheet), remark
 
 
-def _show_pages(name: str | None, out: Path | None, limit: float) -> None:
-    """Write the page of one body, or the pages of the library with their index."""
+def _show_page(name: str, out: Path | None, limit: float) -> None:
+    """Write the page of one body."""
+    from derive.handbook.shelf import put_page
+
+    (body,) = _built((name,), None, False, limit)
+    text = _apart(_page_of, name, body, limit)
+    path = out or Path(f"{body.name}.html")
+    put_page(text, path)
+    _print(f"Wrote {_shown(path.resolve())}")
+
+
+def _page_of(asked: "tuple[str, Body, float]", report: "Report") -> str:
+    """The page of a body that has been built."""
+    from derive.handbook.page import page
+
+    name, body, limit = asked
+    return page(_sheet_of_body(name, body, limit, report), body)
+
+
+def _sheet_of_body(name: str, body: "Body", limit: float, report: "Report") -> "FormulaSheet":
+    """The sheet of a body that has been built."""
     from derive import derive_sheet, load_geometry
     from derive.derivation import with_closed_forms
-    from derive.handbook.page import entry, index, page, proven
-    from derive.handbook.shelf import demand_replaceable, put_page, put_pages
+    from derive.handbook.page import proven
+
+    report(name, "reading g(x)")
+    geometry = load_geometry(name)
+    report(name, "deriving")
+    return proven(with_closed_forms(derive_sheet(geometry), limit), body)
+
+
+def _show_pages(out: Path | None, limit: float) -> None:
+    """Write the pages of the library with their index."""
+    from derive.handbook.page import entry, index, page
+    from derive.handbook.shelf import demand_replaceable, put_pages
     from derive.library import library
 
-    if name is None:
-        folder = out or Path("handbook")
-        demand_replaceable(folder)
-    sources = library() if name is None else (name,)
-    bodies = _built(sources, None, False, limit)
-    derived = (derive_sheet(load_geometry(source)) for source in sources)
+    folder = out or Path("handbook")
+    demand_replaceable(folder)
+    bodies = _built(library(), None, False, limit)
     sheets = [
-        proven(with_closed_forms(sheet, limit), body)
-        for sheet, body in zip(derived, bodies, strict=True)
+        _sheet_of_body(source, body, limit, lambda *_: None)
+        for source, body in zip(library(), bodies, strict=True)
     ]
-    if name is not None:
-        (sheet,), (body,) = sheets, bodies
-        path = out or Path(f"{body.name}.html")
-        put_page(page(sheet, body), path)
-        _print(f"Wrote {_shown(path.resolve())}")
-        return
     pages = {f"{b.name}.html": page(s, b, index=True) for s, b in zip(sheets, bodies, strict=True)}
     pages["index.html"] = index([entry(s, b) for s, b in zip(sheets, bodies, strict=True)])
     put_pages(pages, folder)
@@ -237,24 +294,27 @@ _SENSES = (
 )
 
 
-def _show_slip(name: str, order: int) -> None:
-    """Print the terms of both slip zones, one per line, then the meaning of their coefficients."""
+def _slip_of(asked: tuple[str, int], report: "Report") -> str:
+    """The terms of both slip zones, one per line, then the meaning of their coefficients."""
     from derive import derive_sheet, load_geometry
     from derive.derivation import slip_series
     from derive.notation import text_of
 
-    sheet = derive_sheet(load_geometry(name))
+    name, order = asked
+    report(name, "reading g(x)")
+    geometry = load_geometry(name)
+    report(name, f"deriving {order} terms")
+    sheet = derive_sheet(geometry)
     try:
-        with _console(stderr=True).status(f"deriving {order} terms"):
-            terms, known = slip_series(sheet, order)
+        terms, known = slip_series(sheet, order)
     except ValueError as error:
         raise click.BadParameter(str(error), param_hint="--slip") from None
-    for edge, found in terms.items():
-        for number, term in enumerate(found, 1):
-            click.echo(f"d_{edge.name.lower()}, order {number}: {text_of(term)}")
-    for symbol, value in known.items():
-        click.echo(f"{symbol} = {text_of(value)}")
-    click.echo(_SENSES)
+    zones = [
+        f"d_{edge.name.lower()}, order {number}: {text_of(term)}"
+        for edge, found in terms.items()
+        for number, term in enumerate(found, 1)
+    ]
+    return "\n".join([*zones, *(f"{s} = {text_of(value)}" for s, value in known.items()), _SENSES])
 
 
 @main.command(cls=_WithFormula)

@@ -181,6 +181,12 @@ def _build_and_keep(asked: tuple[str, str | None, float], report: Report) -> Bod
     return body
 
 
+def _is_file(source: str) -> bool:
+    with suppress(OSError, ValueError):  # not a valid file name
+        return Path(source).is_file()
+    return False
+
+
 def _path(source: str) -> Path:
     """The file that contains g(x)."""
     return FOLDER / f"{source}.py" if is_in_library(source) else Path(source)
@@ -211,7 +217,8 @@ class Order:
             return
         for source in self.sources:
             if not is_in_library(source):
-                load_geometry(source)  # reports an unknown name first
+                if not _is_file(source):
+                    load_geometry(source)  # reports what is wrong; a file is never run here
                 raise NeedsOutput(source)
         if not (GENERATED.parent / "pyproject.toml").exists():  # installed, not a clone
             raise InstalledPackage(str(GENERATED))

@@ -27,6 +27,7 @@ from derive.cli import main
 from derive.codegen.mark import MARK
 from derive.derivation import derive_law, derive_sheet
 from derive.library import library, load_geometry
+from derive.parallel import Bounds
 from derive.pipeline import DONE, GENERATED, KEPT, STAGES
 from derive.proof.verdict import Proof, Verdict
 from derive.sheet import FormulaSheet
@@ -207,6 +208,7 @@ def test_advice_names_the_command_as_it_was_typed(
 def shown_unproven(monkeypatch: pytest.MonkeyPatch) -> None:
     """`derive show` without the seconds that its proofs take."""
     monkeypatch.setattr(derive.proof.prove, "prove_sheet", assumed)
+    monkeypatch.setattr(derive.pipeline, "STRANGERS", None)  # another process would not know
 
 
 @pytest.mark.usefixtures("shown_unproven")
@@ -232,6 +234,49 @@ def test_show_latex_prints_one_display() -> None:
 def test_show_takes_a_file(here: Path) -> None:
     (here / "cylinder.py").write_text(CYLINDER)
     assert "cylinder: g(x) = x**2/(2*radius)" in done("show", str(here / "cylinder.py"))
+
+
+FORMS = [(), ("--latex",), ("--code", "c"), ("--slip", "1"), ("--html",)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("form", FORMS, ids=" ".join)
+def test_show_refuses_a_file_that_ends_its_process(here: Path, form: tuple[str, ...]) -> None:
+    """As a number does that is too large for the library under SymPy."""
+    (here / "ends.py").write_text(f"import os\nos.abort()\n{CYLINDER}")
+    result = run("show", "ends.py", *form)
+    assert result.exit_code == 2
+    (message,) = lines(result.stderr)
+    assert "ends.py: the stage 'reading g(x)' made its process fail" in message
+    assert contents(here).keys() == {"ends.py"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("form", FORMS, ids=" ".join)
+def test_show_does_not_wait_for_a_file_without_end(
+    here: Path, monkeypatch: pytest.MonkeyPatch, form: tuple[str, ...]
+) -> None:
+    monkeypatch.setattr(derive.pipeline, "STRANGERS", Bounds(60, 4, {STAGES[0]: 1}))
+    (here / "loop.py").write_text("while True: pass\n")
+    result = run("show", "loop.py", *form)
+    assert result.exit_code == 2
+    (message,) = lines(result.stderr)
+    assert "loop.py: the stage 'reading g(x)' took longer than its limit of 1 s" in message
+
+
+@pytest.mark.slow
+def test_show_prints_the_same_of_a_file_as_of_the_library(here: Path) -> None:
+    shutil.copy(ROOT / "derive" / "geometries" / "hertz.py", here)
+    for form in [(), ("--latex",), ("--code", "C"), ("--slip", "1")]:
+        assert done("show", "hertz.py", *form) == done("show", "hertz", *form)
+    refused = run("show", "hertz.py", "--slip", "1", "--latex")
+    assert (refused.exit_code, "exclude each other" in refused.stderr) == (2, True)
+
+
+def test_a_file_is_not_run_to_ask_for_a_directory(here: Path) -> None:
+    """`generate` has limits only in its other processes."""
+    (here / "ends.py").write_text("import os\nos._exit(3)\n")
+    assert "--out my_package" in run("generate", "ends.py").stderr
 
 
 @pytest.mark.usefixtures("shown_unproven")
@@ -696,6 +741,7 @@ class TestCode:
     def test_it_prints_functions(self, unproven: None) -> None:
         done = run("show", "hertz", "--code", "julia")
         assert done.exit_code == 0
+        assert run("show", "hertz", "--code", "Julia").output == done.output
         assert "function load(a, c, E_star, R)" in done.output
 
     @pytest.mark.parametrize("other", [("--latex",), ("--html",), ("--slip", "2")])
