@@ -14,6 +14,7 @@ from dataclasses import replace
 from math import inf
 from pathlib import Path
 from shutil import which
+from traceback import walk_tb
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -35,6 +36,9 @@ Shown = TypeVar("Shown")
 _WIDE = 10_000
 """Columns of output that is not a terminal, if COLUMNS is not set: wide enough that no line that
 another program reads is broken."""
+
+_NARROW = 100
+"""Columns below which a list leaves as much room as possible to texts."""
 
 FELL_SHORT, BAD_INPUT = 1, 2
 
@@ -65,22 +69,33 @@ class _Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> object:
         try:
-            _demand_surroundings()
             done = super().invoke(ctx)
             sys.stdout.flush()
             return done
         except UserError as error:
             _complain("Error", error.message.replace("`derive ", f"`{_command()} "))
             ctx.exit(BAD_INPUT)
-        except OSError as error:
-            if error.errno == errno.EPIPE:  # the reader of the pipe has closed it
-                raise
-            _complain("Error", f"{error.strerror}{f': {error.filename}' if error.filename else ''}")
-            _forget_the_output()
-            ctx.exit(BAD_INPUT)
         except NotProven as error:
             _complain("Not proven", str(error))
             ctx.exit(FELL_SHORT)
+
+    def main(self, *args: Any, **more: Any) -> Any:
+        """Run a command; `--help` and `--version` print before `invoke` is called."""
+        try:
+            _demand_surroundings()
+            return super().main(*args, **more)
+        except OSError as error:  # a closed pipe never gets here
+            _complain("Error", _what_failed(error))
+            _forget_the_output()
+            sys.exit(BAD_INPUT)
+
+
+def _what_failed(error: OSError) -> str:
+    """What the system refused, and where."""
+    *_, (last, _) = walk_tb(error.__traceback__)
+    if last.f_code in (click.echo.__code__, _Commands.invoke.__code__):  # the two that print
+        return f"standard output cannot be written: {error.strerror}"
+    return f"{error.strerror}{f': {error.filename}' if error.filename else ''}"
 
 
 def _demand_surroundings() -> None:
@@ -118,13 +133,14 @@ def main() -> None:
 
 @main.command("list")
 def list_() -> None:
-    """List all geometries with g(x), and which parts are closed form or numerical."""
+    """List all geometries: g(x), closed and numerical parts."""
     from derive import load_geometry, view
     from derive.derivation import derive_law, with_closed_forms
     from derive.library import library
 
     laws = (derive_law(load_geometry(name)) for name in library())
-    _print_table(view.listing(with_closed_forms(law) for law in laws))
+    narrow = _console(columns=os.environ.get("COLUMNS", "")).width < _NARROW
+    _print_table(view.listing((with_closed_forms(law) for law in laws), narrow))
 
 
 @main.command()
@@ -165,7 +181,10 @@ def show(
     slip: int | None,
     limit: float,
 ) -> None:
-    """Show the derived and proven formula sheet of NAME, a geometry or a geometry file."""
+    """Show the proven formulas of NAME.
+
+    NAME is a geometry of the library or the path of a geometry file.
+    """
     if html + latex + bool(code) + bool(slip) > 1:
         raise click.UsageError("--html, --latex, --code and --slip exclude each other: give one")
     if (every or out) and not html:
@@ -336,10 +355,11 @@ def new(
     title: str,
     out: Path | None,
 ) -> None:
-    """Write the geometry file NAME.py from G, the text of g(x), such as "x**2/(2*R)".
+    """Write the geometry file NAME.py from G, the text of g(x).
 
-    Every name in G other than x becomes a parameter.  Units that are not given are derived from the
-    requirement that g(x) be a length.  An existing file is never changed.
+    G is for example "x**2/(2*R)".  Every name in G other than x becomes a parameter.  Units that
+    are not given are derived from the requirement that g(x) be a length.  An existing file is never
+    changed.
     """
     from derive.writing.apart import Asked, drafted
     from derive.writing.options import said
@@ -379,7 +399,10 @@ def generate(
     jobs: int | None,
     limit: float,
 ) -> None:
-    """Derive, prove and write NumPy modules: the whole library, or the geometries named.
+    """Derive, prove and write NumPy modules.
+
+    Without arguments, these are the modules of the whole library; otherwise, of the geometries
+    named.
 
     A body is taken from an earlier run if neither its geometry file nor the program has changed.
     Such bodies are kept in the directory DERIVE_CACHE or in the user's cache; if DERIVE_CACHE is
@@ -439,11 +462,12 @@ def check(
     drafted: Path | None,
     inline: bool,
 ) -> None:
-    """Check the algebra of a paper: compare each printed claim with what follows from the theory.
+    """Check the algebra of a paper, claim by claim.
 
-    FILE is a claims file in TOML; see examples/, and docs/claims.md for what it may contain.
-    Without FILE, the paper by Andresen, Fleury, Moore and Hills (2020) is checked.  The exit status
-    is 1 if a verdict is not the expected one.
+    Each printed claim is compared with what follows from the theory.  FILE is a claims file in
+    TOML; `derive check paper.tex --draft FILE` writes one from a paper in LaTeX.  Without FILE, the
+    paper by Andresen, Fleury, Moore and Hills (2020) is checked.  The exit status is 1 if a verdict
+    is not the expected one.
     """
     if drafted is not None:
         _draft(file, drafted, inline)
@@ -523,11 +547,12 @@ def edge(
     html: Path | None,
     table: Path | None,
 ) -> None:
-    """Coefficients and slip zones of both edges from FILE, a finite-element table.
+    """Find the slip zones of both edges from a table.
 
-    In FILE, a line above the numbers names the columns with their units, such as x [mm], p [MPa],
-    dq [MPa].  dq is the change of the shear traction in a run without slip.  A column `step`
-    distinguishes load steps; the half-cycle leads from the first to the last of them.
+    FILE is a finite-element table; the coefficients of both edges are found from it.  In FILE, a
+    line above the numbers names the columns with their units, such as x [mm], p [MPa], dq [MPa].
+    dq is the change of the shear traction in a run without slip.  A column `step` distinguishes
+    load steps; the half-cycle leads from the first to the last of them.
     """
     from derive.edge import report
     from derive.edge.find import find

@@ -23,13 +23,21 @@ if TYPE_CHECKING:
     from derive.sheet import FormulaSheet
 
 
-def listing(sheets: "Iterable[FormulaSheet]") -> Table:
-    """A table of all geometries: g(x), and which parts are closed form or numerical."""
+def listing(sheets: "Iterable[FormulaSheet]", narrow: bool = False) -> Table:
+    """A table of all geometries: g(x), and which parts are closed form or numerical.
+
+    narrow: whether the columns of closed and numerical parts are as narrow as their words allow
+    """
     from derive.notation import text_of
 
-    names = Column("geometry", no_wrap=True)
-    body = Column("body", min_width=16)  # width of its longest word
-    table = Table(names, Column("g(x)", overflow="fold"), "closed form", "numerical", body)
+    most = 10 if narrow else None
+    table = Table(
+        Column("geometry", no_wrap=True),
+        Column("g(x)", overflow="fold"),
+        Column("closed form", overflow="fold", max_width=most),
+        Column("numerical", overflow="fold", max_width=most),
+        Column("body", overflow="fold"),
+    )
     for sheet in sheets:
         closed, numerical = by_form(sheet.is_closed)
         table.add_row(

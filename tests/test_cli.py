@@ -337,6 +337,10 @@ def test_generate_tells_of_a_limit_that_struck(
     assert (here / "made" / "catenary.py").read_bytes() == text
 
 
+def test_no_summary_is_cut() -> None:
+    assert "..." not in done("--help").replace("[ARGS]...", "")
+
+
 @pytest.mark.parametrize("command", ["list", "show", "generate", "new", "check"])
 def test_help_is_given(command: str) -> None:
     assert f"  {command} " in done("--help")
@@ -762,6 +766,10 @@ def test_tables_keep_to_the_columns_that_are_asked_for(monkeypatch: pytest.Monke
     printed = done("list")
     assert max(map(len, lines(printed))) == 80
     assert "…" not in printed
+    assert all(line[-1] in "┓┃┩│┘" for line in lines(printed))
+    cells = [[cell.strip() for cell in line.split("│")] for line in lines(printed)]
+    bodies = " ".join(row[-2] for row in cells if len(row) > 2)
+    assert all(" ".join(load_geometry(name).title.split()) in bodies for name in library())
 
 
 def test_findings_as_a_page(here: Path) -> None:

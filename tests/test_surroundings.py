@@ -39,9 +39,12 @@ def demand_one_line(done: "subprocess.CompletedProcess[str]", part: str) -> None
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no full device")
-@pytest.mark.parametrize("command", ["list", "show hertz --latex"])
+@pytest.mark.parametrize(
+    "command", ["list", "show hertz --latex", "--help", "--version", "show --help"]
+)
 def test_a_full_output(tmp_path: Path, command: str) -> None:
-    demand_one_line(derive(tmp_path, f"{command} > /dev/full"), "No space left")
+    part = "standard output cannot be written: No space left"
+    demand_one_line(derive(tmp_path, f"{command} > /dev/full"), part)
 
 
 def test_a_closed_output(tmp_path: Path) -> None:
