@@ -92,8 +92,9 @@ class _Commands(click.Group):
 
 def _what_failed(error: OSError) -> str:
     """What the system refused, and where."""
-    *_, (last, _) = walk_tb(error.__traceback__)
-    if last.f_code in (click.echo.__code__, _Commands.invoke.__code__):  # the two that print
+    passed = [frame.f_code for frame, _ in walk_tb(error.__traceback__)]
+    flushing = passed[-1] is _Commands.invoke.__code__
+    if flushing or {click.echo.__code__, _print.__code__} & {*passed}:
         return f"standard output cannot be written: {error.strerror}"
     return f"{error.strerror}{f': {error.filename}' if error.filename else ''}"
 
@@ -318,12 +319,14 @@ def _slip_of(asked: tuple[str, int], report: "Report") -> str:
     from derive import derive_sheet, load_geometry
     from derive.derivation import slip_series
     from derive.notation import text_of
+    from derive.pipeline import TERMS
 
     name, order = asked
     report(name, "reading g(x)")
     geometry = load_geometry(name)
-    report(name, f"deriving {order} terms")
+    report(name, "deriving")
     sheet = derive_sheet(geometry)
+    report(name, TERMS)
     try:
         terms, known = slip_series(sheet, order)
     except ValueError as error:
