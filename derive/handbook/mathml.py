@@ -1,5 +1,6 @@
 """Converts the LaTeX of a sheet to MathML, which browsers can display."""
 
+import re
 from functools import cache
 
 from latex2mathml.converter import convert
@@ -8,9 +9,17 @@ from markupsafe import Markup
 _ASTERISK, _OPERATOR = "<mo>&#x0002A;</mo>", "<mo>&#x02217;</mo>"
 """The star of the keyboard, which fonts raise, and the star that TeX sets in a formula."""
 
+_SIGN = re.compile(r"((?:\[|&#x000(?:28|2C|3D|3C|3E);)</mo>)<mo>&#x02212;</mo>")
+_PREFIX = r'\1<mo form="prefix">&#x02212;</mo>'
+"""The sign of a number after a bracket, a comma or a relation; a difference has more space."""
+
+_PRIME = re.compile(r"<msup>(<mi>\w+</mi>)<mi>(&#x0203[2-4];)</mi></msup>")
+_RAISED = r'<mrow>\1<mo lspace="0" rspace="0">\2</mo></mrow>'
+"""A prime is raised in every font, and would be too small to read as a superscript."""
+
 
 @cache
 def mathml(latex: str, display: str = "block") -> Markup:
     """One formula as MathML; `display` is "inline" for a formula within a line of text."""
     formula = convert(latex, display=display)  # the LaTeX is never the input of a user
-    return Markup(formula.replace(_ASTERISK, _OPERATOR))
+    return Markup(_PRIME.sub(_RAISED, _SIGN.sub(_PREFIX, formula.replace(_ASTERISK, _OPERATOR))))

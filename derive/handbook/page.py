@@ -15,7 +15,7 @@ from derive.body import Body
 from derive.errors import NotProven
 from derive.handbook.curves import pictures, profile
 from derive.handbook.mathml import mathml
-from derive.handbook.prose import prose
+from derive.handbook.prose import prose, unit
 from derive.notation import latex_of
 from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet
@@ -160,5 +160,5 @@ def _templates() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    templates.filters["prose"] = prose
+    templates.filters |= {"prose": prose, "unit": unit}
     return templates

@@ -37,3 +37,12 @@ def prose(text: str) -> Markup:
     for written, shown in _SET:
         words = re.sub(written, shown, words)
     return Markup(words)
+
+
+def unit(text: str) -> Markup:
+    """A unit as HTML.
+
+    >>> print(unit("Pa/m**(3/2)"), unit("Pa*sqrt(m)"))
+    Pa/m<sup>3/2</sup> Pa √m
+    """
+    return Markup(re.sub(r"√\((\w+)\)", r"√\1", prose(text)).replace("*", " "))

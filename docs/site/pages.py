@@ -12,11 +12,16 @@ from collections.abc import Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
 
+from sympy import together
+
+from derive import symbols
 from derive.derivation import derive_sheet
-from derive.handbook.prose import prose
+from derive.handbook.prose import prose, unit
 from derive.library import library, load_geometry
 from derive.notation import latex_of
 from derive.proof.prove import prove_sheet
+from derive.symbols import QUANTITIES
+from derive.theory import stick
 
 ROOT = Path(__file__).parents[2]
 PAGES = ("*.md", "docs/*.md", "notebooks/*.md", "notebooks/*.ipynb", "notebooks/*.svg")
@@ -59,27 +64,14 @@ def _linked(path: Path, pages: set[Path]) -> str:
 
 def theory() -> Iterator[str]:
     """Yield the theory page: formulas of some bodies with meaning, condition, source and proof."""
-    yield "# Theory\n"
-    yield (
-        "Every equation on this page is printed from a formula sheet. The sheet was derived when "
-        "the page was built, and each formula was proven symbolically or checked to at least 30 "
-        "digits; the line below a formula says which. `derive show NAME` prints the sheet of any "
-        'body, and the <a href="handbook/index.html">handbook</a> contains the sheets of all '
-        "bodies.\n"
-    )
-    yield (
-        "The contact is $[-a, c]$, the tilt $\\alpha$ is positive anticlockwise, and s is the "
-        "distance from an edge. $\\Delta Q$ and $\\Delta\\sigma$ are the changes of the shear load "
-        "and of the bulk tension."
-        "\n"
-    )
+    yield _outline()
     for name in BODIES:
         geometry = load_geometry(name)
         sheet = prove_sheet(derive_sheet(geometry)).demand_proven()
         yield f"## {prose(geometry.title.removesuffix('.'))}\n"
         yield f"$$g(x) = {latex_of(geometry.g)}$$ ({name}-profile)\n"
         for parameter in geometry.parameters:
-            meaning = f"{prose(parameter.meaning)} [{parameter.unit}]"
+            meaning = f"{prose(parameter.meaning)} [{unit(parameter.unit)}]"
             yield f"- ${latex_of(parameter.symbol)}$: {meaning}"
         yield ""
         for symbol, expr in sheet.definitions.items():
@@ -88,9 +80,32 @@ def theory() -> Iterator[str]:
             label = f"{name}-{formula.name}".replace("_", "-")
             yield f"### {_capitalised(prose(formula.meaning))}\n"
             yield f"$$\n{formula.left} = {latex_of(sheet.shown(formula.name))}\n$$ ({label})\n"
-            yield f"`{formula.name}` [{formula.unit}], valid for `{formula.assumptions}`.\n"
+            conditions = ", ".join(f"${latex_of(each)}$" for each in formula.conditions)
+            yield f"`{formula.name}` [{unit(formula.unit)}], valid for {conditions}.\n"
             yield f"- Source: {_plain(formula.source)}."
             yield f"- {_capitalised(_plain(str(formula.proof)))}.\n"
+
+
+def _outline() -> str:
+    """The first part of the theory page, with the formulas of the theory's own modules."""
+    sheet = derive_sheet(load_geometry(BODIES[0]))
+    rows = (
+        f"| ${latex_of(q.symbol)}$ | {_plain(q.meaning)} | {unit(q.unit)} |"
+        for q in QUANTITIES.values()
+    )
+    shown = {
+        "quantities": "\n".join(rows),
+        "h": latex_of(together(symbols.h)),
+        "mid": latex_of(together(symbols.mid)),
+        "w": latex_of(symbols.w),
+        "full_stick_change": latex_of(stick.full_stick_change()),
+        "stick_load": latex_of(stick.moderate(symbols.P)),
+        "stick_tilt": latex_of(stick.moderate(symbols.alpha)),
+    }
+    for name in ("K_N", "L_N", "K_T", "L_T"):
+        shown[f"unit_{name}"] = unit(sheet[f"{name}_left"].unit)
+    text = (ROOT / "docs" / "site" / "theory.md").read_text()
+    return re.sub("<<(\\w+)>>", lambda match: shown[match[1]], text)
 
 
 def handbook() -> Iterator[str]:
