@@ -267,7 +267,10 @@ class _Reader(Meaning):
             case "sum":
                 return self._sum(node, inside, variable, *limits)
             case "limit":
-                return Limit(inside, variable, *limits, dir="+-")  # from both sides
+                # a variable that is known only inside a limit at zero is a small positive one
+                small = variable.is_positive or variable not in self.names.symbols.values()
+                from_above = small and limits[0] == 0
+                return Limit(inside, variable, *limits, dir="+" if from_above else "+-")
         times = limits[0] if limits else S.One
         if not (times.is_Integer and 0 < times < 5):
             why = "the order of this derivative is not allowed"
