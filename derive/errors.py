@@ -4,6 +4,8 @@ Every message says what was given, what is wrong, what is allowed and what to do
 prints only the message and exits with status 2.
 """
 
+import errno
+import os
 from dataclasses import dataclass, fields
 from difflib import get_close_matches
 
@@ -167,6 +169,15 @@ class UnknownGeometry(UserError):
         )
 
 
+_FREE = "the disk is full: free some space, then run the command again"
+
+
+def _is_full(why: str) -> bool:
+    """Whether the system refused to write because the disk, or the user's part of it, is full."""
+    codes = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
+    return any(os.strerror(code) in why for code in codes)
+
+
 @dataclass
 class BadOutput(UserError):
     """`derive generate --out` must not replace the given directory."""
@@ -177,6 +188,8 @@ class BadOutput(UserError):
     @property
     def message(self) -> str:
         """Explain why the directory is refused, and which directories are allowed."""
+        if _is_full(self.why):
+            return f"{self.given} {self.why}; {_FREE}"
         return (
             f"{self.given} {self.why}; a package is only written to a directory that does not "
             "exist, is empty, or was made by `derive generate`: choose another directory with "
@@ -194,6 +207,8 @@ class BadPage(UserError):
     @property
     def message(self) -> str:
         """Explain why the path is refused, and what may be replaced."""
+        if _is_full(self.why):
+            return f"{self.given} {self.why}; {_FREE}"
         return (
             f"{self.given} {self.why}; pages are only written to a path that does not exist, or "
             "over pages made by `derive show --html`: choose another path with --out"
@@ -386,6 +401,8 @@ class BadTarget(UserError):
     @property
     def message(self) -> str:
         """Explain why nothing was written, and which paths are allowed."""
+        if _is_full(self.why):
+            return f"{self.given} {self.why}; {_FREE}"
         return (
             f"{self.given} {self.why}; nothing was written: with --out, give an existing "
             "directory, or the path of a new file that ends in .py"

@@ -38,6 +38,7 @@ from derive.codegen.publish import (
     modules_in,
     package_files,
     publish,
+    remove_leftovers,
 )
 from derive.errors import BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
 from derive.library import FOLDER, is_in_library, library, load_geometry
@@ -253,6 +254,7 @@ class Order:
         """Write the package; return False if nothing had to be changed."""
         files = self.files(bodies)
         if not differences(files, self.target):
+            remove_leftovers(self.target)
             return False
         publish(files, self.target)
         return True

@@ -12,6 +12,7 @@ FACTS = {
     "str": "some 'text', α",
     "int": 3,
     "float": 2.5,
+    "float | None": 2.5,
     "tuple[str, ...]": ("hertz", "wedge"),
     "object": object(),
 }

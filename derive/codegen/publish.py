@@ -5,9 +5,13 @@ Out: a list of differences, or the replaced directory.  It is replaced completel
 """
 
 import ast
+import os
+import re
 import shutil
 import tempfile
-from collections.abc import Mapping
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from difflib import unified_diff
 from pathlib import Path
@@ -24,6 +28,9 @@ _TITLE = (
 
 _LISTED = "__all__"
 """The list of the modules of a package; a module that is not in it belongs to the user."""
+
+_FRESH, _PREVIOUS = "fresh", "old"
+"""The new and the previous package in the hidden directory of a run."""
 
 _COMPILED = "__pycache__"
 """The folder of compiled files; Python and numba write it again if it is missing."""
@@ -48,6 +55,9 @@ _FOLDERS = {_RUNTIME.name, *(path.name for path in _RUNTIME.rglob("*") if path.i
     _COMPILED
 }
 """Names of the folders of a package."""
+
+_OLD = 5.0
+"""Age in seconds from which a hidden directory may be the rest of a run that was killed."""
 
 _SUFFIXES = (".pyc", ".nbi", ".nbc")
 """Suffixes of compiled files; a package with any other file in that folder is not replaced."""
@@ -124,7 +134,13 @@ def publish(files: Files, folder: Path) -> None:
         workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
     except OSError as error:
         raise BadOutput(str(folder), f"cannot be written ({error.strerror})") from error
-    fresh, old = workshop / "fresh", workshop / "old"
+    fresh, old = workshop / _FRESH, workshop / _PREVIOUS
+    with _in_use(workshop):
+        _fill_and_exchange(files, folder, fresh, old, workshop)
+    remove_leftovers(folder)
+
+
+def _fill_and_exchange(files: Files, folder: Path, fresh: Path, old: Path, workshop: Path) -> None:
     try:
         fresh.mkdir()
         for name, text in files.items():
@@ -140,6 +156,60 @@ def publish(files: Files, folder: Path) -> None:
     finally:
         if folder.exists() or not old.exists():
             shutil.rmtree(workshop, ignore_errors=True)
+
+
+@contextmanager
+def _in_use(workshop: Path) -> Iterator[bool]:
+    """Lock a directory during the block; False if another process has locked it.
+
+    The system removes the lock when the process ends, however it ends.
+    """
+    try:
+        from fcntl import LOCK_EX, LOCK_NB, flock
+
+        descriptor = os.open(workshop, os.O_RDONLY)
+    except (ImportError, OSError):  # a system without such locks: nothing is removed
+        yield False
+        return
+    try:
+        try:
+            flock(descriptor, LOCK_EX | LOCK_NB)
+            locked = True
+        except OSError:
+            locked = False
+        yield locked
+    finally:
+        os.close(descriptor)
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove the hidden directories that killed runs have left beside a package.
+
+    Only directories of the names that `publish` gives are removed, if they hold nothing but
+    generated files and no process uses them.
+    """
+    named = re.compile(rf"\.{re.escape(folder.name)}-[a-z0-9_]{{8}}")
+    with suppress(OSError):
+        for path in [p for p in folder.parent.iterdir() if named.fullmatch(p.name)]:
+            with suppress(OSError), _in_use(path) as unused:
+                if unused and _is_leftover(path):
+                    shutil.rmtree(path, ignore_errors=True)
+
+
+def _is_leftover(path: Path) -> bool:
+    if path.is_symlink() or not path.is_dir() or time.time() - path.stat().st_mtime < _OLD:
+        return False
+    inside = list(path.iterdir())
+    if any(p.is_symlink() or not p.is_dir() for p in inside):
+        return False
+    if not {p.name for p in inside} <= {_FRESH, _PREVIOUS}:
+        return False
+    held = [p for package in inside for p in _entries(package) if not _is_empty_folder(p)]
+    return all(_is_ours(p) or (p.is_file() and p.stat().st_size == 0) for p in held)
+
+
+def _is_empty_folder(path: Path) -> bool:
+    return path.name in _FOLDERS and path.is_dir() and not any(path.iterdir())
 
 
 def _put_back(old: Path, folder: Path) -> str:
@@ -177,7 +247,9 @@ def demand_replaceable(folder: Path) -> None:
     for path in _entries(folder):
         if not _is_ours(path) or (path.parent == folder and listed and path.stem not in listed):
             name = path.relative_to(folder).as_posix()
-            raise BadOutput(str(folder), f"contains {name!r}, which was not generated")
+            edited = path.is_file() and path.suffix == ".py" and path.stem in listed
+            why = "was changed after it was generated" if edited else "was not generated"
+            raise BadOutput(str(folder), f"contains {name!r}, which {why}")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
         raise BadOutput(str(folder), "is the current directory or contains it")
 

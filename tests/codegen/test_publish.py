@@ -1,14 +1,17 @@
 """A package is replaced whole or not at all, and nothing but a package of ours is replaced."""
 
 import errno
+import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from derive.codegen import publish as publisher
 from derive.codegen.mark import MARK
 from derive.codegen.publish import (
     demand_replaceable,
@@ -243,7 +246,7 @@ def test_a_failure_in_the_middle_leaves_the_old_package(
 ) -> None:
     with monkeypatch.context() as patch:
         failing(patch, method, FULL, after)
-        with pytest.raises(BadOutput, match="No space left on device"):
+        with pytest.raises(BadOutput, match=r"No space left on device.*: free some space"):
             publish(NEW, package)
     assert contents(package.parent) == {f"package/{n}": b for n, b in as_bytes(OLD).items()}
     assert [p.name for p in package.parent.iterdir()] == ["package"]
@@ -308,6 +311,59 @@ def test_an_old_package_that_cannot_be_put_back_is_not_deleted(
             publish(NEW, package)
     held = [path.read_bytes() for path in package.parent.rglob("cylinder.py")]
     assert as_bytes(OLD)["cylinder.py"] in held
+
+
+def leftover(package: Path, name: str = ".package-597qa82p", age: float = 60) -> Path:
+    """The hidden directory of a run that was killed while it wrote."""
+    left = package.parent / name
+    (left / "fresh" / "runtime").mkdir(parents=True)
+    (left / "fresh" / "cylinder.py").write_bytes(as_bytes(OLD)["cylinder.py"])
+    (left / "fresh" / "cut.py").touch()
+    then = time.time() - age
+    os.utime(left, (then, then))
+    return left
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no locks of directories")
+def test_what_a_killed_run_left_is_removed_by_the_next(package: Path) -> None:
+    left = leftover(package)
+    publish(NEW, package)
+    assert contents(package) == as_bytes(NEW)
+    assert not left.exists()
+
+
+@pytest.mark.parametrize("name", [".other-597qa82p", ".package-1", "package-597qa82p", ".package"])
+def test_what_has_another_name_stays(package: Path, name: str) -> None:
+    left = leftover(package, name)
+    publish(NEW, package)
+    assert left.exists()
+
+
+def test_what_is_young_or_holds_another_file_stays(package: Path) -> None:
+    young, mine = leftover(package, age=0), leftover(package, ".package-abcdefgh")
+    (mine / "fresh" / "notes.txt").write_text("mine")
+    publish(NEW, package)
+    assert young.exists()
+    assert (mine / "fresh" / "notes.txt").read_text() == "mine"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no locks of directories")
+def test_what_another_run_uses_stays(package: Path) -> None:
+    left = leftover(package)
+    with publisher._in_use(left) as locked:
+        assert locked
+        publish(NEW, package)
+    assert left.exists()
+
+
+def test_a_module_that_was_edited_is_called_so(package: Path) -> None:
+    files = package_files({"cylinder": f"{MARK}\n"})
+    publish(files, package)
+    (package / "cylinder.py").write_text("mine = 1\n")
+    with pytest.raises(
+        BadOutput, match=r"'cylinder\.py', which was changed after it was generated"
+    ):
+        publish(files, package)
 
 
 # ------------------------------------------------------------------ differences
