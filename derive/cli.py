@@ -14,6 +14,7 @@ from dataclasses import replace
 from math import inf
 from pathlib import Path
 from shutil import which
+from threading import Timer
 from traceback import walk_tb
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -39,6 +40,9 @@ another program reads is broken."""
 
 _NARROW = 100
 """Columns below which a list leaves as much room as possible to texts."""
+
+_PATIENCE = 10.0
+"""Seconds after which a line says what takes so long, if standard error is not a terminal."""
 
 FELL_SHORT, BAD_INPUT = 1, 2
 
@@ -220,10 +224,10 @@ def _apart(
     from derive.parallel import in_processes
 
     bounds = None if is_in_library(name) else pipeline.STRANGERS
-    with _console(stderr=True).status(f"reading {name}") as status:
+    with _status(f"reading {name}") as update:
 
         def report(what: str, stage: str) -> None:
-            status.update(f"{what}: {stage}")
+            update(f"{what}: {stage}")
 
         (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
     return shown
@@ -370,7 +374,7 @@ def new(
 
     asked = Asked(name, profile.strip(), title, said("--unit", units), said("--meaning", meanings))
     path = place(name, out)
-    with _console(stderr=True).status("reading g(x)"):
+    with _status(f"{name}: reading g(x)"):
         made = drafted(asked)
     write_new(path, made.text)
     shown = click.format_filename(_shown(path))
@@ -600,7 +604,7 @@ def _draft(file: Path | None, new: Path, inline: bool) -> None:
         raise click.UsageError("--draft reads a paper: give FILE, in LaTeX")
     if new.exists():
         raise click.UsageError(f"{new} already exists: give the name of a new file with --draft")
-    with _console(stderr=True).status("reading the displayed equations"):
+    with _status("reading the displayed equations"):
         made = draft(file, inline)
     write(made, new)
     click.echo(f"{made.environments} displayed equations with {len(made.parts)} statements")
@@ -657,7 +661,7 @@ def _paper(file: Path | None, label: str | None) -> "Paper":
     from derive.errors import UnknownClaim
     from derive.paper.userfile import built_in, read_claims
 
-    with _console(stderr=True).status("deriving the formulas for comparison with the paper"):
+    with _status("deriving the formulas for comparison with the paper"):
         source = built_in() if file is None else read_claims(file)
     if label is None:
         return source
@@ -699,17 +703,51 @@ def _report_drift(order: "Order", bodies: "Sequence[Body]") -> None:
 
 
 @contextmanager
+def _status(words: str) -> Iterator[Callable[[str], None]]:
+    """A spinner with words, which the function that is yielded changes."""
+    console = _console(stderr=True)
+    now = [words]
+    with _told_after_a_while(console, now), console.status(words) as status:
+
+        def update(words: str) -> None:
+            now[0] = words
+            status.update(words)
+
+        yield update
+
+
+@contextmanager
+def _told_after_a_while(console: Console, now: Sequence[str]) -> Iterator[None]:
+    """Print once what takes so long, where nothing that moves is shown."""
+
+    def tell() -> None:
+        with suppress(OSError, ValueError):  # standard error is closed
+            click.echo(f"Still at work after {_PATIENCE:g} s: {now[0]}", err=True)
+
+    timer = Timer(_PATIENCE, tell)
+    timer.daemon = True
+    if not console.is_terminal:
+        timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+@contextmanager
 def _progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str], None]]:
     """A progress bar; `step` tells it that a body enters a stage, or is done if there is none."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
     console = _console(stderr=True)
-    with Progress(
+    bar = Progress(
         *columns,
         TimeElapsedColumn(),
         console=console,
         transient=True,
         disable=not console.is_terminal,
-    ) as bar:
+    )
+    now = ["starting"]
+    with _told_after_a_while(console, now), bar:
         task = bar.add_task("", total=bodies * len(stages))
         passed: dict[str, int] = {}
 
@@ -717,6 +755,7 @@ def _progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str
             passed[body] = stages.index(stage) if stage in stages else len(stages)
             others = sum(n < len(stages) for name, n in passed.items() if name != body)
             words = f"{body}: {stage}" + (f", {others} more in progress" if others else "")
+            now[0] = words
             bar.update(task, description=words, completed=sum(passed.values()))
 
         yield step

@@ -56,6 +56,12 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.fixture(autouse=True)
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No line about work that takes long, however slow the machine is."""
+    monkeypatch.setattr(derive.cli, "_PATIENCE", 600.0)
+
+
 @pytest.fixture
 def committed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A copy of the package `generated` in its place."""
@@ -713,6 +719,24 @@ def test_what_moves_is_left_out_of_a_pipe(
     assert (done.exit_code, done.stderr) == (0, "")
     with derive.cli._progress(1, STAGES) as step:
         step("a", STAGES[0])
+    assert capsys.readouterr().err == ""
+
+
+def test_what_takes_long_is_told_once_where_nothing_moves(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(derive.cli, "_PATIENCE", 0.05)
+    with derive.cli._progress(1, STAGES) as step:
+        step("a", STAGES[3])
+        time.sleep(0.2)
+    assert capsys.readouterr().err == "Still at work after 0.05 s: a: proving\n"
+    with derive.cli._status("reading") as update:
+        update("a: reading g(x)")
+        time.sleep(0.2)
+    assert capsys.readouterr().err == "Still at work after 0.05 s: a: reading g(x)\n"
+    with derive.cli._status("reading"):
+        pass
+    time.sleep(0.2)
     assert capsys.readouterr().err == ""
 
 

@@ -119,7 +119,7 @@ def open_readings(path: Path) -> list[Reading]:
 
 def source(path: Path) -> tuple[str, dict[str, Any]]:
     """Return a claims file as text and as data; raises BadClaimsFile."""
-    remedy = "give a claims file such as examples/cattaneo_mindlin.toml"
+    remedy = "give a claims file; `derive check paper.tex --draft FILE` writes one from a paper"
     try:
         text = bytes_of(path, _LARGEST).decode("utf-8-sig")
         return text, tomllib.loads(text)

@@ -230,7 +230,9 @@ def test_a_file_that_is_none(given: str, tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_bytes_are_no_claims(tmp_path: Path) -> None:
     (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe\x00")
-    assert "UTF-8" in run(str(tmp_path / "bytes.toml")).stderr
+    told = run(str(tmp_path / "bytes.toml")).stderr
+    assert "UTF-8" in told
+    assert "check paper.tex --draft FILE` writes one" in told  # no example is in a wheel
 
 
 def test_an_unknown_label_shows_the_nearest(tmp_path: Path) -> None:
