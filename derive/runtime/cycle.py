@@ -168,10 +168,13 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
-        Where slip reverses within a half-cycle (MIXED), they are given under constant normal
-        loads if forward slip finally overtakes the reversed slip, or if `mixed` is True.
-        steady_cycle answers every cycle, and estimates the error of what it computes.
+        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P1 + P2),
+        because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
+        given under constant normal loads if forward slip finally overtakes the reversed slip, or
+        if `mixed` is True.  Only the changes of the loads are known here: under large tension, and
+        if a moment rocks the contact, no zone sticks if the mean shear load is too high; march
+        and steady_cycle check this.
+        steady_cycle solves every cycle and estimates the error of computed results.
     """
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, one value for all; got {mixed!r:.60}")
@@ -557,8 +560,9 @@ def march(
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
         instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
         loads are not in proportion at every instant, to 1e-6 of their change), NOT_CLOSED (the
-        last instant does not lead back to the first), SLIDING (|Q| >= f P at some instant) or
-        NONE (a contact does not exist).  Use steady_cycle for cycles out of phase, and history
+        last instant does not lead back to the first), SLIDING (|Q| >= f P at some instant),
+        NO_STICK (no stick zone can hold the mean of Q, to 1e-3 of f P) or NONE (a contact does
+        not exist).  Use steady_cycle for cycles out of phase, and history
         for load histories that are not cycles.
 
     Notes

@@ -39,7 +39,8 @@ class Regime(IntEnum):
     OUT_OF_PHASE  the loads of a march are not in proportion at every instant: NaN at all instants
     NOT_CLOSED  the instants of a march do not form a closed cycle: NaN at all instants
     COMPUTED    solved on elements, with an estimate of the error
-    NO_STICK    every point slips at some time in a cycle that does not slide: m and n are NaN
+    NO_STICK    every point slips at some time in a cycle that does not slide, because no stick zone
+                can hold the mean of the shear load: m and n are NaN
     """
 
     NONE = 0

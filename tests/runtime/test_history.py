@@ -374,6 +374,68 @@ def test_no_loop_is_exact_where_the_tilt_changes_or_it_slides():
     assert slides.regime == Regime.SLIDING and np.isnan(slides.m)
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_no_zone_sticks_beyond_the_mean_shear_load_that_it_can_hold(sign):
+    """Large tension at constant loads, and a moment that rocks the contact.
+
+    By the solver alone, with a load that is a little out of phase: all slips from a mean of 0.67
+    and 0.75 of f P on.
+    """
+    way, aside = np.array([1.0, 0.0, -1.0, 0.0]), 1e-5 * np.array([0.0, 1.0, 0.0, 0.0])
+    for mean, regime in ((0.63, Regime.LARGE), (0.71, Regime.NO_STICK)):
+        Q, sigma = sign * F * LOAD * (mean + 0.1 * way), 0.75 * F * LOAD * way
+        assert steady_cycle(hertz, LOAD, 0.0, Q, sigma).regime == regime
+        computed = steady_cycle(hertz, LOAD, 0.0, Q, sigma + aside)
+        assert computed.regime == (COMPUTED if regime == Regime.LARGE else regime)
+    for mean, regime in ((0.71, Regime.FULL_STICK), (0.79, Regime.NO_STICK)):
+        found = steady_cycle(hertz, LOAD, 0.2 * LOAD * way, sign * mean * F * LOAD, 0.0)
+        assert found.regime == regime
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+@pytest.mark.parametrize("at", range(4))
+def test_no_cycle_of_a_load_that_is_not_a_number(at, bad):
+    loads = [LOAD * np.ones(4), np.zeros(4), 0.1 * np.array([0.0, 1.0, 0.0, -1.0]), np.zeros(4)]
+    loads[at][1] = bad
+    found = steady_cycle(hertz, *loads, x=0.5)
+    assert found.regime in (Regime.NONE, Regime.SLIDING)
+    assert np.isnan([found.m, found.n, found.work, found.slip_range]).all()
+
+
+@pytest.mark.parametrize("case", [hertz, wedge])
+def test_loops_of_a_shear_load_of_one_sign(case, monkeypatch):
+    """Much of the contact is close to friction: elements slip a little where the bodies stick."""
+    rng = np.random.default_rng(4)
+    t = np.linspace(0, 2 * np.pi, 17)[:-1]
+    swing, shear, phase = (rng.uniform(low, high, (8, 1)) for low, high in SPANS)
+    P = LOAD * (1 + swing * np.sin(t))
+    Q = F * LOAD * (0.4 + shear * np.sin(t + phase))
+    exact = steady_cycle(case, P, 0.0, Q, 0.0)
+    assert np.all(exact.regime == Regime.MODERATE)
+    monkeypatch.setattr(public, "_exact", lambda *_: NOTHING_EXACT)
+    found = steady_cycle(case, P, 0.0, Q, 0.0)
+    h = exact.m + exact.n
+    off = np.maximum(abs(found.m - exact.m), abs(found.n - exact.n)) / h
+    assert np.all(off < found.error) and np.median(off) < 3e-3
+
+
+SPANS = (0.1, 0.4), (0.05, 0.25), (0.0, 2 * np.pi)
+"""Of the swing of P and of Q, and of the phase of Q."""
+
+
+def test_a_cycle_that_settles_slowly():
+    """Large tension at a high mean shear load: as exact as in phase, though after many rounds."""
+    P = LOAD * np.array([1.05047211, 1, 0.94952789, 1])
+    M = -0.02310293 * 2 * P
+    Q = F * LOAD * np.array([0.86332756, 0.652018205, 0.44070885, 0.652018205])
+    sigma = F * LOAD / 2 * np.array([-1.52723707, 0, 1.52723707, 0])
+    exact = steady_cycle(hertz, P, M, Q, sigma)
+    assert exact.regime == Regime.LARGE
+    found = steady_cycle(hertz, P, M, Q, sigma + 1e-6 * np.array([0, 1, 0, 0]))
+    assert found.regime == COMPUTED and found.rounds > 10 and found.error < 2e-3
+    assert [found.m, found.n] == pytest.approx([exact.m, exact.n], abs=2e-3)
+
+
 def settled(body, loads, f, edges, count, steps):
     """m and n of a steady cycle by tests/reference: what has slipped in the third round, to and
     fro, rises from an end with the power 3/2, which leads back to it from 1 and from 10 per cent of

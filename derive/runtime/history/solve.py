@@ -16,7 +16,7 @@ import numpy as np
 from ..kernels import LOOP, kernel, matrix, opened, real, results, truth, vector, whole
 from ..shared import shared
 from .elements import TERMS, influence, inverse_of
-from .path import INSTANT, A, C, path
+from .path import INSTANT, SIGMA, A, C, Q, path
 from .steps import (
     BOUND,
     COMPUTED,
@@ -61,15 +61,18 @@ EACH = 16
 APART = 3.0
 """Stick-slip boundaries closer together than this times `tol` count as one in the refinement."""
 
-MOST_ROUNDS = 40
+MOST_ROUNDS = 100
 """Largest number of repetitions of a cycle."""
 
-REPEATED = 1e-4
+REPEATED = 1e-6
 """A cycle has settled if slip changes by less than this fraction of the largest slip."""
 
 THRESHOLD = 1e-4
 """Slip in a cycle below this fraction of the largest counts as zero; thirty times as much is also
 tried."""
+
+NOTICED = 0.01
+"""Growth of the stick zone, relative to its width, from which the extrapolated slip is used."""
 
 RISEN = 4.0
 """The end of the stick zone is extrapolated from slip at two points.  This is the smallest ratio of
@@ -279,20 +282,31 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
 # ---------------------------------------------------------------- steady cycles
 
 
-@kernel(results(2)(vector, vector, vector, vector, real))
-def _permanent_zone(x: Any, ends: Any, always: Any, total_slip: Any, threshold: float) -> Any:
+@kernel(vector(vector, vector, vector, vector))
+def _extrapolated(ends: Any, total_slip: Any, coarse_ends: Any, coarse_slip: Any) -> Any:
+    """The total slip on a mesh, less what it still falls by from a mesh of half the elements.
+
+    Where the surfaces stick close to friction, as at a high mean shear load, elements slip a little
+    on every mesh, by less and less on finer ones.
+    """
+    x, coarse_x = (ends[1:] + ends[:-1]) / 2, (coarse_ends[1:] + coarse_ends[:-1]) / 2
+    coarse = np.interp(x, coarse_x, coarse_slip)
+    return np.maximum(np.minimum(total_slip, 2 * total_slip - coarse), 0.0)
+
+
+@kernel(results(2)(vector, vector, vector, real))
+def _permanent_zone(ends: Any, always: Any, total_slip: Any, threshold: float) -> Any:
     """m and n of the permanent stick zone, from the total slip of a cycle, to and fro added up.
 
     The zone is the longest run of elements that are always in contact and slip by no more than the
     threshold.  Its ends are extrapolated to zero slip, because slip rises from there with the power
     3/2 of the distance.
     """
-    most, start, length, low, high = 0.0, 0, 0.0, -1, -1
-    for i in range(x.size):
-        most = max(most, total_slip[i])
+    x = (ends[1:] + ends[:-1]) / 2
+    start, length, low, high = 0, 0.0, -1, -1
     inside = False
     for i in range(x.size):
-        if always[i] > 0 and total_slip[i] <= threshold * most:
+        if always[i] > 0 and total_slip[i] <= threshold:
             start = start if inside else i
             inside = True
             if ends[i + 1] - ends[start] > length:
@@ -323,17 +337,19 @@ def cycle_on_mesh(
 ) -> Any:
     """A cycle on one mesh: the results of a cycle, then slip range and first q at the points.
 
-    `error` is only the error of m and n due to the mesh and the threshold, and work_error only that
-    due to the drift.
+    m and n are those of the smallest contact, and work_error is only that due to the drift.  Then
+    the ends of the elements, whether they are always in contact, and their total slip in a cycle.
     """
+    nothing = np.empty(0)
     asked = points.size
     values = np.full(ZONE + 2 * asked, math.nan)
     values[2] = NONE
     least = count // FEWEST
     rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
-        if not (rows[k, A] + rows[k, C] > 0 and f > 0):
-            return values
+        known = rows[k, A] + rows[k, C] > 0 and f > 0
+        if not (known and math.isfinite(rows[k, Q]) and math.isfinite(rows[k, SIGMA])):
+            return values, nothing, nothing, nothing
     ends, A_, B, z, room, state = _discretised(law, own, rows, count, stick_ends)
     x, series = (ends[1:] + ends[:-1]) / 2, np.empty(TERMS)
     total_slip, before, always = np.zeros(x.size), np.zeros(x.size), np.ones(x.size)
@@ -351,7 +367,7 @@ def cycle_on_mesh(
             code, more = step(law, own, series, f, ends, previous, row, A_, B, z, state, room)
             if code != COMPUTED:
                 values[2] = code
-                return values
+                return values, nothing, nothing, nothing
             work += more
             for i in range(x.size):
                 total_slip[i] += abs(state[SLIP_OF_STEP, i])
@@ -370,20 +386,7 @@ def cycle_on_mesh(
     inner_a = inner_c = math.inf
     for k in range(rows.shape[0]):
         inner_a, inner_c = min(inner_a, rows[k, A]), min(inner_c, rows[k, C])
-    slips = False
-    for i in range(x.size):
-        slips = slips or total_slip[i] > 0
-    if not slips and inner_a + inner_c > 0:
-        values[0], values[1], values[2], values[6] = inner_a, inner_c, FULL_STICK, 0.0
-    else:
-        m, n = _permanent_zone(x, ends, always, total_slip, THRESHOLD)
-        values[2] = NO_STICK if math.isnan(m) else COMPUTED
-        values[0], values[1], values[6] = min(m, inner_a), min(n, inner_c), 0.0
-        if values[2] == COMPUTED:
-            wide_m, wide_n = _permanent_zone(x, ends, always, total_slip, 30 * THRESHOLD)
-            h = inner_a + inner_c
-            difference = max(abs(wide_m - m), abs(wide_n - n))
-            values[6] = (difference + _mesh_error(ends, m, n, inner_a, inner_c)) / h
+    values[0], values[1], values[2] = inner_a, inner_c, COMPUTED
     for i in range(asked):
         if ends[0] <= points[i] <= ends[x.size]:
             j = np.searchsorted(ends, points[i]) - 1
@@ -393,7 +396,28 @@ def cycle_on_mesh(
         values[ZONE + asked + i], _ = at_point(
             law, own, series, f, ends, x, state, rows[-1], points[i]
         )
-    return values
+    return values, ends, always, total_slip
+
+
+@kernel(whole(vector, vector, vector, vector, real))
+def _find_zone(values: Any, ends: Any, always: Any, total_slip: Any, most: float) -> int:
+    """Fill in m, n, the regime and the error due to the mesh and the threshold.
+
+    most  the largest slip, to which the threshold is relative
+    """
+    inner_a, inner_c, values[6] = values[0], values[1], 0.0
+    if most == 0 and inner_a + inner_c > 0:
+        values[2] = FULL_STICK
+        return 1
+    m, n = _permanent_zone(ends, always, total_slip, THRESHOLD * most)
+    values[2] = NO_STICK if math.isnan(m) else COMPUTED
+    values[0], values[1] = min(m, inner_a), min(n, inner_c)
+    if values[2] == COMPUTED:
+        wide_m, wide_n = _permanent_zone(ends, always, total_slip, 30 * THRESHOLD * most)
+        h = inner_a + inner_c
+        difference = max(abs(wide_m - m), abs(wide_n - n))
+        values[6] = (difference + _mesh_error(ends, m, n, inner_a, inner_c)) / h
+    return 1
 
 
 @kernel(LOOP)
@@ -411,8 +435,24 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         points = given[row, 3 + 4 * count :]
         elements, met = FEWEST, False
         coarse, stick_ends = np.empty(0), np.empty(0)
+        coarse_ends, coarse_slip = np.empty(0), np.empty(0)
         while True:
-            fine = cycle_on_mesh(law, own[row], f, loads, points, elements, stick_ends)
+            fine, ends, always, slip = cycle_on_mesh(
+                law, own[row], f, loads, points, elements, stick_ends
+            )
+            if fine[2] == COMPUTED:
+                plain, most = fine.copy(), np.max(slip)
+                _find_zone(fine, ends, always, slip, most)
+                if coarse_slip.size > 0 and most > 0:
+                    less = _extrapolated(ends, slip, coarse_ends, coarse_slip)
+                    _find_zone(plain, ends, always, less, most)
+                    h = plain[0] + plain[1]
+                    shift = max(abs(plain[0] - fine[0]), abs(plain[1] - fine[1]))
+                    if fine[2] == NO_STICK or h - fine[0] - fine[1] > NOTICED * h:
+                        fine[0], fine[1], fine[2] = plain[0], plain[1], plain[2]
+                        fine[6] = 2 * plain[6] + shift / h / 10
+                    else:
+                        fine[6] += shift / h
             if elements > FEWEST:
                 met = fine[2] == coarse[2]
                 fine[7] += abs(fine[3] - coarse[3])
@@ -426,6 +466,7 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
             if met or elements >= _finest(tol):
                 break
             coarse, elements = fine, 2 * elements
+            coarse_ends, coarse_slip = ends, slip
             stick_ends = np.array([-coarse[0], coarse[1]])
             stick_ends = _thinned(stick_ends, coarse[0] + coarse[1], APART * tol, elements // EACH)
         out[row] = fine

@@ -8,9 +8,9 @@ regime is therefore that of the whole half-cycle.  Where slip reverses within it
 states at its ends are returned.
 
 Histories that cannot be solved are refused at all instants: loads out of proportion, a history that
-does not return to its first state, and |Q| >= f P.  The last instant leads straight back to the
-first.  A history that only goes from one state to the other, so that this last step would be the
-whole way back, is a first loading and not a cycle.
+does not return to its first state, |Q| >= f P, and a shear load that the stick zone cannot hold.
+The last instant leads straight back to the first.  A history that only goes from one state to the
+other, so that this last step would be the whole way back, is a first loading and not a cycle.
 
 The loads are a matrix with rows P, M, Q, sigma over E* and a column per instant.  The contacts are
 a matrix with columns A, C, TILT, LOAD and MOMENT and a row per instant.
@@ -24,13 +24,15 @@ import numpy as np
 from ..inverse import contact
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
 from ..types import Array
+from .growth import load_path
 from .large import large_zone
+from .locked import holds_load
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .series import slip_zones
 from .zone import FULL_STICK, LARGE, MIXED, NONE, SLIDING, UNSOLVED, stick_zone
 
-OUT_OF_PHASE, NOT_CLOSED, IN_ORDER = 7.0, 8.0, -1.0
-"""Two more codes of Regime, and a code for a history without faults."""
+OUT_OF_PHASE, NOT_CLOSED, NO_STICK, IN_ORDER = 7.0, 8.0, 10.0, -1.0
+"""Three more codes of Regime, and a code for a history without faults."""
 
 P, M, Q, SIGMA = range(4)
 """The rows of the loads."""
@@ -244,7 +246,12 @@ def each_march(law: Any, given: Array, own: Array, out: Array) -> None:
             continue
         low, high = np.argmin(progress), np.argmax(progress)
         cycle = _half_cycle(loads, contacts, roundings, f, low, high, 1.0)
-        m, _, regime = stick_zone(law, body, cycle)
+        m, n, regime = stick_zone(law, body, cycle)
+        both = np.empty((2, 5))
+        both[0], both[1] = contacts[low], contacts[high]
+        path = load_path(law, body, both)
+        if not holds_load(law, body, path, cycle, m, n, regime, loads[Q, low]):
+            m, regime = math.nan, NO_STICK
         _begin(found, contacts, regime)
         kappa = -1.0 if regime == LARGE and cycle[5] < 0 else 1.0
         for i in range(count):
