@@ -7,6 +7,8 @@ from typing import Any
 
 import pytest
 
+from derive.library import library
+
 ROOT = Path(__file__).parents[1]
 SITE = ROOT / "docs" / "site"
 INDEX = (SITE / "index.md").read_text()
@@ -35,6 +37,21 @@ def test_the_index_leads_to_every_page() -> None:
     assert there <= listed()
     for name in listed() - there - made:
         assert (ROOT / f"{name}.md").exists(), name
+
+
+def test_the_pages_of_bodies_lead_to_the_handbook() -> None:
+    pages = module("pages")
+    bodies = pages._linked(ROOT / "docs" / "bodies.md", set())
+    for text, root in ((bodies, "../"), ("\n".join(pages.handbook()), "")):
+        for name in library():
+            assert f'href="{root}handbook/{name}.html"' in text, name
+
+
+def test_pages_of_a_handbook_lead_back(tmp_path: Path) -> None:
+    (tmp_path / "index.html").write_text("<header>\n<h1>")
+    module("pages").lead_back(tmp_path)
+    text = (tmp_path / "index.html").read_text()
+    assert text == '<header>\n<p><a href="../index.html">Documentation</a></p>\n<h1>'
 
 
 def test_the_theory_numbers_every_formula_of_its_sheets() -> None:

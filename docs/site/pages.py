@@ -1,5 +1,7 @@
 """Prepare the input of Sphinx: run `python docs/site/pages.py DIR` in the root of the repository.
 
+With `--handbook DIR`, the pages of a handbook that was written into the website lead back to it.
+
 The pages keep their relative paths, so that their links work as they do in the repository.  Some
 pages are written here.  The theory comes from formula sheets that are proven in this run.  The
 references name the modules whose docstrings Sphinx reads.
@@ -30,6 +32,8 @@ SETTINGS = ("conf.py", "docstrings.py")
 BODIES = ("hertz", "wedge")
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)#:]+)(#[^)]*)?\)")
 
+ROW = re.compile(r"^\| `(\w+)` \|", re.M)
+
 
 def lay_out(target: Path) -> None:
     """Write all pages to the directory `target`, which is deleted first."""
@@ -59,7 +63,13 @@ def _linked(path: Path, pages: set[Path]) -> str:
     def kept(match: re.Match[str]) -> str:
         return match[0] if (path.parent / match[2]).resolve() in pages else match[1]
 
-    return LINK.sub(kept, path.read_text())
+    text = LINK.sub(kept, path.read_text())
+    return ROW.sub(_leading, text) if path.stem == "bodies" else text
+
+
+def _leading(match: re.Match[str]) -> str:
+    """The first cell of a row of the table of bodies, as a link to the page of the body."""
+    return f"| {_handbook(match[1], f'<code>{match[1]}</code>', '../')} |"
 
 
 def theory() -> Iterator[str]:
@@ -120,7 +130,8 @@ def handbook() -> Iterator[str]:
     for name in library():
         geometry = load_geometry(name)
         title = _plain(geometry.title.removesuffix("."))
-        yield f"| {_handbook(name, name)} | {title} | ${latex_of(geometry.g)}$ |"
+        profile = latex_of(geometry.g).replace("|", r"\vert ")  # a bar would end the cell
+        yield f"| {_handbook(name, name)} | {title} | ${profile}$ |"
 
 
 def _handbook(page: str, words: str, root: str = "") -> str:
@@ -214,5 +225,14 @@ def _described(title: str, module: str, names: Iterable[str]) -> Iterator[str]:
         yield f"```{{eval-rst}}\n.. auto{kind}:: {module}.{name}\n```\n"
 
 
+def lead_back(folder: Path) -> None:
+    """Add a link to the website to every page of a handbook inside it."""
+    for path in folder.glob("*.html"):
+        link = '<header>\n<p><a href="../index.html">Documentation</a></p>'
+        path.write_text(path.read_text().replace("<header>", link, 1))
+
+
 if __name__ == "__main__":
-    lay_out(Path(sys.argv[1]))
+    *option, folder = sys.argv[1:]
+    task = lead_back if option == ["--handbook"] else lay_out
+    task(Path(folder))
