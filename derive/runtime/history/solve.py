@@ -420,6 +420,34 @@ def _find_zone(values: Any, ends: Any, always: Any, total_slip: Any, most: float
     return 1
 
 
+@kernel(real(vector, vector))
+def _apart(one: Any, other: Any) -> float:
+    """The larger distance between the ends of two stick zones; NaN if one is not known."""
+    left, right = abs(one[0] - other[0]), abs(one[1] - other[1])
+    return left if left > right else right
+
+
+@kernel(whole(vector, vector, vector, vector, vector))
+def _choose_zone(fine: Any, direct: Any, less: Any, coarse_direct: Any, coarse_less: Any) -> int:
+    """Fill in the zone of a mesh, with its error by comparison with the mesh before.
+
+    direct  by the slip on this mesh
+    less    by the extrapolated slip, which is used if it makes the zone clearly wider
+    """
+    h, shift = less[0] + less[1], _apart(direct, less)
+    fine[:7] = direct[:7]
+    if less[2] == COMPUTED and (direct[2] == NO_STICK or h - direct[0] - direct[1] > NOTICED * h):
+        fine[:7], change = less[:7], _apart(less, coarse_less)
+        if math.isnan(change):
+            change = h if math.isnan(shift) else shift
+        fine[6] = 2 * less[6] + (change + (0.0 if math.isnan(shift) else shift / 10)) / h
+    elif direct[2] == COMPUTED:
+        fine[6] += (_apart(direct, coarse_direct) + shift) / (direct[0] + direct[1])
+        if math.isnan(fine[6]):
+            fine[6] = math.inf
+    return 1
+
+
 @kernel(LOOP)
 def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
     """Steady cycles with their errors, on as many meshes as each of them needs.
@@ -433,40 +461,34 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         points = given[row, 3 + 4 * count :]
-        elements, met = FEWEST, False
-        coarse, stick_ends = np.empty(0), np.empty(0)
+        elements, met, stick_ends = FEWEST, False, np.empty(0)
         coarse_ends, coarse_slip = np.empty(0), np.empty(0)
+        coarse = np.full(ZONE + 2 * asked, math.nan)
+        coarse_direct, coarse_less = coarse, coarse
         while True:
             fine, ends, always, slip = cycle_on_mesh(
                 law, own[row], f, loads, points, elements, stick_ends
             )
+            direct, less = fine.copy(), fine.copy()
             if fine[2] == COMPUTED:
-                plain, most = fine.copy(), np.max(slip)
-                _find_zone(fine, ends, always, slip, most)
-                if coarse_slip.size > 0 and most > 0:
-                    less = _extrapolated(ends, slip, coarse_ends, coarse_slip)
-                    _find_zone(plain, ends, always, less, most)
-                    h = plain[0] + plain[1]
-                    shift = max(abs(plain[0] - fine[0]), abs(plain[1] - fine[1]))
-                    if fine[2] == NO_STICK or h - fine[0] - fine[1] > NOTICED * h:
-                        fine[0], fine[1], fine[2] = plain[0], plain[1], plain[2]
-                        fine[6] = 2 * plain[6] + shift / h / 10
-                    else:
-                        fine[6] += shift / h
+                _find_zone(direct, ends, always, slip, np.max(slip))
+                if coarse_slip.size > 0:
+                    smaller = _extrapolated(ends, slip, coarse_ends, coarse_slip)
+                    _find_zone(less, ends, always, smaller, np.max(slip))
+                    _choose_zone(fine, direct, less, coarse_direct, coarse_less)
+                else:
+                    fine[:7], less[:2] = direct[:7], math.nan
             if elements > FEWEST:
                 met = fine[2] == coarse[2]
                 fine[7] += abs(fine[3] - coarse[3])
                 if fine[2] == COMPUTED:
-                    difference = max(abs(fine[0] - coarse[0]), abs(fine[1] - coarse[1]))
-                    difference /= fine[0] + fine[1]
-                    fine[6] += difference
                     met = met and fine[6] <= tol
                 elif not met:
                     fine[6] = math.nan
             if met or elements >= _finest(tol):
                 break
             coarse, elements = fine, 2 * elements
-            coarse_ends, coarse_slip = ends, slip
+            coarse_direct, coarse_less, coarse_ends, coarse_slip = direct, less, ends, slip
             stick_ends = np.array([-coarse[0], coarse[1]])
             stick_ends = _thinned(stick_ends, coarse[0] + coarse[1], APART * tol, elements // EACH)
         out[row] = fine
