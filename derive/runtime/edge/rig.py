@@ -136,9 +136,11 @@ def match(
     ValueError
         If the requests cannot be met; the message names them.
 
-    Notes ----- All arguments are numbers.  L_T, if given, is met by dsigma; otherwise dsigma = 0
-    for one edge. If the shear load would fall, all its signs are reversed so that dQ >= 0: slip is
-    the same, in the opposite sense. If a body has several solutions, the widest contact is taken.
+    Notes
+    -----
+    All arguments are numbers.  L_T, if given, is met by dsigma; otherwise dsigma = 0 for one edge.
+    If the shear load would fall, all its signs are reversed so that dQ >= 0: slip is the same, in
+    the opposite sense.  If a body has several solutions, the widest contact is taken.
 
     Examples
     --------
