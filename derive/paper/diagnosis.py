@@ -161,7 +161,8 @@ def _agree(one: Value, other: Value) -> bool:
 def named(constant: Value) -> str:
     """Write a constant as a rational number times a power of pi or a root of this, or return "".
 
-    >>> named(mpmath.mpf(4) / mpmath.pi)
+    >>> with mpmath.workdps(_DIGITS):
+    ...     named(mpmath.mpf(4) / mpmath.pi)
     '4/pi'
     """
     form = _form(constant, _LARGEST)

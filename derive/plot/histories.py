@@ -36,6 +36,8 @@ def _demand_history(history: Any, x: Array) -> None:
             f"history has the shape {np.shape(history.a)}, but only one history can be drawn; "
             "select one of them, for example by History(*(v[0] for v in history))"
         )
+    if not np.any(np.isfinite(history.a)):
+        raise ValueError("history has no contact at any instant, so that there is nothing to draw")
     demand_row("x", x)
     if np.shape(history.slip) != (np.size(history.a), np.size(x)):
         shape = np.shape(history.slip)

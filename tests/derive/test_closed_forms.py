@@ -192,7 +192,7 @@ def test_what_is_not_proven_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(NumericalRoutes, "proof", proof)
     proven = prove_sheet(sheet("catenary")).demand_proven()
     assert {*sheet("catenary")} - {*proven} == {"load_closed", "tilt_closed"}
-    assert "not shown: tilt_closed, load_closed" in proven.remark
+    assert "not proven: tilt_closed, load_closed" in proven.remark
 
 
 # ------------------------------------------------------------------ none

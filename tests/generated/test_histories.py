@@ -66,3 +66,10 @@ def test_friction_s_work_is_that_of_the_rainflow_cycles() -> None:
     pairs = hertz.history(1e6, 0.0, ends, 100 * ends, **FRICTION)
     branches = np.diff(pairs.work, axis=-1)[:, 0]
     assert_allclose(told.work[-1] - told.work[0], 2 * counts @ branches, rtol=1e-9)
+
+
+def test_dask_arrays_without_axes() -> None:
+    """One instant."""
+    found = hertz.history(da.from_array(1e6), 0.0, da.from_array(1e5), 0.0, **FRICTION)
+    wanted = hertz.history(1e6, 0.0, [1e5], 0.0, **FRICTION)
+    assert_allclose(found.m.compute(), wanted.m)

@@ -672,8 +672,13 @@ def test_arguments_broadcast():
     assert steady_cycle(hertz, [[LOAD], [1.0]], 0.0, Q, 0.0, tol=4e-3).m.shape == (2,)
     with pytest.raises(ValueError, match="last axis"):
         history(hertz, 1.0, 0.0, Q, 0.0, f=np.linspace(0.4, 0.5, 5))
-    with pytest.raises(ValueError, match="tol"):
-        history(hertz, 1.0, 0.0, Q, 0.0, tol=0.0)
+    for tol in (0.0, math.inf, math.nan):
+        with pytest.raises(ValueError, match="tol must be positive and finite"):
+            history(hertz, 1.0, 0.0, Q, 0.0, tol=tol)
+    for other in (None, "a", np.array([1e-3, 1e-4])):
+        with pytest.raises(TypeError, match="tol must be a number"):
+            history(hertz, 1.0, 0.0, Q, 0.0, tol=other)
+    assert steady_cycle(hertz, 1.0, 0.0, Q, 0.0).rounds.dtype == np.int64
 
 
 @pytest.mark.skipif(not COMPILED, reason="nothing is compiled")

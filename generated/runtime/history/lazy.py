@@ -12,7 +12,7 @@ import numpy as np
 from ..arrays import Numbers, shape_of
 from ..chunks import is_lazy
 
-WHOLE = ("intervals", "regime")
+WHOLE = ("intervals", "regime", "rounds")
 """Results that are integers."""
 
 
@@ -28,6 +28,9 @@ def over_chunks(
     Raises ValueError if the time axis has several chunks.
     """
     dask = sys.modules["dask.array"]
+    numbers = {
+        name: v.reshape(1) if is_lazy(v) and v.ndim == 0 else v for name, v in numbers.items()
+    }
     *_, instants = shape_of(numbers)
     held = {name: value for name, value in numbers.items() if value.ndim == 0}
     long = {

@@ -166,6 +166,7 @@ def steady_cycle(
     if x is not None:
         slip = columns[..., 8 : 8 + count].reshape((*given.cycles, *points))
         q = (columns[..., 8 + count :] * given.E_star[..., None]).reshape((*given.cycles, *points))
+    rounds = np.nan_to_num(rounds).astype(np.int64)
     work, work_error = work * given.E_star, work_error * given.E_star
     values = (m, n, regime, slip, q, work, rounds, drift, error, work_error)
     return SteadyCycle(*(v if v is None else v[()] for v in values))
@@ -226,8 +227,10 @@ def _numbers(
     Raises TypeError if an argument is not a real number or x is a Dask array, and ValueError if the
     tolerance is not positive or there is no instant.
     """
-    if not tol > 0:
-        raise ValueError(f"tol must be positive; got {tol!r:.60}")
+    if isinstance(tol, bool) or not isinstance(tol, int | float | np.number):
+        raise TypeError(f"tol must be a number; got {tol!r:.60}")
+    if not 0 < tol < math.inf:
+        raise ValueError(f"tol must be positive and finite; got {tol!r:.60}")
     if any_lazy([x]):
         raise TypeError("x must be a number or a NumPy array, not a Dask array: pass x.compute()")
     named = dict(zip(_LOADS, loads, strict=True))
