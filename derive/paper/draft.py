@@ -136,12 +136,6 @@ class Draft:
         return sum(bool(part.read.understood) for part in self.parts)
 
     @property
-    def displays_read(self) -> int:
-        """The number of displays in which every statement was read."""
-        lines = {part.display for part in self.parts}
-        return len(lines - {part.display for part in self.parts if not part.read.understood})
-
-    @property
     def named(self) -> tuple[int, int]:
         """The number of symbols with a proposal, and the number of all symbols."""
         names = self._names()
