@@ -62,12 +62,13 @@ def stick_zone_of_loop(
     """
     first = {name: value[..., :1] for name, value in asked.own.items()}
     asked, f, E_star = asked._replace(own=first), f[..., :1], E_star[..., :1]
-    extremes = np.min(P, axis=-1, keepdims=True), np.max(P, axis=-1, keepdims=True)
-    contacts = contact(asked, np.concatenate([P, sum(extremes) / 2], axis=-1), 0.0, E_star=E_star)
-    unit = np.min(P / (E_star * (contacts.a + contacts.c)[..., :-1]), axis=-1)
-    known = np.ptp(contacts.alpha, axis=-1) <= LEVEL * unit
-    known &= np.all((M == 0) & (sigma == sigma[..., :1]), axis=-1)
+    known = np.all((M == 0) & (sigma == sigma[..., :1]), axis=-1)
     known &= np.all(abs(Q) < f * P * (1 - ROUNDING), axis=-1)
+    extremes = np.min(P, axis=-1, keepdims=True), np.max(P, axis=-1, keepdims=True)
+    between = np.concatenate([P, sum(extremes) / 2], axis=-1)
+    contacts = contact(asked, np.where(known[..., None], between, np.nan), 0.0, E_star=E_star)
+    unit = np.min(P / (E_star * (contacts.a + contacts.c)[..., :-1]), axis=-1)
+    known &= np.ptp(contacts.alpha, axis=-1) <= LEVEL * unit
     largest = [np.max(sign * Q - f * P, axis=-1, keepdims=True) for sign in (1, -1)]
     load = np.where(known[..., None], -sum(largest) / (2 * f), np.nan)
     zone = contact_at_tilt(asked, load, contacts.alpha[..., -1:], E_star=E_star)

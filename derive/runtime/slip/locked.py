@@ -23,6 +23,7 @@ from typing import Any
 
 from ..kernels import LAW, kernel, matrix, real, results, truth, vector
 from .bounded import beside, change, friction, oriented, sense_of
+from .growth import load_path
 from .moderate import LOAD, A, C
 from .shear import FULL_STICK, LARGE, LEVEL
 
@@ -33,54 +34,66 @@ ROUGH = 1e-3
 """Accuracy of the integrals over f P."""
 
 
-@kernel(results(2)(LAW, vector, matrix, vector, real, real, real))
-def limits_of_load(
-    law: Any, own: Any, path: Any, cycle: Any, m: float, n: float, regime: float
-) -> Any:
-    """The lowest and the highest Q at the first end of a half-cycle of LARGE or FULL_STICK.
+@kernel(results(2)(vector, vector, real))
+def _point(first: Any, second: Any, part: float) -> Any:
+    """A point of the union of two contacts, and its weight; `part` goes from 0 to 1."""
+    left, right = max(first[A], second[A]), max(first[C], second[C])
+    angle = math.pi * part
+    x = -left + (left + right) * math.sin(angle / 2) ** 2
+    return x, math.pi / POINTS * (left + right) / 2 * math.sin(angle)
 
-    path  contacts from the first end to the second, as by growth.load_path
-    """
-    f, last = cycle[6], path.shape[0] - 1
-    left, right = path[0, A], path[0, C]
-    for k in range(1, last + 1):
-        left, right = max(left, path[k, A]), max(right, path[k, C])
-    sense, mirrored = sense_of(cycle), oriented(cycle)
-    of = friction(law, own, mirrored, sense, -1.0, math.nan)
+
+@kernel(results(2)(LAW, vector, matrix, vector, real, real))
+def _limits_under_large_tension(
+    law: Any, own: Any, ends: Any, cycle: Any, m: float, n: float
+) -> Any:
+    """The lowest and the highest Q at the first end."""
+    f, sense, lowest, highest = cycle[6], sense_of(cycle), 0.0, 0.0
+    of = friction(law, own, oriented(cycle), sense, -1.0, math.nan)
     inner, outer = (m, n) if sense > 0 else (n, m)
     slip = beside(of, inner, outer, of.a - inner, of.c - outer, LEVEL)
-    lowest = highest = 0.0
     for i in range(POINTS):
-        angle = math.pi * (i + 0.5) / POINTS
-        x = -left + (left + right) * math.sin(angle / 2) ** 2
-        weight = math.pi / POINTS * (left + right) / 2 * math.sin(angle)
-        first = f * law.pressure(x, path[0, A], path[0, C], own)
-        upper, lower = first, -first
-        if regime == LARGE:
-            second = f * law.pressure(x, path[last, A], path[last, C], own)
-            dq = change(slip, sense * x)
-            if x <= -m or x >= n:
-                forward = (x <= -m) == (sense > 0)
-                dq = first + second if forward else -first - second
-            upper, lower = min(upper, second - dq), max(lower, -second - dq)
-        else:
-            for k in range(1, last + 1):
-                upper = min(upper, f * law.pressure(x, path[k, A], path[k, C], own))
-            lower = -upper
-        if upper < math.inf and lower > -math.inf:
-            lowest, highest = lowest + weight * lower, highest + weight * upper
+        x, weight = _point(ends[0], ends[1], (i + 0.5) / POINTS)
+        first = f * law.pressure(x, ends[0, A], ends[0, C], own)
+        second = f * law.pressure(x, ends[1, A], ends[1, C], own)
+        if not first + second < math.inf:
+            continue  # at a corner
+        dq = change(slip, sense * x)
+        if x <= -m or x >= n:
+            dq = first + second if (x <= -m) == (sense > 0) else -first - second
+        highest += weight * min(first, second - dq)
+        lowest += weight * max(-first, -second - dq)
     return lowest, highest
+
+
+@kernel(real(LAW, vector, matrix, real))
+def _limit_at_constant_shear(law: Any, own: Any, path: Any, f: float) -> float:
+    """The highest |Q| that friction holds at all contacts of a path."""
+    last, highest = path.shape[0] - 1, 0.0
+    for i in range(POINTS):
+        x, weight = _point(path[0], path[last], (i + 0.5) / POINTS)
+        least = math.inf
+        for k in range(last + 1):
+            least = min(least, law.pressure(x, path[k, A], path[k, C], own))
+        if least < math.inf:
+            highest += weight * f * least
+    return highest
 
 
 @kernel(truth(LAW, vector, matrix, vector, real, real, real, real))
 def holds_load(
-    law: Any, own: Any, path: Any, cycle: Any, m: float, n: float, regime: float, Q: float
+    law: Any, own: Any, ends: Any, cycle: Any, m: float, n: float, regime: float, Q: float
 ) -> Any:
-    """Whether a cycle whose shear load is Q at its first end can stick in [-m, n]."""
-    if regime == FULL_STICK and (path.shape[0] == 2 or cycle[4] != 0 or cycle[5] != 0):
-        return True
-    if regime not in (LARGE, FULL_STICK):
-        return True
-    lowest, highest = limits_of_load(law, own, path, cycle, m, n, regime)
-    rough = ROUGH * cycle[6] * min(path[0, LOAD], path[path.shape[0] - 1, LOAD])
-    return lowest - rough <= Q <= highest + rough
+    """Whether a cycle whose shear load is Q at its first end can stick in [-m, n].
+
+    ends  both contacts, as by zone.ends_of
+    """
+    f = cycle[6]
+    rough = ROUGH * f * min(ends[0, LOAD], ends[1, LOAD])
+    if regime == LARGE:
+        lowest, highest = _limits_under_large_tension(law, own, ends, cycle, m, n)
+        return lowest - rough <= Q <= highest + rough
+    if regime == FULL_STICK and cycle[4] == cycle[5] == 0:
+        path = load_path(law, own, ends)
+        return abs(Q) <= _limit_at_constant_shear(law, own, path, f) + rough
+    return True

@@ -194,19 +194,23 @@ def _exact(asked: Asked, numbers: Numbers) -> tuple[StickZone, Array]:
             np.take_along_axis(v, high, -1) - np.take_along_axis(v, low, -1) for v in (Q, sigma)
         ]
         dQ, dsigma = (v[mixed, 0] for v in changes)
-        held = {name: value[mixed, 0] for name, value in full.items()}
-        friction = {name: held.pop(name) for name in ("f", "E_star")}
+        of_mixed, friction = _selected(asked, {k: v[..., 0] for k, v in full.items()}, mixed)
         here = Contact(states.a[mixed, 0], states.c[mixed, 0], np.nan)
-        of_mixed = asked._replace(own=held)
         m[mixed], n[mixed], _ = stick_zone(of_mixed, here, here, dQ, dsigma, **friction, mixed=True)
     rest = np.isnan(m)
     if np.any(rest):
         loads = (np.broadcast_to(v, shape)[rest] for v in (P, M, Q, sigma))
-        held = {name: value[rest] for name, value in full.items()}
-        friction = {name: held.pop(name) for name in ("f", "E_star")}
-        m[rest], n[rest], _ = stick_zone_of_loop(asked._replace(own=held), *loads, **friction)
+        of_rest, friction = _selected(asked, full, rest)
+        m[rest], n[rest], _ = stick_zone_of_loop(of_rest, *loads, **friction)
         code = np.where(rest & np.isfinite(m), Regime.MODERATE, code)
     return StickZone(m, n, code), np.where(code == Regime.MIXED, TURNING, 0.0)
+
+
+def _selected(asked: Asked, constants: Numbers, cycles: Array) -> tuple[Asked, Numbers]:
+    """The call with the body's parameters of some of the cycles, and their f and E_star."""
+    own = {name: value[cycles] for name, value in constants.items()}
+    friction = {name: own.pop(name) for name in ("f", "E_star")}
+    return asked._replace(own=own), friction
 
 
 def _closed(loads: tuple[Array, ...]) -> list[Any]:

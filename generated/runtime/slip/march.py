@@ -25,7 +25,6 @@ import numpy as np
 from ..inverse import contact
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
 from ..types import Array
-from .growth import load_path
 from .large import large_zone
 from .locked import holds_load
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
@@ -250,8 +249,7 @@ def each_march(law: Any, given: Array, own: Array, out: Array) -> None:
         m, n, regime = stick_zone(law, body, cycle)
         both = np.empty((2, 5))
         both[0], both[1] = contacts[low], contacts[high]
-        path = load_path(law, body, both)
-        if not holds_load(law, body, path, cycle, m, n, regime, loads[Q, low]):
+        if not holds_load(law, body, both, cycle, m, n, regime, loads[Q, low]):
             m, regime = math.nan, NO_STICK
         _begin(found, contacts, regime)
         kappa = -1.0 if regime == LARGE and cycle[5] < 0 else 1.0
