@@ -146,6 +146,14 @@ def sticking(x: Any, state: Any, a: float, c: float) -> Any:
     return m, n, float(intervals), float(slips)
 
 
+@kernel(real(vector, vector, real))
+def interpolated(x: Any, values: Any, point: float) -> float:
+    """Values at the middles x of the elements, interpolated at a point; constant beyond them."""
+    j = min(max(np.searchsorted(x, point) - 1, 0), x.size - 2)
+    t = min(max((point - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
+    return (1 - t) * values[j] + t * values[j + 1]
+
+
 @kernel(results(2)(LAW, vector, vector, real, vector, vector, matrix, vector, real))
 def at_point(
     law: Any,
@@ -163,18 +171,14 @@ def at_point(
         return math.nan, math.nan
     if not ends[0] <= point <= ends[x.size]:
         return 0.0, math.nan
-    i: Any = max(np.searchsorted(ends, point) - 1, 0)
-    j = min(max(i if point > x[i] else i - 1, 0), x.size - 2)
-    t = (point - x[j]) / (x[j + 1] - x[j])
-    t = min(max(t, 0.0), 1.0)
-    slip = (1 - t) * state[SLIP, j] + t * state[SLIP, j + 1]
+    slip = interpolated(x, state[SLIP], point)
     bound = f * pressure_at(law, own, series, point, row[A], row[C])
     if not bound > 0:
         return 0.0, slip
+    i: Any = max(np.searchsorted(ends, point) - 1, 0)
     if state[STATUS, i] != 0 and state[BOUND, i] > 0:
         return state[STATUS, i] * bound, slip
-    q = (1 - t) * state[SHEAR, j] + t * state[SHEAR, j + 1]
-    return min(max(q, -bound), bound), slip
+    return min(max(interpolated(x, state[SHEAR], point), -bound), bound), slip
 
 
 # ---------------------------------------------------------------- steps

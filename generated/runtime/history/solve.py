@@ -28,6 +28,7 @@ from .steps import (
     SLIP_OF_STEP,
     UNSOLVED,
     at_point,
+    interpolated,
     mesh_for,
     step,
     sticking,
@@ -390,10 +391,7 @@ def cycle_on_mesh(
     values[0], values[1], values[2] = inner_a, inner_c, COMPUTED
     for i in range(asked):
         if ends[0] <= points[i] <= ends[x.size]:
-            j = np.searchsorted(ends, points[i]) - 1
-            j = min(max(j if points[i] > x[j] else j - 1, 0), x.size - 2)
-            t = min(max((points[i] - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
-            values[ZONE + i] = (1 - t) * (high[j] - low[j]) + t * (high[j + 1] - low[j + 1])
+            values[ZONE + i] = interpolated(x, high - low, points[i])
         values[ZONE + asked + i], _ = at_point(
             law, own, series, f, ends, x, state, rows[-1], points[i]
         )
