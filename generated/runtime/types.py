@@ -130,7 +130,8 @@ class SteadyCycle(NamedTuple):
     work        work dissipated by friction in one cycle
     rounds      how many times the cycle was repeated
     drift       change of slip between the last two rounds, relative to the largest slip
-    error       estimated error of m and n alone, relative to the contact width; 0 if they are exact
+    error       estimated error of m and n alone, relative to the contact width; 0 if they are
+                exact, inf if slip does not repeat to 1e-6 within 100 rounds
     work_error  estimated error of work, which is always computed numerically
     """
 

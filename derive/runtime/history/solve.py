@@ -489,4 +489,6 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
             coarse_direct, coarse_less, coarse_ends, coarse_slip = direct, less, ends, slip
             stick_ends = np.array([-coarse[0], coarse[1]])
             stick_ends = _thinned(stick_ends, coarse[0] + coarse[1], APART * tol, elements // EACH)
+        if fine[5] > REPEATED:
+            fine[6] = math.inf
         out[row] = fine
