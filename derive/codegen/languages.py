@@ -59,34 +59,26 @@ _VALUE = "value"
 
 
 @dataclass(frozen=True)
-class Text:
-    """One function, with each part printed in its language."""
-
-    name: str
-    arguments: list[str]
-    words: str
-    steps: list[tuple[str, str]]
-    condition: str
-    value: str
-
-
-@dataclass(frozen=True)
 class Language:
-    """How a language writes expressions and functions.
+    """How a language writes expressions and functions; the texts are templates of `str.format`.
 
     comment       the characters that begin a comment line
-    function      yields the lines of one function of a body
-    file          returns the first and the last lines of a file, from the name of the body and the
-                  names of its functions
+    function      one function of a body
+    step          the line that computes one symbol
+    argument      one argument of a function
+    first, last   the first and the last lines of a file
     keywords      names that an argument cannot have
     ignores_case  whether names that differ only in case are the same
     """
 
     printer: CodePrinter
     comment: str
-    function: Callable[[str, Text], Iterator[str]]
-    file: Callable[[str, list[str]], tuple[list[str], list[str]]]
-    keywords: frozenset[str]
+    function: str
+    step: str
+    keywords: str
+    argument: str = "{}"
+    first: str = ""
+    last: str = ""
     ignores_case: bool = False
 
 
@@ -114,13 +106,13 @@ def code_of(sheet: FormulaSheet, language: str) -> str:
     closed = {n: f for n, f in formulas.items() if n in sheet and _is_elementary(sheet.flat(n))}
     symbols = {s for f in closed.values() for s in (*f.arguments, *f.keywords(sheet))}
     _demand_names(geometry.name, language, map(str, symbols))
-    functions = [_text(sheet, name, function, spoken) for name, function in closed.items()]
-    first, last = spoken.file(geometry.name, list(closed))
     lacking = [name for name in formulas if name in sheet and name not in closed]
-    lines = [*_comment(_heading(sheet, language, lacking), spoken), *first]
-    for text in functions:
-        lines += ["", *_comment([text.words], spoken), *spoken.function(geometry.name, text)]
-    return "\n".join([*lines, *last])
+    handles = "\n".join(f"    functions.{name} = @{name};" for name in closed)
+    first = spoken.first.format(body=geometry.name, handles=handles)
+    head = "\n".join([*_comment(_heading(sheet, language, lacking), spoken), *first.splitlines()])
+    functions = (_function(sheet, name, function, spoken) for name, function in closed.items())
+    last = spoken.last.format(body=geometry.name)
+    return "\n\n".join([head, *functions, *last.splitlines()])
 
 
 def _is_elementary(expr: Expr) -> bool:
@@ -141,7 +133,9 @@ def _heading(sheet: FormulaSheet, language: str, lacking: list[str]) -> Iterator
         yield f"Not included, because they are integrals: {', '.join(lacking)}."
 
 
-def _text(sheet: FormulaSheet, name: str, function: contract.Function, language: Language) -> Text:
+def _function(
+    sheet: FormulaSheet, name: str, function: contract.Function, language: Language
+) -> str:
     """One formula as a function; the symbols of the sheet that occur in it become steps."""
     formula, print_ = sheet[name], _printing(language)
     symbols = (*function.arguments, *function.keywords(sheet))
@@ -155,14 +149,17 @@ def _text(sheet: FormulaSheet, name: str, function: contract.Function, language:
         condition = And(condition, Eq(x, Symbol(x.name)))  # in C, a maximum ignores NaN
         words += "; zero outside the contact"
     program = program.ordered().renamed([*map(str, symbols), _VALUE])
-    return Text(
-        name,
-        [print_(symbol) for symbol in symbols],
-        f"{formula.head}, {words}",
-        [(print_(step.symbol), print_(step.expr)) for step in program.steps],
-        print_(condition),
-        print_(program.outputs[name]),
+    values = {print_(step.symbol): print_(step.expr) for step in program.steps}
+    text = language.function.format(
+        body=sheet.geometry.name,
+        name=name,
+        arguments=", ".join(language.argument.format(print_(symbol)) for symbol in symbols),
+        locals=", ".join([_VALUE, *values]),
+        condition=print_(condition),
+        steps="".join(language.step.format(*step) + "\n" for step in values.items()),
+        value=print_(program.outputs[name]),
     )
+    return "\n".join([*_comment([f"{formula.head}, {words}"], language), text])
 
 
 def _printing(language: Language) -> Callable[[Basic], str]:
@@ -179,18 +176,15 @@ def _printing(language: Language) -> Callable[[Basic], str]:
 def _demand_names(body: str, language: str, names: Iterable[str]) -> None:
     spoken, given = LANGUAGES[language], sorted({body, *names})
     for name in given:
-        if name in (*spoken.keywords, _VALUE):
+        if name in (*spoken.keywords.split(), _VALUE):
             raise NoSuchName(body, language, name, "is reserved in code of that language")
     seen: dict[str, str] = {}
     for name in given if spoken.ignores_case else ():
         if seen.setdefault(name.lower(), name) != name:
-            raise NoSuchName(
-                body,
-                language,
-                name,
+            why = (
                 f"is the same name as {seen[name.lower()]!r}, because upper and lower case are not "
-                "distinguished",
             )
+            raise NoSuchName(body, language, name, why + "distinguished")
 
 
 def _comment(paragraphs: Iterable[str], language: Language) -> Iterator[str]:
@@ -199,151 +193,96 @@ def _comment(paragraphs: Iterable[str], language: Language) -> Iterator[str]:
             yield f"{language.comment} {line}"
 
 
-def _c(body: str, text: Text) -> Iterator[str]:
-    arguments = ", ".join(f"double {name}" for name in text.arguments)
-    yield f"double {body}_{text.name}({arguments})"
-    yield "{"
-    yield f"    if (!({text.condition})) return NAN;"
-    for name, value in text.steps:
-        yield f"    const double {name} = {value};"
-    yield f"    return {text.value};"
-    yield "}"
-
-
-def _fortran(body: str, text: Text) -> Iterator[str]:
-    arguments = ", ".join(text.arguments)
-    yield f"elemental function {text.name}({arguments}) result({_VALUE})"
-    yield f"    real(dp), intent(in) :: {arguments}"
-    yield f"    real(dp) :: {', '.join([_VALUE, *(name for name, _ in text.steps)])}"
-    yield f"    {_VALUE} = ieee_value(1.0_dp, ieee_quiet_nan)"
-    yield f"    if (.not. ({text.condition})) return"
-    for name, value in text.steps:
-        yield f"    {name} = {value}"
-    yield f"    {_VALUE} = {text.value}"
-    yield f"end function {text.name}"
-
-
-def _javascript(body: str, text: Text) -> Iterator[str]:
-    yield f"export function {text.name}({', '.join(text.arguments)}) {{"
-    yield f"    if (!({text.condition})) return NaN;"
-    for name, value in text.steps:
-        yield f"    const {name} = {value};"
-    yield f"    return {text.value};"
-    yield "}"
-
-
-def _julia(body: str, text: Text) -> Iterator[str]:
-    yield f"function {text.name}({', '.join(text.arguments)})"
-    yield f"    ({text.condition}) || return NaN"
-    for name, value in text.steps:
-        yield f"    {name} = {value}"
-    yield f"    return {text.value}"
-    yield "end"
-
-
-def _matlab(body: str, text: Text) -> Iterator[str]:
-    yield f"function {_VALUE} = {text.name}({', '.join(text.arguments)})"
-    yield f"    {_VALUE} = NaN;"
-    yield f"    if ~({text.condition}), return, end"
-    for name, value in text.steps:
-        yield f"    {name} = {value};"
-    yield f"    {_VALUE} = {text.value};"
-    yield "end"
-
-
-def _c_file(body: str, names: list[str]) -> tuple[list[str], list[str]]:
-    pi = ["#ifndef M_PI", "#define M_PI 3.14159265358979323846", "#endif"]
-    return ["#include <math.h>", *pi], []
-
-
-def _fortran_file(body: str, names: list[str]) -> tuple[list[str], list[str]]:
-    return [
-        f"module {body}",
-        "use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan",
-        "implicit none",
-        "integer, parameter, private :: dp = kind(1.0d0)",
-        "real(dp), parameter, private :: pi = 3.1415926535897932d0",
-        "contains",
-    ], ["", f"end module {body}"]
-
-
-def _julia_file(body: str, names: list[str]) -> tuple[list[str], list[str]]:
-    return [f"module {body}"], ["", "end"]
-
-
-def _matlab_file(body: str, names: list[str]) -> tuple[list[str], list[str]]:
-    """MATLAB can call only the first function of a file, so this one returns the others."""
-    handles = [f"    functions.{name} = @{name};" for name in names]
-    return [f"function functions = {body}()", *handles, "end"], []
-
-
-def _words(text: str) -> frozenset[str]:
-    return frozenset(text.split())
-
-
 _PLAIN: Mapping[str, object] = {"human": False}
 _HYPERBOLIC = {name: name for name in ("asinh", "acosh", "atanh")}
+_FREE_FORM = {"standard": 2008, "source_format": "free", "name_mangling": False}
 
 LANGUAGES: Mapping[str, Language] = {
     "c": Language(
         C99CodePrinter({**_PLAIN, "math_macros": {S.Pi: "M_PI"}}),
         "//",
-        _c,
-        _c_file,
-        _words(
-            "auto break case char const continue default do double else enum extern float for "
-            "goto if inline int long register restrict return short signed sizeof static struct "
-            "switch typedef union unsigned void volatile while"
-        ),
+        """\
+double {body}_{name}({arguments})
+{{
+    if (!({condition})) return NAN;
+{steps}    return {value};
+}}""",
+        "    const double {} = {};",
+        "auto break case char const continue default do double else enum extern float for goto if "
+        "inline int long register restrict return short signed sizeof static struct switch typedef "
+        "union unsigned void volatile while",
+        argument="double {}",
+        first="""\
+#include <math.h>
+#ifndef M_PI
+#define M_PI 3.14159265358979323846
+#endif""",
     ),
     "fortran": Language(
-        _Fortran(
-            {
-                **_PLAIN,
-                "standard": 2008,
-                "source_format": "free",
-                "name_mangling": False,
-                "user_functions": _HYPERBOLIC,
-            }
-        ),
+        _Fortran({**_PLAIN, **_FREE_FORM, "user_functions": _HYPERBOLIC}),
         "!",
-        _fortran,
-        _fortran_file,
-        _words("dp pi"),
+        """\
+elemental function {name}({arguments}) result(value)
+    real(dp), intent(in) :: {arguments}
+    real(dp) :: {locals}
+    value = ieee_value(1.0_dp, ieee_quiet_nan)
+    if (.not. ({condition})) return
+{steps}    value = {value}
+end function {name}""",
+        "    {} = {}",
+        "dp pi",
+        first="""\
+module {body}
+use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+implicit none
+integer, parameter, private :: dp = kind(1.0d0)
+real(dp), parameter, private :: pi = 3.1415926535897932d0
+contains""",
+        last="end module {body}",
         ignores_case=True,
     ),
     "javascript": Language(
         JavascriptCodePrinter(dict(_PLAIN)),
         "//",
-        _javascript,
-        lambda body, names: ([], []),
-        _words(
-            "await break case catch class const continue debugger default delete do else enum "
-            "export extends false finally for function if implements import in instanceof "
-            "interface let new null package private protected public return static super switch "
-            "this throw true try typeof var void while with yield"
-        ),
+        """\
+export function {name}({arguments}) {{
+    if (!({condition})) return NaN;
+{steps}    return {value};
+}}""",
+        "    const {} = {};",
+        "await break case catch class const continue debugger default delete do else enum export "
+        "extends false finally for function if implements import in instanceof interface let new "
+        "null package private protected public return static super switch this throw true try "
+        "typeof var void while with yield",
     ),
     "julia": Language(
         JuliaCodePrinter({**_PLAIN, "contract": False, "user_functions": {"atan2": "atan"}}),
         "#",
-        _julia,
-        _julia_file,
-        _words(
-            "baremodule begin break catch const continue do else elseif end export false finally "
-            "for function global if import let local macro module pi quote return struct true try "
-            "using while"
-        ),
+        """\
+function {name}({arguments})
+    ({condition}) || return NaN
+{steps}    return {value}
+end""",
+        "    {} = {}",
+        "baremodule begin break catch const continue do else elseif end export false finally for "
+        "function global if import let local macro module pi quote return struct true try using "
+        "while",
+        first="module {body}",
+        last="end",
     ),
     "matlab": Language(
         OctaveCodePrinter(dict(_PLAIN)),
         "%",
-        _matlab,
-        _matlab_file,
-        _words(
-            "break case catch classdef continue else elseif end for function global if otherwise "
-            "parfor persistent pi return spmd switch try while"
-        ),
+        """\
+function value = {name}({arguments})
+    value = NaN;
+    if ~({condition}), return, end
+{steps}    value = {value};
+end""",
+        "    {} = {};",
+        "break case catch classdef continue else elseif end for function global if otherwise "
+        "parfor persistent pi return spmd switch try while",
+        first="function functions = {body}()\n{handles}\nend",  # only this one can be called
     ),
 }
 """The languages of `derive show NAME --code LANGUAGE`."""
