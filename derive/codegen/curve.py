@@ -2,7 +2,7 @@
 
 In:  a proven FormulaSheet.
 Out: the text of `_curve`, which returns g', g'' and t g''' at a distance t from each break; the
-     text of the law that integrates the curve; and the text of the functions that call the law.
+     text of the law that integrates the curve.
      The method of integration is in runtime/pieces.py.
 
 A break is a point at which one piece of the curve ends and the next begins.
@@ -31,50 +31,16 @@ from sympy import (
 )
 
 from derive.codegen.cuts import cuts_of
-from derive.codegen.function import FunctionText
-from derive.codegen.integrals import Integrals
 from derive.codegen.law import LawText, as_float, function_head
 from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.program import Program
 from derive.piece import Piece
-from derive.symbols import E_star, x
+from derive.symbols import x
 
 Steps = list[tuple[Symbol, Expr]]
 
 _t = Symbol("t", positive=True)
 """Distance from a break."""
-
-
-class IntegratedText(FunctionText):
-    """The text of one function that is evaluated by quadrature."""
-
-    def _made(self) -> Program:
-        return Program({})
-
-    def _demand_equal(self) -> None:
-        """Compare nothing: no formula is rewritten, and the trial of the module tests the rest."""
-
-    @property
-    def _equations(self) -> Iterator[str]:
-        """The integrals that are evaluated; a closed formula, if there is one, is on the sheet."""
-        yield from Integrals(self.sheet).lines(self.function.formulas)
-
-    @property
-    def _origin(self) -> str:
-        return f"Derived from {self.source} and evaluated by quadrature."
-
-    @property
-    def _decorators(self) -> Iterator[str]:
-        return iter(())
-
-    @property
-    def _code(self) -> Iterator[str]:
-        own = ", ".join(f"{q.name}={q.name}" for q in self.sheet.geometry.parameters)
-        material = (E_star,) * self.function.material
-        given = ", ".join(f"{s}={s}" for s in (*self.function.arguments, *material))
-        yield f"    asked = Asked(_BODY, {self.function.name}, dict({own}))"
-        yield f"    return integrated(asked, {given})"
 
 
 class CurveText(LawText):

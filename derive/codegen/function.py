@@ -11,13 +11,13 @@ from itertools import product
 
 import mpmath
 from mpmath import mpf
-from sympy import And, Expr, Gt, Lt, Min, Or, S, Symbol
+from sympy import And, Gt, Lt, Min, Or, S, Symbol
 from sympy.logic.boolalg import Boolean
 
 from derive.codegen.contract import Function
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.program import LEAST, MOST, TINY, Program
-from derive.codegen.rewrite import prove_equal, stable_program
+from derive.codegen.program import LEAST, MOST, Program
+from derive.codegen.rewrite import demand_equal, stable_program
 from derive.errors import NotProven
 from derive.notation import text_of
 from derive.proof.points import Point, contacts, holds, loads, numeric
@@ -25,7 +25,7 @@ from derive.proof.verdict import Proof, Verdict
 from derive.runtime.body import sentence
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, M, P, a, alpha, c, dM, dP, dQ, dsigma, f, h, w, x
-from derive.units import Dimension, dimension_of, parse_unit
+from derive.units import Dimension, dimension_of
 
 LINE = 100
 
@@ -39,53 +39,30 @@ def inside_quotes(text: str) -> str:
 
 
 class FunctionText:
-    """The text of one function of one body."""
+    """The text of one function that has a formula."""
 
     def __init__(self, sheet: FormulaSheet, function: Function, source: str) -> None:
         self.sheet, self.function, self.source = sheet, function, source
         self.keywords = function.keywords(sheet)
-        self.outputs = self._expressions()
-        self.conditions = self._conditions()
+        self.outputs, self.conditions = function.outputs(sheet), function.conditions(sheet)
         self.example = example_of(sheet, self.conditions)
         self.program = self._made()
-        self._demand_equal()
-
-    def _expressions(self) -> dict[str, Expr]:
-        return self.function.outputs(self.sheet)
-
-    def _conditions(self) -> tuple[Boolean, ...]:
-        return self.function.conditions(self.sheet)
 
     def _made(self) -> Program:
-        return stable_program(self.sheet, self.outputs, self.example)
-
-    def _demand_equal(self) -> None:
-        source = {name: self.sheet.frame.flat(expr) for name, expr in self.outputs.items()}
-        proof = prove_equal(self.program, source, self._points())
-        if not proof.holds:
-            raise NotProven(f"{self.function.name} of {self.sheet.geometry.name!r}: {proof}")
-
-    def _points(self) -> Iterator[Point]:
-        if P not in self.function.arguments:
-            yield from contacts(self.sheet)
-        else:
-            yield from loads(self.sheet, self.sheet[self.function.formulas[0]])
+        """The program of the function; raises NotProven unless it agrees with the sheet."""
+        sheet, function = self.sheet, self.function
+        program = stable_program(sheet, self.outputs, self.example)
+        source = {name: sheet.frame.flat(expr) for name, expr in self.outputs.items()}
+        inverse = P in function.arguments
+        points = loads(sheet, sheet[function.formulas[0]]) if inverse else contacts(sheet)
+        demand_equal(f"{function.name} of {sheet.geometry.name!r}", program, source, points)
+        return program
 
     @property
     def text(self) -> str:
         """The whole function."""
-        return "\n".join(
-            [
-                *self._decorators,
-                self._signature,
-                textwrap.indent(self._docstring, " " * 4),
-                *self._code,
-            ]
-        )
-
-    @property
-    def _decorators(self) -> Iterator[str]:
-        yield "@elementwise"
+        docstring = textwrap.indent(self._docstring, " " * 4)
+        return "\n".join(["@elementwise", self._signature, docstring, *self._code])
 
     @property
     def _signature(self) -> str:
@@ -312,7 +289,7 @@ def step_lines(
 
     given: the number of steps at the beginning that are already defined, and are not printed
     """
-    known: dict[Symbol, Dimension] = {**sheet.dimensions, TINY: parse_unit("m")}
+    known: dict[Symbol, Dimension] = dict(sheet.dimensions)
     for number, step in enumerate(program.steps):
         dimension = dimension_of(step.expr, known) or Dimension()
         known[step.symbol] = dimension

@@ -1,12 +1,13 @@
-"""The integrals that are evaluated for a body without closed formulas, for its docstrings.
+"""Prints the functions of a body without closed formulas, and the integrals that they evaluate.
 
-In:  a FormulaSheet and the name of one of its formulas.
-Out: the integral over g'' that derive/runtime/pieces.py evaluates for the formula, and the
-     definitions of the functions in that integral.
+In:  a FormulaSheet and a Function of the contract.
+Out: the text of the function; for its docstring, the integrals over g'' that
+     derive/runtime/pieces.py evaluates, and the definitions of the functions in these integrals.
 
 Each corner, where g' jumps, adds a term in which the jump of g' takes the place of g'' dxi.
 """
 
+import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -28,7 +29,8 @@ from sympy import (
     sqrt,
 )
 
-from derive.codegen.function import local
+from derive.codegen.function import FunctionText, local
+from derive.codegen.program import Program
 from derive.notation import text_of
 from derive.piece import Piece
 from derive.profile import Kink
@@ -46,6 +48,35 @@ _IN_WORDS = (
     "FinitePart: the limit of the integral that ends at a distance d from the edge, without its "
     "term in 1/sqrt(d), as d goes to 0; next to the edge it is integrated by parts"
 )
+
+
+class IntegratedText(FunctionText):
+    """The text of one function that is evaluated by quadrature."""
+
+    def _made(self) -> Program:
+        """No program: no formula is rewritten, and the trial of the module tests the rest."""
+        return Program({})
+
+    @property
+    def text(self) -> str:
+        """The whole function, which passes its arguments on to the law of the body."""
+        own = ", ".join(f"{q.name}={q.name}" for q in self.sheet.geometry.parameters)
+        material = (E_star,) * self.function.material
+        given = ", ".join(f"{s}={s}" for s in (*self.function.arguments, *material))
+        asked = f"    asked = Asked(_BODY, {self.function.name}, dict({own}))"
+        docstring = textwrap.indent(self._docstring, " " * 4)
+        return "\n".join(
+            [self._signature, docstring, asked, f"    return integrated(asked, {given})"]
+        )
+
+    @property
+    def _equations(self) -> Iterator[str]:
+        """The integrals that are evaluated; a closed formula, if there is one, is on the sheet."""
+        yield from Integrals(self.sheet).lines(self.function.formulas)
+
+    @property
+    def _origin(self) -> str:
+        return f"Derived from {self.source} and evaluated by quadrature."
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,16 @@ from collections.abc import Iterable, Iterator
 from sympy import Expr, Lt, Piecewise, S, count_ops, diff, expand, factor
 
 from derive.codegen.function import example_of, local, printer_of, step_lines
+from derive.codegen.parts import THIRD, parts_program, summed_steps
 from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.summed import summed_steps
-from derive.codegen.third import third_program
-from derive.proof.points import Point, numeric
+from derive.codegen.program import Program
+from derive.codegen.rewrite import demand_equal, stable_program
+from derive.proof.points import Point, contacts, numeric
 from derive.sheet import FormulaSheet
 from derive.symbols import E_star, a, c, x
+from derive.theory.edges import Edge, pressure_series
+from derive.theory.slip import pressure_next
 
 NAMES = ("pressure", "state", "slope", "series", "breaks")
 """The functions of a law, in the order of runtime/kernels.py."""
@@ -143,3 +146,36 @@ def example_values(sheet: FormulaSheet) -> tuple[object, ...]:
 def as_float(printed: str) -> str:
     """A printed number as a float: numba needs `1.0` instead of `1`."""
     return f"{printed}.0" if printed.isdigit() else printed
+
+
+# ------------------------------------------------------------------ the third coefficient
+
+
+def third_program(sheet: FormulaSheet) -> Program:
+    """The program for the coefficients of s**(5/2) at both edges, with E* = 1.
+
+    The series of the slip zones need them at order 3.
+
+    Raises NotProven if the expanded pressure does not agree with L_N and K_N.
+    """
+    summed = carried_by(sheet) is Route.PARTS
+    program = parts_program(sheet, THIRD) if summed else _expanded(sheet)
+    return program.mapped(lambda expr: expr.xreplace({E_star: S.One}))
+
+
+def _expanded(sheet: FormulaSheet) -> Program:
+    """The program from the expanded pressure, compared with `_from_motion`."""
+    series = {edge.name.lower(): pressure_series(sheet.frame, edge, 3)[2] for edge in Edge}
+    program = stable_program(sheet, series, {})
+    words = f"the third coefficient of {sheet.geometry.name!r}"
+    demand_equal(words, program, _from_motion(sheet), contacts(sheet))
+    return program
+
+
+def _from_motion(sheet: FormulaSheet) -> dict[str, Expr]:
+    """The coefficients by an independent route: the change of L_N as one edge moves."""
+    coefficients = {}
+    for side, edge in (("left", a), ("right", c)):
+        K, L = (sheet.frame.flat(sheet[f"{name}_{side}"].expr) for name in ("K_N", "L_N"))
+        coefficients[side] = sheet.frame.flat(pressure_next(L.diff(edge), 1, K))
+    return coefficients

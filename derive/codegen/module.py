@@ -13,13 +13,14 @@ from collections.abc import Iterator
 from ruff import find_ruff_bin
 
 from derive.codegen.contract import CONTRACT
-from derive.codegen.curve import CurveText, IntegratedText
+from derive.codegen.curve import CurveText
 from derive.codegen.function import LINE, FunctionText, inside_quotes
+from derive.codegen.integrals import IntegratedText
 from derive.codegen.law import LawText
 from derive.codegen.mark import MARK
+from derive.codegen.parts import SummedText, angles_text, definitions_text
 from derive.codegen.plan import Route, carried_by, route_of
 from derive.codegen.publish import FULL_STICK
-from derive.codegen.summed import SummedText, angles_text, definitions_text
 from derive.notation import text_of
 from derive.runtime import segments
 from derive.runtime.cycle import CYCLE, EXPLAINING
@@ -37,7 +38,7 @@ _HELPERS = {
     "arrays": ("elementwise",),
     "body": ("Asked", "Body", "Example", "Parameter"),
     "cycle": ("integrated",),
-    "elementary": ("LEAST", "MOST", "TINY", "kink_logarithm", "where"),
+    "elementary": ("LEAST", "MOST", "kink_logarithm", "where"),
     "history": ("public",),
     "kernels": ("BREAKS", "PRESSURE", "SERIES", "SLOPE", "STATE", "kernel"),
     "pieces": ("BESIDE_BREAK", "curve_of"),

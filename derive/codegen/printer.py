@@ -46,29 +46,13 @@ class CannotPrint(Exception):
     """No NumPy code is known for an expression: a fault of the generator, not of the user."""
 
 
-_FUNCTIONS = {
-    "Abs": "np.abs",
-    "acos": "np.arccos",
-    "acosh": "np.arccosh",
-    "asin": "np.arcsin",
-    "asinh": "np.arcsinh",
-    "atan": "np.arctan",
-    "atan2": "np.arctan2",
-    "atanh": "np.arctanh",
-    "cos": "np.cos",
-    "cosh": "np.cosh",
-    "exp": "np.exp",
-    "expm1": "np.expm1",
-    "log": "np.log",
-    "log1p": "np.log1p",
-    "sign": "np.sign",
-    "sin": "np.sin",
-    "sinh": "np.sinh",
-    "tan": "np.tan",
-    "tanh": "np.tanh",
-}
+_SAME = ("cos", "cosh", "exp", "log", "sign", "sin", "sinh", "tan", "tanh")
+_INVERSE = ("cos", "cosh", "sin", "sinh", "tan", "tan2", "tanh")
+_FUNCTIONS = {name: f"np.{name}" for name in _SAME}
+_FUNCTIONS |= {f"a{name}": f"np.arc{name}" for name in _INVERSE}
+_FUNCTIONS["Abs"] = "np.abs"
 _FUNCTIONS |= {function.__name__: function.__name__ for function in NAMED}
-_NAMED = ("Max", "Min", "Piecewise", "fmax")
+_NAMED = ("Max", "Min", "Piecewise")
 _CONSTANTS = {S.Pi: "np.pi", S.Exp1: "np.e", S.EulerGamma: "np.euler_gamma"}
 
 _NOT_EXACT = (Float, UnevaluatedExpr, S.ImaginaryUnit, S.NaN, oo, -oo, S.ComplexInfinity)
@@ -80,7 +64,7 @@ _DIGITS = 40
 
 
 _KNOWN = (
-    *(Add, Mul, Pow, Symbol, Rational, NumberSymbol, type(oo), type(-oo), UnevaluatedExpr),
+    *(Add, Mul, Pow, Symbol, Rational, NumberSymbol, UnevaluatedExpr),
     *(Function, Max, Min, Piecewise, Relational, And, Or, BooleanTrue, BooleanFalse),
 )
 
@@ -117,27 +101,9 @@ class NumPyPrinter(StrPrinter):
         return super().parenthesize(item, level, strict)
 
     def _print_Function(self, expr: Expr) -> str:
-        name = type(expr).__name__
-        if name not in _FUNCTIONS:
-            raise CannotPrint(f"no NumPy function is known for {name}, which occurs in {expr}")
-        return f"{_FUNCTIONS[name]}({', '.join(map(self._print, expr.args))})"
-
-    def _print_fmax(self, expr: Expr) -> str:
-        first, second = expr.args
-        return f"np.fmax({self._print(first)}, {self._print(second)}{'.0' * second.is_Integer})"
+        return f"{_FUNCTIONS[type(expr).__name__]}({', '.join(map(self._print, expr.args))})"
 
     _print_Abs = _print_sign = _print_log = _print_Function
-
-    def _print_Symbol(self, expr: Symbol) -> str:
-        return str(expr.name)
-
-    _print_Dummy = _print_Symbol
-
-    def _print_Infinity(self, expr: Basic) -> str:
-        return "np.inf"
-
-    def _print_NegativeInfinity(self, expr: Basic) -> str:
-        return "-np.inf"
 
     def _print_Add(self, expr: Add, order: object = None) -> str:
         """Print positive terms first: phi - alpha, not -alpha + phi."""
@@ -176,8 +142,6 @@ class NumPyPrinter(StrPrinter):
         base, exponent = expr.base, expr.exp
         if exponent == S.Half:
             return f"np.sqrt({self._print(base)})"
-        if base.is_Integer and exponent.is_Integer:
-            return f"{base}.0**{exponent}"
         if exponent.is_negative or _is_odd_half(exponent):
             return self._quotient([expr])
         if isinstance(base, Symbol) and exponent.is_Integer:
@@ -196,17 +160,14 @@ class NumPyPrinter(StrPrinter):
         return f"{self._print(S(expr.p))} / {self._print(S(expr.q))}"
 
     def _print_Max(self, expr: Expr) -> str:
-        return self._nested("np.maximum", expr)
-
-    def _print_Min(self, expr: Expr) -> str:
-        return self._nested("np.minimum", expr)
-
-    def _nested(self, name: str, expr: Expr) -> str:
+        name = "np.maximum" if isinstance(expr, Max) else "np.minimum"
         first, *rest = sorted(expr.args, key=lambda arg: (arg.is_number, str(arg)))
         text = self._print(first)
         for other in rest:
             text = f"{name}({text}, {self._print(other)}{'.0' * other.is_Integer})"
         return text
+
+    _print_Min = _print_Max
 
     def _print_Piecewise(self, expr: Expr) -> str:
         *cases, (last, always) = expr.args
@@ -222,10 +183,10 @@ class NumPyPrinter(StrPrinter):
         return f"{left} {expr.rel_op} {right}"
 
     def _print_And(self, expr: Basic) -> str:
-        return " & ".join(f"({self._print(arg)})" for arg in _ordered(expr))
+        sign = " & " if isinstance(expr, And) else " | "
+        return sign.join(f"({self._print(arg)})" for arg in sorted(expr.args, key=str))
 
-    def _print_Or(self, expr: Basic) -> str:
-        return " | ".join(f"({self._print(arg)})" for arg in _ordered(expr))
+    _print_Or = _print_And
 
 
 def _is_rounded(expr: Basic) -> bool:
@@ -253,10 +214,7 @@ def _nearest(number: Expr) -> float:
 
 def _is_call(text: str) -> bool:
     """Whether the text is a single call or name, which needs no parentheses."""
-    try:
-        return isinstance(ast.parse(text, mode="eval").body, ast.Call | ast.Name)
-    except SyntaxError:
-        return False
+    return isinstance(ast.parse(text, mode="eval").body, ast.Call | ast.Name)
 
 
 def _product(name: str, power: int) -> str:
@@ -266,10 +224,6 @@ def _product(name: str, power: int) -> str:
     if power % 2:
         return f"({name} * {_product(name, power - 1)})"
     return f"({_product(name, power // 2)})**2"
-
-
-def _ordered(expr: Basic) -> list[Basic]:
-    return sorted(expr.args, key=str)
 
 
 def _split(factors: list[Expr]) -> tuple[list[Expr], list[Expr]]:

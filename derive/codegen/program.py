@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from sympy import Abs, Expr, Function, Rational, Symbol, UnevaluatedExpr, log
+from sympy import Expr, Symbol, UnevaluatedExpr
 
 from derive.theory.segments import as_it_is, written_out
 
@@ -21,32 +21,8 @@ class Kept(UnevaluatedExpr):
         return self.args[0].is_extended_positive
 
 
-TINY = Symbol("TINY", positive=True)
-"""The smallest positive float64, as a distance."""
-
-
 LEAST, MOST = Symbol("LEAST", positive=True), Symbol("MOST", positive=True)
 """The shortest and the longest length whose products stay well inside float64."""
-
-
-class fmax(Function):
-    """The larger of two numbers; unlike Max, it ignores an argument that is NaN."""
-
-    nargs = 2
-    of_one_dimension = True
-    """The arguments and the value have the same dimension."""
-
-
-class expm1(Function):
-    """exp(z) - 1, without loss of digits for small z."""
-
-    nargs = 1
-
-
-class log1p(Function):
-    """log(1 + z), without loss of digits for small z."""
-
-    nargs = 1
 
 
 @dataclass(frozen=True)
@@ -130,11 +106,5 @@ class Program:
         return {name: written_in(expr) for name, expr in plain.outputs.items()}
 
     def in_mathematics(self) -> "Program":
-        """The program in mathematical functions only, without those for floating point."""
-
-        def plain(expr: Expr) -> Expr:
-            expr = expr.xreplace({TINY: Rational(1, 2**1074)})
-            expr = expr.replace(fmax, lambda p, q: (p + q + Abs(p - q)) / 2)
-            return written_out(expr).replace(log1p, lambda z: log(1 + z))
-
-        return self.mapped(plain)
+        """The program in elementary functions, with every named function written out."""
+        return self.mapped(written_out)

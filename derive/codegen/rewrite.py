@@ -7,7 +7,7 @@ Each rule is one function, whose docstring states the identity that it uses.  No
 particular geometry.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import mpmath
@@ -39,7 +39,8 @@ from sympy import (
     together,
 )
 
-from derive.codegen.program import TINY, Kept, Program, Step, fmax
+from derive.codegen.program import Kept, Program, Step
+from derive.errors import NotProven
 from derive.piece import vanishes
 from derive.proof.points import Point, named, numeric, numeric_by_steps
 from derive.proof.verdict import WORKING, Comparison, Proof, numerical_proof
@@ -106,6 +107,15 @@ def prove_equal(program: Program, source: dict[str, Expr], points: Iterable[Poin
         )
 
 
+def demand_equal(
+    words: str, program: Program, source: dict[str, Expr], points: Iterable[Point]
+) -> None:
+    """Raise NotProven, with `words` for the formulas, if the program does not agree with them."""
+    proof = prove_equal(program, source, points)
+    if not proof.holds:
+        raise NotProven(f"{words}: {proof}")
+
+
 def _frame_steps(sheet: FormulaSheet) -> list[Step]:
     steps = []
     for k in sheet.frame.kinks:
@@ -113,7 +123,6 @@ def _frame_steps(sheet: FormulaSheet) -> list[Step]:
         steps += [
             Step(k.theta, k.angle, f"angle of the contact beyond {at}"),
             Step(k.w, k.root, f"root at {at}"),
-            Step(k.L, k.logarithm, f"logarithm of {at}"),
         ]
     return steps
 
@@ -122,11 +131,10 @@ def _frame_steps(sheet: FormulaSheet) -> list[Step]:
 
 
 def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Program:
-    """Apply three identities, with theta_j = 2 atan2(sqrt u, sqrt v) and u v = w_j**2.
+    """Apply two identities, with theta_j = 2 atan2(sqrt u, sqrt v) and u v = w_j**2.
 
         q (pi/2 - theta_j)     -> q atan2(v - u, 2 w_j)
         q (pi/2 - atan2(y, x)) -> q atan2(x, y) for y > 0
-        q (pi - theta_j)       -> q theta_j of the other side
 
     A tilt near zero is a small difference of angles near pi/2.  The difference of u and v, in
     contrast, is exact.
@@ -134,18 +142,20 @@ def angles_about_the_right_angle(program: Program, sheet: FormulaSheet) -> Progr
     kinks = {k.theta: k for k in sheet.frame.kinks}
 
     def change(expr: Expr) -> Expr:
-        angles = sorted((expr.free_symbols & kinks.keys()) | expr.atoms(atan2), key=str)
-        for angle in angles:
-            stand_in = Symbol("angle_stand_in")
-            is_right = vanishes(expr.xreplace({angle: pi / 2}))
-            if not is_right and not (angle in kinks and vanishes(expr.xreplace({angle: pi}))):
-                continue
-            times = expr.xreplace({angle: stand_in}).diff(stand_in)
-            if times != 0 and not times.has(stand_in):
-                other = _complement(angle, kinks) if is_right else _opposite(kinks[angle])
-                expr = simplify(-times) * other
+        for angle in _angles(expr, kinks):
+            times = expr.coeff(angle) if expr.is_Add else expand(expr).coeff(angle)
+            if vanishes(expr.xreplace({angle: pi / 2})) and times != 0:
+                expr = simplify(-times) * _complement(angle, kinks)
         return expr
 
+    return _outputs_changed(program, change)
+
+
+def _angles(expr: Expr, kinks: dict[Symbol, KinkFrame]) -> list[Expr]:
+    return sorted((expr.free_symbols & kinks.keys()) | expr.atoms(atan2), key=str)
+
+
+def _outputs_changed(program: Program, change: Callable[[Expr], Expr]) -> Program:
     return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
 
 
@@ -160,7 +170,7 @@ def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
     of_kinks = {symbol for k in sheet.frame.kinks for symbol in (k.theta, k.w, k.L)}
 
     def change(expr: Expr) -> Expr:
-        for angle in sorted((expr.free_symbols & kinks.keys()) | expr.atoms(atan2), key=str):
+        for angle in _angles(expr, kinks):
             for total in sorted(expr.atoms(Add), key=count_ops):
                 times = total.coeff(angle)
                 rest = [term for term in total.args if not term.has(angle)]
@@ -176,7 +186,7 @@ def shares_of_the_half_circle(program: Program, sheet: FormulaSheet) -> Program:
                 break
         return expr
 
-    return replace(program, outputs={n: change(v) for n, v in program.outputs.items()})
+    return _outputs_changed(program, change)
 
 
 def _complement(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:
@@ -192,11 +202,7 @@ def _other_side(angle: Expr, kinks: dict[Symbol, KinkFrame]) -> Expr:
     if isinstance(angle, atan2):
         y, along = angle.args
         return atan2(y, -along)
-    return _opposite(kinks[angle])
-
-
-def _opposite(k: KinkFrame) -> Expr:
-    y, along = k.angle.args[1].args
+    y, along = kinks[angle].angle.args[1].args
     return 2 * atan2(along, y)
 
 
@@ -217,10 +223,8 @@ def tangents_from_both_ends(program: Program, example: Point) -> Program:
     rest = factor(together(pi / 2 - angle))
     outputs = {n: v.subs(tangent, sign_of * _t) for n, v in program.outputs.items()}
     split = {n: _power_of_tangent(v) for n, v in outputs.items()}
-    scales = {times for times, power, _ in split.values() if power}
-    if len(scales) != 1:
-        return program
-    steps = [Step(_scale, scales.pop(), "")]
+    scale = next((times for times, power, _ in split.values() if power), S.One)
+    steps = [Step(_scale, scale, "")]
     if simplify(angle.subs(alpha, -alpha) - rest) == 0:
         falls = simplify(angle.diff(alpha)).could_extract_minus_sign()
         lean, smaller = (alpha if falls else -alpha), _angle
@@ -285,12 +289,8 @@ def _signs_inside(product: Expr) -> Expr:
     """-k (p - q) -> k (q - p)."""
     if not product.could_extract_minus_sign():
         return product
-    factors = list(Mul.make_args(product))
-    index = next((i for i, f in enumerate(factors) if isinstance(f, Add)), None)
-    if index is None:
-        return product
-    factors[index] = -factors[index]
-    return -Mul(*factors)
+    total = next(f for f in Mul.make_args(product) if isinstance(f, Add))
+    return -(product / total) * -total
 
 
 # ------------------------------------------------------------------ logarithms and roots
@@ -304,35 +304,25 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
     is exactly zero, and so is the logarithm.  Outside the contact, u v has no real root, and z is
     set to zero.
 
-    At x = x_j, the pressure of a corner is infinite if the contact spans the corner, and zero if it
-    does not; in the second case fmax returns the zero instead of 0/0.  At a kink where the jump
-    vanishes, its product with L_j also vanishes as long as L_j is finite.  L_j is kept finite by a
-    distance of at least TINY.
+    A formula that is printed as it is has no kink but a corner that every contact spans.
     """
-    symbols = {k.L: k for k in sheet.frame.kinks}
-    steps: list[Step] = []
-    halves: dict[Symbol, Expr] = {}
-    for step in program.steps:
-        if (k := symbols.get(step.symbol)) is None:
-            steps.append(step)
-            continue
-        number = k.kink.number
+    words = "twice the logarithm of the kink"
+    for k in sheet.frame.kinks:
+        number, place = k.kink.number, k.kink.position
         left, right = (Dummy(f"{side}_{number}", real=True) for side in ("left", "right"))
-        at_left = Kept(2 * k.clip(k.right) / h) * (a + x)
-        at_right = Kept(2 * k.clip(k.left) / h) * (c - x)
-        least = () if k.kink.is_corner else (TINY,)
-        logarithm = kink_logarithm(left, right, x - k.kink.position, *least)
-        if k.kink.is_corner and k.clipped:
-            logarithm = fmax(logarithm, S.Zero)
         twice = Dummy(f"logarithm_{number}", nonnegative=True)
-        steps += [
-            Step(left, at_left, "zero at the left edge"),
-            Step(right, at_right, "zero at the right edge"),
-            Step(twice, logarithm, f"twice the {step.meaning}"),
-        ]
-        halves[step.symbol] = twice / 2
-    program = replace(program, steps=tuple(steps))
-    return program.mapped(lambda expr: expr.xreplace(halves))
+        steps = (
+            Step(left, Kept(2 * k.right / h) * (a + x), "zero at the left edge"),
+            Step(right, Kept(2 * k.left / h) * (c - x), "zero at the right edge"),
+            Step(
+                twice,
+                kink_logarithm(left, right, x - place),
+                f"{words} x = {place}",
+            ),
+        )
+        program = program.mapped(lambda expr, L=k.L, to=twice / 2: expr.xreplace({L: to}))  # type: ignore[misc]
+        program = replace(program, steps=(*program.steps, *steps))
+    return program
 
 
 def conjugate_roots(program: Program) -> Program:
@@ -429,7 +419,7 @@ def lengths_of_one_sign(program: Program, sheet: FormulaSheet) -> Program:
 
 def sums_term_by_term(program: Program) -> Program:
     """c (p a + q c)/(a h) -> p' c/a + q' c/h if all terms are positive and the sum is shorter."""
-    return replace(program, outputs={n: _term_by_term(v) for n, v in program.outputs.items()})
+    return _outputs_changed(program, _term_by_term)
 
 
 def _term_by_term(product: Expr) -> Expr:

@@ -12,10 +12,9 @@ from mpmath import mpf
 from sympy import Abs, Expr, Max, Piecewise
 
 from derive import Geometry, parameter
-from derive.codegen.parts import common_steps, parts_program
+from derive.codegen.parts import common_steps, definitions_text, parts_program
 from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
-from derive.codegen.summed import definitions_text
 from derive.derivation import derive_sheet
 from derive.errors import NotProven
 from derive.library import load_geometry

@@ -1,4 +1,4 @@
-"""The third coefficient of the pressure next to the edges, derive/codegen/third.py."""
+"""The third coefficient of the pressure next to the edges, derive/codegen/law.py."""
 
 import importlib
 import math
@@ -9,9 +9,9 @@ import pytest
 from mpmath import mpf
 from numpy.testing import assert_allclose
 
-from derive.codegen import third
+from derive.codegen import law
+from derive.codegen.law import third_program
 from derive.codegen.plan import Route, carried_by
-from derive.codegen.third import third_program
 from derive.errors import NotProven
 from derive.library import library
 from derive.proof.points import contacts, numeric
@@ -81,7 +81,7 @@ def test_a_series_that_contradicts_the_motion_of_the_edge(monkeypatch: pytest.Mo
         found = right(*args)  # type: ignore[arg-type]
         return [*found[:2], 2 * found[2]]
 
-    right = third.pressure_series
-    monkeypatch.setattr(third, "pressure_series", wrong)
+    right = law.pressure_series
+    monkeypatch.setattr(law, "pressure_series", wrong)
     with pytest.raises(NotProven, match="third coefficient of 'wedge'"):
         third_program(sheet_of("wedge"))
