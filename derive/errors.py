@@ -199,10 +199,11 @@ class BadOutput(UserError):
 
 @dataclass
 class BadPage(UserError):
-    """`derive show --html` must not replace, or cannot write, a file or directory."""
+    """A command must not replace, or cannot write, a page, a table or a directory of pages."""
 
     given: str
     why: str
+    option: str = "--out"
 
     @property
     def message(self) -> str:
@@ -210,8 +211,8 @@ class BadPage(UserError):
         if _is_full(self.why):
             return f"{self.given} {self.why}; {_FREE}"
         return (
-            f"{self.given} {self.why}; pages are only written to a path that does not exist, or "
-            "over pages made by `derive show --html`: choose another path with --out"
+            f"{self.given} {self.why}; only what does not exist, or was made by `derive`, is "
+            f"written: choose another path with {self.option}"
         )
 
 

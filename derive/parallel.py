@@ -27,7 +27,7 @@ from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from threading import Thread
-from time import monotonic
+from time import monotonic, sleep
 from typing import TypeVar
 
 from derive.errors import LostProcess, RanAway
@@ -42,6 +42,8 @@ _MOST = 60
 """Largest number of processes that one process can wait for on every system."""
 _INTERVAL = 0.2
 """Seconds between two checks for Ctrl-C, on systems where waiting delays it."""
+_GRACE = 2.0
+"""Seconds in which a process that is ended may remove its temporary files."""
 _NO_MEMORY = 77
 """Exit status of a process that has no memory left."""
 
@@ -116,6 +118,8 @@ def _processes(
         for each in started.values():
             each.terminate()
         for each in started.values():
+            each.join(_GRACE)
+            each.kill()
             each.join()
         for line in lines:
             line.close()
@@ -235,6 +239,7 @@ def _work(
 ) -> None:
     """Work on items from the connection until it closes or the first process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends this one
+    signal.signal(signal.SIGTERM, end)
     Thread(target=_end_with_the_first, daemon=True).start()
     if bounds is not None:
         _bind(bounds)
@@ -276,9 +281,17 @@ def _portable(error: Exception) -> Exception:
     return RuntimeError(f"{type(error).__name__}: {error}")
 
 
+def end(number: int, frame: object) -> None:
+    """End this process at a signal in such a way that temporary files are removed."""
+    signal.signal(number, signal.SIG_IGN)  # it may come twice
+    sys.exit(128 + number)
+
+
 def _end_with_the_first() -> None:
     """End this process, whatever it is doing, when the process that started it ends."""
     first = parent_process()
     if first is not None:
         first.join()
+    os.kill(os.getpid(), signal.SIGTERM)
+    sleep(_GRACE)
     os._exit(1)

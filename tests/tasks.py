@@ -7,6 +7,7 @@ import os
 import time
 from collections.abc import Callable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from derive.body import Body
 from derive.cache import Cache
@@ -74,7 +75,8 @@ def fails(item: str, report: Report) -> str:
     if item == "exit":
         os._exit(3)
     if item == "wait":
-        time.sleep(600)
+        with TemporaryDirectory():
+            time.sleep(600)
     return item
 
 

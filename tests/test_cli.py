@@ -17,11 +17,11 @@ from click.testing import CliRunner, Result
 from rich.console import Console
 
 import derive.cache
-import derive.cli
 import derive.codegen.trial
 import derive.parallel
 import derive.pipeline
 import derive.proof.prove
+import derive.terminal
 from derive.body import Body, by_form
 from derive.cli import main
 from derive.codegen.mark import MARK
@@ -59,7 +59,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture(autouse=True)
 def patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """No line about work that takes long, however slow the machine is."""
-    monkeypatch.setattr(derive.cli, "_PATIENCE", 600.0)
+    monkeypatch.setattr(derive.terminal, "PATIENCE", 600.0)
 
 
 @pytest.fixture
@@ -654,7 +654,12 @@ main(["generate", "waits.py", "waits_too.py", "hertz", "--out", "new", "--jobs",
 
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="Ctrl-C is sent to a group of processes")
-def test_ctrl_c_ends_every_process_and_writes_nothing(here: Path) -> None:
+@pytest.mark.parametrize(
+    ("kind", "status", "words"), [(signal.SIGINT, 1, ["Aborted!"]), (signal.SIGTERM, 143, [])]
+)
+def test_a_signal_ends_every_process_and_writes_nothing(
+    here: Path, kind: int, status: int, words: list[str]
+) -> None:
     """Both processes are in the middle of their bodies."""
     (here / "waits").mkdir()
     for name in ("waits.py", "waits_too.py"):
@@ -671,11 +676,11 @@ def test_ctrl_c_ends_every_process_and_writes_nothing(here: Path) -> None:
     until = time.monotonic() + 60
     while len([*(here / "waits").iterdir()]) < 2 and time.monotonic() < until:
         time.sleep(0.05)
-    os.killpg(started.pid, signal.SIGINT)
+    os.killpg(started.pid, kind)
     stdout, stderr = started.communicate(timeout=60)
-    assert started.returncode == 1
+    assert started.returncode == status
     assert stdout == ""
-    assert stderr.split() == ["Aborted!"]
+    assert stderr.split() == words
     assert sorted(p.name for p in here.iterdir()) == before
     for pid in (here / "waits").iterdir():
         with pytest.raises(ProcessLookupError):
@@ -688,7 +693,7 @@ def test_ctrl_c_ends_every_process_and_writes_nothing(here: Path) -> None:
 def test_the_bar_counts_stages_of_all_bodies(monkeypatch: pytest.MonkeyPatch) -> None:
     told: list[Mapping[str, object]] = []
     monkeypatch.setattr("rich.progress.Progress.update", lambda bar, task, **now: told.append(now))
-    with derive.cli._progress(3, STAGES) as step:
+    with derive.terminal.progress(3, STAGES) as step:
         for body, stage in [
             ("a", KEPT),
             ("b", STAGES[0]),
@@ -717,7 +722,7 @@ def test_what_moves_is_left_out_of_a_pipe(
     monkeypatch.setenv(variable, "1")
     done = run("new", "body", "x**2/R")
     assert (done.exit_code, done.stderr) == (0, "")
-    with derive.cli._progress(1, STAGES) as step:
+    with derive.terminal.progress(1, STAGES) as step:
         step("a", STAGES[0])
     assert capsys.readouterr().err == ""
 
@@ -725,16 +730,16 @@ def test_what_moves_is_left_out_of_a_pipe(
 def test_what_takes_long_is_told_once_where_nothing_moves(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(derive.cli, "_PATIENCE", 0.05)
-    with derive.cli._progress(1, STAGES) as step:
+    monkeypatch.setattr(derive.terminal, "PATIENCE", 0.05)
+    with derive.terminal.progress(1, STAGES) as step:
         step("a", STAGES[3])
         time.sleep(0.2)
     assert capsys.readouterr().err == "Still at work after 0.05 s: a: proving\n"
-    with derive.cli._status("reading") as update:
+    with derive.terminal.status("reading") as update:
         update("a: reading g(x)")
         time.sleep(0.2)
     assert capsys.readouterr().err == "Still at work after 0.05 s: a: reading g(x)\n"
-    with derive.cli._status("reading"):
+    with derive.terminal.status("reading"):
         pass
     time.sleep(0.2)
     assert capsys.readouterr().err == ""
@@ -761,6 +766,13 @@ class TestSlip:
         done = CliRunner().invoke(main, ["show", name, "--slip", order])
         assert done.exit_code == 2
         assert "--slip" in done.output
+
+    def test_its_time_is_limited(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        """For a body of the library, too."""
+        monkeypatch.setattr(derive.pipeline, "STRANGERS", Bounds(seconds=0.2, gigabytes=4))
+        done = run("show", "hertz", "--slip", "4")
+        assert done.exit_code == 2
+        assert "took longer than its limit of 0.2 s" in done.stderr
 
 
 class TestCode:

@@ -136,9 +136,13 @@ in_processes(fails, ["wait", "wait"], tell, 2)
 
 
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="looks for processes in /proc")
-def test_no_process_outlives_one_that_was_killed() -> None:
+def test_no_process_or_file_outlives_one_that_was_killed(tmp_path: Path) -> None:
     killed = subprocess.Popen(
-        [sys.executable, "-c", ORPHANS], cwd=ROOT, stdout=subprocess.PIPE, text=True
+        [sys.executable, "-c", ORPHANS],
+        cwd=ROOT,
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+        stdout=subprocess.PIPE,
+        text=True,
     )
     assert killed.stdout is not None
     assert [killed.stdout.readline() for _ in range(2)] == ["wait\n", "wait\n"]
@@ -150,6 +154,7 @@ def test_no_process_outlives_one_that_was_killed() -> None:
     while any(map(alive, children)) and time.monotonic() < until:
         time.sleep(0.1)
     assert not any(map(alive, children))
+    assert [*tmp_path.iterdir()] == []
 
 
 def status(pid: int) -> list[str]:

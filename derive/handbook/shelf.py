@@ -2,7 +2,10 @@
 
 import shutil
 import tempfile
+import time
 from collections.abc import Mapping
+from contextlib import suppress
+from glob import escape
 from pathlib import Path
 
 from derive.errors import BadPage
@@ -12,22 +15,27 @@ from derive.files import write_whole
 MARK = '<meta name="generator" content="derive '
 """A tag in every page made by a command of this package; only such pages are replaced."""
 
+_OLD = 60.0
+"""Age in seconds from which a hidden directory is the rest of a run that was killed."""
 
-def put_page(text: str, path: Path) -> None:
-    """Write one page; a page made by this package may be replaced.
+
+def put_page(text: str, path: Path, option: str = "--out", mark: str = MARK) -> None:
+    """Write one file; only a file made by this package, which has the mark, is replaced.
+
+    option: the option that gave the path
 
     Raises BadPage if the path must not be replaced or cannot be written.
     """
-    _demand_reachable(path)
+    _demand_reachable(path, option)
     if path.is_dir():
-        raise BadPage(str(path), "is a directory")
-    if (path.exists() or path.is_symlink()) and not _is_ours(path):
-        raise BadPage(str(path), "exists and is not a page made by `derive show --html`")
+        raise BadPage(str(path), "is a directory", option)
+    if (path.exists() or path.is_symlink()) and not _is_ours(path, mark):
+        raise BadPage(str(path), "exists and was not made by `derive`", option)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(text.encode(), path)
     except OSError as error:
-        raise BadPage(str(path), f"cannot be written ({error.strerror})") from error
+        raise BadPage(str(path), f"cannot be written ({error.strerror})", option) from error
 
 
 def put_pages(pages: Mapping[str, str], folder: Path) -> None:
@@ -48,12 +56,22 @@ def put_pages(pages: Mapping[str, str], folder: Path) -> None:
             (fresh / name).write_bytes(text.encode())
         put_in_place(fresh, folder, old)
     except OSError as error:
-        if old.exists() and not folder.exists():
-            old.replace(folder)
         raise BadPage(str(folder), f"cannot be replaced ({error.strerror})") from error
     finally:
-        if folder.exists() or not old.exists():
-            shutil.rmtree(workshop, ignore_errors=True)
+        if old.exists() and not folder.exists():
+            old.replace(folder)
+        shutil.rmtree(workshop, ignore_errors=True)
+    _remove_leftovers(folder)
+
+
+def _remove_leftovers(folder: Path) -> None:
+    """Remove the hidden directories of pages that killed runs have left beside a directory."""
+    for path in folder.parent.glob(f".{escape(folder.name)}-????????"):
+        with suppress(OSError):
+            files = [each for each in path.rglob("*") if not each.is_dir() or each.is_symlink()]
+            ours = all(_is_ours(each) or each.stat().st_size == 0 for each in files)
+            if ours and time.time() - path.stat().st_mtime > _OLD:
+                shutil.rmtree(path)
 
 
 def demand_replaceable(folder: Path) -> None:
@@ -67,19 +85,20 @@ def demand_replaceable(folder: Path) -> None:
         raise BadPage(str(folder), "is the current directory or contains it")
     for path in sorted(folder.iterdir()):
         if not _is_ours(path):
-            why = f"contains {path.name!r}, which is not a page made by `derive show --html`"
+            why = f"contains {path.name!r}, which was not made by `derive`"
             raise BadPage(str(folder), why)
 
 
-def _demand_reachable(path: Path) -> None:
+def _demand_reachable(path: Path, option: str = "--out") -> None:
     """Raise BadPage for a path that cannot exist, for example because its name is too long."""
     try:
         path.exists()
     except OSError as error:
-        raise BadPage(str(path), f"cannot be reached ({error.strerror})") from error
+        raise BadPage(str(path), f"cannot be reached ({error.strerror})", option) from error
 
 
-def _is_ours(path: Path) -> bool:
-    if not path.is_file() or path.suffix != ".html":
+def _is_ours(path: Path, mark: str = MARK) -> bool:
+    if not path.is_file() or (mark == MARK and path.suffix != ".html"):
         return False
-    return MARK.encode() in path.read_bytes()[:2000]
+    with path.open("rb") as file:
+        return mark.encode() in file.read(2000)

@@ -165,7 +165,7 @@ def signs(paper: Paper, findings: Iterable[Finding]) -> list[str]:
     return lines
 
 
-def as_json(findings: Iterable[Finding]) -> str:
+def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
     """Return the findings as a JSON list with one object for each claim."""
     objects = [
         {
@@ -284,6 +284,10 @@ def _printed_in_latex(claim: Claim) -> list[str]:
 
 def _display(equation: Claim | Repair, relation: Relation) -> list[str]:
     return [r"\begin{equation*}", latex_of_equation(equation, relation), r"\end{equation*}"]
+
+
+FORMS = {"json": as_json, "markdown": as_markdown, "latex": as_latex}
+"""The functions that write all findings as text."""
 
 
 # ------------------------------------------------------------------ explanation of one claim

@@ -297,10 +297,12 @@ def test_the_chain_on_the_example() -> None:
 def test_a_table_that_was_given_is_not_written_over(tmp_path: Path) -> None:
     path = tmp_path / "t.csv"
     path.write_text("mine\n")
-    for target in (path, tmp_path):
-        result = run(path, "--f", 0.5, "--csv", target)
+    table = tmp_path / "given.csv"
+    table.write_text(HEAD + rows(X, P))
+    for target, why in ((path, "exists and was not made by"), (tmp_path, "is a directory")):
+        result = run(table, "--f", 0.5, "--csv", target)
         assert result.exit_code == 2
-        assert "exists and is not a table of results" in " ".join(result.output.split())
+        assert why in result.output and "choose another path with --csv" in result.output
     assert path.read_text() == "mine\n"
 
 

@@ -1,5 +1,6 @@
 """Pages of the handbook: what they hold, as text and in a real browser; where they may be put."""
 
+import os
 import re
 import shutil
 from collections.abc import Iterator
@@ -144,7 +145,7 @@ def test_a_curve_is_cut_where_it_is_infinite() -> None:
 def test_a_page_of_ones_own_is_never_lost(tmp_path: Path) -> None:
     mine = tmp_path / "hertz.html"
     mine.write_text("mine")
-    with pytest.raises(BadPage, match="not a page made by"):
+    with pytest.raises(BadPage, match="not made by"):
         put_page("<html>", mine)
     assert mine.read_text() == "mine"
     with pytest.raises(BadPage, match="is a directory"):
@@ -162,6 +163,21 @@ def test_pages_made_here_are_replaced_whole(pages: Path, tmp_path: Path) -> None
     put_pages({"index.html": index([])}, folder)
     assert [p.name for p in folder.iterdir()] == ["index.html"]
     put_page(index([]), folder / "index.html")
+
+
+def test_what_killed_runs_have_left_is_removed(pages: Path, tmp_path: Path) -> None:
+    """Not the directory of a run that is still at work, and no file of the user's."""
+    left, mine, young = (
+        tmp_path / f".book-{part}" for part in ("killed00", "mine0000", "young000")
+    )
+    for folder in (left, mine, young):
+        shutil.copytree(pages, folder / "fresh")
+    (left / "fresh" / "index.html").write_text("")
+    (mine / "fresh" / "notes.txt").write_text("mine")
+    for folder in (left, mine):
+        os.utime(folder, (0, 0))
+    put_pages({"index.html": index([])}, tmp_path / "book")
+    assert sorted(p.name for p in tmp_path.iterdir()) == [mine.name, young.name, "book"]
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,150 @@
+"""Terminal output: text and tables, errors, and a spinner or bar for work that takes long.
+
+In:  texts and renderable objects of the library rich.
+Out: lines on standard output; errors and everything that moves, on standard error.
+"""
+
+import os
+import shlex
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from shutil import which
+from threading import Timer
+
+import click
+from rich.console import Console, RenderableType
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+_WIDE = 10_000
+"""Columns of output that is not a terminal, if COLUMNS is not set: wide enough that no line that
+another program reads is broken."""
+
+_NARROW = 100
+"""Columns below which a table leaves as much room as possible to texts."""
+
+PATIENCE = 10.0
+"""Seconds after which a line says what takes so long, if standard error is not a terminal."""
+
+
+@contextmanager
+def status(words: str) -> Iterator[Callable[[str], None]]:
+    """A spinner with words, which the function that is yielded changes."""
+    console = _console(stderr=True)
+    now = [words]
+    with _told_after_a_while(console, now), console.status(words) as status:
+
+        def update(words: str) -> None:
+            now[0] = words
+            status.update(words)
+
+        yield update
+
+
+@contextmanager
+def _told_after_a_while(console: Console, now: Sequence[str]) -> Iterator[None]:
+    """Print once what takes so long, where nothing that moves is shown."""
+
+    def tell() -> None:
+        with suppress(OSError, ValueError):  # standard error is closed
+            click.echo(f"Still at work after {PATIENCE:g} s: {now[0]}", err=True)
+
+    timer = Timer(PATIENCE, tell)
+    timer.daemon = True
+    if not console.is_terminal:
+        timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+@contextmanager
+def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str], None]]:
+    """A progress bar; `step` tells it that a body enters a stage, or is done if there is none."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
+    console = _console(stderr=True)
+    bar = Progress(
+        *columns,
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+    )
+    now = ["starting"]
+    with _told_after_a_while(console, now), bar:
+        task = bar.add_task("", total=bodies * len(stages))
+        passed: dict[str, int] = {}
+
+        def step(body: str, stage: str) -> None:
+            passed[body] = stages.index(stage) if stage in stages else len(stages)
+            others = sum(n < len(stages) for name, n in passed.items() if name != body)
+            words = f"{body}: {stage}" + (f", {others} more in progress" if others else "")
+            now[0] = words
+            bar.update(task, description=words, completed=sum(passed.values()))
+
+        yield step
+
+
+def _console(stderr: bool = False, columns: str = "") -> Console:
+    """A console: FORCE_COLOR also colours piped output, but progress is shown on terminals only."""
+    is_terminal = (sys.stderr if stderr else sys.stdout).isatty()
+    return Console(
+        stderr=stderr,
+        force_terminal=False if stderr and not is_terminal else None,
+        width=None if is_terminal or columns else _WIDE,
+        highlight=False,
+        markup=False,
+        emoji=False,
+    )
+
+
+def output(what: RenderableType, columns: str = "") -> None:
+    """Print, without the blanks that pad each column to its width."""
+    console = _console(columns=columns)
+    with console.capture() as printed:
+        console.print(what)
+    text = "\n".join(line.rstrip() for line in printed.get().split("\n"))
+    click.echo(text, nl=False, color=console.color_system is not None)
+
+
+def output_table(what: RenderableType) -> None:
+    """Print a table; COLUMNS also holds for pipes, and formulas and file names are not broken."""
+    output(what, os.environ.get("COLUMNS", ""))
+
+
+def is_narrow() -> bool:
+    """Whether tables have little room for texts."""
+    return _console(columns=os.environ.get("COLUMNS", "")).width < _NARROW
+
+
+def complain(what: str, message: str) -> None:
+    """Print on standard error what went wrong."""
+    click.echo(f"{click.style(f'{what}:', fg='red', bold=True)} {message}", err=True)
+
+
+def command() -> str:
+    """This command as the user can type it: derive, .venv/bin/derive, or python -m derive."""
+    called = Path(sys.argv[0])
+    if called.parent == Path(__file__).parent:  # python -m derive
+        return f"{typed(Path(sys.orig_argv[0]))} -m derive"
+    if called.stem != "derive":  # called by another program
+        return "derive"
+    return typed(called)
+
+
+def typed(program: Path) -> str:
+    """A program by its name if the shell finds it by that, otherwise by its shortest path."""
+    found = which(program.name)
+    if found and Path(found).absolute() == program.absolute():
+        return shlex.quote(program.name)
+    if program.parent == Path():
+        return shlex.quote(str(program))
+    return shlex.quote(path_of(program.absolute()))
+
+
+def path_of(path: Path) -> str:
+    """A path as the user would type it."""
+    here = Path.cwd()
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)
