@@ -322,7 +322,11 @@ def generate(
     default="table",
     help="Format of the findings.",
 )
-@click.option("--explain", metavar="LABEL", help="Explain one claim: the steps and the numbers.")
+@click.option(
+    "--explain",
+    metavar="CLAIM",
+    help='Explain one claim: the steps and the numbers. CLAIM is a name, a label or "(5)".',
+)
 @click.option(
     "--html",
     "page",
@@ -383,13 +387,13 @@ def check(
     with progress(len(paper.claims), ("checking",)) as step:
         findings = []
         for claim in paper.claims:
-            step(claim.label, "checking")
+            step(claim.name, "checking")
             findings.append(judged(claim))
-            step(claim.label, "")
+            step(claim.name, "")
     if form in forms:
         click.echo(forms[form](paper, findings))
     elif explain is not None:
-        output_table(view.explained(findings[0]))
+        output_table(view.explained(findings))
     else:
         output_table(view.checked(findings))
     if page is not None:
@@ -400,8 +404,7 @@ def check(
         output(f"More: {command()} check {given}--explain CLAIM, or --html PAGE for all claims")
     wrong = report.unexpected(findings)
     if wrong:
-        labels = ", ".join(finding.claim.label for finding in wrong)
-        complain("Not as expected", labels)
+        complain("Not as expected", "; ".join(finding.claim.name for finding in wrong))
         sys.exit(FELL_SHORT)
 
 
@@ -525,19 +528,19 @@ def _accept(file: Path | None, label: str | None) -> None:
             click.echo(f"unchecked: {reading.label}: {reading.why}")
 
 
-def _paper(file: Path | None, label: str | None) -> "Paper":
-    """All claims of a paper, or only the claim with the given label."""
+def _paper(file: Path | None, name: str | None) -> "Paper":
+    """All claims of a paper, or only those of a label, a name or an equation number."""
     from derive.errors import UnknownClaim
     from derive.paper.userfile import built_in, read_claims
 
     with status("deriving the formulas for comparison with the paper"):
         source = built_in() if file is None else read_claims(file)
-    if label is None:
+    if name is None:
         return source
-    labels = tuple(claim.label for claim in source.claims)
-    if label not in labels:
-        raise UnknownClaim(label, labels)
-    return replace(source, claims=(source[label],))
+    chosen = tuple(claim for claim in source.claims if claim.is_called(name))
+    if not chosen:
+        raise UnknownClaim(name, tuple(claim.name for claim in source.claims))
+    return replace(source, claims=chosen)
 
 
 def _built(sources: Sequence[str], jobs: int | None, fresh: bool, limit: float) -> "list[Body]":

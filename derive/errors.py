@@ -288,6 +288,7 @@ class RanAway(UserError):
     stage: str
     seconds: float | None = None
     gigabytes: float | None = None
+    remedy: str = ""
 
     @property
     def message(self) -> str:
@@ -302,7 +303,7 @@ class RanAway(UserError):
             why = "made its process fail, as numbers that are too large do"
             remedy = "simplify the profile, for example with fewer nested functions"
         what, stage = self.what or "this body", self.stage or "starting"
-        return f"{what}: the stage '{stage}' {why}: {remedy}"
+        return f"{what}: the stage '{stage}' {why}: {self.remedy or remedy}"
 
 
 @dataclass
@@ -444,22 +445,22 @@ class MissingLibrary(UserError):
 
 @dataclass
 class UnknownClaim(UserError):
-    """No claim of the source has the given label."""
+    """No claim of the source has the given name or label."""
 
     given: str
     known: tuple[str, ...]
 
     _NEAREST = 8
-    """Number of labels that a message shows."""
+    """Number of names that a message shows."""
 
     @property
     def message(self) -> str:
-        """State which labels are most similar."""
+        """State which names are most similar."""
         alike = get_close_matches(self.given, self.known, n=self._NEAREST, cutoff=0.3)
-        shown = ", ".join(alike or self.known[: self._NEAREST])
+        shown = "; ".join(map(repr, alike or self.known[: self._NEAREST]))
         return (
-            f"none of the {len(self.known)} claims has the label {self.given!r}; the most similar "
-            f"labels are {shown}: give one of them, or list all with `derive check`"
+            f"none of the {len(self.known)} claims is named {self.given!r}; the most similar "
+            f"names are {shown}: give one of them, or list all with `derive check`"
         )
 
 

@@ -7,6 +7,7 @@ Work that may take long, or runs a user's file, is done in another process with 
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any, TypeVar
 
 import click
@@ -15,6 +16,7 @@ from rich.console import RenderableType
 from derive import derive_sheet, load_geometry, pipeline, view
 from derive.body import Body
 from derive.derivation import NONE_IN_TIME, slip_series, with_closed_forms
+from derive.errors import RanAway
 from derive.library import is_in_library
 from derive.notation import text_of
 from derive.parallel import Report, in_processes
@@ -23,6 +25,8 @@ from derive.sheet import FormulaSheet
 from derive.terminal import status
 
 Shown = TypeVar("Shown")
+
+_LOWER = "give a lower order with --slip, or a simpler profile"
 
 _SENSES = (
     "kappa_left, kappa_right: directions of slip in the half-cycle that raises the shear load: 1 "
@@ -43,7 +47,10 @@ def apart(function: Callable[[tuple[Any, ...], Report], Shown], name: str, *more
         def report(what: str, stage: str) -> None:
             update(f"{what}: {stage}")
 
-        (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
+        try:
+            (shown,) = in_processes(function, [(name, *more)], report, 1, bounds)
+        except RanAway as error:
+            raise replace(error, remedy=_LOWER if function is slip_of else "") from None
     return shown
 
 

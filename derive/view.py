@@ -10,7 +10,6 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
-from rich.padding import Padding
 from rich.table import Column, Table
 from rich.text import Text
 
@@ -127,13 +126,14 @@ def checked(findings: "Sequence[Finding]") -> Group:
     """The verdict on every claim, and a remark on each claim that is not true as printed."""
     from derive.paper import report
 
-    table = Table(Column("claim", no_wrap=True), Column("verdict", no_wrap=True), "place")
+    table = Table("claim", Column("verdict", no_wrap=True), "description")
     for finding in findings:
         verdict = _verdict_of(finding)
-        table.add_row(Text(finding.claim.label, style="cyan"), verdict, finding.claim.place)
+        claim = finding.claim
+        table.add_row(Text(claim.name, style="cyan"), verdict, claim.says)
     parts: list[RenderableType] = [table]
     for finding, remark in report.remarks(findings):
-        line = Text.assemble((finding.claim.label, "cyan"), ": ", _verdict_of(finding), ": ")
+        line = Text.assemble((finding.claim.name, "cyan"), ": ", _verdict_of(finding), ": ")
         parts.append(line.append(remark))
     return Group(*parts, Text(report.summary(findings), style="bold"))
 
@@ -143,17 +143,23 @@ def _verdict_of(finding: "Finding") -> Text:
     return verdict if finding.as_expected else verdict.append(" (unexpected)", style="bold red")
 
 
-def explained(finding: "Finding") -> Group:
+def explained(findings: "Sequence[Finding]") -> Group:
+    """One claim, or all of one equation."""
+    return Group(*(part for each in findings for part in (*_explained(each), "")))
+
+
+def _explained(finding: "Finding") -> list[RenderableType]:
     """One claim: the formula it was compared with, the steps, and the numbers."""
     from derive.paper import report
 
-    parts: list[RenderableType] = [Text(finding.claim.label, style="bold cyan")]
+    entries = Table.grid(Column(style="bold", no_wrap=True), "", padding=(0, 2, 0, 0))
     for heading, lines in report.explanation(finding):
-        parts.append(Text(heading, style="bold"))
-        parts += [Padding(Text(line), (0, 0, 0, 4)) for line in lines]
+        for n, line in enumerate(lines):
+            entries.add_row("" if n else heading, Text(line))
+    parts: list[RenderableType] = [Text(finding.claim.name, style="bold cyan"), entries]
     if rows := report.numbers(finding):
         table = Table("point", "left", "right", title="numbers", title_justify="left")
         for row in rows:
             table.add_row(*row)
         parts.append(table)
-    return Group(*parts)
+    return parts

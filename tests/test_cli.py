@@ -772,7 +772,7 @@ class TestSlip:
         monkeypatch.setattr(derive.pipeline, "STRANGERS", Bounds(seconds=0.2, gigabytes=4))
         done = run("show", "hertz", "--slip", "4")
         assert done.exit_code == 2
-        assert "took longer than its limit of 0.2 s" in done.stderr
+        assert "took longer than its limit of 0.2 s: give a lower order" in done.stderr
 
 
 class TestCode:

@@ -5,6 +5,7 @@ symbols by our variables: as a formula of a sheet, an integral, a root of the co
 or another symbol.  A change of sign is an ordinary entry of this mapping, such as `M: -M`.
 """
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -202,6 +203,22 @@ class Claim:
             return left, right
         replaced = {left: right}
         return self.through[0].xreplace(replaced), self.through[1].xreplace(replaced)
+
+    @property
+    def name(self) -> str:
+        """The name for readers: the place of an equation instead of its label in LaTeX."""
+        has_number = self.equation or re.match(r"[A-Za-z]+:\S", self.label)
+        return self.place if has_number and self.place else self.label
+
+    @property
+    def consequences(self) -> list[str]:
+        """The consequence, one statement in each line."""
+        return self.consequence.split("; ") if self.consequence else []
+
+    def is_called(self, given: str) -> bool:
+        """Whether a user may mean this claim: by its label, its name or its equation number."""
+        numbers = (self.equation, f"eq. {self.equation}") if self.equation else ()
+        return given in (self.label, self.name, *numbers)
 
     @property
     def is_inequality(self) -> bool:

@@ -143,7 +143,8 @@ class Draft:
 
     def _place(self, part: _Part) -> str:
         number = f"eq. ({part.display.number}), " if part.display.number else ""
-        return f"{number}{self.name}:{part.display.line}"
+        statement = f"statement {part.number}, " if part.count > 1 and part.number else ""
+        return f"{number}{statement}{self.name}:{part.display.line}"
 
     def text(self) -> str:
         """The text of the claims file."""

@@ -18,7 +18,9 @@ from derive.paper.draw import has_integral, is_allowed
 from derive.paper.report import (
     as_displayed,
     corrected,
+    description,
     evidence,
+    lines_of,
     printed,
     signs,
     summary,
@@ -47,8 +49,8 @@ def as_html(paper: Paper, findings: Sequence[Finding]) -> str:
     """Return the page: a summary, then every claim with its evidence."""
     title = escape(paper.title)
     rows = "".join(
-        f'<tr><td><a href="#c{n}">{escape(each.claim.label)}</a></td>'
-        f"<td>{escape(each.claim.place)}</td>{_verdict(each, 'td')}</tr>\n"
+        f'<tr><td><a href="#c{n}">{escape(each.claim.name)}</a></td>'
+        f"<td>{escape(description(each.claim))}</td>{_verdict(each, 'td')}</tr>\n"
         for n, each in enumerate(findings)
     )
     sign_items = "".join(f"<li>{escape(line)}</li>" for line in signs(paper, findings))
@@ -56,7 +58,7 @@ def as_html(paper: Paper, findings: Sequence[Finding]) -> str:
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
         f"<style>{_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
         f"<p>{escape(summary(findings))}.</p>\n"
-        f"<table><tr><th>claim</th><th>place</th><th>verdict</th></tr>\n{rows}</table>\n"
+        f"<table><tr><th>claim</th><th>description</th><th>verdict</th></tr>\n{rows}</table>\n"
         + (f"<h2>Signs, section by section</h2><ul>{sign_items}</ul>\n" if sign_items else "")
         + "".join(_section(n, each) for n, each in enumerate(findings))
         + "</body></html>\n"
@@ -83,16 +85,21 @@ def _section(number: int, finding: Finding) -> str:
             else "",
         ),
         ("ratio of sides", escape(finding.diagnosis)),
-        ("evidence", escape(evidence(finding))),
-        ("consequence", escape(finding.claim.consequence)),
+        ("evidence", _lines(lines_of(evidence(finding)))),
+        ("consequence", _lines(finding.claim.consequences)),
         ("both sides", _curves(finding)),
     ]
+    small = f" <small>{escape(claim.place)}</small>" if claim.place != claim.name else ""
     listed = "".join(f"<dt>{head}</dt><dd>{text}</dd>\n" for head, text in entries if text)
     return (
-        f'<section id="c{number}"><h3>{escape(claim.label)} '
-        f"<small>{escape(claim.place)}</small></h3>\n<p>{escape(claim.says)}: "
+        f'<section id="c{number}"><h3>{escape(claim.name)}'
+        f"{small}</h3>\n<p>{escape(claim.says)}: "
         f"{_verdict(finding, 'b')}</p>\n<dl>{listed}</dl></section>\n"
     )
+
+
+def _lines(lines: Sequence[str]) -> str:
+    return "<br>".join(map(escape, lines))
 
 
 def _code(text: str) -> str:

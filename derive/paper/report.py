@@ -4,6 +4,7 @@ Printed and corrected equations are always rendered from their expressions.
 """
 
 import json
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
@@ -88,6 +89,11 @@ def evidence(finding: Finding) -> str:
     return "; ".join(parts)
 
 
+def lines_of(text: str) -> list[str]:
+    """Return the statements of a text, which semicolons outside parentheses separate."""
+    return re.split(r"; (?![^(]*\))", text)
+
+
 def _changes(repair: Repair) -> str:
     also = f", as would {' or '.join(repair.also)}" if repair.also else ""
     return f"{repair.kind} {repair.what}{also}"
@@ -100,8 +106,14 @@ def _tried(tried: Counter[str]) -> str:
 def summary(findings: Sequence[Finding]) -> str:
     """Return the number of claims for each verdict, in words."""
     totals = Counter(finding.verdict for finding in findings)
-    counts = ", ".join(f"{totals[verdict]} {verdict}" for verdict in Verdict if totals[verdict])
+    counts = ", ".join(_counted(totals[verdict], verdict) for verdict in Verdict if totals[verdict])
     return f"{len(findings)} {'claim' if len(findings) == 1 else 'claims'}: {counts}"
+
+
+def _counted(number: int, verdict: Verdict) -> str:
+    """Return "1 holds" and "2 hold"."""
+    is_verb = verdict in (Verdict.HOLDS, Verdict.FAILS)
+    return f"{number} {verdict.removesuffix('s') if is_verb and number > 1 else verdict}"
 
 
 def unexpected(findings: Iterable[Finding]) -> list[Finding]:
@@ -110,6 +122,11 @@ def unexpected(findings: Iterable[Finding]) -> list[Finding]:
     Without an expected verdict, a finding is unexpected if the claim does not hold.
     """
     return [finding for finding in findings if not finding.as_expected]
+
+
+def description(claim: Claim) -> str:
+    """Return what the claim says, and its place if its name does not tell it."""
+    return claim.says if claim.name == claim.place else f"{claim.says} ({claim.place})"
 
 
 def errata(findings: Iterable[Finding]) -> list[Finding]:
@@ -194,29 +211,28 @@ def as_json(paper: Paper, findings: Iterable[Finding]) -> str:
 def as_markdown(paper: Paper, findings: Sequence[Finding]) -> str:
     """Return a table of all verdicts, the signs section by section, and the errata, in Markdown."""
     lines = [f"# {paper.title}", "", summary(findings) + ".", ""]
-    lines += ["| claim | place | description | verdict |", "| --- | --- | --- | --- |"]
+    lines += ["| claim | description | verdict |", "| --- | --- | --- |"]
     for finding in findings:
         claim = finding.claim
-        cells = (f"`{claim.label}`", claim.place, claim.says, str(finding.verdict))
+        cells = (claim.name, description(claim), str(finding.verdict))
         lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
     if sign_lines := signs(paper, findings):
         lines += ["", "## Signs, section by section", ""]
         lines += [f"- {line}" for line in sign_lines]
     unchecked = [finding for finding in findings if finding.verdict == Verdict.UNCHECKED]
-    if open_claims := [f"{each.claim.label}: {each.judged.why}" for each in unchecked]:
+    if open_claims := [f"{each.claim.name}: {each.judged.why}" for each in unchecked]:
         lines += ["", "## Not checked", "", *(f"- {line}" for line in open_claims)]
     lines += ["", "## Errata", ""]
     for finding in errata(findings):
-        lines += [f"### {finding.claim.place}: {finding.claim.says}", ""]
-        lines += [f"{finding.verdict}, `{finding.claim.label}`.", ""]
+        lines += [f"### {finding.claim.place}: {finding.claim.says}", "", f"{finding.verdict}", ""]
         lines += [f"- printed: {_in_markdown(finding.claim)}"]
         if finding.repair:
             lines.append(
                 f"- corrected: ${latex_of_equation(finding.repair, finding.repair.relation)}$"
             )
         lines.append(f"- evidence: {evidence(finding)}")
-        if consequence := finding.claim.consequence:
-            lines.append(f"- consequence: {consequence}")
+        if consequences := finding.claim.consequences:
+            lines += ["- consequence:", *(f"  - {line}" for line in consequences)]
         lines.append("")
     return "\n".join(lines)
 
@@ -300,15 +316,17 @@ def explanation(finding: Finding) -> list[tuple[str, list[str]]]:
     """Return headings with their lines: what was compared, how, and with which result."""
     claim = finding.claim
     entries = [
-        ("description", [claim.says, claim.place]),
+        ("description", [claim.says]),
+        ("place", [claim.place] if claim.place != claim.name else []),
+        ("label", [claim.label] if claim.label != claim.name else []),
         ("printed", [printed(claim) or "no equation"]),
         ("compared with", [claim.against] if claim.against else []),
         ("steps", list(claim.steps)),
         ("symbols", [f"{s} = {text_of(claim.meaning[s])}" for s in _held(claim)]),
-        ("verdict", [f"{finding.verdict}: {finding.judged.why}", finding.partly]),
+        ("verdict", [str(finding.verdict), *lines_of(finding.judged.why), finding.partly]),
         ("convention", _convention(finding)),
         ("corrected", _correction(finding)),
-        ("consequence", [finding.claim.consequence]),
+        ("consequence", claim.consequences),
     ]
     return [(heading, list(filter(None, lines))) for heading, lines in entries if any(lines)]
 
@@ -349,4 +367,5 @@ def _correction(finding: Finding) -> list[str]:
         return [*diagnosis, *tried, "none of them is true"] if tried else diagnosis
     repair = finding.repair
     equation = _text(repair, repair.relation)
-    return [equation, _changes(repair), f"{repair.judged.verdict}: {repair.judged.why}", *tried]
+    verdict = lines_of(f"{repair.judged.verdict}: {repair.judged.why}")
+    return [equation, _changes(repair), *verdict, *tried]

@@ -48,7 +48,7 @@ WRONG = {
     "eq18": "-Delta_Q/2",
     "eq26": "-Delta_Q/2",
     "Hertz_shift_stick_zone": "e = Delta_sigma*R",
-    "eq25/parameter": "elliptic_k(chi**2)",
+    "eq. (46)/parameter": "elliptic_k(chi**2)",
 }
 """label: a part of the corrected equation."""
 

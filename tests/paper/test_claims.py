@@ -10,9 +10,12 @@ from click.testing import CliRunner
 from sympy import Symbol, symbols
 
 from derive.cli import main
+from derive.paper.claim import Claim, Verdict
 from derive.paper.diagnosis import named
 from derive.paper.dimensions import Units
 from derive.paper.formula import Names, equation
+from derive.paper.report import summary
+from derive.paper.verdict import Finding, Judged
 from derive.units import parse_unit
 
 HEAD = """
@@ -281,3 +284,22 @@ def test_the_page_holds_every_claim(tmp_path: Path) -> None:
     assert "5*pi/4" in page
     assert page.count("<polyline") == 2
     assert page.rstrip().endswith("</html>")
+
+
+@pytest.mark.parametrize(
+    ("label", "number", "name"),
+    [("eqn:Knc/1", "", "eq. (8), here"), ("m/n", "(8)", "eq. (8), here"), ("area", "", "area")],
+)
+def test_readers_see_the_number_of_an_equation_and_no_latex(
+    label: str, number: str, name: str
+) -> None:
+    claim = Claim(label, "eq. (8), here", "so", equation=number)
+    assert claim.name == name
+    assert claim.is_called(label) and claim.is_called(name) and not claim.is_called("(9)")
+    assert claim.is_called("(8)") == claim.is_called("eq. (8)") == bool(number)
+
+
+def test_numbers_of_verdicts_are_grammatical() -> None:
+    verdicts = (Verdict.HOLDS, Verdict.FAILS, Verdict.FAILS, Verdict.NUMERICAL)
+    findings = [Finding(Claim("it", "here", "so"), v, Judged(v, "")) for v in verdicts]
+    assert summary(findings) == "4 claims: 1 holds, 1 numerical, 2 fail"

@@ -39,16 +39,17 @@ def test_slip_zones_of_a_tilted_wedge(label: str) -> None:
         tension = factor * threshold
         zone = wedge.stick_zone(here, here, SHEAR, tension, f=1.0, **WEDGE)
         mended = wedge.slip_zones(here.a, here.c, SHEAR, tension, f=1.0, **WEDGE)
-        (part,) = (part for part in told(label).split("; ") if part.startswith(case))
+        parts = [part for part in told(label).split("; ") if part.startswith(case)]
         sides = ((here.a, zone.m, K_N.left, 1), (here.c, zone.n, K_N.right, -1))
         for side, (edge, end, coefficient, sense) in zip(mended._fields, sides, strict=True):
             own = SHEAR / (np.pi * np.sqrt(2 * edge)) + sense * tension / 4 * np.sqrt(edge / 2)
             exact, printed = edge - end, abs(own) / coefficient
             right = getattr(mended, side)
-            assert (
-                f"{side} exact {exact:.4g}, as printed {printed:.4g} ({error(printed, exact)}), "
+            wanted = (
+                f"{side}: exact {exact:.4g}, as printed {printed:.4g} ({error(printed, exact)}), "
                 f"corrected {right:.4g} ({error(right, exact)})"
-            ) in part
+            )
+            assert any(part.endswith(wanted) for part in parts)
 
 
 def test_the_tilt_s_sign_in_a_tilted_wedge() -> None:
@@ -113,7 +114,7 @@ def test_a_modulus_given_as_a_parameter() -> None:
         third_kind = 2 * (n - m) * third((m - 1) / (m + 1), k)
         return float(plain + (third_kind + (m**2 - n**2) * third((1 - n) / (1 + m), k)) / root)
 
-    assert f"has an error of {error(strain(chi), strain(chi**2))}" in told("eq25/parameter")
+    assert f"has an error of {error(strain(chi), strain(chi**2))}" in told("eq. (46)/parameter")
 
 
 def test_the_mean_of_tilts_and_the_tilt_at_mean_loads() -> None:
