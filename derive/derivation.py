@@ -145,7 +145,7 @@ def slip_series(
         ratios |= dict(zip(slip.ratios(side, order), over, strict=True))
         pressed.append(symbols[0] * sense)
     ratios |= {slip.rho: pressed[1] / pressed[0], slip.width: h}
-    terms = dict(zip(Edge, slip.terms_in_ratios(order), strict=True))
+    terms = dict(zip(Edge, slip.terms(order), strict=True))
     held = set().union(*(term.free_symbols for found in terms.values() for term in found))
     shown = {symbol: value for symbol, value in ratios.items() if symbol in held}
     return terms, shown | {s: sheet.frame.flat(value) for s, value in values.items()}
@@ -351,7 +351,7 @@ def _slip(sheet: FormulaSheet) -> Iterator[Formula]:
             f"slip_{side}",
             Symbol(f"d_{side}"),
             (a, c, dQ, dsigma),
-            slip.slip_zone(edge, stick.pull(edge), sheet[f"K_N_{side}"].expr),
+            slip.slip_zone(stick.pull(edge), sheet[f"K_N_{side}"].expr),
             f"slip zone at the {side} edge under constant normal load, to first order",
             "m",
             source,

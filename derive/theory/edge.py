@@ -22,9 +22,9 @@ load that drives slip: `width_term`, from theory.slip with one slip zone.
 
 from collections.abc import Sequence
 
-from sympy import Expr, Rational, S, Symbol, binomial, expand, gamma, series, solve, sqrt
+from sympy import Expr, Rational, S, Symbol, binomial, expand, gamma, series, solve, symbols
 
-from derive.symbols import dsigma, f, h
+from derive.symbols import f, h
 from derive.theory import slip
 
 HALF = Rational(1, 2)
@@ -83,21 +83,17 @@ def width_term() -> Expr:
     1/(8*(a + c))
     """
     D, size, other = slip.d_left, Symbol("epsilon", positive=True), Symbol("K_T_other")
-    K, L = slip.coefficients("left", 2)
-    at_left, _ = (
-        condition.subs({slip.kappa_left: 1, slip.kappa_right: 0, slip.d_right: 0})
-        for condition in slip.conditions(2)
-    )
-    own = slip.K_T_left
-    tension = 4 * (own - other) / sqrt(h)
+    K, L = symbols("K L", positive=True)
+    own, (ratio,) = slip.K_T_left, slip.ratios("left", 2)
+    loads = {slip.D_left: own / (f * K), slip.D_right: other / (f * K * slip.rho)}
+    at_left = f * K * slip.conditions(2)[0].subs(loads | {slip.d_right: 0, ratio: L / K})
     L_T = (2 * other - own) / (2 * h)
     by_edge, _ = matched([((f * K, f * L), D)] * 2, (own, L_T))
-    width = Symbol("h", positive=True)
-    missing = (by_edge - at_left.subs(dsigma, tension)).subs(h, width)
+    missing = by_edge.subs(h, slip.width) - at_left
     small = {D: size * D, own: size * own, other: size * other}
     second = series(missing.xreplace(small), size, 0, 3).removeO().coeff(size, 2)
     (first,) = solve(by_edge.subs({L: 0, other: own / 2}), own)
-    found = expand((second / (f * K * D**2)).subs(own, first).subs(width, h))
+    found = expand((second / (f * K * D**2)).subs(own, first).subs(slip.width, h))
     return found.simplify()
 
 

@@ -8,54 +8,41 @@ series in d/h_s, where h_s is the width of the stick zone:
     far  = int_0^d p sqrt((d - s)/(h_s + d - s)) ds = pi K d**2/(8 sqrt(h_s)) + ...,
 
 Each term follows from int_0^d s**(i + 1/2) (d - s)**(j - 1/2) ds, a beta function.  Each contact of
-the cycle has its own edges, d and K, L, ..., so that nothing more is needed for varying loads.  The
-order counts powers of the load changes: d, dQ, dsigma and the motion of the edges are of order one.
-`conditions` truncates both conditions after an order.  Solving these is more accurate than using
-the explicit powers, which `terms` gives for constant loads.
+the cycle has its own edges, d and K, L, ..., so that nothing more is needed for varying loads.
+
+The slip zones of first order are D = K_T/(f kappa K), with K_T of full stick, and the loads enter
+only through them: dsigma = 4 (K_T_left - K_T_right)/sqrt(h).  The order counts powers of the load
+changes: d, D and the motion of the edges are of order one.  `conditions` truncates the integrals
+after an order.  Solving these is more accurate than using the explicit powers, which `terms` gives
+for constant loads.
 """
 
 from collections.abc import Sequence
 from functools import cache
 
-from sympy import (
-    Abs,
-    Expr,
-    Rational,
-    S,
-    Symbol,
-    binomial,
-    expand,
-    gamma,
-    pi,
-    series,
-    simplify,
-    solve,
-    sqrt,
-    symbols,
-)
+from sympy import Abs, Expr, Poly, Rational, S, Symbol, binomial, expand, gamma, pi, sqrt, symbols
 
-from derive.symbols import a, c, dsigma, f, h
+from derive.symbols import f, h
 from derive.theory.edges import Edge
 
 HALF = Rational(1, 2)
 
 d_left, d_right = symbols("d_left d_right", positive=True)
 K_T_left, K_T_right = symbols("K_T_left K_T_right", real=True)
-kappa_left, kappa_right = symbols("kappa_left kappa_right", real=True)
-senses = kappa_left, kappa_right
+senses = symbols("kappa_left kappa_right", real=True)
 """Directions of slip: +1 forward, -1 backward."""
 D_left, D_right, rho, width = symbols("D_left D_right rho h", positive=True)
 """Slip zones of order 1; K_N kappa at the right edge over that at the left edge; contact width."""
 
 
-def coefficients(side: str, order: int) -> tuple[Symbol, ...]:
-    """K_N, L_N and the following coefficients of the pressure at one edge."""
-    return symbols(f"C_{side}_0:{order}", positive=True)
-
-
 def stuck_edge(edge: Edge) -> Symbol:
-    """K_T of full stick at an edge, as it appears in the series."""
+    """K_T of full stick at an edge."""
     return K_T_left if edge is Edge.LEFT else K_T_right
+
+
+def ratios(side: str, order: int) -> tuple[Symbol, ...]:
+    """Second and following coefficients of the pressure at one edge, divided by its K_N."""
+    return symbols(f"c_{side}_1:{order}", real=True)
 
 
 def near(pressure: Sequence[Expr], d: Expr, stuck: Expr, order: int) -> Expr:
@@ -96,87 +83,76 @@ def _beta(i: int, j: int) -> Expr:
 def conditions(order: int) -> tuple[Expr, Expr]:
     """Expressions that vanish at the left and right end of the stick zone, for constant loads.
 
-    Both are divided by pi sqrt(h), so that the loads enter only through K_T and dsigma.
+    Each is divided by pi sqrt(h) f kappa K_N/2 of its own edge.
     """
-    left, right = coefficients("left", order), coefficients("right", order)
-    stuck = h - d_left - d_right
-    shrunk = dsigma * (d_left + d_right) / (8 * sqrt(h))
-    at_left = kappa_left * near(left, d_left, stuck, order)
-    at_left += kappa_right * far(right, d_right, stuck, order)
-    at_right = kappa_right * near(right, d_right, stuck, order)
-    at_right += kappa_left * far(left, d_left, stuck, order)
-    scale = 2 * f / (pi * sqrt(h))
-    return scale * at_left - K_T_left + shrunk, scale * at_right - K_T_right - shrunk
+    left, right = ((S.One, *ratios(side, order)) for side in ("left", "right"))
+    stuck = width - d_left - d_right
+    shrunk = (D_left - rho * D_right) * (d_left + d_right) / (2 * width)
+    at_left = near(left, d_left, stuck, order) + rho * far(right, d_right, stuck, order)
+    at_right = near(right, d_right, stuck, order) + far(left, d_left, stuck, order) / rho
+    scale = 2 / (pi * sqrt(width))
+    return scale * at_left - D_left + shrunk, scale * at_right - D_right - shrunk / rho
 
 
 @cache
 def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
     """Terms of order 1, 2, ... of the slip zones at constant loads, at the left and the right edge.
 
-    >>> from derive.theory.slip import terms
-    >>> terms(1)
-    ((K_T_left/(C_left_0*f*kappa_left),), (K_T_right/(C_right_0*f*kappa_right),))
-    """
-    size = Symbol("epsilon", positive=True)
-    unknown = [(Symbol(f"l_{k}"), Symbol(f"r_{k}")) for k in range(1, order + 1)]
-    lefts, rights = ([pair[i] * size**k for k, pair in enumerate(unknown, 1)] for i in (0, 1))
-    small = {d_left: sum(lefts), d_right: sum(rights)}
-    small |= {symbol: symbol * size for symbol in (K_T_left, K_T_right, dsigma)}
-    both = [
-        series(condition.subs(h, width).xreplace(small), size, 0, order + 1).removeO()
-        for condition in conditions(order)
-    ]
-    known: dict[Symbol, Expr] = {}
-    for k, pair in enumerate(unknown, 1):
-        equations = [expand(condition).coeff(size, k).subs(known) for condition in both]
-        (found,) = solve(equations, pair, dict=True)
-        known |= {symbol: value.subs(width, h).factor() for symbol, value in found.items()}
-    return tuple(known[pair[0]] for pair in unknown), tuple(known[pair[1]] for pair in unknown)
+    A condition is d - D and products of higher order, so that its terms of order k, with d up to
+    order k - 1, are those of order k of -d.
 
-
-def ratios(side: str, order: int) -> tuple[Symbol, ...]:
-    """Second and following coefficients of the pressure at one edge, divided by its K_N."""
-    return symbols(f"c_{side}_1:{order}", real=True)
-
-
-def terms_in_ratios(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-    """`terms` in terms of the slip zones of order 1.
-
-    The terms are short because the tension follows from both K_T:
-    K_T_left - K_T_right = dsigma sqrt(h)/4.
-
-    >>> first, second = terms_in_ratios(2)[0]
+    >>> first, second = terms(2)[0]
     >>> first
     D_left
     >>> second.coeff(D_right**2)
     rho/(4*h)
     """
-    K = Symbol("K", positive=True)
-    stuck = {K_T_left: D_left * f * K, K_T_right: D_right * f * K * rho}
-    pressed: dict[Expr, Expr] = {}
-    for side, sense, first in (("left", kappa_left, K), ("right", kappa_right, K * rho)):
-        names = coefficients(side, order)
-        both = zip(names, (S.One, *ratios(side, order)), strict=True)
-        pressed |= {name: ratio * first / sense for name, ratio in both}
-    tension = {dsigma: 4 * (K_T_left - K_T_right) / sqrt(width)}
+    shrunk = (d_left + d_right) / width
+    stuck = width - d_left - d_right
 
-    def shortened(term: Expr) -> Expr:
-        by_width = term.subs(c, width - a).xreplace(tension)
-        return expand(simplify(by_width.xreplace(stuck | pressed)))
+    def stuck_to(power: Expr) -> Expr:
+        powers = (binomial(power, k) * (-shrunk) ** k for k in range(order))
+        return width**power * sum(powers, S.Zero)
 
-    left, right = (tuple(map(shortened, found)) for found in terms(order))
-    return left, right
+    nothing = [S.Zero] * (order + 1)
+    series = {d_left: nothing[:], d_right: nothing[:]}
+    series |= {D: [S.Zero, D, *nothing[2:]] for D in (D_left, D_right)}
+    products = [
+        Poly(
+            condition.replace(lambda e: e.is_Pow and e.base == stuck, lambda e: stuck_to(e.exp)),
+            *series,
+        ).terms()
+        for condition in conditions(order)
+    ]
+    for k in range(1, order + 1):
+        found = [
+            expand(sum(-factor * _product(series, powers, k) for powers, factor in of))
+            for of in products
+        ]
+        series[d_left][k], series[d_right][k] = found
+    return tuple(series[d_left][1:]), tuple(series[d_right][1:])
 
 
-def slip_zone(edge: Edge, pull: Expr, K_N: Expr) -> Expr:
-    """The slip zone at `edge` to first order, for either direction of slip.
+def _product(series: dict[Symbol, list[Expr]], powers: Sequence[int], order: int) -> Expr:
+    """The term of one order of a product of powers of series, which begin at order one."""
+    if sum(powers) > order:
+        return S.Zero
+    total = [S.One, *[S.Zero] * order]
+    for factor, power in zip(series.values(), powers, strict=True):
+        for _ in range(power):
+            total = [
+                expand(sum((total[i] * factor[k - i] for i in range(k + 1)), S.Zero))
+                for k in range(order + 1)
+            ]
+    return total[order]
+
+
+def slip_zone(pull: Expr, K_N: Expr) -> Expr:
+    """The slip zone to first order, for either direction of slip.
 
     pull: pi sqrt(h) K_T, the load that drives slip.
     """
-    kappa = senses[edge is Edge.RIGHT]
-    (first,) = terms(1)[edge is Edge.RIGHT]
-    (K_N_edge,) = coefficients(edge.name.lower(), 1)
-    return first.subs({stuck_edge(edge): Abs(pull) / (pi * sqrt(h)), kappa: S.One, K_N_edge: K_N})
+    return Abs(pull) / (pi * sqrt(h) * f * K_N)
 
 
 def pressure_next(rate: Expr, order: int, K: Expr) -> Expr:
