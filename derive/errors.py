@@ -300,7 +300,7 @@ class RanAway(UserError):
             why = f"needed more memory than its limit of {self.gigabytes:g} GB"
             remedy = "simplify the profile, or the file that defines it"
         else:
-            why = "made its process fail, as numbers that are too large do"
+            why = "made its process fail, which can happen if numbers are too large"
             remedy = "simplify the profile, for example with fewer nested functions"
         what, stage = self.what or "this body", self.stage or "starting"
         return f"{what}: the stage '{stage}' {why}: {self.remedy or remedy}"
@@ -475,7 +475,7 @@ class _BadFile(UserError):
     @property
     def message(self) -> str:
         """State what is wrong with the file, and where."""
-        return f"{self.given}: {self.why}; {self.remedy}"
+        return f"{self.given}: {self.why}; {_FREE if _is_full(self.why) else self.remedy}"
 
 
 class BadClaimsFile(_BadFile):

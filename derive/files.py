@@ -5,7 +5,9 @@ Out: the content of the file, or the written file.
 """
 
 import os
-import tempfile
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -38,11 +40,39 @@ def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:
 
     Raises OSError.
     """
-    descriptor, name = tempfile.mkstemp(".tmp", f"{path.stem}.", path.parent)
+    with _workpiece(content, path) as workpiece:
+        workpiece.chmod(mode)
+        workpiece.replace(path)
+
+
+def write_new(content: bytes, path: Path) -> None:
+    """Write a new file; nobody sees a part of it.
+
+    Raises FileExistsError if the file exists or is created in the meantime, or another OSError.
+    """
+    with _workpiece(content, path) as workpiece:
+        try:
+            path.hardlink_to(workpiece)
+        except FileExistsError:
+            raise
+        except OSError:  # a file system without hard links: create an empty file, then replace it
+            path.open("xb").close()
+            try:
+                workpiece.replace(path)
+            except OSError:
+                path.unlink()
+                raise
+
+
+@contextmanager
+def _workpiece(content: bytes, path: Path) -> Iterator[Path]:
+    """A finished file beside the path, which is removed at the end of the block."""
+    workpiece = path.with_name(f".{path.stem[:40]}-{secrets.token_hex(8)}.tmp")
     try:
-        with os.fdopen(descriptor, "wb") as file:
+        with workpiece.open("xb") as file:
             file.write(content)
-        Path(name).chmod(mode)
-        Path(name).replace(path)
+            file.flush()
+            os.fsync(file.fileno())
+        yield workpiece
     finally:
-        Path(name).unlink(missing_ok=True)
+        workpiece.unlink(missing_ok=True)

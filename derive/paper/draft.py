@@ -3,7 +3,6 @@
 No claim in the draft is judged before a user has accepted its reading and defined its symbols.
 """
 
-import os
 import re
 from collections import Counter
 from dataclasses import dataclass, field, replace
@@ -13,6 +12,7 @@ from pathlib import Path
 from sympy import Expr, Integral, Mul, Symbol, degree, denom, solve, together
 
 from derive.errors import BadClaimsFile, BadFormula
+from derive.files import write_new
 from derive.limit import LimitReached, within
 from derive.paper.displays import LABEL, Display, displays, rows_of
 from derive.paper.formula import (
@@ -339,7 +339,7 @@ def _conditions(
                 told.append(reading.condition())
                 condition(told[-1], names)
         except BadFormula:
-            why = f"its condition {part} could not be read: write it as require or as"
+            why = f"its condition {part} could not be read: write it in `require` or in `as`"
             return "", "", why
     require, limit = " and ".join(told), "".join(limits[:1])
     small = spelled.get(statement.small, statement.small)
@@ -353,12 +353,10 @@ def _conditions(
 def write(made: Draft, path: Path) -> None:
     """Write a draft to a new file; raises BadClaimsFile."""
     try:
-        handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+        write_new(made.text().encode(), path)
     except OSError as error:
         why = f"the file cannot be written ({error.strerror})"
         raise BadClaimsFile(str(path), why, "name a new file with --draft") from error
-    with os.fdopen(handle, "w", encoding="utf-8") as file:
-        file.write(made.text())
 
 
 def _line(text: str) -> str:

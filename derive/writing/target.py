@@ -1,9 +1,9 @@
 """Writes a new file, completely or not at all."""
 
 import os
-import secrets
 from pathlib import Path
 
+from derive import files
 from derive.errors import BadTarget
 
 
@@ -31,39 +31,12 @@ def write_new(path: Path, text: str) -> None:
 
     Raises BadTarget if the file exists, is created in the meantime, or cannot be written.
     """
-    workpiece = path.with_name(f".{path.stem[:40]}-{secrets.token_hex(8)}.tmp")
     try:
-        try:
-            _write(workpiece, text)
-            _publish(workpiece, path)
-        finally:
-            workpiece.unlink(missing_ok=True)
+        files.write_new(text.encode(), path)
     except FileExistsError as error:
         raise BadTarget(str(path), "already exists") from error
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from error
-
-
-def _write(path: Path, text: str) -> None:
-    with path.open("xb") as file:
-        file.write(text.encode())
-        file.flush()
-        os.fsync(file.fileno())
-
-
-def _publish(workpiece: Path, path: Path) -> None:
-    """Give the finished file its name, unless a file with this name exists."""
-    try:
-        path.hardlink_to(workpiece)
-    except FileExistsError:
-        raise
-    except OSError:  # a file system without hard links: create an empty file, then replace it
-        path.open("xb").close()
-        try:
-            workpiece.replace(path)
-        except OSError:
-            path.unlink()
-            raise
 
 
 def _unwritable(path: Path, error: Exception) -> BadTarget:

@@ -260,7 +260,6 @@ def _interrupt(*_: object) -> None:
     ("step", "failing", "error"),
     [
         ("os.fsync", _fail, BadTarget),
-        ("_write", _fail, BadTarget),
         ("os.fsync", _interrupt, KeyboardInterrupt),
     ],
 )
@@ -271,7 +270,7 @@ def test_a_failing_write_leaves_nothing_behind(
     failing: Callable[..., None],
     error: type[BaseException],
 ) -> None:
-    monkeypatch.setattr(f"derive.writing.target.{step}", failing)
+    monkeypatch.setattr(f"derive.files.{step}", failing)
     with pytest.raises(error):
         write_new(tmp_path / "body.py", "new")
     assert held(tmp_path) == []

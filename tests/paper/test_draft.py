@@ -1,6 +1,8 @@
 """A paper in LaTeX read into a claims file: numbers, labels, statements, and what is refused."""
 
+import errno
 import json
+import os
 import time
 import tomllib
 from pathlib import Path
@@ -14,6 +16,8 @@ from derive.paper.displays import displays
 from derive.paper.latex import Latex
 from derive.paper.spellings import spellings
 from derive.paper.statements import statements
+
+ROOT = Path(__file__).parents[2]
 
 PAPER = r"""
 \documentclass{article}
@@ -89,6 +93,31 @@ def test_a_paper_is_drafted_accepted_and_judged(tmp_path: Path) -> None:
     }
     assert verdicts["law/2"] == "holds"
     assert verdicts["law/1"] == "unchecked"
+
+
+@pytest.mark.parametrize("command", ["draft", "accept", "edge"])
+def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
+    """One line with the file, and nothing is left or lost."""
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    paper, claims, table = written(tmp_path, PAPER), tmp_path / "new.toml", tmp_path / "new.csv"
+    if command == "accept":
+        run(str(paper), "--draft", str(claims))
+    before = {path: path.read_text() for path in tmp_path.iterdir()}
+    monkeypatch.setattr(os, "fsync", full)
+    if command == "edge":
+        example = str(ROOT / "examples" / "edge_flat_rounded.csv")
+        done = CliRunner().invoke(main, ["edge", example, "--f", "0.5", "--csv", str(table)])
+    elif command == "accept":
+        done = run(str(claims), "--accept", answers="y\n" * 9)
+    else:
+        done = run(str(paper), "--draft", str(claims))
+    assert done.exit_code == 2
+    (told,) = done.stderr.splitlines()
+    assert str(table if command == "edge" else claims) in told and "free some space" in told
+    assert {path: path.read_text() for path in tmp_path.iterdir()} == before
 
 
 def test_a_draft_replaces_nothing(tmp_path: Path) -> None:
