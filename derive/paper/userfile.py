@@ -52,10 +52,12 @@ The body's parameters, E_star and f are always variables, and [variables] may gi
 The variables x, s and xi are positions, whose default range is symmetric about zero.
 """
 
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from functools import cache
+from itertools import accumulate
 from os.path import isdir
 from pathlib import Path
 from typing import Any
@@ -79,6 +81,8 @@ _LARGEST = 200_000
 """The largest size of a claims file, in bytes."""
 _MOST = 500
 """The largest number of claims in a file."""
+_DEEPEST = 8
+"""The number of levels of tables and lists that every claims file can do with."""
 _SECONDS = 30.0
 """The default time limit for reading a claim, its verdict and its correction, in seconds."""
 _MOST_SECONDS = 86_400
@@ -129,8 +133,17 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
         raise BadClaimsFile(str(path), f"the file is not valid TOML ({error})", remedy) from error
     except UnicodeDecodeError as error:
         raise BadClaimsFile(str(path), "the file is not UTF-8 text", remedy) from error
-    except (ValueError, RecursionError) as error:
+    except RecursionError:
+        why = f"its tables and lists are nested {_depth(text)} deep, and {_DEEPEST} levels are enough"
+        raise BadClaimsFile(str(path), why, remedy) from None
+    except ValueError as error:
         raise BadClaimsFile(str(path), f"the file cannot be read ({error})", remedy) from error
+
+
+def _depth(text: str) -> int:
+    """Return how deep the brackets of a TOML text are nested, without those in strings."""
+    brackets = re.findall(r"[][{}]", re.sub(r'"[^"\n]*"|\'[^\'\n]*\'', "", text))
+    return max(accumulate(1 if each in "[{" else -1 for each in brackets))
 
 
 def _read(path: Path) -> tuple[Paper, list[Reading]]:
@@ -139,7 +152,7 @@ def _read(path: Path) -> tuple[Paper, list[Reading]]:
     errors, file = Collected(), Entries(Place(str(path)), data)
     for each in _texts(data):
         if not each.replace("\n", "").replace("\t", "").isprintable():
-            why = f"the text {each!r} holds a control character"
+            why = f"the string {each!r} contains a control character"
             errors.errors.append(file.place.bad(why, "remove it"))
     demand_none(errors.errors)
     limit, tables = TimeLimit(_SECONDS), dict[str, Any]()

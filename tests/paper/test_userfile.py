@@ -128,6 +128,7 @@ def test_the_worked_example() -> None:
 
 BAD = {
     "no TOML": ("title = ", "not valid TOML"),
+    "a deep list": ("a = " + "[" * 3000 + '"]"' + "]" * 3000, "nested 3000 deep, and 8 levels"),
     "no claims": (HEAD, "number of [[claims]]"),
     "claims no list": (HEAD + "\n[claims]\n", "number of [[claims]]"),
     "unknown key": ('colour = "red"\n' + CIRCLE, "'colour'"),
