@@ -134,7 +134,7 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
     except UnicodeDecodeError as error:
         raise BadClaimsFile(str(path), "the file is not UTF-8 text", remedy) from error
     except RecursionError:
-        why = f"its tables and lists are nested {_depth(text)} deep, and {_DEEPEST} levels are enough"
+        why = f"its tables are nested {_depth(text)} deep, and {_DEEPEST} levels are enough"
         raise BadClaimsFile(str(path), why, remedy) from None
     except ValueError as error:
         raise BadClaimsFile(str(path), f"the file cannot be read ({error})", remedy) from error
