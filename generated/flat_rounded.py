@@ -4,7 +4,8 @@
 g(x) = Max(0, -b + Abs(x))**2/(2*R), from derive/geometries/flat_rounded.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
+the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -65,6 +66,10 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
         alpha = (h*involute(t_1)/(2*R) - h*involute(t_3)/(2*R) + t_1*Max(0, -b - c)/R -
             t_3*Max(0, -a - b)/R)/pi
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: I_0 from
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
@@ -76,12 +81,6 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     -------
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and (a > b or c > b).
-
-    Notes
-    -----
-    alpha: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
-    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -104,24 +103,20 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 
         P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
+    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, b : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
-        the rounded edges [m]; half-width of the flat [m].
+        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
 
     Returns
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and (a > b or c > b).
-
-    Notes
-    -----
-    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
-    source, see the docstring of the module.
 
     Examples
     --------
@@ -140,24 +135,21 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
         M = E_star*h**2*(-h*(-sin(t_1)**3 + sin(t_3)**3)/3 + (a - c)*(segment(t_1) +
             segment(t_3)))/(32*R)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
+    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
+    module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, b : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
-        the rounded edges [m]; half-width of the flat [m].
+        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
 
     Returns
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and (a > b or c > b).
-
-    Notes
-    -----
-    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
-    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -181,6 +173,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     x : array_like
@@ -188,19 +184,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, b : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
-        the rounded edges [m]; half-width of the flat [m].
+        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
 
     Returns
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0 and (a > b or c > b).
-
-    Notes
-    -----
-    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -224,23 +213,20 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         K_N_left = E_star*sqrt(h)*(t_1/2 + sin(t_1)/2 + segment(t_3/2))/(pi*R)
         K_N_right = E_star*sqrt(h)*(t_3/2 + sin(t_3)/2 + segment(t_1/2))/(pi*R)
 
+    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, b : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
-        the rounded edges [m]; half-width of the flat [m].
+        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
 
     Returns
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b or c > b).
-
-    Notes
-    -----
-    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
-    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -270,24 +256,21 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
         k_left = Piecewise((1/R, a - b > 0), (0, a + b > 0), (1/R, True))
         k_right = Piecewise((1/R, b - c < 0), (0, b + c > 0), (1/R, True))
 
+    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
+    the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, b : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; radius of
-        the rounded edges [m]; half-width of the flat [m].
+        Composite modulus [Pa]; radius of the rounded edges [m]; half-width of the flat [m].
 
     Returns
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b or c > b).
-
-    Notes
-    -----
-    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 47 digits
-    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
-    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------

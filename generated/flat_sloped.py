@@ -4,7 +4,8 @@
 g(x) = phi*Max(0, -b + Abs(x)), from derive/geometries/flat_sloped.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
+the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     edge_angle(A, B) = 2*atan2(sqrt(Max(0, A)), sqrt(Max(0, B)))
@@ -49,6 +50,10 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
         t_1 = edge_angle(a - b, b + c)
         t_3 = edge_angle(-b + c, a + b)
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: I_0 from
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
@@ -60,12 +65,6 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     -------
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
-
-    Notes
-    -----
-    alpha: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
-    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -87,24 +86,20 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         P = E_star*phi*sqrt(Max(0, a - b)*Max(0, b + c))/2 + E_star*phi*sqrt(Max(0, a +
             b)*Max(0, -b + c))/2
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
+    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the flat [m]; slope of the sides [rad].
+        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
 
     Returns
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
-
-    Notes
-    -----
-    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
-    source, see the docstring of the module.
 
     Examples
     --------
@@ -126,24 +121,21 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         M = E_star*phi*sqrt(Max(0, a - b)*Max(0, b + c))*(a + 2*b - c)/8 +
             E_star*phi*sqrt(Max(0, a + b)*Max(0, -b + c))*(a - 2*b - c)/8
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, M =
+    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
+    module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the flat [m]; slope of the sides [rad].
+        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
 
     Returns
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
-
-    Notes
-    -----
-    M: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
-    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -169,6 +161,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
             2*x)*Max(0, a - b)/h, b + x)/(2*pi)
         h = a + c
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     x : array_like
@@ -176,19 +172,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the flat [m]; slope of the sides [rad].
+        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
 
     Returns
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
-
-    Notes
-    -----
-    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -221,24 +210,21 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         tan_2 = root_ratio(a + b, -b + c)
         cot_2 = root_ratio(-b + c, a + b)
 
+    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the flat [m]; slope of the sides [rad].
+        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
 
     Returns
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b or c > b) and a > -b
         and c > -b.
-
-    Notes
-    -----
-    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
-    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -268,25 +254,22 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         tan_2 = root_ratio(a + b, -b + c)
         cot_2 = root_ratio(-b + c, a + b)
 
+    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
+    the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the flat [m]; slope of the sides [rad].
+        Composite modulus [Pa]; half-width of the flat [m]; slope of the sides [rad].
 
     Returns
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b or c > b) and a >
         -b and c > -b.
-
-    Notes
-    -----
-    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
-    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
-    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------

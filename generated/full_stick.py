@@ -19,6 +19,9 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
         K_T_left = (dQ/pi + dsigma*(a + c)/8)/sqrt(a + c)
         K_T_right = (dQ/pi - dsigma*(a + c)/8)/sqrt(a + c)
 
+    Proven symbolically.  Route: limit of the full-stick change at the edge.  From
+    derive/theory/stick.py.
+
     Parameters
     ----------
     a, c : array_like
@@ -32,11 +35,6 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     -------
     Edges
         left [Pa*sqrt(m)], right [Pa*sqrt(m)]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    K_T_left and K_T_right: proven symbolically.  Route: limit of the full-stick change at the edge.
-    Derived from derive/theory/stick.py.
 
     Examples
     --------
@@ -58,6 +56,9 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
         L_T_left = (dQ/pi - 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
         L_T_right = (dQ/pi + 3*dsigma*(a + c)/8)/(2*(a + c)**(3/2))
 
+    Proven symbolically.  Route: limit of the full-stick change at the edge.  From
+    derive/theory/stick.py.
+
     Parameters
     ----------
     a, c : array_like
@@ -71,11 +72,6 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    L_T_left and L_T_right: proven symbolically.  Route: limit of the full-stick change at the edge.
-    Derived from derive/theory/stick.py.
 
     Examples
     --------
@@ -99,6 +95,9 @@ def stick_margin(
         S_left = f*Abs((4*dM - dP*(a - 3*c))/(a + c)) - Abs(dQ + pi*dsigma*(a + c)/8)
         S_right = f*Abs((4*dM - dP*(3*a - c))/(a + c)) - Abs(dQ - pi*dsigma*(a + c)/8)
 
+    Proven symbolically.  Route: f K_N dedge/2 - |K_T| as the edges move by flat punches.  From
+    derive/theory/stick.py.
+
     Parameters
     ----------
     a, c : array_like
@@ -118,11 +117,6 @@ def stick_margin(
     -------
     Edges
         left [N/m], right [N/m]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    S_left and S_right: proven symbolically.  Route: f K_N dedge/2 - |K_T| as the edges move by flat
-    punches.  Derived from derive/theory/stick.py.
 
     Examples
     --------

@@ -4,7 +4,8 @@
 g(x) = x**2/(2*R) + x**4/(4*L**3), from derive/geometries/parabola_quartic.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
+the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -41,6 +42,10 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
 
         alpha = (a - c)*(8*L**3 + 5*R*a**2 + 2*R*a*c + 5*R*c**2)/(16*L**3*R)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  From
+    derive/geometries/parabola_quartic.py.
+
     Parameters
     ----------
     a, c : array_like
@@ -53,12 +58,6 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
     -------
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    alpha: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
-    of g(x).  Derived from derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -81,25 +80,21 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
         P = pi*E_star*(a + c)**2*(16*L**3 + 15*R*a**2 - 18*R*a*c + 15*R*c**2)/(256*L**3*R)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
+    (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/parabola_quartic.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the quartic term alone has slope one [m]; relative radius of
-        curvature at the apex [m].
+        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
+        [m]; relative radius of curvature at the apex [m].
 
     Returns
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  Derived from
-    derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -122,25 +117,22 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
         M = pi*E_star*(a - c)*(a + c)**2*(8*L**3 + 9*R*a**2 - 6*R*a*c + 9*R*c**2)/(256*L**3*R)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
+    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
+    derive/geometries/parabola_quartic.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the quartic term alone has slope one [m]; relative radius of
-        curvature at the apex [m].
+        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
+        [m]; relative radius of curvature at the apex [m].
 
     Returns
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  Derived from
-    derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -165,6 +157,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
         p = E_star*sqrt((a + x)*(c - x))*(8*L**3 + 3*R*a**2 - 2*R*a*c - 4*R*a*x + 3*R*c**2 +
             4*R*c*x + 8*R*x**2)/(16*L**3*R)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  From
+    derive/geometries/parabola_quartic.py.
+
     Parameters
     ----------
     x : array_like
@@ -172,20 +168,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the quartic term alone has slope one [m]; relative radius of
-        curvature at the apex [m].
+        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
+        [m]; relative radius of curvature at the apex [m].
 
     Returns
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    p: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x).  Derived from derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -219,24 +208,21 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         K_N_left = E_star*sqrt(a + c)*(8*L**3 + 15*R*a**2 - 6*R*a*c + 3*R*c**2)/(16*L**3*R)
         K_N_right = E_star*sqrt(a + c)*(8*L**3 + 3*R*a**2 - 6*R*a*c + 15*R*c**2)/(16*L**3*R)
 
+    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    From derive/geometries/parabola_quartic.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the quartic term alone has slope one [m]; relative radius of
-        curvature at the apex [m].
+        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
+        [m]; relative radius of curvature at the apex [m].
 
     Returns
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
-    derivatives of P and alpha.  Derived from derive/geometries/parabola_quartic.py.
 
     Examples
     --------
@@ -258,25 +244,22 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
         L_N_left = -E_star*(8*L**3 + 55*R*a**2 + 26*R*a*c - 5*R*c**2)/(32*L**3*R*sqrt(a + c))
         L_N_right = E_star*(-8*L**3 + 5*R*a**2 - 26*R*a*c - 55*R*c**2)/(32*L**3*R*sqrt(a + c))
 
+    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  From
+    derive/geometries/parabola_quartic.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L, R : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the quartic term alone has slope one [m]; relative radius of
-        curvature at the apex [m].
+        Composite modulus [Pa]; distance from the apex at which the quartic term alone has slope one
+        [m]; relative radius of curvature at the apex [m].
 
     Returns
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
-    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
-    the edge.  Derived from derive/geometries/parabola_quartic.py.
 
     Examples
     --------

@@ -4,7 +4,8 @@
 g(x) = x**4/(4*L**3), from derive/geometries/quartic.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
+the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -41,6 +42,10 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
 
         alpha = (a - c)*(5*a**2 + 2*a*c + 5*c**2)/(16*L**3)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  From
+    derive/geometries/quartic.py.
+
     Parameters
     ----------
     a, c : array_like
@@ -52,12 +57,6 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
     -------
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    alpha: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
-    of g(x).  Derived from derive/geometries/quartic.py.
 
     Examples
     --------
@@ -76,24 +75,20 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
         P = 3*pi*E_star*(a + c)**2*(5*a**2 - 6*a*c + 5*c**2)/(256*L**3)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
+    (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/quartic.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the flanks have slope one [m].
+        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m].
 
     Returns
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  Derived from
-    derive/geometries/quartic.py.
 
     Examples
     --------
@@ -112,24 +107,20 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
         M = 3*pi*E_star*(a - c)*(a + c)**2*(3*a**2 - 2*a*c + 3*c**2)/(256*L**3)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
+    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From derive/geometries/quartic.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the flanks have slope one [m].
+        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m].
 
     Returns
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  Derived from
-    derive/geometries/quartic.py.
 
     Examples
     --------
@@ -154,6 +145,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
         p = E_star*sqrt((a + x)*(c - x))*(3*a**2 - 2*a*c - 4*a*x + 3*c**2 + 4*c*x +
             8*x**2)/(16*L**3)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  From
+    derive/geometries/quartic.py.
+
     Parameters
     ----------
     x : array_like
@@ -161,19 +156,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the flanks have slope one [m].
+        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m].
 
     Returns
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    p: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x).  Derived from derive/geometries/quartic.py.
 
     Examples
     --------
@@ -199,23 +187,20 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
         K_N_left = 3*E_star*sqrt(a + c)*(5*a**2 - 2*a*c + c**2)/(16*L**3)
         K_N_right = 3*E_star*sqrt(a + c)*(a**2 - 2*a*c + 5*c**2)/(16*L**3)
 
+    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    From derive/geometries/quartic.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the flanks have slope one [m].
+        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m].
 
     Returns
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
-    derivatives of P and alpha.  Derived from derive/geometries/quartic.py.
 
     Examples
     --------
@@ -237,24 +222,21 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
         L_N_left = -E_star*(55*a**2 + 26*a*c - 5*c**2)/(32*L**3*sqrt(a + c))
         L_N_right = E_star*(5*a**2 - 26*a*c - 55*c**2)/(32*L**3*sqrt(a + c))
 
+    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  From
+    derive/geometries/quartic.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, L : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; distance
-        from the apex at which the flanks have slope one [m].
+        Composite modulus [Pa]; distance from the apex at which the flanks have slope one [m].
 
     Returns
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
-    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
-    the edge.  Derived from derive/geometries/quartic.py.
 
     Examples
     --------

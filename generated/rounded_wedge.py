@@ -5,7 +5,8 @@ g(x) = Piecewise((phi*x**2/(2*b), b > Abs(x)), (phi*(-b/2 + Abs(x)), True)), fro
     derive/geometries/rounded_wedge.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
+the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -95,6 +96,10 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
         t_1 = edge_angle(a - b, b + c)
         t_3 = edge_angle(-b + c, a + b)
 
+    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: I_0 from
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
@@ -106,12 +111,6 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     -------
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Notes
-    -----
-    alpha: proven symbolically and checked numerically, with agreement to 47 digits at 24 points.
-    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
-    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -136,24 +135,20 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
         P = E_star*h**2*phi*part_area(t_2, cos_1*sin_2 + cos_2*sin_1)/(16*b)
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, P =
+    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the rounded apex [m]; slope of the flanks [rad].
+        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
 
     Returns
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Notes
-    -----
-    P: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
-    source, see the docstring of the module.
 
     Examples
     --------
@@ -172,24 +167,21 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         M = E_star*h**2*phi*(-h*part_arm(t_2, sin_1, cos_1, sin_2, cos_2)/3 + (a -
             c)*part_area(t_2, cos_1*sin_2 + cos_2*sin_1))/(32*b)
 
+    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: by parts, M =
+    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
+    module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the rounded apex [m]; slope of the flanks [rad].
+        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
 
     Returns
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Notes
-    -----
-    M: proven symbolically and checked numerically, with agreement to 46 digits at 24 points.
-    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
-    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -217,6 +209,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     x : array_like
@@ -224,19 +220,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the rounded apex [m]; slope of the flanks [rad].
+        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
 
     Returns
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Notes
-    -----
-    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -260,23 +249,20 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         K_N_left = E_star*sqrt(h)*phi*part_weight(t_2, cos_1*cos_2)/(pi*b)
         K_N_right = E_star*sqrt(h)*phi*part_weight(t_2, sin_1*sin_2)/(pi*b)
 
+    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the rounded apex [m]; slope of the flanks [rad].
+        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
 
     Returns
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Notes
-    -----
-    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
-    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -302,24 +288,21 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         k_left = Piecewise((0, a - b > 0), (phi/b, a + b > 0), (0, True))
         k_right = Piecewise((0, b - c < 0), (phi/b, b + c > 0), (0, True))
 
+    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
+    the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, b, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; half-width
-        of the rounded apex [m]; slope of the flanks [rad].
+        Composite modulus [Pa]; half-width of the rounded apex [m]; slope of the flanks [rad].
 
     Returns
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and a > -b and c > -b.
-
-    Notes
-    -----
-    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
-    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
-    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------

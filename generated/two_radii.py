@@ -4,7 +4,8 @@
 g(x) = Piecewise((x**2/(2*R_1), x < 0), (x**2/(2*R_2), True)), from derive/geometries/two_radii.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
+the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -65,6 +66,10 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
         alpha = (-h*involute(t_2)/(2*R_2) - t_2*Max(0, -a)/R_2 + h*involute(t_1)/(2*R_1) +
             t_1*Max(0, -c)/R_1)/pi
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: I_0 from
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
@@ -76,12 +81,6 @@ def tilt(a: Array, c: Array, *, R_1: Array, R_2: Array) -> Array:
     -------
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    alpha: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
-    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -104,24 +103,21 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
 
         P = E_star*h**2*(segment(t_2)/R_2 + segment(t_1)/R_1)/16
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
+    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R_1, R_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the left [m]; relative radius of curvature on the right [m].
+        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
+        curvature on the right [m].
 
     Returns
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
-    source, see the docstring of the module.
 
     Examples
     --------
@@ -140,24 +136,22 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
         M = E_star*h**2*(-h*(sin(t_2)**3/R_2 - sin(t_1)**3/R_1)/3 + (a - c)*(segment(t_2)/R_2 +
             segment(t_1)/R_1))/32
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, M =
+    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
+    module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R_1, R_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the left [m]; relative radius of curvature on the right [m].
+        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
+        curvature on the right [m].
 
     Returns
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    M: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
-    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -185,6 +179,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     x : array_like
@@ -192,19 +190,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Ar
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R_1, R_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the left [m]; relative radius of curvature on the right [m].
+        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
+        curvature on the right [m].
 
     Returns
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    p: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -228,23 +220,21 @@ def K_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
         K_N_left = E_star*sqrt(h)*(segment(t_2/2)/R_2 + (t_1 + sin(t_1))/(2*R_1))/pi
         K_N_right = E_star*sqrt(h)*((t_2 + sin(t_2))/(2*R_2) + segment(t_1/2)/R_1)/pi
 
+    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R_1, R_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the left [m]; relative radius of curvature on the right [m].
+        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
+        curvature on the right [m].
 
     Returns
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
-    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -274,24 +264,22 @@ def L_N(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Edges:
         k_left = Piecewise((1/R_1, a > 0), (1/R_2, True))
         k_right = Piecewise((1/R_2, c > 0), (1/R_1, True))
 
+    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
+    the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R_1, R_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the left [m]; relative radius of curvature on the right [m].
+        Composite modulus [Pa]; relative radius of curvature on the left [m]; relative radius of
+        curvature on the right [m].
 
     Returns
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
-
-    Notes
-    -----
-    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 47 digits
-    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
-    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------

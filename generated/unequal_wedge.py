@@ -4,7 +4,8 @@
 g(x) = Piecewise((-phi_1*x, x < 0), (phi_2*x, True)), from derive/geometries/unequal_wedge.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
+the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 """
 
 import numpy as np
@@ -45,6 +46,11 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
             phi_2*atan2(2*P/(E_star*(phi_1 + phi_2)), 2*e))/pi
         e = M/P
 
+    a and c: proven symbolically and checked numerically to 46 digits at 24 points.  Routes:
+    substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked numerically
+    to 46 digits at 24 points.  Route: substituted into load(a, c), moment(a, c), tilt(a, c).  From
+    derive/geometries/unequal_wedge.py.
+
     Parameters
     ----------
     P : array_like
@@ -52,20 +58,12 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi_1: Array, phi_2: Arr
     M : array_like, optional
         Moment per unit depth, M = -int p x dx [N].
     E_star, phi_1, phi_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
-        the left flank [rad]; slope of the right flank [rad].
+        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
     Contact
         a [m], c [m], alpha [rad]; NaN unless P > 0.
-
-    Notes
-    -----
-    a and c: proven symbolically and checked numerically, with agreement to 46 digits at 24 points.
-    Routes: substituted symbolically; substituted into load(a, c), moment(a, c).  alpha: checked
-    numerically, with agreement to 46 digits at 24 points.  Route: substituted into load(a, c),
-    moment(a, c), tilt(a, c).  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -102,6 +100,9 @@ def contact_at_tilt(
         a = -2*P/(E_star*(phi_1 + phi_2)*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2))))
         c = -2*P*tan(pi*(alpha - phi_1)/(2*(phi_1 + phi_2)))/(E_star*(phi_1 + phi_2))
 
+    Checked numerically to 48 digits at 24 points.  Route: substituted into load(a, c), tilt(a, c).
+    From derive/geometries/unequal_wedge.py.
+
     Parameters
     ----------
     P : array_like
@@ -109,18 +110,12 @@ def contact_at_tilt(
     alpha : array_like, optional
         Tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad].
     E_star, phi_1, phi_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
-        the left flank [rad]; slope of the right flank [rad].
+        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
     Contact
         a [m], c [m], alpha as given; NaN unless P > 0 and alpha > -phi_2 and alpha < phi_1.
-
-    Notes
-    -----
-    a and c: checked numerically, with agreement to 48 digits at 24 points.  Route: substituted into
-    load(a, c), tilt(a, c).  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -149,6 +144,10 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
         alpha = (-phi_1*theta_1 + pi*phi_1 - phi_2*theta_1)/pi
         theta_1 = 2*atan2(sqrt(c), sqrt(a))
 
+    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: I_0 from
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  From
+    derive/geometries/unequal_wedge.py.
+
     Parameters
     ----------
     a, c : array_like
@@ -160,12 +159,6 @@ def tilt(a: Array, c: Array, *, phi_1: Array, phi_2: Array) -> Array:
     -------
     alpha : ndarray
         [rad]; NaN unless a > 0 and c > 0.
-
-    Notes
-    -----
-    alpha: proven symbolically and checked numerically, with agreement to 47 digits at 24 points.
-    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
-    of g(x).  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -186,24 +179,20 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
 
         P = E_star*sqrt(a*c)*(phi_1 + phi_2)/2
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, P =
+    (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/unequal_wedge.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, phi_1, phi_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
-        the left flank [rad]; slope of the right flank [rad].
+        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
     P : ndarray
         [N/m]; NaN unless a > 0 and c > 0.
-
-    Notes
-    -----
-    P: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  Derived from
-    derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -222,24 +211,21 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
 
         M = E_star*sqrt(a*c)*(a - c)*(phi_1 + phi_2)/8
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
+    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
+    derive/geometries/unequal_wedge.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, phi_1, phi_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
-        the left flank [rad]; slope of the right flank [rad].
+        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
     M : ndarray
         [N]; NaN unless a > 0 and c > 0.
-
-    Notes
-    -----
-    M: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  Derived from
-    derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -261,6 +247,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
         u_1 = c*(a + x)
         v_1 = a*(c - x)
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  From
+    derive/geometries/unequal_wedge.py.
+
     Parameters
     ----------
     x : array_like
@@ -268,19 +258,12 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, phi_1, phi_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
-        the left flank [rad]; slope of the right flank [rad].
+        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
     p : ndarray
         [Pa]; NaN unless a > 0 and c > 0.
-
-    Notes
-    -----
-    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x).  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -303,23 +286,20 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
         K_N_left = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*a)
         K_N_right = E_star*sqrt(a*c/(a + c))*(phi_1 + phi_2)/(pi*c)
 
+    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    From derive/geometries/unequal_wedge.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, phi_1, phi_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
-        the left flank [rad]; slope of the right flank [rad].
+        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a > 0 and c > 0.
-
-    Notes
-    -----
-    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
-    derivatives of P and alpha.  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------
@@ -341,24 +321,21 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Edg
         L_N_left = E_star*sqrt(a*c)*(3*a + 2*c)*(phi_1 + phi_2)/(6*pi*a**2*(a + c)**(3/2))
         L_N_right = E_star*sqrt(a*c)*(2*a + 3*c)*(phi_1 + phi_2)/(6*pi*c**2*(a + c)**(3/2))
 
+    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  From
+    derive/geometries/unequal_wedge.py.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, phi_1, phi_2 : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; slope of
-        the left flank [rad]; slope of the right flank [rad].
+        Composite modulus [Pa]; slope of the left flank [rad]; slope of the right flank [rad].
 
     Returns
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a > 0 and c > 0.
-
-    Notes
-    -----
-    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 46 digits
-    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
-    the edge.  Derived from derive/geometries/unequal_wedge.py.
 
     Examples
     --------

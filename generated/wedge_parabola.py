@@ -4,7 +4,8 @@
 g(x) = Piecewise((-phi*x, x < 0), (x**2/(2*R), True)), from derive/geometries/wedge_parabola.py.
 
 Arguments broadcast, and results are float64 with the broadcast shape.  Results are NaN unless the
-constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.
+constants of material and geometry are positive and lengths are between 1e-75 and 1e75 m.  E_star is
+the composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain.
 
 The formulas below use these definitions:
     h = a + c
@@ -73,6 +74,10 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
         alpha = (phi*t_1 - h*involute(t_2)/(2*R) - t_2*Max(0, -a)/R)/pi
         t_1 = edge_angle(a, c)
 
+    Proven symbolically and checked numerically to 48 digits at 24 points.  Routes: I_0 from
+    antiderivatives checked by differentiation; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
@@ -84,12 +89,6 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     -------
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and c > 0.
-
-    Notes
-    -----
-    alpha: proven symbolically and checked numerically, with agreement to 48 digits at 24 points.
-    Routes: I_0 from antiderivatives checked by differentiation; quadrature of the defining integral
-    of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -108,24 +107,21 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
         P = E_star*phi*sqrt(Max(0, a)*Max(0, c))/2 + E_star*h**2*segment(t_2)/(16*R)
 
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
+    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the right [m]; slope of the left flank [rad].
+        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
+        flank [rad].
 
     Returns
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and c > 0.
-
-    Notes
-    -----
-    P: proven symbolically and checked numerically, with agreement to 50 digits at 24 points.
-    Routes: by parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For the symbols and the
-    source, see the docstring of the module.
 
     Examples
     --------
@@ -146,24 +142,22 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
         M = E_star*phi*sqrt(Max(0, a)*Max(0, c))*(a - c)/8 + E_star*h**2*(-h*sin(t_2)**3/3 + (a
             - c)*segment(t_2))/(32*R)
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, M =
+    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
+    module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the right [m]; slope of the left flank [rad].
+        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
+        flank [rad].
 
     Returns
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and c > 0.
-
-    Notes
-    -----
-    M: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: by parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For the
-    symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -186,6 +180,10 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
         sin_x = sqrt(Max(0, a + x)/h)
         cos_x = sqrt(Max(0, c - x)/h)
 
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: growth by flat
+    punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining integral of g(x).  For
+    symbols and source, see the module.
+
     Parameters
     ----------
     x : array_like
@@ -193,19 +191,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the right [m]; slope of the left flank [rad].
+        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
+        flank [rad].
 
     Returns
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0 and c > 0.
-
-    Notes
-    -----
-    p: proven symbolically and checked numerically, with agreement to 49 digits at 24 points.
-    Routes: growth by flat punches, dp/dc = P'(c)/(pi w) at fixed tilt; quadrature of the defining
-    integral of g(x).  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -232,23 +224,21 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
         tan_1 = root_ratio(a, c)
         cot_1 = root_ratio(c, a)
 
+    Proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by derivatives of P and alpha.
+    For symbols and source, see the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the right [m]; slope of the left flank [rad].
+        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
+        flank [rad].
 
     Returns
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and c > 0.
-
-    Notes
-    -----
-    K_N_left and K_N_right: proven symbolically.  Route: (2/pi) P'(c)/sqrt(a + c) and a'(c), by
-    derivatives of P and alpha.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------
@@ -283,24 +273,22 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
         k_left = Piecewise((0, a > 0), (1/R, True))
         k_right = Piecewise((1/R, c > 0), (0, True))
 
+    Proven symbolically and checked numerically to 47 digits at 24 points.  Routes: growth of K_N by
+    flat punches as its edge moves; p - K_N sqrt(s) close to the edge.  For symbols and source, see
+    the module.
+
     Parameters
     ----------
     a, c : array_like
         Edges of the contact at x = -a and x = c [m].
     E_star, R, phi : array_like
-        Composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]; relative
-        radius of curvature on the right [m]; slope of the left flank [rad].
+        Composite modulus [Pa]; relative radius of curvature on the right [m]; slope of the left
+        flank [rad].
 
     Returns
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and c > 0.
-
-    Notes
-    -----
-    L_N_left and L_N_right: proven symbolically and checked numerically, with agreement to 47 digits
-    at 24 points.  Routes: growth of K_N by flat punches as its edge moves; p - K_N sqrt(s) close to
-    the edge.  For the symbols and the source, see the docstring of the module.
 
     Examples
     --------

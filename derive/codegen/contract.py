@@ -3,7 +3,7 @@
 This table is the contract with users: names, argument order and meanings are fixed.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sympy import Expr, Gt, Symbol
 from sympy.logic.boolalg import Boolean
@@ -20,9 +20,9 @@ class Function:
                 single field with an empty name.  A field that returns an argument has the symbol
                 of the argument in place of the name of a formula.
     kind        the named tuple that the function returns, or "" for a plain array
-    material    whether the function takes E_star
+    optional    the argument that is zero if it is not given
+    constants   keyword-only arguments other than the parameters of the geometry
     geometric   whether the function takes the parameters of the geometry
-    friction    whether the function takes f
     """
 
     name: str
@@ -30,10 +30,9 @@ class Function:
     fields: tuple[tuple[str, str | Symbol], ...]
     summary: str
     kind: str = ""
-    defaults: tuple[tuple[Symbol, str], ...] = ()
-    material: bool = True
+    optional: Symbol | None = None
+    constants: tuple[Symbol, ...] = (E_star,)
     geometric: bool = True
-    friction: bool = False
 
     @property
     def formulas(self) -> tuple[str, ...]:
@@ -45,9 +44,9 @@ class Function:
         return all(name in sheet for name in self.formulas)
 
     def keywords(self, sheet: FormulaSheet) -> tuple[Symbol, ...]:
-        """The keyword-only arguments: friction, material, geometry."""
+        """The keyword-only arguments."""
         own = tuple(q.symbol for q in sheet.geometry.parameters) if self.geometric else ()
-        return ((f,) if self.friction else ()) + ((E_star,) if self.material else ()) + own
+        return (*self.constants, *own)
 
     def outputs(self, sheet: FormulaSheet) -> dict[str, Expr]:
         """The expression of every field."""
@@ -71,24 +70,18 @@ class Function:
         return (*needed, *positive)
 
 
-def _edges(
-    name: str,
-    arguments: tuple[Symbol, ...],
-    summary: str,
-    bare: bool = False,
-    friction: bool = False,
-) -> Function:
+def _edges(name: str, summary: str) -> Function:
+    """A function of the contact alone that returns a value at both edges."""
     fields = tuple((side, f"{name}_{side}") for side in ("left", "right"))
-    return Function(
-        name,
-        arguments,
-        fields,
-        summary,
-        "Edges",
-        material=not bare,
-        geometric=not bare,
-        friction=friction,
-    )
+    return Function(name, (a, c), fields, summary, "Edges")
+
+
+def _full_stick(
+    name: str, changes: tuple[Symbol, ...], summary: str, constants: tuple[Symbol, ...] = ()
+) -> Function:
+    """A function of the contact and of changes of the loads, the same for all bodies."""
+    made = _edges(name, summary)
+    return replace(made, arguments=(a, c, *changes), constants=constants, geometric=False)
 
 
 CONTRACT: tuple[Function, ...] = (
@@ -98,7 +91,7 @@ CONTRACT: tuple[Function, ...] = (
         (("a", "contact_a"), ("c", "contact_c"), ("alpha", "contact_alpha")),
         "Contact and tilt under the load P and the moment M.",
         "Contact",
-        defaults=((M, "0.0"),),
+        optional=M,
     ),
     Function(
         "contact_at_tilt",
@@ -106,42 +99,32 @@ CONTRACT: tuple[Function, ...] = (
         (("a", "contact_at_tilt_a"), ("c", "contact_at_tilt_c"), ("alpha", alpha)),
         "Contact under the load P at the tilt alpha.",
         "Contact",
-        defaults=((alpha, "0.0"),),
+        optional=alpha,
     ),
     Function(
-        "tilt", (a, c), (("", "tilt"),), "Tilt at which the contact is [-a, c].", material=False
+        "tilt", (a, c), (("", "tilt"),), "Tilt at which the contact is [-a, c].", constants=()
     ),
     Function("load", (a, c), (("", "load"),), "Normal load that makes the contact [-a, c]."),
     Function("moment", (a, c), (("", "moment"),), "Moment that makes the contact [-a, c]."),
     Function(
-        "pressure",
-        (x, a, c),
-        (("", "pressure"),),
-        "Contact pressure at x; zero outside [-a, c].",
+        "pressure", (x, a, c), (("", "pressure"),), "Contact pressure at x; zero outside [-a, c]."
     ),
-    _edges(
-        "K_N", (a, c), "Coefficients of sqrt(s) in the pressure at a distance s from the edges."
-    ),
-    _edges(
-        "L_N", (a, c), "Coefficients of s**(3/2) in the pressure at a distance s from the edges."
-    ),
-    _edges(
+    _edges("K_N", "Coefficients of sqrt(s) in the pressure at a distance s from the edges."),
+    _edges("L_N", "Coefficients of s**(3/2) in the pressure at a distance s from the edges."),
+    _full_stick(
         "K_T",
-        (a, c, dQ, dsigma),
+        (dQ, dsigma),
         "Coefficients of 1/sqrt(s) in the full-stick shear change at a distance s from the edges.",
-        bare=True,
     ),
-    _edges(
+    _full_stick(
         "L_T",
-        (a, c, dQ, dsigma),
+        (dQ, dsigma),
         "Coefficients of sqrt(s) in the full-stick shear change at a distance s from the edges.",
-        bare=True,
     ),
-    _edges(
+    _full_stick(
         "stick_margin",
-        (a, c, dP, dM, dQ, dsigma),
+        (dP, dM, dQ, dsigma),
         "Margin against slip at each edge as the loads begin to change; no slip starts if >= 0.",
-        bare=True,
-        friction=True,
+        constants=(f,),
     ),
 )

@@ -31,7 +31,7 @@ from sympy import (
 )
 
 from derive.codegen.cuts import cuts_of
-from derive.codegen.law import LawText, as_float, function_head
+from derive.codegen.law import PRESSURE, STATE, LawText, as_float
 from derive.codegen.plan import Route, carried_by
 from derive.codegen.printer import NumPyPrinter
 from derive.piece import Piece
@@ -46,43 +46,41 @@ _t = Symbol("t", positive=True)
 class CurveText(LawText):
     """The text of the law of a body for which at least one function, such as L_N, is integrated."""
 
-    def _formulas(self, own: str) -> Iterator[str]:
-        """The curve and the functions that integrate over it; the others call formulas."""
-        summed = carried_by(self.sheet) is Route.PARTS
-        if summed:
-            yield from self._carried(own)
+    def _functions(self) -> Iterator[str]:
+        """Code for the curve and for what is integrated over it; the rest calls formulas."""
         slope = self.sheet.geometry.slope
         positions, pieces = cuts_of(slope)
-        printer = NumPyPrinter()
+        functions = {
+            "pressure": PRESSURE,
+            "state": STATE,
+            "slope": ("x", "g'(x) and g''(x); infinite beyond the ends of the body."),
+            "series": ("a, c", "L_N for E* = 1."),
+        }
+        if carried_by(self.sheet) is Route.PARTS:
+            yield from self._carried()
+            del functions["pressure"], functions["state"]
         yield "@kernel(BESIDE_BREAK)"
         words = "g', g'' and t g''' at the distance t from a break."
-        yield from function_head("_curve", "piece, side, t", words)
-        yield from self._unpacked([*self._demands(), *_branches(pieces)])
-        yield "    return np.nan, np.nan, np.nan"
+        lines = [*self._demands(), *_branches(pieces), "    return np.nan, np.nan, np.nan"]
+        yield from self.function("_curve", "piece, side, t", words, lines)
         steps = {kink.position: kink.step for kink in slope.kinks}
-        jumps = [printer.doprint(steps.get(position, S.Zero)) for position in positions]
         for name, words, values in (
-            ("_breaks", "Points at which the curve is cut.", map(printer.doprint, positions)),
-            ("_corners", "The jump of g' at each of these points.", jumps),
+            ("_breaks", "Points at which the curve is cut.", positions),
+            ("_corners", "The jump of g' at each of these points.", map(steps.get, positions)),
         ):
+            printed = (as_float(NumPyPrinter().doprint(value or S.Zero)) for value in values)
             yield "@kernel(BREAKS)"
-            yield from function_head(name, "", words)
-            array = f"np.array([{', '.join(map(as_float, values))}])"
-            yield from self._unpacked([f"    return {array}"])
-        for name, arguments, words in (
-            ("pressure", "x, a, c", "Pressure at x for E* = 1."),
-            ("state", "a, c", "Load, moment, tilt and K_N for E* = 1."),
-            ("slope", "x", "g'(x) and g''(x); infinite beyond the ends of the body."),
-            ("series", "a, c", "L_N for E* = 1."),
-        ):
-            if summed and name in ("pressure", "state"):
-                continue
+            yield from self.function(
+                name, "", words, [f"    return np.array([{', '.join(printed)}])"]
+            )
+        for name, (arguments, words) in functions.items():
             yield f"@kernel({name.upper()})"
-            yield from function_head(f"_{name}", arguments, words)
-            if name == "slope":
-                yield from self._ends()
-            yield "    curve = curve_of(_curve, _breaks, _corners)"
-            yield f"    return pieces.{name}(curve, {arguments}, own)"
+            lines = [
+                *(self._ends() if name == "slope" else ()),
+                "    curve = curve_of(_curve, _breaks, _corners)",
+                f"    return pieces.{name}(curve, {arguments}, own)",
+            ]
+            yield from self.function(f"_{name}", arguments, words, lines)
 
     def _demands(self) -> Iterator[str]:
         """Code that returns NaN unless the parameters meet the conditions of the body.
@@ -95,21 +93,12 @@ class CurveText(LawText):
 
     def _ends(self) -> Iterator[str]:
         """Code for points beyond the ends of the body, if its curve has ends."""
-        ends = zip(
+        for end, side, slope in zip(
             self.sheet.geometry.slope.domain, ("<=", ">="), ("-np.inf", "np.inf"), strict=True
-        )
-        bounded = [(end, side, slope) for end, side, slope in ends if end.is_finite]
-        lines = []
-        for end, side, slope in bounded:
-            lines.append(f"    if x {side} {NumPyPrinter().doprint(end)}:")
-            lines.append(f"        return {slope}, np.inf")
-        yield from self._unpacked(lines)
-
-    def _slope(self) -> Iterator[str]:
-        return iter(())
-
-    def _breaks(self) -> Iterator[str]:
-        return iter(())
+        ):
+            if end.is_finite:
+                yield f"    if x {side} {NumPyPrinter().doprint(end)}:"
+                yield f"        return {slope}, np.inf"
 
 
 def _branches(pieces: Sequence[Piece]) -> Iterator[str]:

@@ -29,6 +29,9 @@ from derive.units import Dimension, dimension_of
 
 LINE = 100
 
+OF_E_STAR = ", 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain"
+"""What the docstring of a module, and not those of its functions, says of the modulus."""
+
 _width = Symbol("h")
 """The contact width as a plain name, used in the conditions that the code checks."""
 
@@ -61,21 +64,16 @@ class FunctionText:
     @property
     def text(self) -> str:
         """The whole function."""
-        docstring = textwrap.indent(self._docstring, " " * 4)
-        return "\n".join(["@elementwise", self._signature, docstring, *self._code])
+        return "\n".join(["@elementwise", self._head, *self._code])
 
     @property
-    def _signature(self) -> str:
-        defaults = dict(self.function.defaults)
-        arguments = [
-            f"{s}: Array" + (f" = {defaults[s]}" if s in defaults else "")
-            for s in self.function.arguments
-        ]
-        if self.keywords:
-            arguments += ["*", *(f"{s}: Array" for s in self.keywords)]
-        return (
-            f"def {self.function.name}({', '.join(arguments)}) -> {self.function.kind or 'Array'}:"
-        )
+    def _head(self) -> str:
+        """The signature and the docstring."""
+        function = self.function
+        given = [f"{s}: Array{' = 0.0' * (s == function.optional)}" for s in function.arguments]
+        given += ["*", *(f"{s}: Array" for s in self.keywords)] if self.keywords else []
+        signature = f"def {function.name}({', '.join(given)}) -> {function.kind or 'Array'}:"
+        return f"{signature}\n{textwrap.indent(self._docstring, ' ' * 4)}"
 
     # ------------------------------------------------------------------ code
 
@@ -134,33 +132,31 @@ class FunctionText:
             lines += textwrap.wrap(
                 equation, LINE - 8, initial_indent="    ", subsequent_indent=" " * 8
             )
-        lines += ["", *_section("Parameters")]
-        optional = {symbol.name for symbol, _ in self.function.defaults}
-        for name, meaning in self._given.items():
-            kind = "array_like, optional" if name in optional else "array_like"
-            lines += [f"{name} : {kind}", *_indented(meaning)]
+        lines += ["", *textwrap.wrap(f"{self._proofs}  {self._origin}", LINE - 4)]
+        lines += ["", "Parameters", "----------", *self._given]
         kind, fields = self._returns
-        lines += ["", *_section("Returns"), kind, *_indented(f"{fields}; {self._existence}")]
-        lines += ["", *_section("Notes"), *textwrap.wrap(self._proofs, LINE - 4)]
-        lines += ["", *_section("Examples"), *self._doctest]
+        lines += ["", "Returns", "-------", kind, *_indented(f"{fields}; {self._existence}")]
+        lines += ["", "Examples", "--------", *self._doctest]
         return f'"""{inside_quotes(chr(10).join(lines))}\n"""'
 
     @property
-    def _given(self) -> dict[str, str]:
-        """The meanings of the arguments, with one entry for both edges and one for all keywords."""
-        meanings = {}
+    def _given(self) -> Iterator[str]:
+        """The arguments and their meanings; both edges have one entry, and so have all keywords."""
         quantities = self.sheet.geometry.quantities
         for symbol in self.function.arguments:
             q = quantities[str(symbol)]
             if symbol == a:
-                meanings["a, c"] = f"Edges of the contact at x = -a and x = c [{q.unit}]."
+                yield "a, c : array_like"
+                yield from _indented(f"Edges of the contact at x = -a and x = c [{q.unit}].")
             elif symbol != c:
-                meanings[q.name] = sentence(f"{q.meaning} [{q.unit}]")
+                yield f"{q.name} : array_like{', optional' * (symbol == self.function.optional)}"
+                yield from _indented(sentence(f"{q.meaning} [{q.unit}]"))
         if self.keywords:
+            yield f"{', '.join(map(str, self.keywords))} : array_like"
             law = [quantities[str(symbol)] for symbol in self.keywords]
-            listed = "; ".join(f"{q.meaning} [{q.unit}]" for q in law)
-            meanings[", ".join(q.name for q in law)] = sentence(listed)
-        return meanings
+            names = (q.meaning.removesuffix(OF_E_STAR) for q in law)
+            listed = (f"{name} [{q.unit}]" for name, q in zip(names, law, strict=True))
+            yield from _indented(sentence("; ".join(listed)))
 
     @property
     def _equations(self) -> Iterator[str]:
@@ -196,7 +192,7 @@ class FunctionText:
 
     @property
     def _proofs(self) -> str:
-        """How each formula was proven, and its source; formulas with the same proof are joined."""
+        """How each formula was proven; formulas with the same proof are joined."""
         symbols: dict[Proof, list[str]] = {}
         digits: dict[Proof, int] = {}
         for formula in (self.sheet[name] for name in self.function.formulas):
@@ -204,21 +200,22 @@ class FunctionText:
             kind = replace(formula.proof, digits=0)
             symbols.setdefault(kind, []).append(str(formula.symbol))
             digits[kind] = min(formula.proof.digits, digits.get(kind, formula.proof.digits))
-        proofs = (
-            f"{' and '.join(proven)}: {_proof_in_words(replace(kind, digits=digits[kind]))}"
-            for kind, proven in symbols.items()
-        )
-        return f"{'  '.join(proofs)}  {self._origin}"
+        said = {kind: _proof_in_words(replace(kind, digits=digits[kind])) for kind in symbols}
+        if len(said) == 1:
+            (words,) = said.values()
+            return words[0].upper() + words[1:]
+        return "  ".join(f"{' and '.join(symbols[kind])}: {said[kind]}" for kind in said)
 
     @property
     def _origin(self) -> str:
-        return f"Derived from {self.source}."
+        return f"From {self.source}."
 
     @property
     def _doctest(self) -> Iterator[str]:
+        given = {s: float(number) for s, number in self.example.items()}
         call = ", ".join(
-            [_number(self.example[s]) for s in self.function.arguments]
-            + [f"{s}={_number(self.example[s])}" for s in self.keywords]
+            [*(str(given[s]) for s in self.function.arguments)]
+            + [f"{s}={given[s]}" for s in self.keywords]
         )
         values = [
             mpmath.nstr(numeric(self.sheet.frame.flat(expr))(self.example), 17)
@@ -252,18 +249,14 @@ def _proof_in_words(proof: Proof) -> str:
     """The kind of a proof, the digits to which both sides agree, and the routes.
 
     >>> _proof_in_words(Proof(Verdict.NUMERICAL, "int p dx by quadrature", 24, 36))
-    'checked numerically, with agreement to 36 digits at 24 points.  Route: int p dx by quadrature.'
+    'checked numerically to 36 digits at 24 points.  Route: int p dx by quadrature.'
     """
     kinds = ["proven symbolically"] if proof.verdict is Verdict.PROVEN else []
     if proof.points or not kinds:
         kinds.append("checked numerically")
-    digits = f", with agreement to {proof.digits} digits at {proof.points} points"
+    digits = f" to {proof.digits} digits at {proof.points} points"
     routes = "Routes" if "; " in proof.route else "Route"
     return f"{' and '.join(kinds)}{digits if proof.points else ''}.  {routes}: {proof.route}."
-
-
-def _section(name: str) -> list[str]:
-    return [name, "-" * len(name)]
 
 
 def _indented(text: str) -> list[str]:
@@ -350,20 +343,16 @@ def _noted(line: str, note: str) -> Iterator[str]:
         yield line
 
 
-def _number(value: mpf) -> str:
-    return repr(float(value))
-
-
 def _off_all_kinks(sheet: FormulaSheet, point: Point) -> bool:
     """Whether no kink is at x or at an edge, where some formulas have no value."""
     kinks = [numeric(kink.position)(point) for kink in sheet.geometry.slope.kinks]
     return not {*kinks} & {point[x], -point[a], point[c]}
 
 
-_SIZES = (1, 2, 4, 8, mpf("0.5"), mpf("0.25"), mpf("0.125"))
+_SIZES = [mpf(2) ** power for power in (0, 1, 2, 3, -1, -2, -3)]
 """Values of c that are tried for an example."""
 
-_PLACES = tuple(map(mpf, ("0.5", "0.375", "-0.25", "0.75", "0.1875")))
+_PLACES = [mpf(sixteenths) / 16 for sixteenths in (8, 6, -4, 12, 3)]
 """Values of x that are tried for an example."""
 
 _LONGER = mpf("1.5")
@@ -374,16 +363,16 @@ def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
     """Simple numbers that meet the assumptions of a function, for its docstring."""
     needed = tuple(conditions)
     given = [_plain_parameters(sheet, lengths) for lengths in (1, 2)]
-    tried = [(plain, place, size) for plain, place, size in product(given, _PLACES, _SIZES)]
-    tried += [(p, place, size) for p in given for size in _within(sheet, p) for place in _PLACES]
-    for (plain, place, size), lean in product(tried, (1, -1, 0)):
+    sized = [(plain, size) for plain in given for size in _SIZES]
+    sized += [(plain, size) for plain in given for size in _within(sheet, plain)]
+    for (plain, size), place, lean in product(sized, _PLACES, (1, -1, 0)):
         point: Point = {
             **plain,
             E_star: mpf(1),
             x: place,
             a: _LONGER * size,
-            c: mpf(1) * size,
-            P: mpf(size),
+            c: size,
+            P: size,
             M: mpf("0.25") * size * lean,
             alpha: mpf("0.03125") * lean or _middle_tilt(sheet, plain),
             dQ: mpf("0.25"),

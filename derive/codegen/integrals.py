@@ -7,7 +7,6 @@ Out: the text of the function; for its docstring, the integrals over g'' that
 Each corner, where g' jumps, adds a term in which the jump of g' takes the place of g'' dxi.
 """
 
-import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -61,13 +60,10 @@ class IntegratedText(FunctionText):
     def text(self) -> str:
         """The whole function, which passes its arguments on to the law of the body."""
         own = ", ".join(f"{q.name}={q.name}" for q in self.sheet.geometry.parameters)
-        material = (E_star,) * self.function.material
-        given = ", ".join(f"{s}={s}" for s in (*self.function.arguments, *material))
+        passed = (*self.function.arguments, *self.function.constants)
+        given = ", ".join(f"{s}={s}" for s in passed)
         asked = f"    asked = Asked(_BODY, {self.function.name}, dict({own}))"
-        docstring = textwrap.indent(self._docstring, " " * 4)
-        return "\n".join(
-            [self._signature, docstring, asked, f"    return integrated(asked, {given})"]
-        )
+        return f"{self._head}\n{asked}\n    return integrated(asked, {given})"
 
     @property
     def _equations(self) -> Iterator[str]:
@@ -76,7 +72,7 @@ class IntegratedText(FunctionText):
 
     @property
     def _origin(self) -> str:
-        return f"Derived from {self.source} and evaluated by quadrature."
+        return f"From {self.source}, evaluated by quadrature."
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,10 @@ NAMES = ("pressure", "state", "slope", "series", "breaks")
 _OF_SEVERAL = ("_state", "_slope", "_series", "_curve")
 """Functions that return several numbers."""
 
+PRESSURE = ("x, a, c", "Pressure at x for E* = 1.")
+STATE = ("a, c", "Load, moment, tilt and K_N for E* = 1.")
+"""Arguments of two functions, and what they return."""
+
 
 class LawText:
     """The text of the law of one body."""
@@ -38,56 +42,67 @@ class LawText:
     @property
     def text(self) -> str:
         """The whole text."""
-        own = ", ".join(f"own[{i}]" for i in range(len(self.names)))
-        return "\n".join([*self._formulas(own), *self._slope(), *self._breaks(), *self._body()])
+        return "\n".join([*self._functions(), *self._body()])
 
-    def _formulas(self, own: str) -> Iterator[str]:
-        """Code for pressure, state and series, which calls the public functions with scalars."""
-        yield from self._carried(own, "L_N")
+    def _functions(self) -> Iterator[str]:
+        """Code for all functions; they call the public functions with scalars."""
+        yield from self._carried("L_N")
         yield from self._series()
+        yield from self._slope()
+        kinks = self.sheet.frame.slope.kinks
+        places = [as_float(NumPyPrinter().doprint(kink.position)) for kink in kinks]
+        array = f"np.array([{', '.join(places)}])" if places else "np.empty(0)"
+        words = "Points at which the formula of the curve changes."
+        yield from self.function("_breaks", "", words, [f"    return {array}"])
 
-    def _carried(self, own: str, *more: str) -> Iterator[str]:
+    def function(
+        self, name: str, arguments: str, words: str, lines: Iterable[str]
+    ) -> Iterator[str]:
+        """One function of scalars, which takes from `own` the parameters that it uses."""
+        given = [*filter(None, arguments.split(", ")), "own"]
+        typed = ", ".join(f"{argument}: Array" for argument in given)
+        result = "tuple[Array, ...]" if name in _OF_SEVERAL else "Array"
+        yield f"def {name}({typed}) -> {result}:"
+        yield f'    """{words}"""'
+        lines = list(lines)
+        inside = set(re.findall(r"\w+", " ".join(lines)))
+        used = {name: f"own[{i}]" for i, name in enumerate(self.names) if name in inside}
+        if used:
+            yield f"    {', '.join(used)} = {', '.join(used.values())}"
+        yield from lines
+
+    def _carried(self, *more: str) -> Iterator[str]:
         """Code for pressure and state, and for the functions `more` with positional arguments."""
+        own = ", ".join(f"own[{i}]" for i in range(len(self.names)))
         yield "_load, _moment, _tilt = by_position(load), by_position(moment), by_position(tilt)"
         edges = ("K_N", *more)
         names = ", ".join(["_p", *(f"_{name}" for name in edges)])
         yield f"{names} = {', '.join(f'by_position({name})' for name in ('pressure', *edges))}"
-        yield from function_head("_pressure", "x, a, c", "Pressure at x for E* = 1.")
-        yield f"    return _p(x, a, c, 1.0, {own})"
-        yield from function_head("_state", "a, c", "Load, moment, tilt and K_N for E* = 1.")
-        yield f"    left, right = _K_N(a, c, 1.0, {own})"
-        yield f"    load, moment = _load(a, c, 1.0, {own}), _moment(a, c, 1.0, {own})"
-        yield f"    return load, moment, _tilt(a, c, {own}), left, right"
+        lines = [f"    return _p(x, a, c, 1.0, {own})"]
+        yield from self.function("_pressure", *PRESSURE, lines)
+        lines = [
+            f"    left, right = _K_N(a, c, 1.0, {own})",
+            f"    load, moment = _load(a, c, 1.0, {own}), _moment(a, c, 1.0, {own})",
+            f"    return load, moment, _tilt(a, c, {own}), left, right",
+        ]
+        yield from self.function("_state", *STATE, lines)
 
     def _series(self) -> Iterator[str]:
-        program = third_program(self.sheet)
+        sheet, program = self.sheet, third_program(self.sheet)
         printer = printer_of(program, {a, c})
-        steps = summed_steps if carried_by(self.sheet) is Route.PARTS else step_lines
-        given = ", ".join(self.names)
+        steps = summed_steps if carried_by(sheet) is Route.PARTS else step_lines
         third = {
-            local(self.sheet, f"third_{side}"): printer.doprint(value)
+            local(sheet, f"third_{side}"): printer.doprint(value)
             for side, value in program.outputs.items()
         }
+        lines = [
+            f"    second = _L_N(a, c, 1.0, {', '.join(self.names)})",
+            *steps(sheet, program, printer),
+            *(f"    {name} = {value}" for name, value in third.items()),
+            f"    return second.left, second.right, {', '.join(third)}",
+        ]
         words = "L_N and the coefficients of s**(5/2) for E* = 1."
-        yield from function_head("_series", "a, c", words)
-        yield from self._unpacked(
-            [
-                f"    second = _L_N(a, c, 1.0, {given})",
-                *steps(self.sheet, program, printer),
-                *(f"    {name} = {value}" for name, value in third.items()),
-                f"    return second.left, second.right, {', '.join(third)}",
-            ]
-        )
-
-    def _unpacked(self, text: Iterable[str]) -> Iterator[str]:
-        """The lines of a text, preceded by a line that assigns the parameters that it uses."""
-        lines = list(text)
-        words = set(re.findall(r"\w+", " ".join(lines)))
-        used = [(name, f"own[{i}]") for i, name in enumerate(self.names) if name in words]
-        if used:
-            names, values = zip(*used, strict=True)
-            yield f"    {', '.join(names)} = {', '.join(values)}"
-        yield from lines
+        yield from self.function("_series", "a, c", words, lines)
 
     def _slope(self) -> Iterator[str]:
         pieces = self.sheet.frame.slope.pieces
@@ -97,21 +112,14 @@ class LawText:
             cases[-1] = (cases[-1][0], S.true)
             values[local(self.sheet, name)] = as_float(printer.doprint(Piecewise(*cases)))
         lines = [f"    {name} = {value}" for name, value in values.items()]
-        yield from function_head("_slope", "x", "g'(x) and g''(x).")
-        yield from self._unpacked([*lines, f"    return {', '.join(values)}"])
-
-    def _breaks(self) -> Iterator[str]:
-        places = [kink.position for kink in self.sheet.frame.slope.kinks]
-        yield from function_head("_breaks", "", "Points at which the formula of the curve changes.")
-        printed = ", ".join(as_float(NumPyPrinter().doprint(place)) for place in places)
-        array = f"np.array([{printed}])" if places else "np.empty(0)"
-        yield from self._unpacked([f"    return {array}"])
+        lines.append(f"    return {', '.join(values)}")
+        yield from self.function("_slope", "x", "g'(x) and g''(x).", lines)
 
     def _body(self) -> Iterator[str]:
         yield "_BODY = Body("
         yield f"    dict({', '.join(f'{name}=_{name}' for name in NAMES)}),"
         yield f"    {self.source!r},"
-        yield f"    Example{example_values(self.sheet)},"
+        yield f"    Example{_example(self.sheet)},"
         for q in self.sheet.geometry.parameters:
             yield f"    Parameter({q.name!r}, {q.meaning!r}, {q.unit!r}),"
         if demands := " and ".join(map(str, self.sheet.geometry.slope.demands)):
@@ -124,16 +132,7 @@ def _shorter(polynomial: Expr) -> Expr:
     return min(factor(polynomial), expand(polynomial), key=count_ops)
 
 
-def function_head(name: str, arguments: str, words: str) -> Iterator[str]:
-    """The first lines of a function of scalars."""
-    given = f"{arguments}, own" if arguments else "own"
-    typed = ", ".join(f"{argument}: Array" for argument in given.split(", "))
-    result = "tuple[Array, ...]" if name in _OF_SEVERAL else "Array"
-    yield f"def {name}({typed}) -> {result}:"
-    yield f'    """{words}"""'
-
-
-def example_values(sheet: FormulaSheet) -> tuple[object, ...]:
+def _example(sheet: FormulaSheet) -> tuple[object, ...]:
     """The arguments of `Example` in runtime/body.py: a contact in simple numbers."""
     point: Point = example_of(sheet, sheet["load"].conditions)
     names = ("load", "moment", "tilt", "K_N_left", "K_N_right")

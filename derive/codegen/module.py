@@ -14,7 +14,7 @@ from ruff import find_ruff_bin
 
 from derive.codegen.contract import CONTRACT
 from derive.codegen.curve import CurveText
-from derive.codegen.function import LINE, FunctionText, inside_quotes
+from derive.codegen.function import LINE, OF_E_STAR, FunctionText, inside_quotes
 from derive.codegen.integrals import IntegratedText
 from derive.codegen.law import LawText
 from derive.codegen.mark import MARK
@@ -97,7 +97,7 @@ def _heading(sheet: FormulaSheet, source: str) -> str:
     origin = f"g(x) = {text_of(sheet.geometry.g)}, from {source}."
     paragraphs = [textwrap.fill(sheet.geometry.title, LINE - 4)]
     paragraphs.append(textwrap.fill(origin, LINE, subsequent_indent=" " * 4))
-    paragraphs.append(textwrap.fill(SHAPES, LINE))
+    paragraphs.append(textwrap.fill(f"{SHAPES}  E_star is the composite modulus{OF_E_STAR}.", LINE))
     if carried_by(sheet) is Route.PARTS:
         lines = [
             textwrap.fill(line, LINE, initial_indent=" " * 4, subsequent_indent=" " * 8)

@@ -126,7 +126,7 @@ class SummedText(FunctionText):
 
     @property
     def _origin(self) -> str:
-        return "For the symbols and the source, see the docstring of the module."
+        return "For symbols and source, see the module."
 
 
 def summed_steps(

@@ -89,7 +89,7 @@ def _demand_forward(
 def _demand_inverse(
     sheet: FormulaSheet, function: Function, module: ModuleType, points: list[Point]
 ) -> None:
-    """Demand that the loads of known contacts lead back to these contacts."""
+    """Check that the contacts computed from the loads of known contacts are these contacts."""
     forward = {P: "load", M: "moment", alpha: "tilt"}
     given = [
         {**point, **{s: numeric(sheet.flat(name))(point) for s, name in forward.items()}}

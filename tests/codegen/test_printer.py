@@ -57,7 +57,6 @@ from sympy import (
     lambdify,
     log,
     nan,
-    oo,
     pi,
     re,
     sec,
@@ -348,10 +347,6 @@ def test_conditions_in_words_are_joined() -> None:
     ):
         expr = Piecewise((1, condition), (0, True))
         assert computed(expr, (), True) == [float(v) for v in meant(expr)]
-
-
-def test_infinity_is_numpy_s() -> None:
-    assert [NumPyPrinter().doprint(expr) for expr in (oo, -oo)] == ["np.inf", "-np.inf"]
 
 
 def test_symbols_are_local_variables() -> None:

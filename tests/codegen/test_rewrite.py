@@ -36,7 +36,7 @@ SHARES = ("0.0625", "0.3125", "0.4375", "0.71875", "0.984375")
 """Places in a contact, as shares of its width."""
 PLACES = len(SHARES)
 
-REWRITTEN = ("hertz", "wedge", "unequal_wedge", "two_radii", "wedge_on_parabola")
+REWRITTEN = ("hertz", "wedge", "unequal_wedge")
 
 
 # ------------------------------------------------------------------ equal to the source
