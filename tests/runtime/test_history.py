@@ -732,7 +732,8 @@ def test_the_bar_shows_one_long_history(monkeypatch):
     P = np.tile([LOAD, 0.9 * LOAD], 100)
     history(hertz, P, 0.0, 0.1 * P, 0.0)
     exact, computed = bars
-    assert exact == [1.0]  # within the first look
+    assert exact[-1] == 1.0
+    assert all(0 <= done <= 1 for done in exact)
     assert len(computed) > 10 and computed[0] < 0.5 and np.all(np.diff(computed) >= -1e-12)
 
 

@@ -54,7 +54,7 @@ def _watch(tasks: list[Future[None]], finished: Any, progress: Any) -> None:
     for task in tasks:
         while not wait([task], timeout=EVERY).done:
             if bar is not None:
-                done = np.where(finished, 1.0, np.clip(-progress, 0.0, 1.0))
+                done = np.where(finished, 1.0, np.clip(np.nan_to_num(-progress), 0.0, 1.0))
                 bar.update(float(done.sum()) - bar.n)
         task.result()
     if bar is not None:
