@@ -109,7 +109,7 @@ def key_of(geometry: Path, origin: str, program: str) -> str | None:
     origin: the source of g(x) that the module states.
     """
     try:
-        if not geometry.is_file():  # reading a device may never end
+        if not geometry.is_file():  # a read from a device may never return
             return None
         source = geometry.read_bytes()
     except (OSError, ValueError):

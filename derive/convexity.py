@@ -423,7 +423,7 @@ class _Trial:
         return BadProfile(
             self.name,
             f"is convex only if {needed}, and no parameters were found that meet this condition",
-            "make it convex for all parameters, or for all parameters above a given number",
+            "make it convex for all parameter values, or for all values above a given number",
         )
 
     def _sets(self, demands: tuple[Boolean, ...]) -> Iterator[tuple[Values, list[Piece]]]:

@@ -7,7 +7,7 @@ from latex2mathml.converter import convert
 from markupsafe import Markup
 
 _ASTERISK, _OPERATOR = "<mo>&#x0002A;</mo>", "<mo>&#x02217;</mo>"
-"""The star of the keyboard, which fonts raise, and the star that TeX sets in a formula."""
+"""The ASCII asterisk, which fonts raise, and the asterisk operator, which TeX uses in a formula."""
 
 _SIGN = re.compile(r"((?:\[|&#x000(?:28|2C|3D|3C|3E);)</mo>)<mo>&#x02212;</mo>")
 _PREFIX = r'\1<mo form="prefix">&#x02212;</mo>'

@@ -43,8 +43,8 @@ def order(claim: Entries) -> float | None:
     """Return the order of the difference of both sides, if it is given."""
     given = claim.data.get("order")
     if given is not None and (type(given) not in (int, float) or "as" not in claim.data):
-        why = f"order = {given!r} is not a number, or as is missing"
-        raise claim.place.bad(why, "write order as a number, together with as")
+        why = f"`order` = {given!r} is not a number, or `as` is missing"
+        raise claim.place.bad(why, "give `order` as a number, together with `as`")
     return None if given is None else float(given)
 
 
@@ -69,7 +69,7 @@ def conditions(
     inside = bound - held
     kept = [each for each in found if each != true and not each.free_symbols & inside]
     if false in found:
-        remedy = "correct require, or the arguments of the formulas called"
+        remedy = "correct `require`, or the arguments of the formulas that are called"
         raise claim.place.bad("its conditions are never satisfied", remedy)
     return tuple(sorted(kept, key=str))
 

@@ -218,14 +218,14 @@ class ClaimReader:
             return None
         place = entries.place
         if not isinstance(left, Symbol):
-            why = "the left side is not a symbol, although through is given"
+            why = "`through` is given, but the left side is not a symbol"
             raise place.bad(why, "write the claim in the form symbol = ...")
         first, relation, second = equation(entries.text("through"), names)
         if relation != Relation.EQUAL or not (first.has(left) or second.has(left)):
-            why = f"through is not an equation that contains {left}"
+            why = f"`through` is not an equation that contains {left}"
             raise place.bad(why, "write one that is true if the claim is true")
         if any(call.has(left) for call in calls_in(first, second)):
-            why = f"through contains {left} as an argument of a formula of the body"
+            why = f"`through` contains {left} as an argument of one of the body's formulas"
             raise place.bad(why, f"use {left} only outside such calls")
         return first, second
 
@@ -235,7 +235,7 @@ class ClaimReader:
             return None
         tables = [entries.table(key) for key in ("allowed", "beyond")]
         if not all(tables):
-            why = "only one of allowed and beyond is given"
+            why = "only one of `allowed` and `beyond` is given"
             raise entries.place.bad(why, 'write both, as allowed = { sigma = "..." }')
         return Bound(*(self._changed(entries, table, put) for table in tables))
 
@@ -327,7 +327,7 @@ def _demand_one_parameter(stated: _Stated, held: set[Symbol]) -> None:
     for name in sorted(used & {*context.parameters, "E_star", "f"}):
         ours = meant.ours.get(Symbol(name))
         if ours is not None and context.variables.get(name) in held - ours.free_symbols:
-            why = f"{name} is {ours}, but formulas of the body hold {name} too"
+            why = f"{name} is defined as {ours}, but formulas of the body also contain {name}"
             raise stated.entries.place.bad(why, f"express the other symbols by {name} instead")
 
 

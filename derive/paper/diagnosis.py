@@ -54,7 +54,7 @@ class Quotient:
 
     @property
     def simple_factor(self) -> Expr | None:
-        """The ratio as an exact number, or None if it is no constant or not a simple one."""
+        """The ratio as an exact number, or None if it is not a simple constant."""
         return None if self.powers else simple(self.constant)
 
     @property

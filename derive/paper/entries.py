@@ -54,17 +54,17 @@ class Entries:
         return found
 
     def text(self, key: str) -> str:
-        """Return a text, which must be there."""
+        """Return a string; the entry must be present."""
         found = self.data.get(key)
         if not isinstance(found, str) or not found.strip():
             raise self.place.bad(f"there is no {key}", f'write {key} = "..."')
         return found
 
     def texts(self, key: str) -> tuple[str, ...]:
-        """Return a list of texts, which is empty if there is none."""
+        """Return a list of strings, or an empty list if the entry is missing."""
         found = self.data.get(key, [])
         if not isinstance(found, list) or not all(isinstance(each, str) for each in found):
-            raise self.place.bad(f"{key} is not a list of texts", f'write {key} = ["..."]')
+            raise self.place.bad(f"{key} is not a list of strings", f'write {key} = ["..."]')
         return tuple(found)
 
     def tables(self, key: str, example: str) -> list[dict[str, Any]]:
@@ -75,7 +75,7 @@ class Entries:
         return found
 
     def demand_known(self, known: frozenset[str]) -> None:
-        """Refuse keys that mean nothing here."""
+        """Reject unknown keys."""
         wrong = ", ".join(repr(key) for key in self.data if key not in known)
         if wrong:
             remedy = f"use one of {', '.join(sorted(known))}"

@@ -99,7 +99,7 @@ class Names:
 
 
 class UnknownName(BadFormula):
-    """A formula that holds an unknown name."""
+    """A formula that contains an unknown name."""
 
 
 class NoPole(BadFormula):
@@ -353,7 +353,7 @@ def rounded_in(text: str) -> list[re.Match[str]]:
 
 
 def may_be_rounded(text: str) -> bool:
-    """Whether a formula holds a number that may be rounded."""
+    """Whether a formula contains a number that may be rounded."""
     return bool(rounded_in(text))
 
 

@@ -45,7 +45,7 @@ def line_of(text: str, table: str, name: str) -> int | None:
 
 
 def with_lines(text: str, count: int, wanted: Mapping[int, str]) -> str | None:
-    """Set the entry `understood` of claims, which are given by their number from 1.
+    """Set the entry `understood` of claims, which are identified by their numbers, counted from 1.
 
     An existing line `understood = ...` is replaced.  Otherwise a new line is inserted before the
     blank lines and comments at the end of the claim.  The result is None if the claims cannot be

@@ -1,4 +1,4 @@
-"""Read the symbols of a claims file, and express them by variables.
+"""Read the symbols of a claims file, and express them in terms of the variables.
 
 In:   the tables [symbols] and [latex], and the variables.
 Out:  Meanings: the meaning of each symbol for a body and a claim, and the LaTeX of symbols.
@@ -66,7 +66,7 @@ class Meanings:
         place = Place(self._file.place.file, line_of(self._text, "symbols", name))
         demand_name(name, place)
         if type(said) not in (str, int, float, dict):
-            why = f"the value of the symbol {name!r} is not a text"
+            why = f"the value of the symbol {name!r} is not a string"
             raise place.bad(why, f'write {name} = "a formula"')
         if isinstance(said, dict):
             entries = Entries(place.inside(f"the symbol {name!r}"), said)

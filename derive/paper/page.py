@@ -135,7 +135,7 @@ def _is_plain(element: ElementTree.Element) -> bool:
 
 
 def _curves(finding: Finding) -> str:
-    """Plot both sides along one variable, if the claim fails and holds no integral."""
+    """Plot both sides along one variable if the claim fails and contains no integral."""
     claim, pairs = finding.claim, finding.judged.pairs
     if finding.verdict != Verdict.FAILS or not pairs or has_integral(claim):
         return ""

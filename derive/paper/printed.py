@@ -43,7 +43,7 @@ def printed(claim: Entries, names: Names, spellings: Mapping[str, str]) -> str:
     """Return the printed equation as text; raises NotAccepted."""
     given, place = claim.data, claim.place
     if ("printed" in given) == ("latex" in given):
-        raise place.bad("both or neither of printed and latex are given", "give exactly one")
+        raise place.bad("give exactly one of `printed` and `latex`", "give exactly one")
     if "printed" in given:
         return claim.text("printed")
     spelled = {**{n: n for n in names.symbols}, **_usual(names), **spellings}
@@ -95,8 +95,8 @@ def _part(claim: Entries) -> str:
         raise claim.place.bad(why, f"write a number from 1 to {len(found)}")
     printed = found[part - 1]
     if printed.condition and not claim.data.keys() & {"require", "as"}:
-        why = f"the display also says {printed.condition}, but neither require nor as is given"
-        raise claim.place.bad(why, "write the condition as require, or the limit as as")
+        why = f"the display also says {printed.condition}, but neither `require` nor `as` is given"
+        raise claim.place.bad(why, "give the condition in `require`, or the limit in `as`")
     return printed.latex
 
 

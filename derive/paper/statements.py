@@ -89,11 +89,11 @@ _PRINCIPAL = frozenset(("pv", "p.v", "p. v", "cpv"))
 _ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong"))
 _NEVER = {
     r"\propto": r"\propto does not give the factor: write the equation with it",
-    r"\to": r"\to is no equation: write it with \sim, or as text, limit(f, x, end) = ...",
-    r"\ll": r"\ll is no equation: write the limit of the other claims in `as`",
-    r"\gg": r"\gg is no equation: write the limit of the other claims in `as`",
+    r"\to": r"\to does not form an equation: write \sim, or as text, limit(f, x, end) = ...",
+    r"\ll": r"\ll does not form an equation: give the limit in `as` of the other claims",
+    r"\gg": r"\gg does not form an equation: give the limit in `as` of the other claims",
     r"\ne": r"\ne cannot be checked: write it as a condition of the other claims",
-    r"\in": r"\in is no equation: write it as a condition of the other claims",
+    r"\in": r"\in does not form an equation: add it as a condition to the other claims",
 }
 """Relations that are only understood in a condition, if at all, with the reason."""
 _ORDERED = frozenset(("<", ">", r"\le", r"\leq", r"\ge", r"\geq"))

@@ -54,7 +54,7 @@ class Approach:
         if not results:
             why = (
                 "too few points were found from which both sides stay real up to the limit: "
-                "restrict the variables with low, high and require"
+                "restrict the variables with `low`, `high` and `require`"
             )
             return Verdict.UNCHECKED, why
         if len({verdict for verdict, _ in results.values()}) == 1:

@@ -310,7 +310,7 @@ class _Judging:
         if self.claim.conditions:
             listed = " and ".join(map(str, self.claim.conditions))
             reasons.append(f"the points must satisfy {listed}")
-        return f"{', '.join(reasons)}: restrict the variables with low, high and require"
+        return f"{', '.join(reasons)}: restrict the variables with `low`, `high` and `require`"
 
     def _first_points(self) -> Iterator[Point]:
         """Yield points of moderate size, and more of them if a side was not a real number."""

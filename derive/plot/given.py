@@ -9,7 +9,7 @@ from derive.plot.measure import Array
 
 
 def demand_contact(name: str, state: Any) -> None:
-    """Demand a single Contact with finite edges; `name` is that of the argument."""
+    """Check that the argument called `name` is a single Contact with finite edges."""
     if not (hasattr(state, "a") and hasattr(state, "c")):
         raise ValueError(
             f"{name} is {state!r}, which is not a Contact; give a result of `contact`, such as "
@@ -29,7 +29,7 @@ def demand_contact(name: str, state: Any) -> None:
 
 
 def demand_contact_of(name: str, body: Any, state: Any, constants: dict[str, float]) -> None:
-    """Demand a Contact whose edges and tilt agree with this body and these constants."""
+    """Check that the edges and the tilt of a Contact agree with this body and these constants."""
     demand_contact(name, state)
     own = {key: value for key, value in constants.items() if key != "E_star"}
     tilt, stated = float(body.tilt(state.a, state.c, **own)), float(state.alpha)
@@ -53,7 +53,7 @@ def demand_contacts(states: Sequence[Any], labels: Sequence[str]) -> None:
             "[body.contact(P, M, ...)]"
         )
     if not len(states):
-        raise ValueError("states is empty; give a list of at least one Contact")
+        raise ValueError("`states` is empty; give a list of at least one Contact")
     for i, state in enumerate(states):
         demand_contact(f"states[{i}]", state)
     if labels and len(labels) != len(states):

@@ -180,7 +180,7 @@ def instants(
     x, count = np.asarray(x, dtype=float), np.size(history.a)
     if not len(at) or not all(-count <= i < count for i in at):
         raise ValueError(
-            f"at is {list(at)}; give at least one index from {-count} to {count - 1}, because "
+            f"`at` is {list(at)}; give at least one index from {-count} to {count - 1}, because "
             f"history has {count} instants"
         )
     if labels and len(labels) != len(at):

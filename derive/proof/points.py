@@ -97,7 +97,7 @@ def loads(sheet: FormulaSheet, formula: Formula) -> Iterator[Point]:
 
 
 def _tilt_between(low: mpf, high: mpf, rng: random.Random) -> mpf:
-    """A tilt at which a body closes if its slope g' ranges from `low` to `high`."""
+    """A tilt at which a contact exists if the body's slope g' ranges from `low` to `high`."""
     if mpmath.isinf(low) or mpmath.isinf(high):
         beyond = mpf(2) ** rng.uniform(-6, 1)
         return -low - beyond if mpmath.isinf(high) else beyond - high

@@ -43,7 +43,7 @@ FARTHEST = 6
 once its terms are negligible."""
 
 FINEST = 8
-"""The step of the rule is 1 at first and 2**-FINEST at last."""
+"""The step of the rule is 1 initially and is halved down to 2**-FINEST."""
 
 EPS = 2.0**-52
 
@@ -89,7 +89,7 @@ class Curve(NamedTuple):
 
 
 class Part(NamedTuple):
-    """The part of one piece inside a window of the contact, seen from in front or from behind.
+    """The part of one piece inside a window of the contact, as it is or mirrored.
 
     piece, sense   the piece's number; 1, or -1 if it is seen from behind
     length         [m]
@@ -382,7 +382,7 @@ def _is_smooth(curve: Any, i: int, own: Any) -> bool:
 
 @kernel(real(CURVE, real, real, vector, whole))
 def _second(curve: Any, a: float, c: float, own: Any, sense: int) -> float:
-    """The coefficient of s**(3/2) at the right edge, or at the left edge if seen from behind.
+    """The coefficient of s**(3/2) at the right edge, or at the left edge if the body is mirrored.
 
     It is (1/pi) times the finite part of int g'' k ds, k = r (3 + 2 r**2)/(6 h**(3/2)), with
     r = sqrt((a + s)/(c - s)).  Close to the edge g'' is integrated by parts, with

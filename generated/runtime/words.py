@@ -12,7 +12,7 @@ MEANINGS = {
     "dQ": "change of the shear load over the half-cycle that raises it [N/m]",
     "da": "how much further out the left edge is than at the other end of the half-cycle [m]",
     "dc": "how much further out the right edge is than at the other end [m]",
-    "dsigma": "change of the differential bulk tension over the same half-cycle [Pa]",
+    "dsigma": "change in the differential bulk tension over the same half-cycle [Pa]",
     "f": "coefficient of friction [-]",
     "first": "Contact at the start of the half-cycle that raises the shear load",
     "mixed": "whether to solve cycles in which slip reverses as well, to 1e-7 of the contact width",

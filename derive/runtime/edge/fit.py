@@ -374,7 +374,7 @@ def _chosen(
 ) -> _Chosen | None:
     """The values from the best stretch and degree, with one degree more.
 
-    known: number of data at the beginning that are not nodes.
+    known: number of leading data points that are not nodes.
     says: (coefficients, covariance, frame) -> values and their covariance, or None.
     """
     origin, length = places[known], float(places[-1] - places[known])

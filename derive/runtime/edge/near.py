@@ -1,4 +1,4 @@
-r"""Tractions, slip and work of friction next to an edge alone, by the series of zone.py.
+r"""Tractions, slip and frictional work next to a single edge, from the series of zone.py.
 
 With t = s - d the distance from the slip zone (derive/theory/edge.py)
 
@@ -134,7 +134,7 @@ def _scaled(edge: _Edge, factor: Any) -> _Edge:
 
 
 def _reversed(edge: _Edge) -> _Edge:
-    """The reverse half-cycle, seen from the contact where it ends."""
+    """The reverse half-cycle; lengths are measured from the edge at its end."""
     V, lag = edge.shear, edge.da
     V = (V[0] + V[1] / 2 * lag + 3 / 8 * V[2] * lag**2, V[1] + 3 / 2 * V[2] * lag, V[2])
     back: Any = tuple(-one for one in V)

@@ -218,9 +218,9 @@ def _before(now: Coefficients, n: dict[str, Any], move: Any) -> Coefficients:
 
 
 def shifted(pressure: Coefficients, move: Any) -> Coefficients:
-    """The coefficients of the contact, of an edge alone, whose edge is less far out by `move`.
+    """The coefficients at a single edge after it has receded by `move`.
 
-    K_N(b) = K_N + (3/2) L_N b + (15/8) N_N b**2 for an edge that is less far out by b.
+    K_N(b) = K_N + (3/2) L_N b + (15/8) N_N b**2 for an edge that has receded by b.
     """
     k_0, k_1, k_2 = (C / share for C, share in zip(pressure, GROWN, strict=True))
     moved = (k_0 + k_1 * move + k_2 * move**2, k_1 + 2 * k_2 * move, k_2)
@@ -267,7 +267,7 @@ def length(
 
 
 def _excess(d: Any, da: Any, holds: Any, drives: Any) -> Any:
-    """Friction less the drive, and its rate with d."""
+    """Frictional resistance minus the driving term, and its derivative with respect to d."""
     value, rate = -drives[0], 0.0
     for one, reach in zip(holds, (d, d - da), strict=True):
         for k, C in enumerate(one):
@@ -310,7 +310,7 @@ def _with_other(
     befores = [side for side in (then, other.then) if side is not None]
     most = min([most, *map(_terms, befores)])
     if moves and len(befores) < 2:
-        most = min(most, 2)  # at order 3 the pressure before does not follow from that now
+        most = min(most, 2)  # at order 3 the earlier pressure does not follow from the current one
     order = _demand_order(asked, most)
     given = _numbers(dict(K_N=K_N, L_N=L_N, N_N=N_N, K_T=K_T, da=da), dict(f=f, h=h), then)
     alias = _numbers(other._replace(then=None)._asdict(), {}, other.then)

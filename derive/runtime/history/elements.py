@@ -184,7 +184,7 @@ def inverse_of(A: Any) -> Any:
 def _expanded(law: Any, own: Any, a: float, c: float, count: int, series: Any) -> Any:
     """Compute `count` terms of the Chebyshev series of pressure over sqrt((a + x)(c - x)).
 
-    Returns the largest of the last three coefficients and the largest of all, in size.
+    Returns the largest magnitude among the last three coefficients, and among all.
     """
     tail, largest = 0.0, 0.0
     values = np.empty(count)

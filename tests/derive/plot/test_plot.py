@@ -135,7 +135,7 @@ SEVERAL = hertz.contact(np.array([P, 2 * P]), M, **STEEL)
     ("states", "labels", "told"),
     [
         (STATE, (), "give a list of results"),
-        ([], (), "states is empty; give a list of at least one Contact"),
+        ([], (), "`states` is empty; give a list of at least one Contact"),
         ([STATE, NO_CONTACT], (), r"states\[1\] has edges that are NaN"),
         ([SEVERAL], (), r"states\[0\] contains contacts in the shape \(2,\), but only one"),
         ([3.0], (), r"states\[0\] is 3.0, which is not a Contact; give a result of `contact`"),
