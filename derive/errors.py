@@ -173,7 +173,8 @@ _FREE = "the disk is full: free some space, then run the command again"
 
 
 def _is_full(why: str) -> bool:
-    """Whether the system refused to write because the disk, or the user's part of it, is full."""
+    """Whether the system refused to write because the disk is full or the user's quota is
+    exceeded."""
     codes = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
     return any(os.strerror(code) in why for code in codes)
 

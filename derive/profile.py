@@ -153,7 +153,8 @@ class Slope:
         return bounds if rises else (-oo, oo)  # SymPy's limits of powers can be wrong
 
     def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
-        """Limit of g' at an end; `otherwise`, which is no bound, if SymPy does not find it."""
+        """Limit of g' at an end; `otherwise`, which is not a bound, if SymPy cannot find the
+        limit."""
         try:
             slope = gently(simplify, with_surpluses(piece.slope, surpluses(self.demands)))
             found = limit(slope, x, end, side)
@@ -558,7 +559,8 @@ def _reach(piece: Piece, upper: bool) -> Expr:
 
 
 def _branch_points(profile: Expr) -> list[Expr]:
-    """Real and complex zeros of arguments of log, and of bases without a natural exponent."""
+    """Real and complex zeros of the arguments of log, of 1 + z**2 for atan(z), and of the bases of
+    powers whose exponent is not a natural number."""
     bases = {p.base for p in profile.atoms(Pow) if p.base.has(x) and not _is_natural(p.exp)}
     bases |= {p.args[0] for p in profile.atoms(log) if p.args[0].has(x)}
     bases |= {1 + p.args[0] ** 2 for p in profile.atoms(atan) if p.args[0].has(x)}

@@ -1,8 +1,8 @@
 """Represent a claim, which is one printed equation or one statement in words, as data.
 
 Both sides of a claim are written in the symbols of the source.  `meaning` expresses each of these
-symbols by our variables: as a formula of a sheet, an integral, a root of the conditions of stick,
-or another symbol.  A change of sign is an ordinary entry of this mapping, such as `M: -M`.
+symbols in terms of our variables: as a formula of a sheet, an integral, a root of the conditions of
+stick, or another symbol.  A change of sign is an ordinary entry of this mapping, such as `M: -M`.
 """
 
 import re

@@ -320,7 +320,7 @@ def _demand_bound(entries: Entries, left: Expr, right: Expr, meaning: Meaning) -
 
 
 def _demand_one_parameter(stated: _Stated, held: set[Symbol]) -> None:
-    """Refuse a parameter of the body with a meaning if formulas of the body hold it, too."""
+    """Reject a meaning for a parameter of the body that formulas of the body also contain."""
     context, meant = stated.context, stated.meant
     used = {symbol.name for symbol in free(stated.left, stated.right)}
     used = used.union(*(meant.needs.get(name, ()) for name in used))
@@ -328,7 +328,7 @@ def _demand_one_parameter(stated: _Stated, held: set[Symbol]) -> None:
         ours = meant.ours.get(Symbol(name))
         if ours is not None and context.variables.get(name) in held - ours.free_symbols:
             why = f"{name} is defined as {ours}, but formulas of the body also contain {name}"
-            raise stated.entries.place.bad(why, f"express the other symbols by {name} instead")
+            raise stated.entries.place.bad(why, f"use {name} in the other symbols instead")
 
 
 def _variables(left: Expr, right: Expr, meaning: Meaning) -> set[Symbol]:

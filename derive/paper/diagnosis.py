@@ -188,7 +188,7 @@ class _Form:
 
 
 def simple(constant: Value, digits: int = _NAMED) -> Expr | None:
-    """Return the simple exact number that a constant is to so many digits, or None."""
+    """Return the simple exact number with which a constant agrees to `digits` digits, or None."""
     form = _form(constant, _SIMPLE, digits)
     if form is None:
         return None
@@ -229,7 +229,7 @@ def where_true(claim: Claim, is_true: Callable[[Point], bool | None]) -> str:
         return ""
     share = f"true at {len(true)} of {len(true) + len(false)} points"
     where = _comparison(claim, true, false)
-    return f"{share}: wherever {where} (write it as require if it is meant)" if where else share
+    return f"{share}: wherever {where} (if this is meant, put it in `require`)" if where else share
 
 
 def _comparison(claim: Claim, true: list[Point], false: list[Point]) -> str:

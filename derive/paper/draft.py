@@ -344,7 +344,7 @@ def _conditions(
     require, limit = " and ".join(told), "".join(limits[:1])
     small = spelled.get(statement.small, statement.small)
     if len(limits) > 1:
-        return require, "", f"it holds in several limits, {', '.join(limits)}: write one as `as`"
+        return require, "", f"it holds in several limits, {', '.join(limits)}: put one in `as`"
     if statement.order and limit != f"{small} -> 0":
         return require, "", f"its remainder is small with {small}, but its limit is {limit}"
     return require, limit, ""

@@ -83,7 +83,8 @@ class Meanings:
             del self.symbols[name]  # it is that variable
 
     def _read_spellings(self) -> dict[str, str]:
-        """Return [latex]; its names are declared in the file, or bound in the claims."""
+        """Return the entries of [latex], whose names must be declared in the file or bound in a
+        claim."""
         found = self._file.table("latex")
         for spelling, name in found.items():
             if not isinstance(name, str) or not usable(name):

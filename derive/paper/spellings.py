@@ -147,7 +147,8 @@ def proposal(name: str, words: str = "", text: str = "") -> Proposal:
 
 
 def _speaks_of(needed: str, name: str, text: str) -> bool:
-    """Whether the text holds these words, for a letter near one of its occurrences."""
+    """Whether the text contains these words; for a single letter, whether it contains them near one
+    of its occurrences."""
     letter = name if len(name) == 1 else rf"\\{name}"
     if not (len(name) == 1 or rf"\{name}" in GREEK):
         return bool(re.search(needed, text, re.IGNORECASE))

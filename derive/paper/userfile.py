@@ -8,11 +8,11 @@ Out:  the Paper with all claims, and the readings that wait for the user.
     body = "hertz"                    # its formulas may be called, such as load(a, c);
     # body = { g = "x**2/(2*R)", units = { R = "m" } }    or another body, or a geometry file
 
-    [variables]                       # drawn at random; all else is expressed by them
+    [variables]                       # drawn at random; all else depends on them
     l = "half-width"                  # positive
     mu = { meaning = "x/l", low = -0.9, high = 0.9, unit = "-" }
 
-    [symbols]                         # meanings of the source's symbols, also by each other
+    [symbols]                         # the source's symbols, which may refer to each other
     P = "load(l, l)"
     p_0 = { is = "2*P/(pi*l)", meaning = "largest pressure", unit = "Pa" }
 

@@ -74,7 +74,8 @@ def demand_numbers(**given: Array) -> None:
 
 
 def demand_signs(dQ: float, f: float) -> None:
-    """Demand a half-cycle that does not lower the shear load, and a positive friction."""
+    """Check that the half-cycle does not lower the shear load and that the coefficient of friction
+    is positive."""
     if dQ < 0:
         raise ValueError(
             f"dQ is {dQ:g}, but only a half-cycle that raises the shear load can be drawn; "

@@ -252,7 +252,8 @@ def over_contact(over: Integral) -> Callable[[Point], mpf]:
 def _compiled(symbols: list[Symbol], expr: Expr, shared: bool) -> Callable[..., mpf]:
     """`expr` in mpmath; with `shared`, repeated subexpressions are computed once.
 
-    This is not done for branches, because one that is not taken may have no value.
+    This is not done for expressions with branches, because a branch that is not taken may be
+    undefined.
     """
     once = shared and not expr.has(Piecewise)
     return compiled(symbols, expr, modules="mpmath", shared=once)

@@ -257,7 +257,8 @@ def _newton(law: Any, own: Any, breaks: Any, target: Any, a: float, c: float) ->
             return a + by_a, c + by_c
         part, better = 1.0, False
         while part > FINEST and not better:
-            # first from the last breaks, then from the place, so that an edge can pass a break
+            # measure the step first from the nearest breaks inside the edges, then from the
+            # reference point, so that an edge can cross a break
             for starts in ((from_a, from_c), (-target.place, target.place)):
                 next_a = _moved(a, starts[0], part * by_a)
                 next_c = _moved(c, starts[1], part * by_c)

@@ -30,7 +30,8 @@ else:
     COMPILED = not numba.config.DISABLE_JIT
 
 PATIENCE = 0.7
-"""Seconds after which the user is told of a compilation; loading from disk takes a hundredth."""
+"""Seconds after which the user is told that kernels are being compiled; loading them from disk
+takes about a hundredth of the compilation time."""
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 

@@ -13,5 +13,6 @@
     options      NAME=TEXT                   the text given for each parameter
     target       text of a file, a path      the file, written completely or not at all
 
-If a text is refused, the message shows it with a caret under the mistake: `derive.errors.BadText`.
+If a formula is rejected, the message (`derive.errors.BadText`) shows it with a caret under the
+error.
 """

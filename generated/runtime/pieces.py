@@ -15,8 +15,8 @@ contact lies.  The contact is cut at the body's breaks, and for the pressure als
 part the nodes of the double exponential rule crowd towards both ends, and every distance from an
 end is a product, not a difference.  The step is halved until two sums agree.
 
-Formulas that are alike on both sides of a contact are written once: for the other side the body is
-seen from behind.
+Formulas that have the same form on both sides of a contact are written once: for the other side the
+body is mirrored.
 """
 
 import math

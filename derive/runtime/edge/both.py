@@ -11,7 +11,8 @@ from ..types import Array
 def each_pair(given: Array, order: Array, out: Array) -> None:
     """Slip zone of the first edge, for rows of h, f, both K_T, both moves, and the pressures.
 
-    The pressures are those of the first edge and of the other one now, then those before.
+    The current pressures at the first and at the other edge come first, followed by those at the
+    other end of the half-cycle.
     """
     for i in range(given.shape[0]):
         row = given[i]

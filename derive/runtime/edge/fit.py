@@ -12,9 +12,9 @@ The stretch and the degree are those that minimise
 
     misfit**2 + 2 (coefficients + nodes left out)
 
-(Akaike's criterion, in which a node left out counts as one more parameter).  The result is that of
-one degree more on the same stretch.  Its error combines the scatter with the change due to this
-degree, as an estimate of the next term.
+(Akaike's criterion, in which a node left out counts as one more parameter).  The result comes from
+a fit of one degree higher over the same nodes.  Its error combines the scatter with the change due
+to this degree, as an estimate of the next term.
 """
 
 import math
@@ -52,9 +52,9 @@ AWAY = 1.5
 """Largest distance, in elements, of an edge from that middle."""
 
 LEAST = 12
-"""Least number of nodes between an edge and the middle of the contact, or the largest pressure,
-that leaves a choice of stretches.  With fewer nodes, errors that are small by chance are
-misleading."""
+"""Smallest number of nodes between an edge and the middle of the contact, or the largest pressure,
+for which there are several ranges of nodes to choose from.  With fewer nodes, errors that are small
+by chance are misleading."""
 
 POOR = 0.075
 """Relative error of K above which a warning is given: half of all draws of a normal distribution

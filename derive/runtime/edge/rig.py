@@ -1,7 +1,7 @@
 r"""Loads of a body whose edge then matches the edge of another contact: a rig for a prototype.
 
-To the first order, slip next to an edge depends only on K_N, K_T, f and the move of the edge.  The
-contact of a body under P and M has two free numbers, a and c, so that a rig can match
+To first order, slip next to an edge depends only on K_N, K_T, f and the displacement of the edge.
+The contact of a body under P and M has two free numbers, a and c, so that a rig can match
 
     one edge     K_N by the width, at M = 0; the move by dP, at dM = 0; K_T by dQ; if requested, L_T
                  by dQ and dsigma together, and L_N by a free parameter of the body
@@ -107,7 +107,7 @@ def match(
     free: str | None = None,
     **parameters: float,
 ) -> Rig:
-    """Loads of a body that give its edge the K_N, K_T and move of another contact's edge.
+    """Loads of a body whose edge has the K_N, K_T and displacement of another contact's edge.
 
         K_N(a, c) = K_N;  a - a_1 = da;  K_T(a, c, dQ, dsigma) = K_T
 
@@ -434,7 +434,7 @@ def _impossible(body: _Body, requested: Mapping[str, Edge], found: Any) -> str:
 def _before(
     body: _Body, now: Contact, own: Mapping[str, float], requested: Mapping[str, Edge]
 ) -> Contact:
-    """The contact at the start of the half-cycle, whose edges are less far out by their moves."""
+    """The contact at the start of the half-cycle, with edges further in by their displacements."""
     moves = {side: one.da for side, one in requested.items()}
     if not any(moves.values()):
         return now
@@ -456,7 +456,7 @@ def _before(
 def _beside(
     body: _Body, now: Contact, own: Mapping[str, float], side: str, move: float
 ) -> tuple[float, float]:
-    """Edges of the contact without a moment whose edge on one side is less far out by `move`."""
+    """Edges of the contact without a moment whose edge on one side lies further in by `move`."""
     h, near = now.a + now.c, (now.a if side == "left" else now.c) - move
 
     def edges(u: Any) -> tuple[Any, Any]:
@@ -551,7 +551,8 @@ def _next_order(requested: Edge | None, actual: Edge, f: float) -> float:
 def _warning(regime: Regime, d: Edges, h: float, dQ: float, limit: float, sides: list[str]) -> str:
     """Reasons against the loads."""
     warning = {
-        Regime.SLIDING: f"the rig slides: dQ = {dQ:.6g} N/m reaches f (P_1 + P_2) = {limit:.6g}",
+        Regime.SLIDING: f"the contact of the rig slides: dQ = {dQ:.6g} N/m is not below "
+        f"f (P_1 + P_2) = {limit:.6g} N/m",
         Regime.FULL_STICK: "nothing slips",
         Regime.MIXED: "slip reverses within a half-cycle, or an edge sticks: the slip zone is not "
         "exact",

@@ -1,4 +1,5 @@
-r"""The shear within the friction bound that is nearest to a trial: the convex problem of a step.
+r"""The shear traction within the friction limits that is nearest to a trial: the convex problem of
+a load step.
 
 `trial` is the shear traction that the step would give under full stick.  The solution minimises
 (q - trial)^T A (q - trial)/2 over all q with |q| <= bound and sum w q = Q.  With e = q - trial and

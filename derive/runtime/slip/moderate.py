@@ -31,7 +31,8 @@ def patch(law: Any, own: Any, path: Any, one: int, other: int, part: float, cycl
 
 @kernel(results(3)(LAW, vector, real, real, real))
 def _keeping(law: Any, own: Any, edge: float, width: float, side: float) -> Any:
-    """Load, its rate with the width, and tilt of a contact whose left or right edge is kept."""
+    """Load, its derivative with respect to the width, and tilt of a contact whose left or right
+    edge is fixed."""
     a, c = (edge, width - edge) if side < 0 else (width - edge, edge)
     load, _, tilt, K_left, K_right = law.state(a, c, own)
     if not load > 0:

@@ -99,7 +99,8 @@ class _Half(NamedTuple):
 
 
 def _half(edge: _Edge, share: Any = 1.0) -> _Half:
-    """The half-cycle, or a share of it from its start; lengths are seen from the contact then."""
+    """The half-cycle, or the first part of it; lengths are measured from the edge at the end of
+    that part."""
     now = shifted(edge.now, (1 - share) * edge.da)
     before = shifted(edge.now, edge.da)
     moved, lag = share * edge.da, (1 - share) * edge.da

@@ -212,7 +212,8 @@ def _numbers(given: dict[str, Any], positive: dict[str, Any], then: Any = None) 
 
 
 def _before(now: Coefficients, n: dict[str, Any], move: Any) -> Coefficients:
-    """The pressure at the other end of the half-cycle: as given, or as derived from that now."""
+    """The pressure at the other end of the half-cycle: as given, or derived from the current
+    pressure."""
     if "then.K_N" in n:
         return n["then.K_N"], n.get("then.L_N", 0.0), n.get("then.N_N", 0.0)
     return shifted(now, move)
@@ -237,7 +238,8 @@ def length(
     order: int,
     h: Any = np.inf,
 ) -> Any:
-    """The slip zone of an edge alone to an order, seen from the contact now.
+    """The slip zone at a single edge, to the given order, measured from the current position of the
+    edge.
 
     Newton's method starts from the shortest possible slip zone, where friction is too small.
     """
@@ -334,7 +336,8 @@ def _with_other(
 
 
 def _rows(n: dict[str, Any]) -> list[Any]:
-    """h, f, K_T and the moves of both edges; pressures of both edges now, and of both before."""
+    """h, f, K_T and the displacements of both edges; the current pressures at both edges, and those
+    at the other end of the half-cycle."""
     theirs = {name.removeprefix("other."): v for name, v in n.items() if name.startswith("other.")}
     h, sides = n["h"], (n, theirs)
     now = [(s["K_N"], s.get("L_N", 0.0), s.get("N_N", 0.0)) for s in sides]

@@ -288,8 +288,8 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
 def _extrapolated(ends: Any, total_slip: Any, coarse_ends: Any, coarse_slip: Any) -> Any:
     """The total slip on a mesh, less what it still falls by from a mesh of half the elements.
 
-    Where the surfaces stick close to friction, as at a high mean shear load, elements slip a little
-    on every mesh, by less and less on finer ones.
+    Where the surfaces stick close to the friction limit, as under a high mean shear load, elements
+    slip a little on every mesh, but less as the mesh is refined.
     """
     x, coarse_x = (ends[1:] + ends[:-1]) / 2, (coarse_ends[1:] + coarse_ends[:-1]) / 2
     coarse = np.interp(x, coarse_x, coarse_slip)

@@ -68,10 +68,10 @@ CLOSE = 4 * EPS
 
 
 class Gain(NamedTuple):
-    """Shear gained since a point stuck again.
+    """Shear traction gained since a point began to stick again.
 
     table  the gain as a function of position
-    rubs   1 if the points beyond the table are at friction, so that the gain is all of r; else 0
+    rubs   1 if the points beyond the table are at the friction limit, where the gain is r; else 0
     """
 
     table: Any
@@ -300,7 +300,7 @@ def _integrals(zone: Any, stuck: float) -> Any:
 
 @kernel(results(4)(SLIP))
 def sums(slip: Any) -> Any:
-    """L and R, and twice the rates of L with m and of R with n, without the terms of F."""
+    """L and R, and twice the derivatives dL/dm and dR/dn, without the terms in F."""
     stuck = slip.m + slip.n
     near_left, far_left, C_left, D_left = _integrals(slip.left, stuck)
     near_right, far_right, C_right, D_right = _integrals(slip.right, stuck)

@@ -9,11 +9,11 @@ and let h_s be the width of the zone that still sticks.  Slip grows at the edges
     advance = dP -/+ 4 h_s (dM + mid dP)/h**2,
 
 with the upper sign at the right edge, as long as the zone ends inside both contacts.  `advance`
-measures how fast an edge advances.  Shear that has not slipped yet, and has been at friction since
-the last half-cycle, must stay within friction while the pressure falls: kappa dq > f (p1 - p).
-Under moderate tension it does, since p exceeds the pressure of a contact inside its own; under
-large tension it is tested.  The test is made at PARTS points of the path, from both ends, and with
-`advance` at the start.
+measures how fast an edge advances.  At points that have not slipped yet, but have been at the
+friction limit since the last half-cycle, the shear traction must stay within the falling friction
+limit: kappa dq > f (p1 - p).  Under moderate tension it does, since p exceeds the pressure of a
+contact inside its own; under large tension it is tested.  The test is made at PARTS points of the
+path, from both ends, and with `advance` at the start.
 
 Along the path the shear traction grows at the rate
 
@@ -100,9 +100,9 @@ def sticks_all_over(path: Any, cycle: Any) -> Any:
 
     An edge whose motion reverses on the way, advance = 0, cannot bear any shear at that point.  The
     rates of shear and of pressure, times w, vary linearly between their values at the edges.  If
-    the pressure rises at both edges, or falls at both, friction that holds at the edges holds
-    everywhere.  Otherwise the pressure is stationary at some point while the shear changes, and the
-    edges decide nothing, unless there is no shear.
+    the pressure rises at both edges, or falls at both, the friction limit is met everywhere if it
+    is met at the edges.  Otherwise the pressure is stationary at some point while the shear
+    changes, and the edges decide nothing, unless there is no shear.
     """
     dQ, dsigma, f = cycle[4], cycle[5], cycle[6]
     if dQ == 0 and dsigma == 0:
@@ -165,7 +165,8 @@ def mirrored(path: Any) -> Any:
 
 @kernel(truth(matrix, vector, real, real))
 def holds_at_the_start(path: Any, cycle: Any, m: float, n: float) -> Any:
-    """Whether shear that has not slipped yet stays within friction, from either end.
+    """Whether the shear traction stays within the friction limit at points that have not slipped
+    yet, starting from either end.
 
     The changes of shear in full stick and of pressure, times w, are both linear in x.  Shear
     therefore stays within friction all over a future slip zone if it does at the inner end, -m or

@@ -69,7 +69,7 @@ def _limits_under_large_tension(
 
 @kernel(real(LAW, vector, matrix, real))
 def _limit_at_constant_shear(law: Any, own: Any, path: Any, f: float) -> float:
-    """The highest |Q| that friction holds at all contacts of a path."""
+    """The highest |Q| that friction can carry at all contacts of a path."""
     last, highest = path.shape[0] - 1, 0.0
     for i in range(POINTS):
         x, weight = _point(path[0], path[last], (i + 0.5) / POINTS)

@@ -26,10 +26,10 @@ the reversed slip on the right therefore leaves 2 f p less the gain, the shear g
 point stuck again; the gain is 2 f p where phase 3 brought the point to friction.  The gain is found
 by iteration, in tables of more and more terms, until m and n converge.
 
-Shear must not be driven further where it has been at friction since the last half-cycle: on the
-left, and on the right where nothing was gained.  In phase 1 its rate changes sign at mid + H/2,
-where mid is the middle of the current stick zone.  This point is n when the phase ends, and lies in
-neither of these regions when the phase begins.
+The shear traction must not be driven further where it has been at the friction limit since the last
+half-cycle: on the left, and on the right where nothing was gained.  In phase 1 its rate changes
+sign at mid + H/2, where mid is the middle of the current stick zone.  This point is n when the
+phase ends, and lies in neither of these regions when the phase begins.
 
 In phases 1 and 3 slip grows as bounded.py describes; in phase 3 the gain is subtracted.
 """
@@ -425,7 +425,8 @@ def _half_cycle(of: Any, middle: float, begun: Any, count: int) -> Any:
 
 @kernel(truth(FRICTION, STATE))
 def _is_sound(of: Any, state: Any) -> bool:
-    """Whether shear stays within friction where points stick again, and is not driven on."""
+    """Whether the shear traction stays within the friction limit where points stick again, and is
+    not driven further where it is at that limit."""
     table, count, most, excess = state.gain.table, len(state.gain.table.terms), 0.0, 0.0
     places = np.array([table_place(state.n, table.end, 0.0, i, count) for i in range(count)])
     twice = friction_limits(of, places)
