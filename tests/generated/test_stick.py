@@ -1,6 +1,7 @@
 """The stick zone: both conditions in 25 digits, other solutions, regimes and their borders."""
 
 import importlib
+from collections.abc import Iterator
 from functools import partial
 from types import ModuleType
 from typing import Any
@@ -117,59 +118,48 @@ def test_moderate_tension_meets_both_conditions(name: str) -> None:
         assert max(map(abs, whole.residuals(m, n))) < mpf(10) ** -25 * shear
 
 
-@pytest.mark.enough("hertz-first0*", "wedge-first3*", "unequal_wedge-*")
+def missed(whole: Cycle, m: mpf, n: mpf) -> Any:
+    """How far both ends lie off those that meet the conditions: Newton's step."""
+    step = mpf(10) ** -9
+    here, by_m, by_n = (whole.residuals(m + i, n + k) for i, k in ((0, 0), (step, 0), (0, step)))
+    rates = [[(v - u) / step for v in row] for u, *row in zip(here, by_m, by_n, strict=True)]
+    return mpmath.lu_solve(mpmath.matrix(rates), mpmath.matrix(here))
+
+
+@pytest.mark.enough("hertz-edges0*", "wedge-edges3*", "unequal_wedge-*", "wedge-edges11-*")
 @pytest.mark.parametrize(
-    ("name", "first", "second", "tension"),
+    ("name", "edges", "part", "tension"),
     [
-        ("hertz", (1.5, 1.25), (1.5, 1.25), 1.5),
-        ("hertz", FIRST, SECOND, -2.5),
-        ("wedge", (1.5, 1.25), (1.5, 1.25), 1.75),
-        ("wedge", (2.0, 0.75), (2.0, 0.75), -3.0),
-        ("wedge", FIRST, SECOND, 2.5),
-        ("unequal_wedge", (1.0, 1.5), (1.0, 1.5), 2.0),
-        ("quartic", FIRST, SECOND, 2.0),
-        ("wedge_parabola", (1.0, 1.25), (1.0, 1.25), 2.0),
-        ("flat_rounded", (0.505, 0.5075), (0.505, 0.5075), 2.0),
-        ("rounded_wedge", (0.50001, 1.25), (0.50001, 1.25), -1.75),
+        ("hertz", [(1.5, 1.25)] * 2, 0.25, 1.5),
+        ("hertz", [FIRST, SECOND], 0.25, -2.5),
+        ("wedge", [(1.5, 1.25)] * 2, 0.25, 1.75),
+        ("wedge", [(2.0, 0.75)] * 2, 0.25, -3.0),
+        ("wedge", [FIRST, SECOND], 0.25, 2.5),
+        ("unequal_wedge", [(1.0, 1.5)] * 2, 0.25, 2.0),
+        ("quartic", [FIRST, SECOND], 0.25, 2.0),
+        ("wedge_parabola", [(1.0, 1.25)] * 2, 0.25, 2.0),
+        ("flat_rounded", [(0.505, 0.5075)] * 2, 0.25, 2.0),
+        ("rounded_wedge", [(0.50001, 1.25)] * 2, 0.25, -1.75),
+        # one end within a hundredth of the width of the apex: once called MIXED
+        ("wedge", [(2.615, 0.34)] * 2, 0.6584, -1.257),
+        ("wedge", [(0.0772, 0.278)] * 2, 0.673, 1.8335),
+        ("wedge", [(6.22, 2.51)] * 2, 0.74, -1.775),
     ],
 )
-def test_large_tension_against_another_solution(
-    name: str, first: tuple[float, float], second: tuple[float, float], tension: float
+def test_large_tension_meets_both_conditions(
+    name: str, edges: list[tuple[float, float]], part: float, tension: float
 ) -> None:
-    """`tension` in parts of 8 dQ/(pi h): the threshold of constant loads."""
+    """`part` of 2 f P; `tension` in parts of 8 dQ/(pi h), the threshold of constant loads."""
+    shear = part * F * sum(loads(name, *edges))
+    dsigma = tension * 8 * shear / (np.pi * sum(edges[0]))
+    ends = (Contact(*each, 0.0) for each in edges)
+    zone = module(name).stick_zone(*ends, shear, dsigma, f=F, **law(name))
+    assert zone.regime == Regime.LARGE
+    assert (min(zone.m, zone.n) < 0.01 * sum(edges[0])) == (part > 0.5)
+    sense, bound = (1 if tension > 0 else -1), 1e-11 if part > 0.5 else 1e-12
     with mpmath.workdps(24):
-        shear = 0.25 * F * sum(loads(name, first, second))
-        dsigma = tension * 8 * shear / (np.pi * sum(first))
-        zone = module(name).stick_zone(
-            Contact(*first, 0.0), Contact(*second, 0.0), shear, dsigma, f=F, **law(name)
-        )
-        assert zone.regime == Regime.LARGE
-        sense = 1 if tension > 0 else -1
-        whole = cycle(name, first, second, shear, dsigma, (sense, -sense))
-        m, n = whole.solution(zone.m + 1e-3, zone.n - 1e-3)
-        assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("a", "c", "part", "ratio"),
-    [(2.615, 0.34, 0.6584, -1.257), (0.0772, 0.278, 0.673, 1.8335), (6.22, 2.51, 0.74, -1.775)],
-)
-def test_a_stick_zone_that_all_but_leaves_the_apex(
-    a: float, c: float, part: float, ratio: float
-) -> None:
-    """One end comes within a hundredth of the width to the apex, where pressure is infinite: cycles
-    that a coarser premise called MIXED.  part: of 2 f P; ratio: of 8 dQ/(pi h)."""
-    with mpmath.workdps(24):
-        shear = part * F * sum(loads("wedge", (a, c), (a, c)))
-        dsigma = ratio * 8 * shear / (np.pi * (a + c))
-        here = Contact(a, c, 0.0)
-        zone = wedge.stick_zone(here, here, shear, dsigma, f=F, **law("wedge"))
-        assert zone.regime == Regime.LARGE
-        assert min(zone.m, zone.n) < 0.01 * (a + c)
-        sense = 1 if ratio > 0 else -1
-        whole = cycle("wedge", (a, c), (a, c), shear, dsigma, (sense, -sense))
-        m, n = whole.solution(zone.m + 1e-4, zone.n - 1e-4)
-        assert_allclose((zone.m, zone.n), (float(m), float(n)), rtol=1e-11)
+        off = missed(cycle(name, *edges, shear, dsigma, (sense, -sense)), mpf(zone.m), mpf(zone.n))
+        assert abs(off[0]) < bound * abs(zone.m) and abs(off[1]) < bound * abs(zone.n)
 
 
 # ---------------------------------------------------------------------- regimes
@@ -180,20 +170,14 @@ def steady(body: ModuleType, a: Any, c: Any, shear: Any, tension: Any, **own: fl
     return body.stick_zone(here, here, shear, tension, f=F, E_star=E_STAR, **own)  # type: ignore[no-any-return]
 
 
-def random_cycles(count: int, seed: int) -> tuple[Any, ...]:
-    """Contacts of the wedge, dQ in parts of 2 f P, dsigma in parts of 8 dQ/(pi h)."""
-    rng = np.random.default_rng(seed)
-    a, c = np.exp(rng.normal(size=(2, count)))
-    part = rng.uniform(0.001, 0.999, count)
-    tension = rng.choice([-1, 1], count) * np.exp(rng.uniform(-2, 2, count))
-    shear = 2 * F * wedge.load(a, c, E_star=E_STAR, phi=0.25) * part
-    return a, c, shear, tension * 8 * shear / (np.pi * (a + c)), tension
-
-
 def test_regimes_of_constant_loads_follow_the_signs_of_K_T() -> None:
     """Random cycles: moderate if both K_T are positive; large if the right one, of the zone that is
     still stuck in the end, has the opposite sign; mixed between; all are solved."""
-    a, c, shear, tension, ratio = random_cycles(20_000, 1)
+    rng = np.random.default_rng(1)
+    a, c = np.exp(rng.normal(size=(2, 5000)))
+    ratio = rng.choice([-1, 1], 5000) * np.exp(rng.uniform(-2, 2, 5000))
+    shear = 2 * F * wedge.load(a, c, E_star=E_STAR, phi=0.25) * rng.uniform(0.001, 0.999, 5000)
+    tension = ratio * 8 * shear / (np.pi * (a + c))
     m, n, regime = steady(wedge, a, c, shear, tension, phi=0.25)
     K_T = wedge.K_T(a, c, shear, tension)
     forward = (K_T.left >= 0) & (K_T.right >= 0)
@@ -221,32 +205,55 @@ def one_cycle(
     return shear, pull * 8 * shear / (np.pi * (a + c))
 
 
-@settings(max_examples=15)
+@settings(max_examples=10)
 @given(a=size, c=size, share=part, pull=tension, da=nudge, dc=nudge)
 def test_the_mirror_swaps_the_edges(
     a: float, c: float, share: float, pull: float, da: float, dc: float
 ) -> None:
     """x -> -x turns M, alpha and dsigma; the flanks of the unequal wedge change places."""
-    slopes = {"phi_1": 0.25, "phi_2": 0.375}
-    swapped = {"phi_1": 0.375, "phi_2": 0.25}
-    shear, dsigma = one_cycle(unequal_wedge, slopes, a, c, share, pull)
-    second = a * (1 + da), c * (1 + dc)
-    given_here = {"f": F, "E_star": E_STAR}
-    there = unequal_wedge.stick_zone(
-        Contact(a, c, 0.0), Contact(*second, 0.0), shear, dsigma, **given_here, **slopes
-    )
-    mirror = unequal_wedge.stick_zone(
-        Contact(c, a, 0.0), Contact(*second[::-1], 0.0), shear, -dsigma, **given_here, **swapped
-    )
-    assert there.regime == mirror.regime
-    assert_allclose((there.m, there.n), (mirror.n, mirror.m), rtol=1e-11)
-    bounds = unequal_wedge.tension_threshold(
-        Contact(a, c, 0.0), Contact(*second, 0.0), shear, **given_here, **slopes
-    )
-    turned = unequal_wedge.tension_threshold(
-        Contact(c, a, 0.0), Contact(*second[::-1], 0.0), shear, **given_here, **swapped
-    )
-    assert_allclose(bounds, (-turned.upper, -turned.lower), rtol=1e-9, atol=1e-9 * shear)
+    body, slopes, swapped = unequal_wedge, {"phi_1": 0.25, "phi_2": 0.375}, (0.375, 0.25)
+    shear, dsigma = one_cycle(body, slopes, a, c, share, pull)
+    near = {"rtol": 1e-9, "atol": 1e-9 * shear}
+    law = {"f": F, "E_star": E_STAR, **slopes}
+    turned = law | dict(zip(slopes, swapped, strict=True))
+    here, there = Contact(a, c, 0.0), Contact(c, a, 0.0)
+    after, behind = (Contact(u * (1 + v), w * (1 + z), 0.0)
+                     for u, v, w, z in ((a, da, c, dc), (c, dc, a, da)))  # fmt: skip
+    zone = body.stick_zone(here, after, shear, dsigma, **law)
+    mirror = body.stick_zone(there, behind, shear, -dsigma, **turned)
+    assert zone.regime == mirror.regime
+    assert_allclose((zone.m, zone.n), (mirror.n, mirror.m), rtol=1e-11)
+    for of, second, other in (
+        (body.tension_threshold, after, behind),
+        (body.closing_tension, here, there),
+    ):
+        mirror = of(there, other, shear, **turned)
+        assert_allclose(of(here, second, shear, **law), (-mirror.upper, -mirror.lower), **near)
+    moved, back = {"da": a * da, "dc": c * dc}, {"da": c * dc, "dc": a * da}
+    for order in (1, 2, 3):
+        zones = body.slip_zones(a, c, shear, dsigma, **law, **moved, order=order)
+        mirror = body.slip_zones(c, a, shear, -dsigma, **turned, **back, order=order)
+        assert_allclose(zones, mirror[::-1], **near)
+    x = np.linspace(-a, c, 7)
+    for name in ("shear_change", "slip_range"):
+        first = getattr(body, name)(x, here, here, shear, dsigma, **law)
+        second = getattr(body, name)(-x, there, there, shear, -dsigma, **turned)
+        assert_allclose(first, second, rtol=1e-6, atol=1e-7 * np.nanmax([1e-9, *np.abs(first)]))
+    first = body.shear(x, here, shear / 2, dsigma / 2, dQ=shear, dsigma=dsigma, **law)
+    second = body.shear(-x, there, shear / 2, -dsigma / 2, dQ=shear, dsigma=-dsigma, **turned)
+    assert_allclose(first, second, rtol=1e-6, atol=1e-7 * np.nanmax([1e-9, *np.abs(first)]))
+    for name in ("K_T", "L_T"):
+        second = getattr(body, name)(c, a, shear, -dsigma)
+        assert_allclose(getattr(body, name)(a, c, shear, dsigma), second[::-1], **near)
+    first = body.stick_margin(a, c, da, dc * a, shear, dsigma, f=F)
+    second = body.stick_margin(c, a, da, -dc * a, shear, -dsigma, f=F)
+    assert_allclose(first, second[::-1], **near)
+    turn = np.array([0.0, 0.5, 1.0, 0.5])
+    P, M = (of(a, c, E_star=E_STAR, **slopes) for of in (body.load, body.moment))
+    march = body.march(P, M, shear * turn, dsigma * turn, **law)
+    mirror = body.march(P, -M, shear * turn, -dsigma * turn, **turned)
+    for field, other in (("a", "c"), ("m", "n"), ("left", "right"), ("regime", "regime")):
+        assert_allclose(getattr(march, field), getattr(mirror, other), **near)
 
 
 @settings(max_examples=40)
@@ -280,16 +287,25 @@ def test_slip_grows_with_the_changes_of_load(a: float, c: float, share: float, p
         assert np.all(np.diff(m) <= 1e-12 * a) and np.all(np.diff(n) <= 1e-12 * c)
 
 
+ONES = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
+
+
+def rocked(turn: float) -> Iterator[Contact]:
+    """Contacts of such a wedge under P = 1 and M from -turn/2 to turn/2."""
+    ends = wedge.contact(1.0, np.array([-turn / 2, turn / 2]), E_star=1.0, phi=1.0)
+    return (Contact(*(v[i] for v in ends)) for i in (0, 1))
+
+
 def test_slip_that_reverses_for_a_while_and_is_overtaken() -> None:
     """Wedge, P = E* = phi = 1, dQ = 0.3 f P: the independent solver of tests/reference finds the
     moderate zone exact up to a + n = 8 dQ/(pi dsigma), 0.9322 of the tension that closes a slip
     zone (0.206021), and n = 0.98878 at 0.931 of it."""
-    here, law = Contact(1.0, 1.0, 0.0), {"f": 0.5, "E_star": 1.0, "phi": 1.0}
-    closing = wedge.closing_tension(here, here, 0.15, **law).upper
+    here = Contact(1.0, 1.0, 0.0)
+    closing = wedge.closing_tension(here, here, 0.15, **ONES).upper
     assert_allclose(closing, 0.206021, atol=1e-6)
     parts = np.array([0.9271, 0.931, 0.9321, 0.9323, 1.0])
     for sign in (1, -1):
-        zone = wedge.stick_zone(here, here, 0.15, sign * parts * closing, **law)
+        zone = wedge.stick_zone(here, here, 0.15, sign * parts * closing, **ONES)
         assert np.all(zone.regime == Regime.MIXED)
         assert np.array_equal(np.isnan(zone.m), [False, False, False, True, True])
         assert_allclose((zone.n if sign > 0 else zone.m)[1], 0.98878, atol=1.1e-4)
@@ -301,11 +317,8 @@ def test_pressure_that_falls_faster_than_shear_is_mixed() -> None:
     """Wedge, P = E* = phi = 1, dQ = 0.3 f P, M from -0.2 to 0.2, 5 times the closing tension: m
     and n of partial half-cycles fall as they should, but shear passes friction at the right; the
     independent solver finds n = 0.59733, the conditions 0.59767."""
-    law = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
     for turn, known in ((0.3, True), (0.4, False)):
-        ends = wedge.contact(1.0, np.array([-turn / 2, turn / 2]), E_star=1.0, phi=1.0)
-        first, second = (Contact(*(v[i] for v in ends)) for i in (0, 1))
-        zone = wedge.stick_zone(first, second, 0.15, 5 * 0.206021, **law)
+        zone = wedge.stick_zone(*rocked(turn), 0.15, 5 * 0.206021, **ONES)
         assert zone.regime == (Regime.LARGE if known else Regime.MIXED)
         if known:
             assert_allclose((zone.m, zone.n), (0.38655, 0.60619), atol=4e-5)
@@ -352,23 +365,14 @@ def test_hertz_in_complete_elliptic_integrals(a: float, c: float, pull: float) -
         left, right, left_end, right_end = given_edges
         near, far = elliptic(*given_edges)
         for power, found in ((1, near), (-1, far)):
-            direct = mpmath.quad(
-                lambda t, power=power: (
-                    2
-                    * (right - right_end)
-                    * mpmath.sin(t)
-                    * mpmath.cos(t)
-                    * mpmath.sqrt(left + right_end + (right - right_end) * mpmath.sin(t) ** 2)
-                    * mpmath.sqrt(right - right_end)
-                    * mpmath.cos(t)
-                    * mpmath.sqrt(
-                        (left_end + right_end + (right - right_end) * mpmath.sin(t) ** 2)
-                        / ((right - right_end) * mpmath.sin(t) ** 2)
-                    )
-                    ** power
-                ),
-                [0, mpmath.pi / 2],
-            )
+
+            def integrand(t: mpf, power: int = power) -> mpf:
+                """At x = n + (c - n) sin(t)**2."""
+                y, rest = ((right - right_end) * of(t) ** 2 for of in (mpmath.sin, mpmath.cos))
+                root = mpmath.sqrt((left_end + right_end + y) / y) ** power
+                return 2 * mpmath.sqrt(y * rest * (left + right_end + y) * rest) * root
+
+            direct = mpmath.quad(integrand, [0, mpmath.pi / 2])
             assert abs(found / direct - 1) < mpf(10) ** -30
         near_left, far_left = elliptic(right, left, right_end, left_end)
         scale = np.sign(pull) * F * E_STAR / radius  # f 2 p = f (E*/R) sqrt(..)
@@ -381,32 +385,32 @@ def test_hertz_in_complete_elliptic_integrals(a: float, c: float, pull: float) -
 # ---------------------------------------------------------------------- single cycles
 
 
-def zone_of(first: tuple[float, float], second: tuple[float, float], *changes: float) -> Any:
-    law = {"f": 0.5, "E_star": 1.25, "phi": 0.125}
-    return wedge.stick_zone(Contact(*first, 0.0), Contact(*second, 0.0), *changes, **law)
+TURNS = (1.024055154, 0.947572418), (1.034835827, 0.478985506)
 
 
-def test_slip_that_reverses_in_the_last_part_is_mixed() -> None:
-    """n of partial half-cycles, by another solution of both conditions: .8390676, .8388734 and
-    .8390422 at 0.9, 0.95 and 1 of the way; and, from the other end, 1.2298205 before 1.2298618."""
-    first, second = (0.9590816789757743, 0.9479879606987551), (0.7990046787420241, 1.09962651082512)
-    assert zone_of(first, second, 0.05442706874750769, 0.14820628201450847).regime == Regime.MIXED
-    first, second = (
-        (0.8556127822250846, 1.3091974733932152),
-        (0.9076921804629886, 1.2464969630399891),
-    )
-    assert zone_of(first, second, 0.026197074452919515, 0.04174648043667833).regime == Regime.MIXED
+@pytest.mark.parametrize(
+    ("first", "second", "shear", "change"),
+    [
+        # n of partial half-cycles, by another solution of both conditions: .8390676, .8388734 and
+        # .8390422 at 0.9, 0.95 and 1 of the way
+        ((0.959081679, 0.947987961), (0.799004679, 1.099626511), 0.054427069, 0.148206282),
+        # and from the other end, 1.2298205 before 1.2298618
+        ((0.855612782, 1.309197473), (0.90769218, 1.246496963), 0.026197074, 0.041746480),
+        # a falls to 0.99392 half way; where it turns, slip begins
+        (*TURNS, 0.000875918, -0.000726985),
+    ],
+)
+def test_slip_that_reverses_on_the_way_is_mixed(
+    first: tuple[float, float], second: tuple[float, float], shear: float, change: float
+) -> None:
+    ends, own = (Contact(*first, 0.0), Contact(*second, 0.0)), {"E_star": 1.25, "phi": 0.125}
+    assert wedge.stick_zone(*ends, shear, change, f=0.5, **own).regime == Regime.MIXED
+    if first == TURNS[0]:
+        still = wedge.stick_zone(*ends, 0.0, 0.0, f=0.5, **own)
+        assert still.regime == Regime.FULL_STICK and still.m < 0.995
 
 
-def test_an_edge_that_turns_back_bears_no_shear() -> None:
-    """a falls to 0.99392 half way between 1.02406 and 1.03484; where it turns, slip begins."""
-    ends = (1.0240551543860947, 0.947572418117979), (1.0348358267867994, 0.47898550643684384)
-    assert zone_of(*ends, 0.0008759183100983148, -0.0007269853164816122).regime == Regime.MIXED
-    still = zone_of(*ends, 0.0, 0.0)
-    assert still.regime == Regime.FULL_STICK and still.m < 0.995
-
-
-@pytest.mark.parametrize("scale", [1e-12, 1e-3, 1e6])
+@pytest.mark.parametrize("scale", [1e-12, 1e6])
 @pytest.mark.parametrize("name", ["rounded_wedge", "flat_rounded", "two_radii"])
 def test_any_size(name: str, scale: float) -> None:
     """Lengths by a factor: kinks inside slip zones, where a distance is zero."""
@@ -428,60 +432,16 @@ def test_any_size(name: str, scale: float) -> None:
     assert_allclose(larger / scale, slip, rtol=1e-8, atol=1e-12)
 
 
-@settings(max_examples=8)
-@given(a=size, c=size, share=st.floats(0.01, 0.4), pull=tension, da=nudge, dc=nudge)
-def test_the_mirror_of_everything_else(
-    a: float, c: float, share: float, pull: float, da: float, dc: float
-) -> None:
-    """x -> -x, dsigma and M turned, the unequal flanks swapped: edges change places."""
-    slopes, swapped = {"phi_1": 0.25, "phi_2": 0.375}, {"phi_1": 0.375, "phi_2": 0.25}
-    shear, dsigma = one_cycle(unequal_wedge, slopes, a, c, share, pull)
-    near = {"rtol": 1e-9, "atol": 1e-9 * shear}
-    here, there = Contact(a, c, 0.0), Contact(c, a, 0.0)
-    law, turned = ({"f": F, "E_star": E_STAR, **own} for own in (slopes, swapped))
-    moved, back = {"da": a * da, "dc": c * dc}, {"da": c * dc, "dc": a * da}
-    for order in (1, 2, 3):
-        zones = unequal_wedge.slip_zones(a, c, shear, dsigma, **law, **moved, order=order)
-        mirror = unequal_wedge.slip_zones(c, a, shear, -dsigma, **turned, **back, order=order)
-        assert_allclose(zones, mirror[::-1], **near)
-    closing = unequal_wedge.closing_tension(here, here, shear, **law)
-    mirror = unequal_wedge.closing_tension(there, there, shear, **turned)
-    assert_allclose(closing, (-mirror.upper, -mirror.lower), **near)
-    x = np.linspace(-a, c, 7)
-    for of in ("shear_change", "slip_range"):
-        first = getattr(unequal_wedge, of)(x, here, here, shear, dsigma, **law)
-        second = getattr(unequal_wedge, of)(-x, there, there, shear, -dsigma, **turned)
-        assert_allclose(first, second, rtol=1e-6, atol=1e-7 * np.nanmax([1e-9, *np.abs(first)]))
-    for of, loads_here in (("K_T", ()), ("L_T", ()), ("stick_margin", (da, dc * a))):
-        friction = {"f": F} if loads_here else {}
-        reversed_loads = (loads_here[0], -loads_here[1]) if loads_here else ()
-        first = getattr(unequal_wedge, of)(a, c, *loads_here, shear, dsigma, **friction)
-        second = getattr(unequal_wedge, of)(c, a, *reversed_loads, shear, -dsigma, **friction)
-        assert_allclose(first, second[::-1], **near)
-    turn = np.array([0.0, 0.5, 1.0, 0.5])
-    P = unequal_wedge.load(a, c, E_star=E_STAR, **slopes)
-    M = unequal_wedge.moment(a, c, E_star=E_STAR, **slopes)
-    march = unequal_wedge.march(P, M, shear * turn, dsigma * turn, **law)
-    mirror = unequal_wedge.march(P, -M, shear * turn, -dsigma * turn, **turned)
-    for field, other in (("a", "c"), ("m", "n"), ("left", "right"), ("regime", "regime")):
-        assert_allclose(getattr(march, field), getattr(mirror, other), **near)
-
-
-@pytest.mark.parametrize("tension", [0.5, 1.2])
-def test_one_edge_that_goes_out_and_one_that_comes_in_tell_nothing_of_what_is_between(
-    tension: float,
-) -> None:
+def test_one_edge_that_goes_out_and_one_that_comes_in_tell_nothing_of_what_is_between() -> None:
     """Wedge, P = E* = phi = 1, M from -0.2 to 0.2: the pressure rests inside while shear goes on.
     The independent solver finds slip to m = 0.6761 at 1.2 times the closing tension, inside both
     contacts, whose smaller reach is 0.6770; without shear and tension nothing slips."""
-    ends = wedge.contact(1.0, np.array([-0.2, 0.2]), E_star=1.0, phi=1.0)
-    first, second = (Contact(*(v[i] for v in ends)) for i in (0, 1))
-    law = {"f": 0.5, "E_star": 1.0, "phi": 1.0}
-    zone = wedge.stick_zone(first, second, 0.15, tension * 0.206021, **law)
-    assert zone.regime == Regime.MIXED and np.isnan(zone.m)
-    still = wedge.stick_zone(first, second, 0.0, 0.0, **law)
+    first, second = rocked(0.4)
+    zone = wedge.stick_zone(first, second, 0.15, np.array([0.5, 1.2]) * 0.206021, **ONES)
+    assert np.all(zone.regime == Regime.MIXED) and np.all(np.isnan(zone.m))
+    still = wedge.stick_zone(first, second, 0.0, 0.0, **ONES)
     assert still.regime == Regime.FULL_STICK
-    assert_allclose((still.m, still.n), np.min([ends.a, ends.c]), rtol=1e-12)
+    assert_allclose((still.m, still.n), min(first.a, first.c), rtol=1e-12)
 
 
 @pytest.mark.parametrize(
