@@ -127,12 +127,12 @@ class _WithFormula(click.Command):
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="contact-derive", prog_name="derive")
 def main() -> None:
-    """Contact laws of half-plane contacts: derived from g(x), proven, generated as NumPy."""
+    """Contact laws of half-plane contacts: derived from g(x), proven, generated as NumPy code."""
 
 
 @main.command("list")
 def list_() -> None:
-    """List all geometries: g(x), closed and numerical parts."""
+    """List all geometries, with g(x) and what is known in closed form or only numerically."""
     from derive import load_geometry, view
     from derive.derivation import derive_law, with_closed_forms
     from derive.library import library
@@ -181,7 +181,7 @@ def show(
     NAME is a geometry of the library or the path of a geometry file.
     """
     if html + latex + bool(code) + bool(slip) > 1:
-        raise click.UsageError("--html, --latex, --code and --slip exclude each other: give one")
+        raise click.UsageError("--html, --latex, --code and --slip cannot be combined: give one")
     if (every or out) and not html:
         raise click.UsageError("--all and --out require --html: add it")
     if (name is None) != every:
@@ -267,7 +267,7 @@ def new(
         click.echo(f"  {parameter} [{unit}]  {meaning}")
     derive, file = command(), shlex.quote(shown)
     click.echo(f"See its formulas:    {derive} show {file}")
-    click.echo(f"Make a module of it: {derive} generate {file} --out DIRECTORY")
+    click.echo(f"Generate a module:   {derive} generate {file} --out DIRECTORY")
 
 
 @main.command()
@@ -292,7 +292,7 @@ def generate(
 ) -> None:
     """Derive, prove and write NumPy modules.
 
-    Without arguments, these are the modules of the whole library; otherwise, of the geometries
+    Without arguments, modules are written for the whole library; otherwise, only for the geometries
     named.
 
     A body is taken from an earlier run if neither its geometry file nor the program has changed.
@@ -347,7 +347,7 @@ def generate(
     metavar="NEW",
     help="FILE is a paper in LaTeX: read its displayed equations and write the claims file NEW.",
 )
-@click.option("--inline", is_flag=True, help="With --draft: also read relations within the text.")
+@click.option("--inline", is_flag=True, help="With --draft: also read formulas in running text.")
 def check(
     file: Path | None,
     form: str,
@@ -416,13 +416,13 @@ def check(
     "dQ",
     type=float,
     metavar="N/M",
-    help="Change of the shear load, from its lowest to its highest value, if FILE has no dq.",
+    help="Change in the shear load, from its lowest to its highest value, if FILE has no dq.",
 )
 @click.option(
     "--dsigma",
     type=float,
     metavar="PA",
-    help="Change of the bulk tension over the same half-cycle.",
+    help="Change in the bulk tension over the same half-cycle.",
 )
 @click.option("--unit", "units", multiple=True, metavar="NAME=UNIT", help="Unit of x or of p.")
 @click.option("--html", type=_PATH, help="Also write a page with pictures.")
@@ -440,8 +440,8 @@ def edge(
 
     FILE is a finite-element table; the coefficients of both edges are found from it.  In FILE, a
     line above the numbers names the columns with their units, such as x [mm], p [MPa], dq [MPa].
-    dq is the change of the shear traction in a run without slip.  A column `step` distinguishes
-    load steps; the half-cycle leads from the first to the last of them.
+    dq is the change in the shear traction in a run without slip.  A column `step` distinguishes
+    load steps; the half-cycle runs from the first of them to the last.
     """
     from derive.edge import report
     from derive.edge.find import find
@@ -529,7 +529,7 @@ def _accept(file: Path | None, label: str | None) -> None:
 
 
 def _paper(file: Path | None, name: str | None) -> "Paper":
-    """All claims of a paper, or only those of a label, a name or an equation number."""
+    """All claims of a paper, or only those with a given label, name or equation number."""
     from derive.errors import UnknownClaim
     from derive.paper.userfile import built_in, read_claims
 
@@ -550,7 +550,7 @@ def _built(sources: Sequence[str], jobs: int | None, fresh: bool, limit: float) 
     from derive.pipeline import STAGES, build_all
 
     if folder := distrusted():
-        why = "nothing is kept in this directory, because others may write to it"
+        why = "nothing is kept in this directory, because other users can write to it"
         remedy = "remove their permission to write, or set DERIVE_CACHE to another directory"
         click.echo(f"{folder}: {why}: {remedy}", err=True)
     with progress(len(sources), STAGES) as step:

@@ -353,7 +353,7 @@ def typical(demands: tuple[Boolean, ...]) -> Values:
 
 
 def _size(power: Rational) -> int:
-    """Distance of a power of two from one, as an exponent."""
+    """The magnitude of the exponent of a power of two."""
     return int(abs(power.p.bit_length() - power.q.bit_length()))
 
 

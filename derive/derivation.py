@@ -308,7 +308,7 @@ def _stick(sheet: FormulaSheet) -> Iterator[Formula]:
         Symbol("dq"),
         (x, *arguments),
         stick.full_stick_change(),
-        "change of the shear traction under full stick",
+        "change in the shear traction under full stick",
         "Pa",
         source,
         inside,

@@ -85,8 +85,8 @@ class Kink:
     """A point where the formula of g' changes.
 
     side = +1: `jump` is added to the slope for x > position; the kink lies to the right of the
-    reference piece.  side = -1: `jump` is added for x < position.  `step` is the jump of the value
-    of g' at the kink.
+    reference piece.  side = -1: `jump` is added for x < position.  `step` is the discontinuity of
+    g' at the kink.
     """
 
     number: int
@@ -97,7 +97,7 @@ class Kink:
 
     @property
     def is_corner(self) -> bool:
-        """Whether the value of g' jumps here (a corner), not only one of its derivatives."""
+        """Whether g' itself jumps here (a corner), and not only one of its derivatives."""
         return bool(self.step != 0)
 
 
@@ -134,7 +134,8 @@ class Slope:
 
     @cached_property
     def typical(self) -> dict[Symbol, Rational]:
-        """Typical values of parameters without a lower bound, if 1 does not meet the conditions."""
+        """Typical values for parameters without a lower bound, used if the value 1 does not satisfy
+        the conditions."""
         return typical(self.demands)
 
     @property
@@ -144,7 +145,7 @@ class Slope:
 
     @cached_property
     def limits(self) -> tuple[Expr, Expr]:
-        """g' at both ends of the domain; these values bound the possible tilts -g'."""
+        """Limits of g' at both ends of the domain; all tilts lie between their negatives."""
         if self.is_polynomial:
             return limit(self.pieces[0].slope, x, -oo), limit(self.pieces[-1].slope, x, oo)
         (low, high), (first, last) = self.domain, (self.pieces[0], self.pieces[-1])
@@ -220,7 +221,7 @@ def _ends_beyond_origin(piece: Piece) -> bool:
 
 
 def _with_moduli(g: Expr) -> Expr:
-    """Write roots of squares, such as sqrt(x**2 - 2 b x + b**2), as moduli; they hide kinks."""
+    """Write roots of squares, which hide kinks, as moduli: sqrt(x**2 - 2 b x + b**2)."""
     powers = [p for p in g.atoms(Pow) if not p.exp.is_Integer and p.base.is_rational_function(x)]
     found = {p: _without_squares(p) for p in powers if p.base.has(x) and not p.exp.has(x)}
     return g.xreplace({power: value for power, value in found.items() if value != power})
@@ -287,7 +288,10 @@ def _roots(name: str, poly: Poly) -> list[Expr]:
     at_origin = sum(times for root, times in found.items() if root == 0)
     lowest = min(power for (power,), _ in poly.terms())
     if sum(found.values()) < poly.degree() or at_origin != lowest:  # roots near 1e-30 are not zero
-        why = f"switches branches where {poly.as_expr()} changes sign, but this x is not known"
+        why = (
+            f"switches branches where {poly.as_expr()} changes sign, but the x at which it does so "
+            "cannot be found"
+        )
         raise BadProfile(name, why, remedy)
     for root in found:
         if root.is_real is None:
@@ -297,7 +301,7 @@ def _roots(name: str, poly: Poly) -> list[Expr]:
                 raise BadProfile(
                     name, f"has a kink at x = {simplify(root)}, but {why}", _order(denominator)
                 )
-            why = f"has a kink at x = {simplify(root)}, which is real for some parameters only"
+            why = f"has a kink at x = {simplify(root)}, which is real only for some parameters"
             raise BadProfile(name, why, remedy)
     return [simplify(root) for root in found if root.is_real]
 
@@ -342,7 +346,8 @@ def _is_known_positive(difference: Expr) -> bool | None:
 
 
 def _squares(difference: Expr) -> Expr | None:
-    """p^2 - q^2 r with the sign of p + q sqrt(r), if exactly one of the two terms is negative.
+    """+-(p^2 - q^2 r), which has the sign of p + q sqrt(r), if exactly one of the two terms is
+    negative.
 
     None if there are several roots of sums, or if signs are not known.
     """
@@ -397,7 +402,7 @@ def _in_between(expr: Expr, lower: Expr, upper: Expr) -> Expr:
 
 
 def _branch(name: str, node: Expr, lower: Expr, upper: Expr) -> Expr:
-    """The value of `node` between two points, as an expression without this branch."""
+    """The value of `node` between two points, as an expression without this branching function."""
 
     def positive(expr: Expr) -> bool:
         value = _in_between(expr, lower, upper)
@@ -477,8 +482,8 @@ def _demand_known_numbers(name: str, pieces: list[Piece]) -> None:
 def _not_computed(name: str, held: Expr) -> BadProfile:
     """The error for an expression that the proofs cannot compute to any number of digits."""
     remedy = (
-        "replace it by a parameter and give its value in the call, or by the number itself, such "
-        "as Rational('0.577')"
+        "replace it with a parameter and pass its value in the call, or with its numerical value, "
+        "such as Rational('0.577')"
     )
     return BadProfile(name, f"contains {held}, which the proofs cannot compute", remedy)
 
@@ -541,7 +546,7 @@ def _demand_no_point_apart(name: str, g: Expr, pieces: list[Piece]) -> None:
 
 
 def _domain(name: str, pieces: list[Piece]) -> tuple[Expr, Expr]:
-    """The interval in which the outermost pieces are real: up to the roots of fractional powers."""
+    """The interval in which the outermost pieces are real, up to zeros of bases of powers."""
     low, high = -oo, oo
     for point in _branch_points(pieces[0].profile):
         if point.is_real and _is_positive(name, _reach(pieces[0], upper=True) - point):

@@ -3,7 +3,8 @@
 In:  the name of a geometry of the library, or a geometry file; a body that has been built.
 Out: texts, sheets for the terminal, pages.
 
-Work that may take long, or runs a user's file, is done in another process with limits.
+Work that may take a long time or that runs a user's file is done in a separate process with limits
+on time and memory.
 """
 
 from collections.abc import Callable, Sequence
@@ -30,15 +31,15 @@ _LOWER = "give a lower order with --slip, or a simpler profile"
 
 _SENSES = (
     "kappa_left, kappa_right: directions of slip in the half-cycle that raises the shear load: 1 "
-    "and 1 under moderate tension, 1 and -1 under large tension that rises, -1 and 1 under large "
-    "tension that falls"
+    "and 1 under moderate tension, 1 and -1 under large tension if the tension rises, -1 and 1 if "
+    "it falls"
 )
 
 
 def apart(function: Callable[[tuple[Any, ...], Report], Shown], name: str, *more: object) -> Shown:
-    """Apply a function to a geometry; limits hold for a file, and for the series of slip zones.
+    """Apply a function to a geometry, with limits for a file and for the series of slip zones.
 
-    With limits, it runs in another process.  There a geometry file cannot end this one.
+    With limits, it runs in a separate process, in which a geometry file cannot end this one.
     """
     limited = function is slip_of or not is_in_library(name)
     bounds = pipeline.STRANGERS if limited else None
@@ -55,7 +56,7 @@ def apart(function: Callable[[tuple[Any, ...], Report], Shown], name: str, *more
 
 
 def sheet_of(asked: tuple[str, str, float], report: Report) -> tuple[RenderableType, str]:
-    """The proven sheet of a body for the terminal, in LaTeX or in a language, and a remark."""
+    """The proven sheet of a body for the terminal, in LaTeX or as code, and a remark."""
     name, form, limit = asked
     sheet = _derived(name, report)
     if not sheet.is_closed("load"):

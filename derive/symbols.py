@@ -66,17 +66,17 @@ _TABLE = (
     Quantity(e, "lever arm M/P: the load acts at x = -e", "m"),
     Quantity(s, "distance inward from an edge", "m"),
     Quantity(f, "coefficient of friction", "-"),
-    Quantity(dQ, "change of the shear load over the half-cycle that raises it", "N/m", r"\Delta Q"),
+    Quantity(dQ, "change in the shear load over the half-cycle that raises it", "N/m", r"\Delta Q"),
     Quantity(
         dsigma,
-        "change of the differential bulk tension over the same half-cycle",
+        "change in the differential bulk tension over the same half-cycle",
         "Pa",
         r"\Delta\sigma",
     ),
     Quantity(m, "left end of the permanent stick zone at x = -m", "m"),
     Quantity(n, "right end of the permanent stick zone at x = n", "m"),
-    Quantity(dP, "change of the normal load over the same half-cycle", "N/m", r"\Delta P"),
-    Quantity(dM, "change of the moment over the same half-cycle", "N", r"\Delta M"),
+    Quantity(dP, "change in the normal load over the same half-cycle", "N/m", r"\Delta P"),
+    Quantity(dM, "change in the moment over the same half-cycle", "N", r"\Delta M"),
 )
 
 QUANTITIES: dict[str, Quantity] = {q.name: q for q in _TABLE}

@@ -1,7 +1,7 @@
-"""Terminal output: text and tables, errors, and a spinner or bar for work that takes long.
+"""Terminal output: text and tables, errors, and a spinner or progress bar for long tasks.
 
 In:  texts and renderable objects of the library rich.
-Out: lines on standard output; errors and everything that moves, on standard error.
+Out: lines on standard output; errors, spinners and progress bars on standard error.
 """
 
 import os
@@ -18,19 +18,19 @@ from rich.console import Console, RenderableType
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 _WIDE = 10_000
-"""Columns of output that is not a terminal, if COLUMNS is not set: wide enough that no line that
-another program reads is broken."""
+"""Columns of output that is not a terminal, if COLUMNS is not set: large enough that no line is
+broken before another program reads it."""
 
 _NARROW = 100
 """Columns below which a table leaves as much room as possible to texts."""
 
 PATIENCE = 10.0
-"""Seconds after which a line says what takes so long, if standard error is not a terminal."""
+"""Seconds after which a line says what is taking so long, if standard error is not a terminal."""
 
 
 @contextmanager
 def status(words: str) -> Iterator[Callable[[str], None]]:
-    """A spinner with words, which the function that is yielded changes."""
+    """A spinner with a caption that the yielded function changes."""
     console = _console(stderr=True)
     now = [words]
     with _told_after_a_while(console, now), console.status(words) as status:
@@ -44,11 +44,11 @@ def status(words: str) -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def _told_after_a_while(console: Console, now: Sequence[str]) -> Iterator[None]:
-    """Print once what takes so long, where nothing that moves is shown."""
+    """Print once what is taking so long, if no spinner or bar is shown."""
 
     def tell() -> None:
         with suppress(OSError, ValueError):  # standard error is closed
-            click.echo(f"Still at work after {PATIENCE:g} s: {now[0]}", err=True)
+            click.echo(f"Still working after {PATIENCE:g} s: {now[0]}", err=True)
 
     timer = Timer(PATIENCE, tell)
     timer.daemon = True
@@ -62,7 +62,7 @@ def _told_after_a_while(console: Console, now: Sequence[str]) -> Iterator[None]:
 
 @contextmanager
 def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str], None]]:
-    """A progress bar; `step` tells it that a body enters a stage, or is done if there is none."""
+    """A progress bar; the yielded function tells it which stage a body enters, or "" at the end."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
     console = _console(stderr=True)
     bar = Progress(
@@ -101,7 +101,7 @@ def _console(stderr: bool = False, columns: str = "") -> Console:
 
 
 def output(what: RenderableType, columns: str = "") -> None:
-    """Print, without the blanks that pad each column to its width."""
+    """Print without trailing blanks."""
     console = _console(columns=columns)
     with console.capture() as printed:
         console.print(what)
@@ -110,7 +110,7 @@ def output(what: RenderableType, columns: str = "") -> None:
 
 
 def output_table(what: RenderableType) -> None:
-    """Print a table; COLUMNS also holds for pipes, and formulas and file names are not broken."""
+    """Print a table; COLUMNS also applies to pipes, and formulas and file names are not broken."""
     output(what, os.environ.get("COLUMNS", ""))
 
 
@@ -135,7 +135,7 @@ def command() -> str:
 
 
 def typed(program: Path) -> str:
-    """A program by its name if the shell finds it by that, otherwise by its shortest path."""
+    """The name of a program if the shell finds it by that name, otherwise its shortest path."""
     found = which(program.name)
     if found and Path(found).absolute() == program.absolute():
         return shlex.quote(program.name)

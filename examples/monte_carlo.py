@@ -38,7 +38,7 @@ import generated
 from generated import wedge
 
 WEDGE = {"E_star": 60e9, "phi": 0.05}  # Pa, rad
-DQ, DSIGMA = 3e5, 400e6  # change of shear [N/m] and of bulk tension [Pa] over the half-cycle
+DQ, DSIGMA = 3e5, 400e6  # change in shear [N/m] and of bulk tension [Pa] over the half-cycle
 
 SCATTER: Mapping[str, Callable[[np.random.Generator, int], Any]] = {
     "P": lambda rng, n: rng.normal(2e6, 2e5, n),  # N/m

@@ -79,7 +79,7 @@ def _edges(name: str, summary: str) -> Function:
 def _full_stick(
     name: str, changes: tuple[Symbol, ...], summary: str, constants: tuple[Symbol, ...] = ()
 ) -> Function:
-    """A function of the contact and of changes of the loads, the same for all bodies."""
+    """A function of the contact and of changes in the loads, the same for all bodies."""
     made = _edges(name, summary)
     return replace(made, arguments=(a, c, *changes), constants=constants, geometric=False)
 

@@ -36,7 +36,7 @@ _r = Symbol("x", positive=True)
 
 
 def cancels(slope: Slope) -> bool:
-    """Whether powers may cancel in the closed formulas.
+    """Whether powers of x in the closed formulas may nearly cancel, so that digits are lost.
 
     >>> from sympy import symbols
     >>> from derive.profile import read_slope

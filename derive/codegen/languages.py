@@ -177,7 +177,7 @@ def _demand_names(body: str, language: str, names: Iterable[str]) -> None:
     spoken, given = LANGUAGES[language], sorted({body, *names})
     for name in given:
         if name in (*spoken.keywords.split(), _VALUE):
-            raise NoSuchName(body, language, name, "is reserved in code of that language")
+            raise NoSuchName(body, language, name, "cannot be used as a name in that language")
     seen: dict[str, str] = {}
     for name in given if spoken.ignores_case else ():
         if seen.setdefault(name.lower(), name) != name:

@@ -130,7 +130,7 @@ def full_stick_text(sheet: FormulaSheet) -> str:
     made = (f for f in CONTRACT if not f.geometric)
     code = "\n\n".join(FunctionText(sheet, f, "derive/theory/stick.py").text for f in made)
     return formatted(f'''{MARK}
-"""Full stick: the change of shear traction next to the edges of a contact that does not slip.
+"""Full stick: the change in shear traction next to the edges of a contact that does not slip.
 
 {textwrap.fill(SHAPES, LINE)}
 """

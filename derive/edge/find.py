@@ -82,7 +82,7 @@ def find(
 ) -> Findings:
     """Evaluate a table for both edges.
 
-    dQ, dsigma: the changes of the loads, if the table has no shear traction [N/m, Pa].
+    dQ, dsigma: the changes in the loads, if the table has no shear traction [N/m, Pa].
 
     Raises BadTable if the table does not describe a contact.
     """
@@ -200,7 +200,7 @@ def _edges(step: Step, shown: str, notes: list[str]) -> list[FittedEdge]:
 def _shears(
     steps: Sequence[Step], last: dict[str, FittedEdge], shown: str, notes: list[str]
 ) -> list[tuple[str, ShearFit]]:
-    """Fit full stick at both edges to the change of the shear traction over the half-cycle."""
+    """Fit full stick at both edges to the change in the shear traction over the half-cycle."""
     first, end = steps[0], steps[-1]
     if end.q is None or first.q is None:
         return []

@@ -368,7 +368,7 @@ def _unit(
         common = ("m", "mm", "um", "in", "Pa", "MPa", "GPa", "N/mm2", "psi", "ksi")
         allowed = ", ".join(unit for unit in common if _key(unit) in known)
         raise BadTable(
-            shown, f"{text!r} is not a known unit of {MEANT[what]}", f"write one of {allowed}"
+            shown, f"{text!r} is not a known unit for {MEANT[what]}", f"write one of {allowed}"
         )
     return known[key]
 

@@ -155,7 +155,7 @@ def variables(claim: Claim) -> list[Symbol]:
 
 
 def in_order(symbol: Symbol) -> tuple[str, str]:
-    """Return a sort key for symbols, of which two may have the same name."""
+    """Return a sort key that also distinguishes symbols with the same name."""
     return symbol.name, str(symbol.assumptions0)
 
 

@@ -1,4 +1,4 @@
-"""Pressure, change of shear traction, slip and frictional work along the interface."""
+"""Pressure, change in shear traction, slip and frictional work along the interface."""
 
 from collections.abc import Sequence
 from types import ModuleType
@@ -111,16 +111,16 @@ def tractions(
     stress: Measure | None = None,
     **constants: float,
 ) -> Sequence[Axes]:
-    """Draw the pressure at both ends of a half-cycle, and below it the change of shear traction.
+    """Draw the pressure at both ends of a half-cycle, and below it the change in shear traction.
 
-    The surfaces slip where the change of shear traction reaches the bound f (p1 + p2).  These zones
+    The surfaces slip where the change in shear traction reaches the bound f (p1 + p2).  These zones
     are shaded in the colour of the direction of slip.  A zone in which slip reverses within the
     half-cycle is dotted; the shear traction may then be unknown, which a note in the picture
     states.
 
     body           a generated module
     first, second  Contacts at the start and at the end of the half-cycle that raises the shear load
-    dQ, dsigma     changes of the shear load and of the tension in this half-cycle
+    dQ, dsigma     changes in the shear load and of the tension in this half-cycle
     f              coefficient of friction
     mixed          whether to compute stick zones where slip reverses; see `stick_zone`
     axes           two Axes to draw into; new ones by default

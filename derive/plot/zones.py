@@ -85,7 +85,7 @@ def sweep(
     parameter  the values of the parameter
     contact    Contact at the end of the half-cycle: one for all values, or one for each
     zone       StickZone for each value, as returned by `stick_zone`
-    dsigma     change of tension: one for all values, or one for each; its sign determines the
+    dsigma     change in tension: one for all values, or one for each; its sign determines the
                direction of slip at each edge
     label      the label of the axis of the parameter
     axes       Axes to draw into; new ones by default

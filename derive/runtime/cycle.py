@@ -171,7 +171,7 @@ def stick_zone(
         MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P1 + P2),
         because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
         given under constant normal loads if forward slip finally overtakes the reversed slip, or
-        if `mixed` is True.  Only the changes of the loads are known here: under large tension, and
+        if `mixed` is True.  Only the changes in the loads are known here: under large tension, and
         if a moment rocks the contact, no zone sticks if the mean shear load is too high; march
         and steady_cycle check this.
         steady_cycle solves every cycle and estimates the error of computed results.
@@ -238,7 +238,7 @@ def why(
 def tension_threshold(
     asked: Asked, first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array
 ) -> Threshold:
-    """Changes of bulk tension between which tension is moderate and the moderate solution exact.
+    """Changes in bulk tension between which tension is moderate and the moderate solution exact.
 
         constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
 
@@ -258,7 +258,7 @@ def tension_threshold(
 def closing_tension(
     asked: Asked, first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array
 ) -> Threshold:
-    """Changes of bulk tension at which the moderate solution closes one slip zone.
+    """Changes in bulk tension at which the moderate solution closes one slip zone.
 
         upper: load(m, c) = (P1 + P2)/2 - dQ/(2 f),
             dsigma = 4 f E* ((alpha1 + alpha2)/2 - tilt(m, c)), c that of the smaller contact
@@ -393,7 +393,7 @@ def shear_change(
     f: Array,
     E_star: Array,
 ) -> Array:
-    """Change of the shear traction at x over the half-cycle; zero outside the contacts.
+    """Change in the shear traction at x over the half-cycle; zero outside the contacts.
 
         dq = kappa f (p1 + p2) where it slips
         moderate tension: dq = f (p1 + p2) - 2 f p(x; m, n)

@@ -109,7 +109,8 @@ if COMPILED:
         """Compile a function for one signature, and keep it on disk."""
         while SHARED:
             register_jitable(SHARED.pop())
-        # Python only calls kernels of addresses, numbers and arrays: the others need no wrapper
+        # Python calls only kernels whose arguments are addresses, numbers and arrays; the others
+        # need no wrapper
         inside = any(isinstance(t, types.BaseNamedTuple) for t in signature.args)
         compiled = numba.njit(
             signature,

@@ -39,8 +39,8 @@ from .kernels import (
 from .shared import shared
 
 FARTHEST = 6
-"""Largest t of the rule, where a node is 1e-275 of a part from its end.  The rule stops earlier
-once its terms are negligible."""
+"""Largest t of the rule; a node there lies 1e-275 of the part's length from its end.  The rule
+stops earlier once its terms are negligible."""
 
 FINEST = 8
 """The step of the rule is 1 initially and is halved down to 2**-FINEST."""
@@ -91,7 +91,7 @@ class Curve(NamedTuple):
 class Part(NamedTuple):
     """The part of one piece inside a window of the contact, as it is or mirrored.
 
-    piece, sense   the piece's number; 1, or -1 if it is seen from behind
+    piece, sense   the piece's number; 1, or -1 if it is mirrored
     length         [m]
     past, ahead    distances from the piece's breaks to the part's ends [m]
     extent         length relative to the contact width
@@ -181,9 +181,9 @@ def slope(curve: Any, x: float, own: Any) -> tuple[float, float]:
 def _rule() -> Any:
     """q, 1 - q, weights and t of the rule on (0, 1) with q = 1/(1 + exp(pi sinh t)), t >= 0.
 
-    The first nodes are those of step 1, t = 0, 1, ..., FARTHEST.  Then follow, level by level, the
-    nodes of half the step that lie between them.  For t < 0, q and 1 - q change places; t = 0 is
-    therefore used twice, with half its weight.
+    The first nodes are those of step 1, t = 0, 1, ..., FARTHEST.  Each further level halves the
+    step and adds the nodes that lie between the existing ones.  For t < 0, q and 1 - q change
+    places; t = 0 is therefore used twice, with half its weight.
     """
     levels = [np.arange(FARTHEST + 1.0)]
     levels += [np.arange(0.5**n, FARTHEST, 2 * 0.5**n) for n in range(1, FINEST + 1)]
@@ -215,8 +215,8 @@ def _coarsest(part: Any) -> int:
 def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, total: Any) -> None:
     """Add the integrals over a part to `total`; NaN where the sums do not agree or do not converge.
 
-    All integrals are infinite beyond the body's curve, where the first one is infinite or NaN.
-    From the third level on, the rule goes no farther than its terms have changed the sums.
+    All integrals are infinite beyond the body's curve, where the first one is infinite or NaN. From
+    the third level on, the rule stops at the largest t whose terms have changed the sums so far.
 
     integrand: returns its values, as many as `total` holds, from a node and three given numbers.
     """
@@ -342,7 +342,7 @@ def pressure(curve: Any, x: float, a: float, c: float, own: Any) -> float:
 
 @shared
 def _psi(r: float) -> float:
-    """3 sqrt(h) times that integral of k ds which is zero at the far edge."""
+    """3 sqrt(h) times the antiderivative of k that vanishes at the far edge."""
     return 2 * r - 1.5 * math.atan(r) - r / (2 * (1 + r * r))
 
 
@@ -358,8 +358,8 @@ def _of_second(node: Any, _: Any) -> tuple[float, ...]:
 def _of_second_by_parts(node: Any, given: Any) -> tuple[float, ...]:
     """-2 t g''' (psi(r) - psi(r_0))/t.
 
-    Given are r_0, the distance from its point to the edge, and the distance from that point to the
-    start of the part.
+    Three numbers are given: r_0; the distance from the point at which r = r_0 to the edge; and the
+    distance from that point to the start of the part.
     """
     r_0, to_edge, offset = given
     _, _, change, t, start, end, along = node
@@ -429,7 +429,7 @@ def _second(curve: Any, a: float, c: float, own: Any, sense: int) -> float:
 
 @kernel(real(CURVE, real, real, vector, whole, real))
 def _third(curve: Any, a: float, c: float, own: Any, sense: int, K: float) -> float:
-    """The coefficient N of s**(5/2) at the right edge, or at the left edge if seen from behind.
+    """The coefficient N of s**(5/2) at the right edge, or at the left edge if the body is mirrored.
 
     An edge that moves by dc adds K sqrt(h - s)/(2 sqrt(h) sqrt(s)) dc to the pressure.  Comparing
     powers of s gives dL/dc + (5/2) N = -K/(16 h**2).  The rate is a fourth-order difference whose

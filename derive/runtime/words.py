@@ -8,7 +8,7 @@ MEANINGS = {
     "alpha": "tilt, positive anticlockwise: the slope in contact is g'(x) + alpha [rad]",
     "c": "right edge of the contact at x = c [m]",
     "contact": "Contact under the constant normal loads",
-    "dQ": "change of the shear load over the half-cycle that raises it [N/m]",
+    "dQ": "change in the shear load over the half-cycle that raises it [N/m]",
     "da": "how much further out the left edge is than at the other end of the half-cycle [m]",
     "dc": "how much further out the right edge is than at the other end [m]",
     "dsigma": "change in the differential bulk tension over the same half-cycle [Pa]",

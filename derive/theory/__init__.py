@@ -13,6 +13,6 @@ superposition  P, M, p, K_N and L_N as integrals of g'', for a body of any profi
 special      terms of g' whose integrals are special functions: one rule for each kind of term
 closed_forms  closed forms from these rules and from the polynomial terms of g'
 stick        full stick and its edge coefficients, the stick margin, and the stick zone
-slip         slip zones as series in the changes of the loads, to any order
+slip         slip zones as series in the changes in the loads, to any order
 edge         slip and shear traction next to a single edge, from its coefficients
 """

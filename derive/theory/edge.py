@@ -4,7 +4,7 @@ At a distance s from the edge, far from the other one,
 
     p = sqrt(s) (K_N + L_N s + N_N s**2),   full-stick dq = (K_T + L_T s + N_T s**2)/sqrt(s).
 
-The slip zone has the length D.  With t = s - D, the bounded change of the shear traction is
+The slip zone has the length D.  With t = s - D, the bounded change in the shear traction is
 
     dq = f (p_1 + p_2) - sqrt(t) R(t),   R a polynomial:
 

@@ -1,4 +1,4 @@
-r"""Stick: the change of the shear traction where nothing slips, and the permanent stick zone.
+r"""Stick: the change in the shear traction where nothing slips, and the permanent stick zone.
 
 For similar bodies, (1/pi) PV int dq(xi)/(x - xi) dxi = dsigma/4 where nothing slips, and
 int dq = dQ.

@@ -50,7 +50,7 @@ class Wanted:
     meanings: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        Geometry(self.name, g=Abs(x))  # first raises BadName for a name that Geometry refuses
+        Geometry(self.name, g=Abs(x))  # raises BadName if the name is not allowed
         if self.name in RESERVED:
             raise BadName("geometry", self.name, "is reserved by the theory")
         if self.name in _MODULES:

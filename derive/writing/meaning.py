@@ -1,4 +1,4 @@
-"""Converts the tree of a formula to SymPy, in the order in which Python would compute it."""
+"""Convert the syntax tree of a formula to SymPy, in the order in which Python would evaluate it."""
 
 import operator
 from collections.abc import Callable, Mapping
@@ -48,7 +48,7 @@ MIRRORED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
 
 
 def read(text: str) -> Expr:
-    """The expression of a text of g(x), with plain positive symbols for its parameters.
+    """The SymPy expression of g(x) given as text, with a plain positive symbol for each parameter.
 
     Raises BadText.
 
@@ -154,7 +154,7 @@ class Meaning:
         base, exponent = self.value(node.base), self.value(node.exponent)
         if reach(exponent) > STEEPEST:
             raise self.refusal(
-                node.column, "the exponent is too large", f"use numbers up to {STEEPEST} in it"
+                node.column, "the exponent is too large", f"use exponents up to {STEEPEST}"
             )
         return self.step(node.column, operator.pow, base, exponent)
 

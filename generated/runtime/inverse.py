@@ -152,7 +152,7 @@ def _residuals(target: Any, a: float, c: float, now: Any) -> Any:
     """How far a contact is from its target.
 
     The first value is the logarithm of the target load over the load.  The second value is the
-    residual of the second condition, relative to h/4 or comparable with a change of the load's
+    residual of the second condition, relative to h/4 or comparable with a change in the load's
     logarithm.
     """
     load, moment, tilt, _, _ = now

@@ -65,7 +65,7 @@ class StickZone(NamedTuple):
 
 
 class Threshold(NamedTuple):
-    """Lower and upper limit of the change of bulk tension between which tension is moderate."""
+    """Lower and upper limit of the change in bulk tension between which tension is moderate."""
 
     lower: Array
     upper: Array

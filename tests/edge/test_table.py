@@ -107,7 +107,7 @@ BAD = [
     ("x,p [MPa]\n" + rows(X, P), "the unit of 'x' is missing"),
     ("x [furlong],p [MPa]\n" + rows(X, P), "'furlong' is not a known unit"),
     ("x [mm],p [bar]\n" + rows(X, P), "'bar' is not a known unit"),
-    ("x [MPa],p [MPa]\n" + rows(X, P), "'MPa' is not a known unit of the position"),
+    ("x [MPa],p [MPa]\n" + rows(X, P), "'MPa' is not a known unit for the position"),
     ("u [mm],p [MPa]\n" + rows(X, P), "no column has the position along the interface"),
     ("x [mm],temperature [K]\n" + rows(X, P), "no column has the contact pressure"),
     ("x [mm],Distance [mm],p [MPa]\n" + rows(X, X, P), "may be 'x'"),

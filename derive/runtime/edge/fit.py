@@ -226,14 +226,14 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
 
 
 def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -> ShearFit:
-    """K_T and L_T of an edge, from the change of shear traction in a run without slip.
+    """K_T and L_T of an edge, from the change in shear traction in a run without slip.
 
     Parameters
     ----------
     x : array_like
         Positions of the nodes along the interface, increasing or decreasing [m].
     dq : array_like
-        Change of the shear traction at the nodes, in a bonded or fully stuck contact [Pa].
+        Change in the shear traction at the nodes, in a bonded or fully stuck contact [Pa].
     edge : float
         Position of the edge nearer to the first node, as returned by fit_pressure [m].
     edge_error : float, optional

@@ -41,7 +41,7 @@ class Tractions(NamedTuple):
 
     p   pressure
     q   shear traction; NaN where it depends on the path of the loads
-    dq  change of the shear traction since the last reversal of the loads
+    dq  change in the shear traction since the last reversal of the loads
     """
 
     p: Array
@@ -122,7 +122,7 @@ def _half(edge: _Edge, share: Any = 1.0) -> _Half:
 
 
 def _change(edge: _Edge, half: _Half, s: Any) -> Any:
-    """The change of the shear traction; s is the distance from the edge at that instant."""
+    """The change in the shear traction; s is the distance from the edge at that instant."""
     t = np.maximum(s - half.d, 0.0)
     stuck = np.sqrt(t) * sum(R * t**m for m, R in enumerate(half.stuck))
     slides = _pressure(half.now, s) + _pressure(half.before, s - half.d + half.d_before)
@@ -130,7 +130,7 @@ def _change(edge: _Edge, half: _Half, s: Any) -> Any:
 
 
 def _scaled(edge: _Edge, factor: Any) -> _Edge:
-    """The same edge under `factor` times the change of shear."""
+    """The same edge under `factor` times the change in shear."""
     return edge._replace(shear=tuple(factor * V for V in edge.shear))
 
 
@@ -346,8 +346,8 @@ def peak(
 ) -> Peak:
     """The largest shear traction of a cycle next to an edge alone, at constant normal loads.
 
-        f p(s) at the end of the slip zone of the highest load, s = d if mean = 0; nearer to the
-            edge q = f p, where q/p is largest
+        f p(s) at the end of the slip zone at the highest load (s = d if mean = 0).  Closer to the
+        edge q = f p, and there q/p is largest
 
     Parameters
     ----------

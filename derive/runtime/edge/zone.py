@@ -6,7 +6,7 @@ At a distance s from the edge
     full-stick dq = K_T s**(-1/2) + L_T s**(1/2) + N_T s**(3/2).
 
 For an edge alone, take f (p_1 + p_2) of the contacts at both ends of the half-cycle, with slip
-zones d_1 and d_2.  The bounded change of shear tends to that of full stick if
+zones d_1 and d_2.  The bounded change in shear tends to that of full stick if
 (derive/theory/edge.py)
 
     sum f (K_N d/2 + 3 L_N d**2/8 + 5 N_N d**3/16) = |K_T| + L_T d/2 + 3 N_T d**2/8,
@@ -60,7 +60,7 @@ class OtherEdge(NamedTuple):
     """The other edge as slip_zone takes it; signs as at that edge.
 
     K_N, L_N, N_N  coefficients of the pressure
-    K_T   coefficient of the full-stick change of shear
+    K_T   coefficient of the full-stick change in shear
     da    how much further out the edge is than at the other end of the half-cycle
     then  Pressure next to this edge at the other end of the half-cycle
     """
@@ -101,7 +101,7 @@ def slip_zone(
     K_N : array_like
         Coefficient of sqrt(s) in the pressure, s the distance inward [Pa/sqrt(m)].
     K_T : array_like
-        Coefficient of 1/sqrt(s) in the full-stick change of shear, signed [Pa sqrt(m)].
+        Coefficient of 1/sqrt(s) in the full-stick change in shear, signed [Pa sqrt(m)].
     f : array_like
         Coefficient of friction [-].
     L_N, N_N : array_like, optional

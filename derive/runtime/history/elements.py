@@ -104,7 +104,7 @@ def influence(ends: Any) -> Any:
         for j in range(i + 1):
             r, s, t, u = ends[i], ends[i + 1], ends[j], ends[j + 1]
             if min(abs(r - u), abs(t - s)) > 20 * max(s - r, u - t):
-                # distant elements: the logarithm at four pairs of Gauss's nodes
+                # distant elements: the logarithm at four pairs of Gauss nodes
                 total = 0.0
                 for k in range(4):
                     x = r + (s - r) * (_INNER if k < 2 else 1 - _INNER)
@@ -262,7 +262,7 @@ def mean_pressures(
 
 @kernel(real(real, real, real, real, real))
 def _full_stick_force(x: float, a: float, c: float, dQ: float, dsigma: float) -> float:
-    """Integral of the full-stick change of shear from the middle of the contact to x."""
+    """Integral of the full-stick change in shear from the middle of the contact to x."""
     half, offset = (a + c) / 2, x - (c - a) / 2
     offset = min(max(offset, -half), half)
     angle = math.asin(min(max(offset / half, -1.0), 1.0))
@@ -296,7 +296,7 @@ def _mean_full_stick_force(x: float, before: Any, now: Any, dQ: float, dsigma: f
 
 @kernel(whole(vector, vector, vector, real, real, vector))
 def add_full_stick(ends: Any, before: Any, now: Any, dQ: float, dsigma: float, q: Any) -> int:
-    """Add to q the change of shear under full stick while the edges a, c move uniformly."""
+    """Add to q the change in shear under full stick while the edges a, c move uniformly."""
     constant = before[0] == now[0] and before[1] == now[1]
     last = 0.0
     for i in range(ends.size):

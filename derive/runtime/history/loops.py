@@ -31,7 +31,7 @@ cycle is enough: at the instant of the first or of the second maximum, the shear
 loads below P_E becomes Q_L, and from then on slip does not extend below P_E.
 
 A constant tension leaves behind a shear traction of its own.  Consider two histories under equal
-changes of the loads.  The energy of the difference of their shear tractions does not grow, and in
+changes in the loads.  The energy of the difference of their shear tractions does not grow, and in
 the steady cycle it is constant.  Then both slip in the same way: neither slips where the tractions
 differ, and elsewhere the difference of the tractions does not change, so that the difference of the
 slip rates does no work on the change of traction that it causes.

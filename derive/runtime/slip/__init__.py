@@ -11,6 +11,6 @@ zone        the regime of a cycle, and its stick zone
 mixed       the stick zone where slip reverses within a half-cycle
 threshold   tensions at which a cycle is no longer moderate
 series      slip zones by series in their length
-shear       the change of shear, and the slip range
+shear       the change in shear, and the slip range
 march       a cycle instant by instant
 """

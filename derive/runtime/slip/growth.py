@@ -167,7 +167,7 @@ def holds_at_the_start(path: Any, cycle: Any, m: float, n: float) -> Any:
     """Whether the shear traction stays within the friction limit at points that have not slipped
     yet, starting from either end.
 
-    The changes of shear in full stick and of pressure, times w, are both linear in x.  Shear
+    The changes in shear in full stick and of pressure, times w, are both linear in x.  Shear
     therefore stays within friction all over a future slip zone if it does at the inner end, -m or
     n, and if slip begins at the edge.
     """
@@ -209,7 +209,7 @@ def _force_rates(
 def _still_grows(path: Any, cycle: Any, k: int, sense: float, m: float, n: float) -> Any:
     """Whether both slip zones of large tension are growing, at a contact of the path.
 
-    The next change of shear, due to dQ, dsigma and +/- f dp in the slip zones, would be singular at
+    The next change in shear, due to dQ, dsigma and +/- f dp in the slip zones, would be singular at
     the ends of the stick zone.  It extends the slip there if it has the sign of the slip.
     """
     a, c = path[k, A], path[k, C]

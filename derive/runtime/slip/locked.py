@@ -1,6 +1,6 @@
 r"""Whether the stick zone can hold the shear load of the cycle.
 
-The stick zone follows from the changes of the loads, dQ and dsigma.  It is permanent only if there
+The stick zone follows from the changes in the loads, dQ and dsigma.  It is permanent only if there
 is a shear traction q1 at the first end of the half-cycle that carries Q there and is within
 friction at both ends:
 
@@ -8,10 +8,10 @@ friction at both ends:
 
 Then Q lies between the integrals of the largest lower and the smallest upper of these limits.  In a
 slip zone both are equal, and q1 is -f p1 or f p1.  If Q lies outside, every point slips in every
-cycle, and the bodies creep along each other although |Q| < f P.
+cycle, and the bodies ratchet along each other although |Q| < f P.
 
 Under large tension at a high mean shear load this happens, as the slip zones slip in opposite
-directions and carry little.  If nothing slips under the changes of the loads, it happens only if
+directions and carry little.  If nothing slips under the changes in the loads, it happens only if
 the moment rocks the contact and Q and sigma are constant: dq = 0, and the limits hold on the whole
 path.  If both edges advance, |dq| <= f dp everywhere, so that |Q| < f P is enough.  Under moderate
 tension f p1 + dq = f p2 + 2 f (p1 - p_s) is above f p2, p_s being the pressure of the contact

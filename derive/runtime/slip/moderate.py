@@ -23,7 +23,7 @@ STEPS = 100
 
 @kernel(results(2)(LAW, vector, matrix, whole, whole, real, vector))
 def patch(law: Any, own: Any, path: Any, one: int, other: int, part: float, cycle: Any) -> Any:
-    """m and n between two contacts, rows of `path`, after a part of the change of shear."""
+    """m and n between two contacts, rows of `path`, after a part of the change in shear."""
     load = (path[one, LOAD] + path[other, LOAD]) / 2 - part * cycle[4] / (2 * cycle[6])
     tilt = (path[one, TILT] + path[other, TILT]) / 2 - part * cycle[5] / (4 * cycle[6])
     return contact_at_tilt(law, own, load, tilt)
@@ -64,7 +64,7 @@ def _width_under(law: Any, own: Any, load: float, edge: float, side: float, widt
 
 @kernel(real(LAW, vector, matrix, vector, real))
 def closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
-    """The change of tension at which the zone reaches the smaller contact's edge on one side."""
+    """The change in tension at which the zone reaches the smaller contact's edge on one side."""
     load = (ends[0, LOAD] + ends[1, LOAD]) / 2 - cycle[4] / (2 * cycle[6])
     if not load > 0:
         return math.nan
@@ -74,6 +74,7 @@ def closing(law: Any, own: Any, ends: Any, cycle: Any, side: float) -> Any:
     if not width > 0:
         return math.nan
     now, _, tilt = _keeping(law, own, edge, width, side)
-    # next to a kink, rounding of the other edge changes the tilt: correct it by the missing load
+    # next to a kink, rounding error in the position of the other edge changes the tilt: use the
+    # missing load to correct it
     tilt += side * 4 * (load - now) / (math.pi * width)
     return 4 * cycle[6] * ((ends[0, TILT] + ends[1, TILT]) / 2 - tilt)

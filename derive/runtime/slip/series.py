@@ -1,7 +1,7 @@
 r"""Slip zones by series in their length over the width of the stick zone.
 
 At a distance s from an edge p = K s**(1/2) + L s**(3/2) + N s**(5/2) + ...  Let h_s be the width of
-the stick zone and e = d/h_s.  In the conditions for a bounded change of shear
+the stick zone and e = d/h_s.  In the conditions for a bounded change in shear
 (derive/theory/slip.py), a slip zone of length d contributes
 
     near = int_0^d p sqrt((h_s + d - s)/(d - s)) ds

@@ -1,4 +1,4 @@
-r"""The change of shear over a half-cycle, and the slip range.
+r"""The change in shear over a half-cycle, and the slip range.
 
 With w(x) = sqrt((x + m)(x - n)), negative on the left, W(x) = sqrt((x + m)(n - x)), and r = kappa f
 (p1 + p2) in the slip zones, the bounded solution is
@@ -62,7 +62,7 @@ TINY = 1e-300
 """Least argument of a logarithm."""
 
 
-# ---------------------------------------------------------------- the change of shear
+# ---------------------------------------------------------------- the change in shear
 
 
 @kernel(truth(vector))
@@ -132,7 +132,8 @@ def _turns_between(cycle: Any, zone: Any, a: float, c: float) -> Any:
 
 @kernel(truth(vector, results(3), vector, results(3)))
 def _slips_within(cycle: Any, zone: Any, other: Any, other_zone: Any) -> Any:
-    """Whether a half-cycle slips only where another one does, and in the corresponding sense.
+    """Whether one half-cycle slips only where another one slips, and in the corresponding
+    direction.
 
     No point that slipped before may be driven further either.  Under moderate tension the rate of
     shear has the same sign everywhere.  A zone is given by m, n and its regime.

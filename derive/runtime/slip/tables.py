@@ -1,4 +1,4 @@
-"""Functions of one position, kept as Chebyshev series.
+"""Functions of a single position, stored as Chebyshev series.
 
 A series is in s, from 0 to 1; its terms follow from the values at the points `chebyshev_place`.
 """

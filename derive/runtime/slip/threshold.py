@@ -1,4 +1,4 @@
-"""Changes of bulk tension at which a cycle is no longer moderate, or one of its slip zones closes.
+"""Changes in bulk tension at which a cycle is no longer moderate, or one of its slip zones closes.
 
 A row is a1, c1, a2, c2, dQ, f; everything is for E* = 1.
 """
@@ -29,7 +29,7 @@ def _without_tension(given: Any) -> Any:
 
 @kernel(results(2)(matrix, vector))
 def _tensions_at_the_start(ends: Any, cycle: Any) -> Any:
-    """The changes of tension between which both edges begin to slip forward."""
+    """The changes in tension between which both edges begin to slip forward."""
     lower, upper = -math.inf, math.inf
     for i in range(2):
         h = ends[i, A] + ends[i, C]
@@ -62,7 +62,7 @@ def _narrowed(law: Any, own: Any, path: Any, cycle: Any, lower: float, upper: fl
     """The interval of tensions reduced to those at which moderate slip grows to the end.
 
     First a tension inside this interval is sought, from the middle outward.  Then each bound is
-    found by halving.
+    found by bisection.
     """
     trial = cycle.copy()
     for k in range(2 * PARTS - 1):
@@ -77,7 +77,7 @@ def _narrowed(law: Any, own: Any, path: Any, cycle: Any, lower: float, upper: fl
 
 @kernel(LOOP)
 def each_tension_threshold(law: Any, given: Any, own: Any, out: Any) -> None:
-    """The changes of tension between which the moderate solution is exact.
+    """The changes in tension between which the moderate solution is exact.
 
     given: a1, c1, a2, c2, dQ, f; out: lower, upper.
     """
@@ -98,7 +98,7 @@ def each_tension_threshold(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(LOOP)
 def each_closing_tension(law: Any, given: Any, own: Any, out: Any) -> None:
-    """The changes of tension at which one slip zone of the moderate solution closes.
+    """The changes in tension at which one slip zone of the moderate solution closes.
 
     given: a1, c1, a2, c2, dQ, f; out: lower, upper.
     """

@@ -50,7 +50,7 @@ class Edge(NamedTuple):
     """One edge at the end of the half-cycle that raises Q.
 
     K_N  coefficient of sqrt(s) in the pressure [Pa/sqrt(m)]
-    K_T  coefficient of 1/sqrt(s) in the full-stick change of shear, signed [Pa sqrt(m)]
+    K_T  coefficient of 1/sqrt(s) in the full-stick change in shear, signed [Pa sqrt(m)]
     da   how much further out the edge is than at the other end of the half-cycle [m]
     L_N, L_T  coefficients of s**(3/2) and s**(1/2) [Pa/m**(3/2), Pa/sqrt(m)]; None if not known or
          not requested

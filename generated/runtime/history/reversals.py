@@ -7,7 +7,7 @@ Let sigma = k Q at all instants, |k| <= 8/(pi h) with h the contact width, and |
     F(x; D) = f p(x) - f p(x; m, n),       int F dx = D/2.
 
 In the first loading q = +-F(D) with D = 2 |Q|.  After a reversal q changes by +-2 F(D), where D is
-the change of Q since the reversal.  A branch is the loading between two reversals.  When D reaches
+the change in Q since the reversal.  A branch is the loading between two reversals.  When D reaches
 that of the branch before, the inner loop is closed: both branches are removed, and the branch
 before them continues.  If the branch before is the first loading, q becomes that of a first loading
 in the opposite direction.  Thus q is a sum over the reversals whose loops are still open, and each
@@ -15,7 +15,7 @@ of them has a smaller D than the one before.
 
 Proof.  In [-m, n] the pressures of both contacts satisfy the equation of the normal contact with
 the same g'.  Their difference satisfies (1/pi) PV int 2 F/(x - xi) dxi = k D/4 there, which is the
-condition of stick under the change of tension.  In [-m, n] nothing slips, and outside it q has
+condition of stick under the change in tension.  In [-m, n] nothing slips, and outside it q has
 changed from -+f p to +-f p.  While D grows, the load and the tilt of [-m, n] fall.  The pressure
 falls as under a flat punch, by an even function plus an odd one, both over a square root.  The sum
 is positive in all of [-m, n] if |k| <= 8/(pi (m + n)), which holds because m + n <= h.  Hence m and
@@ -61,7 +61,7 @@ ROUNDING = 1e-12
 
 CHANGE, LEFT, RIGHT, WORK, POINTS = range(5)
 """Columns of the stack: D, m, n, frictional work over a whole branch of that D, and from POINTS on
-the change of shear and then the slip of the branch at the points."""
+the change in shear and then the slip of the branch at the points."""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(14)
 _NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
