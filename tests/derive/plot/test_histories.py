@@ -1,6 +1,5 @@
 """Pictures of histories hold what `history` gives, and refuse what they cannot draw."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import matplotlib
@@ -14,8 +13,6 @@ from derive.plot.style import FORWARD, REVERSE, STICK
 from generated import hertz
 from generated.runtime.types import History
 
-matplotlib.use("Agg")
-
 STEEL = {"E_star": 115e9, "R": 0.05}
 FRICTION = {"f": 0.5, **STEEL}
 P, F = 1e6, 0.5
@@ -27,12 +24,6 @@ WHOLE = hertz.history(P, 0.0, WAY, 0.0, x=X, **FRICTION)
 
 ENDS = np.sqrt([0.7, 0.4, 0.85, 0.7, 0.55])
 """Of the stick zone at each instant but the first, over the half-width."""
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> Iterator[None]:
-    yield
-    matplotlib.pyplot.close("all")
 
 
 def colours(axes: Any) -> np.ndarray:

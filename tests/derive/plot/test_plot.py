@@ -1,17 +1,19 @@
 """Pictures hold what the functions give, say what stands on their axes, and change nothing else."""
 
+import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable
 from importlib import import_module
-from types import ModuleType
 from typing import Any
 
 import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 from numpy.testing import assert_allclose, assert_array_equal
 
 from derive import plot
@@ -19,9 +21,7 @@ from derive.errors import MissingLibrary
 from derive.plot import live as live_module
 from derive.plot.style import FORWARD, REVERSE
 from generated import hertz, wedge
-from generated.runtime.types import March, Regime
-
-matplotlib.use("Agg")
+from generated.runtime.types import Contact, March, Regime
 
 STEEL = {"E_star": 115e9, "R": 0.05}
 FRICTION = {"f": 0.6, **STEEL}
@@ -32,15 +32,14 @@ WINDOW = 262e6
 """A tension at which slip reverses: 8 dQ/(pi h) = 256.7 MPa, and the zone closes at 274 MPa."""
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> Iterator[None]:
-    yield
-    matplotlib.pyplot.close("all")
-
-
 def line(axes: Any, label: str) -> Any:
     (found,) = (of for of in axes.get_lines() if of.get_label() == label)
     return found
+
+
+def words(of: Any) -> list[str]:
+    """Of axes, or of their legend."""
+    return [text.get_text() for text in getattr(of, "get_texts", lambda: of.texts)()]
 
 
 def areas(axes: Any) -> dict[str, list[PolyCollection]]:
@@ -60,25 +59,12 @@ def span(of: PolyCollection) -> tuple[float, float, float, float]:
 # ------------------------------------------------------------------ measures and style
 
 
-@pytest.mark.parametrize(
-    ("values", "of", "name"),
-    [
-        ([7e-4, -1e-5], "m", "mm"),
-        (0.5, "m", "m"),
-        ([np.inf, 9e8, np.nan], "Pa", "MPa"),
-        (2e5, "N/m", "MN/m"),
-    ],
-)
-def test_a_unit_suits_the_values(values: Any, of: str, name: str) -> None:
-    assert plot.unit(values, of).name == name
-
-
-def test_a_measure_divides_and_leaves_out_what_is_infinite() -> None:
+def test_a_unit_suits_the_values_and_leaves_out_what_is_infinite() -> None:
+    assert plot.unit([7e-4, -1e-5], "m").name == "mm"
+    assert plot.unit(0.5, "m").name == "m"
+    assert plot.unit([np.inf, 9e8, np.nan], "Pa").name == "MPa"
+    assert plot.unit(2e5, "N/m").name == "MN/m"
     assert_array_equal(plot.unit(0.002, "m")([0.001, np.inf, np.nan]), [1.0, np.nan, np.nan])
-    with pytest.raises(ValueError, match="finite positive number"):
-        plot.over(0.0, "a")
-    with pytest.raises(ValueError, match="the unit 'ft' is not known; give one of m, Pa"):
-        plot.unit(1.0, "ft")
 
 
 def test_the_style_lasts_no_longer_than_its_context() -> None:
@@ -108,7 +94,7 @@ def test_pressures_are_those_of_the_module() -> None:
         assert_allclose((x[0], x[-1]), (-1e3 * state.a, 1e3 * state.c))
     assert axes.get_xlabel() == "$x$  [mm]"
     assert axes.get_ylabel() == "$p$  [MPa]"
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["leaning", "upright"]
+    assert words(axes.get_legend()) == ["leaning", "upright"]
 
 
 def test_ratios_are_labelled_as_ratios() -> None:
@@ -127,65 +113,25 @@ def test_the_apex_of_a_wedge_is_cut_off() -> None:
     assert beside < axes.get_ylim()[1]
 
 
-NO_CONTACT = hertz.contact(-1.0, 0.0, **STEEL)
-SEVERAL = hertz.contact(np.array([P, 2 * P]), M, **STEEL)
-
-
-@pytest.mark.parametrize(
-    ("states", "labels", "told"),
-    [
-        (STATE, (), "give a list of results"),
-        ([], (), "`states` is empty; give a list of at least one Contact"),
-        ([STATE, NO_CONTACT], (), r"states\[1\] has edges that are NaN"),
-        ([SEVERAL], (), r"states\[0\] contains contacts in the shape \(2,\), but only one"),
-        ([3.0], (), r"states\[0\] is 3.0, which is not a Contact; give a result of `contact`"),
-        ([STATE, STATE], ["one"], "1 labels are given for 2 states; give one for each, or none"),
-    ],
-)
-def test_pressures_that_cannot_be_drawn_are_refused(
-    states: Any, labels: list[str], told: str
-) -> None:
-    with pytest.raises(ValueError, match=told):
-        plot.pressures(hertz, states, labels, **STEEL)
-    assert not matplotlib.pyplot.get_fignums()
-
-
-@pytest.mark.parametrize("draw", [plot.tractions, plot.slip])
-@pytest.mark.parametrize(
-    ("changed", "told"),
-    [
-        ({"first": NO_CONTACT}, "first has edges that are NaN"),
-        ({"second": SEVERAL}, r"second contains contacts in the shape \(2,\)"),
-        ({"dQ": np.ones(3)}, r"dQ is an array of the shape \(3,\), but only one half-cycle"),
-        ({"dsigma": np.nan}, "dsigma is nan"),
-    ],
-)
-def test_a_half_cycle_that_cannot_be_drawn_is_refused(
-    draw: Any, changed: dict[str, Any], told: str
-) -> None:
-    given = {"first": STATE, "second": STATE, "dQ": DQ, "dsigma": 0.0, **FRICTION} | changed
-    with pytest.raises(ValueError, match=told):
-        draw(hertz, **given)
-    assert not matplotlib.pyplot.get_fignums()
-
-
-def test_a_mixed_cycle_shows_its_zone_where_it_is_asked_for() -> None:
+@pytest.mark.parametrize("mixed", [False, True])
+def test_a_mixed_cycle_shows_its_zone_where_it_is_asked_for(mixed: bool) -> None:
     """The right edge slips, too, and its slip has no one sense; the shear is not known."""
-    zone = hertz.stick_zone(STATE, STATE, DQ, WINDOW, mixed=True, **FRICTION)
-    assert np.isfinite(zone.m) and zone.n < STATE.c
-    _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, mixed=True, **FRICTION)
-    left, right = below.patches
-    assert to_hex(left.get_facecolor()) == FORWARD
-    assert right.get_hatch() == "..."
-    assert left.get_x() + left.get_width() == pytest.approx(-1e3 * zone.m)
-    assert (right.get_x(), right.get_width()) == pytest.approx(
-        (1e3 * zone.n, 1e3 * (STATE.c - zone.n))
-    )
-    assert "slip reverses" in [text.get_text() for text in below.get_legend().get_texts()]
-    assert [text.get_text() for text in below.texts] == ["mixed: the shear is not known"]
-    above, _ = plot.slip(hertz, STATE, STATE, DQ, WINDOW, mixed=True, **FRICTION)
-    assert len(above.patches) == 2
-    assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
+    zone = hertz.stick_zone(STATE, STATE, DQ, WINDOW, mixed=mixed, **FRICTION)
+    assert zone.regime == Regime.MIXED
+    _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, mixed=mixed, **FRICTION)
+    above, _ = plot.slip(hertz, STATE, STATE, DQ, WINDOW, mixed=mixed, **FRICTION)
+    assert words(below) == ["mixed: the shear is not known"]
+    assert words(above) == ["mixed: the slip is not known"]
+    assert len(above.patches) == len(below.patches) == 2 * mixed
+    assert np.all(np.isfinite(below.get_ylim()))
+    if mixed:
+        left, right = below.patches
+        assert to_hex(left.get_facecolor()) == FORWARD
+        assert right.get_hatch() == "..."
+        assert left.get_x() + left.get_width() == pytest.approx(-1e3 * zone.m)
+        assert right.get_x() == pytest.approx(1e3 * zone.n)
+        assert right.get_width() == pytest.approx(1e3 * (STATE.c - zone.n)) and zone.n < STATE.c
+        assert "slip reverses" in words(below.get_legend())
 
 
 @pytest.mark.parametrize(
@@ -233,30 +179,6 @@ def test_the_shear_of_a_cycle_is_that_of_the_module_and_keeps_within_its_band() 
     assert len(axes.get_lines()) == 2 + 2 + 2
     low, high = axes.get_ylim()
     assert low < np.min(lower.get_ydata()) and high > np.max(upper.get_ydata())
-
-
-@pytest.mark.parametrize(
-    ("loads", "told"),
-    [
-        ((0.4 * DQ, 0.0, DQ, 0.0), "give the end with the larger shear load as Q and sigma"),
-        ((1e6, 0.0, DQ, 0.0), "the first rise is in the regime sliding"),
-        ((DQ, 0.0, DQ, WINDOW), "the fall is in the regime mixed"),
-        ((DQ, np.nan, DQ, 0.0), "sigma is nan"),
-    ],
-)
-def test_a_shear_that_is_not_known_is_refused(loads: tuple[float, ...], told: str) -> None:
-    with pytest.raises(ValueError, match=told):
-        plot.shear(hertz, STATE, *loads, **FRICTION)
-
-
-def test_where_nothing_is_known_the_picture_says_so() -> None:
-    assert hertz.stick_zone(STATE, STATE, DQ, WINDOW, **FRICTION).regime == Regime.MIXED
-    _, below = plot.tractions(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
-    assert [text.get_text() for text in below.texts] == ["mixed: the shear is not known"]
-    assert not below.patches
-    assert np.all(np.isfinite(below.get_ylim()))
-    above, _ = plot.slip(hertz, STATE, STATE, DQ, WINDOW, **FRICTION)
-    assert [text.get_text() for text in above.texts] == ["mixed: the slip is not known"]
 
 
 def test_slip_and_the_work_of_friction() -> None:
@@ -314,19 +236,9 @@ def test_the_lines_of_a_map_are_the_ends_of_the_stick_zone_with_a_gap_at_each_tu
 
 def test_the_legend_tells_what_is_there_and_no_more() -> None:
     _, marched = cycle(0.0)
-    names = [text.get_text() for text in plot.stick_slip(marched).get_legend().get_texts()]
-    assert names == ["stick", "forward slip", "reverse slip", "exact"]
+    legend = words(plot.stick_slip(marched).get_legend())
+    assert legend == ["stick", "forward slip", "reverse slip", "exact"]
     assert plot.stick_slip(marched, legend=False).get_legend() is None
-
-
-def test_several_cycles_at_once_are_refused() -> None:
-    swing = -np.cos(2 * np.pi * np.linspace(0, 1, 9)) / 2
-    several = hertz.march(P, M, DQ * swing, np.array([[0.0], [1e6]]) * swing, **FRICTION)
-    with pytest.raises(ValueError, match="only one cycle can be drawn"):
-        plot.stick_slip(several)
-    _, one = cycle(0.0)
-    with pytest.raises(ValueError, match="one time for each of the 41 instants"):
-        plot.stick_slip(one, [0.0, 1.0])
 
 
 def test_a_sweep_leaves_open_what_is_not_known() -> None:
@@ -342,7 +254,7 @@ def test_a_sweep_leaves_open_what_is_not_known() -> None:
     _, end = line(axes, "exact").get_data()
     assert_allclose(end[np.isfinite(end)], -1e3 * zone.m[np.isfinite(zone.m)])
     assert axes.get_xlabel() == "tension"
-    assert "not known" in [text.get_text() for text in axes.get_legend().get_texts()]
+    assert "not known" in words(axes.get_legend())
 
 
 def test_a_sweep_needs_the_tension_where_its_sign_decides() -> None:
@@ -364,23 +276,6 @@ def test_a_sweep_needs_the_tension_where_its_sign_decides() -> None:
     assert plot.sweep(friction, STATE, hertz.stick_zone(STATE, STATE, DQ, 0.0, **law), 0.0)
 
 
-@pytest.mark.parametrize(
-    ("changed", "told"),
-    [
-        ({"parameter": 1.0}, r"parameter has the shape \(\); give an array of one dimension"),
-        ({"parameter": [0.0, np.nan]}, "parameter contains NaN"),
-        ({"dsigma": np.ones(3)}, r"dsigma has the shape \(3,\), but there are 2 values"),
-        ({"contact": hertz.contact(np.ones(3), 0.0, **STEEL)}, r"contact.a has the shape \(3,\)"),
-    ],
-)
-def test_a_sweep_that_cannot_be_drawn_is_refused(changed: dict[str, Any], told: str) -> None:
-    zone = hertz.stick_zone(STATE, STATE, DQ, 0.0, **FRICTION)
-    given = {"parameter": [0.0, 1.0], "contact": STATE, "zone": zone, "dsigma": 0.0} | changed
-    with pytest.raises(ValueError, match=told):
-        plot.sweep(**given)
-    assert not matplotlib.pyplot.get_fignums()
-
-
 def test_boundaries_are_the_zone_that_is_given() -> None:
     t, marched = cycle(LARGE_PULL)
     series = hertz.march(
@@ -390,9 +285,7 @@ def test_boundaries_are_the_zone_that_is_given() -> None:
     plot.boundaries(axes, t, series, "order 1", length=plot.unit(STATE.a, "m"))
     _, end = line(axes, "order 1").get_data()
     assert_allclose(end[np.isfinite(end)], -1e3 * series.m)
-    assert "order 1" in [text.get_text() for text in axes.get_legend().get_texts()]
-    with pytest.raises(ValueError, match="the kind of line 'third' is not known"):
-        plot.boundaries(axes, t, series, "third", length=plot.unit(STATE.a, "m"))
+    assert "order 1" in words(axes.get_legend())
 
 
 # ------------------------------------------------------------------ errors of the series
@@ -455,70 +348,122 @@ def test_the_live_picture_knows_where_nothing_is_known() -> None:
 
 
 REACHED = [
-    START._replace(P=0.1 * LARGEST.P, M=300),
-    START._replace(P=0.005 * LARGEST.P, M=-300),
-    LARGEST,
-    LARGEST._replace(M=-300.0, dsigma=-800e6),
-    LARGEST._replace(f=0.005),
+    *(START._replace(P=0.1 * LARGEST.P, M=300), START._replace(P=0.005 * LARGEST.P, M=-300)),
+    *(LARGEST, LARGEST._replace(M=-300.0, dsigma=-800e6), LARGEST._replace(f=0.005)),
 ]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("body", ["wedge_parabola", "flat_rounded"])
-@pytest.mark.parametrize("loads", REACHED)
-def test_the_live_picture_holds_all_that_the_sliders_reach(body: str, loads: plot.Loads) -> None:
-    module: ModuleType = import_module(f"generated.{body}")
-    own = {"wedge_parabola": {"phi": 0.02}, "flat_rounded": {"b": 1e-3}}.get(body, {})
-    live = plot.Live(module, LARGEST, **STEEL, **own)
+@pytest.mark.parametrize(
+    ("body", "own", "share"),
+    [("wedge_parabola", {"phi": 0.02}, 0.95), ("flat_rounded", {"b": 1e-3}, 0.999)],
+)
+def test_the_live_picture_holds_all_that_the_sliders_reach(
+    body: str, own: dict[str, float], share: float
+) -> None:
+    """Less of a corner, whose peak has no height."""
+    live = plot.Live(import_module(f"generated.{body}"), LARGEST, **STEEL, **own)
     before = live.show(START)
     limits = live.above.axis(), live.below.axis()
-    assert "nan" not in live.show(loads)
-    for axes, lines in ((live.above, [live.pressure]), (live.below, [live.upper, live.lower])):
-        left, right, low, high = axes.axis()
-        for line in lines:
-            x, y = line.get_data()
-            seen = np.isfinite(y)
-            inside = (left < x) & (x < right) & (low <= y) & (y <= high)
-            corner = body == "wedge_parabola"  # whose peak has no height
-            assert np.all(left < x) and np.all(x < right)
-            assert np.mean(inside[seen]) > (0.95 if corner else 0.999)
-        assert right - left < 60 * np.ptp(live.pressure.get_xdata()) or loads.P < 0.1 * LARGEST.P
-    assert live.show(START) == before
-    assert (live.above.axis(), live.below.axis()) == limits  # and comes back
-
-
-@pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
-@pytest.mark.parametrize(
-    ("changed", "told"),
-    [
-        (
-            {"P": -1.0},
-            "largest.P is -1.0, but the end of a slider must be a finite positive number",
-        ),
-        ({"M": -1.0}, "largest.M is -1.0.*a finite number that is not negative"),
-        ({"M": 1.0}, r"start.M is 60.0, but its slider covers -1 to 1; give"),
-    ],
-)
-def test_loads_that_no_slider_can_have_are_refused(changed: dict[str, Any], told: str) -> None:
-    with pytest.raises(ValueError, match=told):
-        plot.sliders(hertz, LARGEST._replace(**changed), START, **STEEL)
+    for loads in REACHED:
+        assert "nan" not in live.show(loads)
+        for axes, lines in ((live.above, [live.pressure]), (live.below, [live.upper, live.lower])):
+            left, right, low, high = axes.axis()
+            for x, y in (of.get_data() for of in lines):
+                inside = (left < x) & (x < right) & (low <= y) & (y <= high)
+                assert np.all(left < x) and np.all(x < right)
+                assert np.mean(inside[np.isfinite(y)]) > share
+            wide = right - left >= 60 * np.ptp(live.pressure.get_xdata())
+            assert not wide or loads.P < 0.1 * LARGEST.P
+        assert live.show(START) == before
+        assert (live.above.axis(), live.below.axis()) == limits  # and comes back
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
 def test_sliders_move_the_picture() -> None:
     box = plot.sliders(hertz, LARGEST, START, **STEEL)
     row, picture, told = box.children
-    assert [slider.description.split()[0] for slider in row.children] == [
-        "P",
-        "M",
-        "dQ",
-        "dsigma",
-        "f",
-    ]
+    assert [s.description.split()[0] for s in row.children] == ["P", "M", "dQ", "dsigma", "f"]
     before, line_before = picture.value, told.value
     row.children[3].value = 0.0
     assert picture.value != before
     assert line_before.startswith("large") and told.value.startswith("moderate")
+
+
+# ------------------------------------------------------------------ what cannot be drawn
+
+NO_CONTACT = hertz.contact(-1.0, 0.0, **STEEL)
+SEVERAL = hertz.contact(np.array([P, 2 * P]), M, **STEEL)
+_, ONE = cycle(0.0)
+TWO = March(*(np.stack([of, of]) for of in ONE))
+
+
+def half_cycle(**changed: Any) -> None:
+    """As tractions and as slip, which say the same."""
+    given = {"first": STATE, "second": STATE, "dQ": DQ, "dsigma": 0.0, **FRICTION} | changed
+    with pytest.raises(ValueError) as caught:
+        plot.tractions(hertz, **given)
+    with pytest.raises(ValueError, match=re.escape(str(caught.value))):
+        plot.slip(hertz, **given)
+    raise caught.value
+
+
+def sweep(**changed: Any) -> Any:
+    zone = hertz.stick_zone(STATE, STATE, DQ, 0.0, **FRICTION)
+    given = {"parameter": [0.0, 1.0], "contact": STATE, "zone": zone, "dsigma": 0.0} | changed
+    return plot.sweep(**given)
+
+
+def pressures(*states: Any, labels: tuple[str, ...] = ()) -> Any:
+    return plot.pressures(hertz, [*states], labels, **STEEL)
+
+
+def shear(*loads: float) -> Any:
+    return plot.shear(hertz, STATE, *loads, **FRICTION)
+
+
+def sliders(**changed: float) -> Any:
+    return plot.sliders(hertz, LARGEST._replace(**changed), START, **STEEL)
+
+
+REFUSED: dict[str, Callable[[], Any]] = {
+    "finite positive number": lambda: plot.over(0.0, "a"),
+    "the unit 'ft' is not known; give one of m, Pa": lambda: plot.unit(1.0, "ft"),
+    "give a list of results": lambda: plot.pressures(hertz, STATE, **STEEL),
+    "`states` is empty; give a list of at least one": pressures,
+    r"states\[1\] has edges that are NaN": lambda: pressures(STATE, NO_CONTACT),
+    r"states\[0\] contains contacts in the shape \(2,\)": lambda: pressures(SEVERAL),
+    r"states\[0\] is 3.0, which is not a Contact": lambda: pressures(3.0),
+    "1 labels are given for 2": lambda: pressures(STATE, STATE, labels=("one",)),
+    "first has edges that are NaN": lambda: half_cycle(first=NO_CONTACT),
+    r"second contains contacts in the shape \(2,\)": lambda: half_cycle(second=SEVERAL),
+    r"dQ is an array of the shape \(3,\)": lambda: half_cycle(dQ=np.ones(3)),
+    "dsigma is nan": lambda: half_cycle(dsigma=np.nan),
+    "larger shear load as Q and sigma": lambda: shear(0.4 * DQ, 0.0, DQ, 0.0),
+    "the first rise is in the regime sliding": lambda: shear(1e6, 0.0, DQ, 0.0),
+    "the fall is in the regime mixed": lambda: shear(DQ, 0.0, DQ, WINDOW),
+    "^sigma is nan": lambda: shear(DQ, np.nan, DQ, 0.0),
+    "only one cycle can be drawn": lambda: plot.stick_slip(TWO),
+    "one time for each of the 41 instants": lambda: plot.stick_slip(ONE, [0.0, 1.0]),
+    r"parameter has the shape \(\); give an array": lambda: sweep(parameter=1.0),
+    "parameter contains NaN": lambda: sweep(parameter=[0.0, np.nan]),
+    r"dsigma has the shape \(3,\), but there are 2": lambda: sweep(dsigma=np.ones(3)),
+    r"contact.a has the shape \(3,\)": lambda: sweep(contact=Contact(*np.ones((3, 3)))),
+    "the kind of line 'third' is not known": lambda: plot.boundaries(
+        Figure().gca(), [0.0], ONE, "third", length=plot.unit(STATE.a, "m")
+    ),
+    "largest.P is -1.0, but .* a finite positive number": lambda: sliders(P=-1.0),
+    "largest.M is -1.0.*a finite number that is not negative": lambda: sliders(M=-1.0),
+    "start.M is 60.0, but its slider covers -1 to 1; give": lambda: sliders(M=1.0),
+}
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning:ipywidgets")
+@pytest.mark.parametrize("told", REFUSED)
+def test_what_cannot_be_drawn_is_refused(told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        REFUSED[told]()
+    assert not plt.get_fignums()
 
 
 # ------------------------------------------------------------------ what is missing
