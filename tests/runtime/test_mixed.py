@@ -1,4 +1,8 @@
-"""Slip that turns round: another solution, the boundary-element solver's zones, both neighbours."""
+"""Slip that turns round: the boundary-element solver's zones, large tension, symmetry.
+
+Another solution and the moderate neighbour are in tests/generated/test_turning.py, plain Python is
+in test_cycle.py.
+"""
 
 import math
 
@@ -8,13 +12,9 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from generated.runtime.inverse import contact_at_tilt
-from generated.runtime.kernels import LOOP, Law, kernel, opened
-from generated.runtime.slip import bounded, mixed, newton, tables
+from generated.runtime.kernels import LOOP, kernel, opened
 from generated.runtime.slip.large import large_zone
 from generated.runtime.slip.mixed import mixed_zone, zone_by_phases
-from tests.reference.conditions import HalfCycle, Patch
-from tests.reference.loads import State
-from tests.reference.mixed import turning as another_solution
 
 from . import laws
 
@@ -53,24 +53,6 @@ def zones(case, given, own=None):
     return out
 
 
-@pytest.mark.parametrize(
-    ("name", "a", "c", "shear", "tension"),
-    [
-        ("wedge", 1.5, 1.25, 0.15, 1.08),
-        pytest.param("wedge", 1.25, 1.5, 0.2, 1.2, marks=pytest.mark.slow),  # ends in phase 2
-        pytest.param("hertz", 1.75, 1.25, 0.4, 1.1, marks=pytest.mark.slow),
-    ],
-)
-def test_another_solution_finds_the_same(name, a, c, shear, tension):
-    """tests/reference/mixed.py: Abel's equation by steps, tables by splines, SciPy's roots."""
-    case = getattr(laws, name)
-    given = cycles(case, a, c, shear, tension)
-    patch = Patch(a, c, lambda x: np.array([case.functions.pressure(y, a, c, case.own) for y in x]))
-    ends = (State(1.0, 0.0, s * given[0, 2] / 2, s * given[0, 3] / 2) for s in (-1, 1))
-    other = another_solution(HalfCycle(lambda P, M: patch, F, *ends)).zone
-    assert_allclose(zones(case, given)[0, :2], other, atol=2e-6 * (a + c))
-
-
 def test_the_boundary_element_solver_finds_the_same():
     """tests/reference/FINDINGS.md: the upright wedge, dQ = 0.3 f P, tension over its threshold."""
     found = {
@@ -84,24 +66,6 @@ def test_the_boundary_element_solver_finds_the_same():
         zones(laws.wedge, given)[:, :2], found.values(), strict=True
     ):
         assert abs(m - m_there) <= off and abs(n - n_there) <= off
-
-
-@pytest.mark.parametrize("name", ["wedge", "hertz", "flat_rounded"])
-def test_it_begins_where_moderate_slip_no_longer_overtakes(name):
-    """Past a + n(moderate) = H, by d in parts of the contact, n parts from it like d**2."""
-    case, a, c = getattr(laws, name), 1.5, 1.25
-
-    def past(tension):
-        zone = zones(case, cycles(case, a, c, 0.3, tension))
-        return (a + zone[:, 3]) / (a + c) - 1 / np.asarray(tension)
-
-    border = brentq(lambda t: past(t)[0], 0.9, 1.3, xtol=1e-15)
-    tension = border + np.geomspace(1e-4, 1e-2, 12)
-    zone = zones(case, cycles(case, a, c, 0.3, tension))
-    apart = (zone[:, 3] - zone[:, 1]) / past(tension) ** 2
-    assert_allclose(apart, apart[0], rtol=0.1)
-    assert 1 < apart[0] < 6
-    assert np.isnan(zones(case, cycles(case, a, c, 0.3, border - 1e-3))[0, 0])
 
 
 @pytest.mark.parametrize("name", ["wedge", "hertz", "flat_rounded"])
@@ -163,17 +127,3 @@ def test_nothing_turns_round_without_shear_or_tension():
             law, own, np.array([1.0, 1.0, 1.0, 1.0, dQ, dsigma, F]), 1.0
         )
         assert all(math.isnan(end) for end in zone)
-
-
-def test_the_text_gives_what_its_compiled_form_gives(monkeypatch):
-    given = cycles(laws.wedge, 1.5, 1.25, 0.2, -1.1)
-    m, n = zones(laws.wedge, given)[0, :2]
-    for module in (bounded, mixed, newton, tables):
-        for name, value in vars(module).items():
-            if hasattr(value, "py_func"):
-                monkeypatch.setattr(module, name, value.py_func)
-    law = Law(*(getattr(function, "py_func", function) for function in laws.wedge.functions))
-    a, c, dQ, dsigma = map(float, given[0])
-    cycle = np.array([c, a, c, a, dQ, -dsigma, F])  # seen from behind
-    zone = mixed.zone_by_phases(law, laws.wedge.own, cycle, -1.0)
-    assert_allclose(zone, (n, m), rtol=1e-11)
