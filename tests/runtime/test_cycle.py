@@ -70,11 +70,15 @@ def each(given: dict[str, Any], change: Callable[[Any], Any]) -> dict[str, Any]:
 
 
 def pulled(body: str, name: str) -> Iterator[dict[str, Any]]:
-    """Two cycles of moderate tension, and of large tension on a wedge, which is the quickest."""
-    given = cases(body, name, 2)
+    """A cycle of moderate tension, and of large tension on a wedge, which is the quickest, and one
+    in which slip turns round."""
+    given = cases(body, name, 1)
     yield given
     if body == "wedge" and {"dsigma", "sigma"} & given.keys():
         yield given | {k: 4 * given[k] for k in ("dsigma", "sigma") if k in given}
+    if body == "wedge" and name == "stick_zone":
+        h = given["first"].a + given["first"].c
+        yield given | {"dsigma": -1.1 * 8 * given["dQ"] / (np.pi * h), "mixed": True}
 
 
 def fields(result: Any) -> tuple[Any, ...]:
