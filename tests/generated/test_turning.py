@@ -56,7 +56,7 @@ def half_cycle(name: str, a: float, c: float, dQ: float, tension: float) -> Half
     return HalfCycle(lambda P, M: patch, F, *ends)
 
 
-@pytest.mark.enough("wedge-1.5-1.25-*", "quartic-*", "hertz-1.5-*")
+@pytest.mark.enough("wedge-1.5-1.25-*", "wedge-1.25-*", "quartic-*")
 @pytest.mark.parametrize(
     ("name", "a", "c", "dQ", "tension"),
     [
@@ -81,18 +81,22 @@ def test_another_solution_finds_the_same(
     assert_allclose((zone.m, zone.n), other, atol=2e-6 * (a + c))
 
 
+RECEDES = (2.16, 1.785, 0.392, 1.443), (1.96, 1.86, 0.56, 1.35)
+
+
+@pytest.mark.enough("*-100-*")
 @pytest.mark.parametrize(
-    ("a", "c", "dQ", "tension"),
-    [(2.16, 1.785, 0.392, 1.443), pytest.param(1.96, 1.86, 0.56, 1.35, marks=pytest.mark.thorough)],
+    ("at", "cells", "off"), [(RECEDES[0], 100, 2e-7), *((each, 200, 2e-8) for each in RECEDES)]
 )
-def test_slip_that_recedes_past_a_kink(a: float, c: float, dQ: float, tension: float) -> None:
+def test_slip_that_recedes_past_a_kink(at: tuple[float, ...], cells: int, off: float) -> None:
     """At x = -b the rate at which the stick zone falls has a root.  The other solution errs like
     cells**-1.5, so that two of them tell the limit."""
-    zone, b = zone_of("rounded_wedge", a, c, dQ, tension), OWN["rounded_wedge"]["b"]
-    half = half_cycle("rounded_wedge", a, c, dQ, tension)
-    one, other = (np.array(turning(half, breaks=(-b, b), cells=n).zone) for n in (200, 400))
-    assert zone.m < b < a
-    assert_allclose((zone.m, zone.n), other + (other - one) / (2**1.5 - 1), atol=2e-8 * (a + c))
+    zone, half = zone_of("rounded_wedge", *at), half_cycle("rounded_wedge", *at)
+    b, counts = OWN["rounded_wedge"]["b"], (cells, 2 * cells)
+    one, other = (np.array(turning(half, breaks=(-b, b), cells=n).zone) for n in counts)
+    assert zone.m < b < at[0]
+    limit = other + (other - one) / (2**1.5 - 1)
+    assert_allclose((zone.m, zone.n), limit, rtol=0, atol=off * sum(at[:2]))
 
 
 @pytest.mark.enough("wedge", "flat_rounded")
@@ -111,8 +115,8 @@ def test_nearly_all_random_cycles_are_solved(name: str) -> None:
     assert np.all((zone.m <= a)[solved] & (zone.n <= c)[solved] & (zone.m + zone.n > 0)[solved])
 
 
-@pytest.mark.enough("hertz")
-@pytest.mark.parametrize("name", ["wedge", "hertz", "two_radii"])
+@pytest.mark.enough("hertz", "flat_rounded")
+@pytest.mark.parametrize("name", ["wedge", "hertz", "flat_rounded", "two_radii"])
 def test_there_is_no_hole_beside_the_moderate_regime(name: str) -> None:
     """Past a + n(moderate) = 8 dQ/(pi dsigma), by d in parts of the contact, the zone parts from
     the moderate one like d**2: quarter the step, a sixteenth of the way."""
