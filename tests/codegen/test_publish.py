@@ -54,10 +54,7 @@ def test_a_package_holds_its_modules_and_what_they_need() -> None:
 
 
 def test_modules_of_a_package_are_read_back(package: Path) -> None:
-    assert modules_in(package) == {
-        "cylinder": OLD["cylinder.py"],
-        "wedge": OLD["wedge.py"],
-    }
+    assert modules_in(package) == {name: OLD[f"{name}.py"] for name in ("cylinder", "wedge")}
     assert modules_in(package / "nowhere") == {}
 
 
@@ -75,9 +72,12 @@ def test_the_committed_package_may_be_replaced() -> None:
 # ------------------------------------------------------------------ accepted
 
 
-def test_a_directory_that_is_absent_is_made(tmp_path: Path) -> None:
-    publish(NEW, tmp_path / "some" / "where" / "package")
-    assert contents(tmp_path / "some" / "where" / "package") == as_bytes(NEW)
+def test_a_directory_that_is_absent_is_made_and_texts_are_written_byte_by_byte(
+    tmp_path: Path,
+) -> None:
+    files = package_files({"cylinder": f"{MARK}\n# α ≤ φ\r\n"})
+    publish(files, tmp_path / "some" / "where" / "package")
+    assert contents(tmp_path / "some" / "where" / "package") == as_bytes(files)
     assert [p.name for p in (tmp_path / "some" / "where").iterdir()] == ["package"]
 
 
@@ -91,51 +91,13 @@ def test_a_package_is_replaced_whole(package: Path) -> None:
     assert {p.name for p in package.parent.iterdir()} == {"package", "notes.txt"}
 
 
-def test_texts_are_written_byte_by_byte(tmp_path: Path) -> None:
-    files = package_files({"cylinder": f"{MARK}\n# α ≤ φ\r\n"})
-    publish(files, tmp_path / "package")
-    assert contents(tmp_path / "package") == as_bytes(files)
-
-
 # ------------------------------------------------------------------ refused and untouched
 
 
-def add_notes(folder: Path) -> None:
-    (folder / "notes.txt").write_text("mine")
-
-
-def add_module(folder: Path) -> None:
-    (folder / "mine.py").write_text('"""Mine."""\n')
-
-
-def add_folder(folder: Path) -> None:
-    (folder / "data").mkdir()
-
-
-def add_hidden(folder: Path) -> None:
-    (folder / ".git").mkdir()
-
-
-def add_package_inside(folder: Path) -> None:
-    publish(OLD, folder / "inner.py")
-
-
-def add_to_what_is_compiled(folder: Path) -> None:
+def compiled(folder: Path) -> Path:
     (folder / "__pycache__").mkdir()
     (folder / "__pycache__" / "cylinder.cpython-311.pyc").write_bytes(b"old")
-    (folder / "__pycache__" / "keep.txt").write_text("mine")
-
-
-def add_a_folder_to_what_is_compiled(folder: Path) -> None:
-    (folder / "__pycache__" / "notes.pyc").mkdir(parents=True)
-
-
-def add_a_file_in_its_place(folder: Path) -> None:
-    (folder / "__pycache__").write_text("mine")
-
-
-def add_a_link_in_its_place(folder: Path) -> None:
-    (folder / "__pycache__").symlink_to(folder.parent)
+    return folder / "__pycache__"
 
 
 def take_the_mark_off(folder: Path) -> None:
@@ -149,18 +111,25 @@ def copy_a_module(folder: Path) -> None:
     (folder / "__init__.py").write_text(NEW["__init__.py"])
 
 
-FOREIGN = (
-    copy_a_module,
-    *(add_notes, add_module, add_folder, add_hidden, add_package_inside, take_the_mark_off),
-    *(add_to_what_is_compiled, add_a_folder_to_what_is_compiled),
-    *(add_a_file_in_its_place, add_a_link_in_its_place),
-)
+FOREIGN: dict[str, Callable[[Path], object]] = {
+    "a copied module": copy_a_module,
+    "no mark": take_the_mark_off,
+    "notes": lambda folder: (folder / "notes.txt").write_text("mine"),
+    "a module": lambda folder: (folder / "mine.py").write_text('"""Mine."""\n'),
+    "a folder": lambda folder: (folder / "data").mkdir(),
+    "what is hidden": lambda folder: (folder / ".git").mkdir(),
+    "a package inside": lambda folder: publish(OLD, folder / "inner.py"),
+    "beside what is compiled": lambda folder: (compiled(folder) / "keep.txt").write_text("mine"),
+    "a folder for what is compiled": lambda folder: (compiled(folder) / "notes.pyc").mkdir(),
+    "a file in its place": lambda folder: (folder / "__pycache__").write_text("mine"),
+    "a link in its place": lambda folder: (folder / "__pycache__").symlink_to(folder.parent),
+}
 
 
-@pytest.mark.parametrize("add", FOREIGN)
+@pytest.mark.parametrize("add", FOREIGN.values(), ids=FOREIGN)
 @pytest.mark.parametrize("filled", [True, False], ids=["in a package", "in an empty directory"])
 def test_a_directory_that_holds_anything_else_is_untouched(
-    tmp_path: Path, add: Callable[[Path], None], filled: bool
+    tmp_path: Path, add: Callable[[Path], object], filled: bool
 ) -> None:
     folder = tmp_path / "package"
     folder.mkdir()
@@ -175,30 +144,16 @@ def test_a_directory_that_holds_anything_else_is_untouched(
     assert sorted(tmp_path.rglob("*")) == names
 
 
-def test_a_file_is_no_package(tmp_path: Path) -> None:
-    path = tmp_path / "package"
-    path.write_text("mine")
-    with pytest.raises(BadOutput):
-        publish(NEW, path)
-    assert path.read_text() == "mine"
-
-
-def test_a_directory_below_a_file_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("place", ["file", "file/package", "to_elsewhere", "to_nowhere"])
+def test_a_file_a_place_below_one_and_a_link_are_no_package(tmp_path: Path, place: str) -> None:
     (tmp_path / "file").write_text("mine")
-    with pytest.raises(BadOutput):
-        publish(NEW, tmp_path / "file" / "package")
-    assert contents(tmp_path) == {"file": b"mine"}
-
-
-@pytest.mark.parametrize("target", ["elsewhere", "nowhere"])
-def test_a_link_is_not_replaced(tmp_path: Path, target: str) -> None:
     (tmp_path / "elsewhere").mkdir()
-    link = tmp_path / "package"
-    link.symlink_to(tmp_path / target)
+    for name in ("elsewhere", "nowhere"):
+        (tmp_path / f"to_{name}").symlink_to(tmp_path / name)
     with pytest.raises(BadOutput):
-        publish(NEW, link)
-    assert link.is_symlink()
-    assert contents(tmp_path) == {}
+        publish(NEW, tmp_path / place)
+    assert contents(tmp_path) == {"file": b"mine"}
+    assert all((tmp_path / f"to_{name}").is_symlink() for name in ("elsewhere", "nowhere"))
 
 
 # ------------------------------------------------------------------ a failure in the middle
@@ -238,35 +193,25 @@ def in_two_steps(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("in_two_steps")
 @pytest.mark.parametrize(
-    ("method", "after"),
-    [("write_bytes", 1), ("write_bytes", 3), ("replace", 1), ("replace", 2), ("mkdir", 2)],
+    ("error", "method", "after"),
+    [
+        *((FULL, *at) for at in (("write_bytes", 1), ("write_bytes", 3), ("mkdir", 2))),
+        *((FULL, "replace", 1), (FULL, "replace", 2)),
+        *((KeyboardInterrupt(), "write_bytes", 2), (MemoryError(), "write_bytes", 2)),
+        *((KeyboardInterrupt(), "replace", 1), (KeyboardInterrupt(), "replace", 2)),
+    ],
+    ids=repr,
 )
-def test_a_failure_in_the_middle_leaves_the_old_package(
-    package: Path, monkeypatch: pytest.MonkeyPatch, method: str, after: int
+def test_a_failure_or_ctrl_c_in_the_middle_leaves_the_old_package(
+    package: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException, method: str, after: int
 ) -> None:
+    told = r"No space left on device.*: free some space" if error is FULL else None
     with monkeypatch.context() as patch:
-        failing(patch, method, FULL, after)
-        with pytest.raises(BadOutput, match=r"No space left on device.*: free some space"):
+        failing(patch, method, error, after)
+        with pytest.raises(BadOutput if error is FULL else type(error), match=told):
             publish(NEW, package)
     assert contents(package.parent) == {f"package/{n}": b for n, b in as_bytes(OLD).items()}
     assert [p.name for p in package.parent.iterdir()] == ["package"]
-
-
-@pytest.mark.usefixtures("in_two_steps")
-@pytest.mark.parametrize(("method", "after"), [("write_bytes", 2), ("replace", 1), ("replace", 2)])
-@pytest.mark.parametrize("error", [KeyboardInterrupt(), MemoryError()], ids=["ctrl-c", "memory"])
-def test_an_interruption_leaves_the_old_package(
-    package: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    method: str,
-    after: int,
-    error: BaseException,
-) -> None:
-    with monkeypatch.context() as patch:
-        failing(patch, method, error, after)
-        with pytest.raises(type(error)):
-            publish(NEW, package)
-    assert contents(package.parent) == {f"package/{n}": b for n, b in as_bytes(OLD).items()}
 
 
 KILLED = """
@@ -326,62 +271,46 @@ def leftover(package: Path, name: str = ".package-597qa82p", age: float = 60) ->
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no locks of directories")
 def test_what_a_killed_run_left_is_removed_by_the_next(package: Path) -> None:
+    """Not what has another name, is young, holds another file, or is used by another run."""
     left = leftover(package)
-    publish(NEW, package)
-    assert contents(package) == as_bytes(NEW)
-    assert not left.exists()
-
-
-@pytest.mark.parametrize("name", [".other-597qa82p", ".package-1", "package-597qa82p", ".package"])
-def test_what_has_another_name_stays(package: Path, name: str) -> None:
-    left = leftover(package, name)
-    publish(NEW, package)
-    assert left.exists()
-
-
-def test_what_is_young_or_holds_another_file_stays(package: Path) -> None:
-    young, mine = leftover(package, age=0), leftover(package, ".package-abcdefgh")
-    (mine / "fresh" / "notes.txt").write_text("mine")
-    publish(NEW, package)
-    assert young.exists()
-    assert (mine / "fresh" / "notes.txt").read_text() == "mine"
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="no locks of directories")
-def test_what_another_run_uses_stays(package: Path) -> None:
-    left = leftover(package)
+    names = (".other-597qa82p", ".package-1", "package-597qa82p", ".package")
+    others = [*(leftover(package, name) for name in names)]
+    others += [
+        leftover(package, ".package-12345678", age=0),
+        leftover(package, ".package-abcdefgh"),
+    ]
+    (others[-1] / "fresh" / "notes.txt").write_text("mine")
     with publisher._in_use(left) as locked:
         assert locked
         publish(NEW, package)
     assert left.exists()
+    publish(NEW, package)
+    assert contents(package) == as_bytes(NEW)
+    assert not left.exists() and all(other.exists() for other in others)
+    assert (others[-1] / "fresh" / "notes.txt").read_text() == "mine"
 
 
 def test_a_module_that_was_edited_is_called_so(package: Path) -> None:
-    files = package_files({"cylinder": f"{MARK}\n"})
-    publish(files, package)
     (package / "cylinder.py").write_text("mine = 1\n")
     with pytest.raises(
         BadOutput, match=r"'cylinder\.py', which was changed after it was generated"
     ):
-        publish(files, package)
+        publish(OLD, package)
 
 
 # ------------------------------------------------------------------ differences
 
 
-def test_every_file_that_differs_is_named(package: Path) -> None:
+def test_every_file_that_differs_is_named_and_its_change_shown_line_by_line(package: Path) -> None:
     (package / "__pycache__").mkdir()
     assert differences(OLD, package) == []
     (package / "notes.txt").write_text("mine")
     (package / "py.typed").unlink()
-    found = {d.name: d.what for d in differences(NEW, package)}
-    assert found == {
-        "__init__.py": "changed",
-        "cylinder.py": "changed",
-        "notes.txt": "not generated",
-        "punch.py": "missing",
-        "py.typed": "missing",
-        "wedge.py": "not generated",
+    found = {d.name: d for d in differences(NEW, package)}
+    assert {"-old = 1", "+new = 2"} <= set(found["cylinder.py"].diff.splitlines())
+    assert {name: d.what for name, d in found.items()} == {
+        **{"__init__.py": "changed", "cylinder.py": "changed", "notes.txt": "not generated"},
+        **{"punch.py": "missing", "py.typed": "missing", "wedge.py": "not generated"},
     }
 
 
@@ -397,21 +326,13 @@ def test_one_byte_is_a_difference(package: Path, place: int) -> None:
     text = bytearray(path.read_bytes())
     text[place] ^= 1
     path.write_bytes(text)
-    (found,) = differences(OLD, package)
-    assert (found.name, found.what) == ("runtime/arrays.py", "changed")
+    assert [(d.name, d.what) for d in differences(OLD, package)] == [
+        ("runtime/arrays.py", "changed")
+    ]
 
 
-def test_a_change_is_shown_line_by_line(package: Path) -> None:
-    (found,) = [d for d in differences(NEW, package) if d.name == "cylinder.py"]
-    assert {"-old = 1", "+new = 2"} <= set(found.diff.splitlines())
-
-
-def test_what_is_no_text_is_a_difference_all_the_same(package: Path) -> None:
+def test_what_is_no_text_or_no_file_is_a_difference_all_the_same(package: Path) -> None:
     (package / "cylinder.py").write_bytes(b"\xff\xfe\x00")
-    assert [d.name for d in differences(OLD, package)] == ["cylinder.py"]
-
-
-def test_a_folder_in_the_place_of_a_file_is_a_difference(package: Path) -> None:
-    (package / "cylinder.py").unlink()
-    (package / "cylinder.py").mkdir()
-    assert [d.name for d in differences(OLD, package)] == ["cylinder.py"]
+    (package / "wedge.py").unlink()
+    (package / "wedge.py").mkdir()
+    assert [d.name for d in differences(OLD, package)] == ["cylinder.py", "wedge.py"]
