@@ -46,20 +46,23 @@ def pressures(case, cycle, x):
     return of(x, a1, c1, case.own) + of(x, a2, c2, case.own)
 
 
+def cuts(side, case, cycle, end):
+    """Distances from the stick zone at which the pressures in a slip zone are not smooth."""
+    reach = cycle[0:3:2] if side < 0 else cycle[1:4:2]
+    ends = [*reach, *(side * x for x in case.functions.breaks(case.own))]
+    return [0.0, *sorted({e - end for e in ends if 0 < e - end <= max(reach) - end})]
+
+
 def over(side, case, cycle, end, weight):
     """int (p1 + p2) weight(y)/sqrt(y) dy over a slip zone, y its distance from the stick zone."""
-    reach = cycle[0:3:2] if side < 0 else cycle[1:4:2]
-    ends = [reach[0], reach[1], *(side * x for x in case.functions.breaks(case.own))]
-    cuts = [0.0, *sorted({e - end for e in ends if 0 < e - end <= max(reach) - end})]
 
     def of(root):
         y = root * root
         return 2 * pressures(case, cycle, side * (end + y)) * weight(y)
 
-    return sum(
-        quad(of, math.sqrt(low), math.sqrt(high), epsabs=1e-14, epsrel=1e-13, limit=400)[0]
-        for low, high in pairwise(cuts)
-    )
+    roots = np.sqrt(cuts(side, case, cycle, end))
+    exact = {"epsabs": 1e-14, "epsrel": 1e-13, "limit": 400}
+    return sum(quad(of, *part, **exact)[0] for part in pairwise(roots))
 
 
 def large_zone(case, cycle, guess):
@@ -135,11 +138,11 @@ def strain(case, cycle, zone, x):
     return total / math.pi - cycle[5] / 4
 
 
-@pytest.mark.parametrize("part", (0.03, 0.31, 0.87))
-def test_what_sticks_is_strained_by_tension_alone(known, part):
+def test_what_sticks_is_strained_by_tension_alone(known):
     case, cycle, zone = known
-    x = -zone[0] + part * (zone[0] + zone[1])
-    assert strain(case, cycle, zone, x) == pytest.approx(0, abs=2e-6 * abs(cycle[5]))
+    for part in (0.03, 0.31, 0.87):
+        x = -zone[0] + part * (zone[0] + zone[1])
+        assert strain(case, cycle, zone, x) == pytest.approx(0, abs=2e-6 * abs(cycle[5]))
 
 
 @pytest.mark.parametrize("side", (-1, 1))
@@ -165,7 +168,7 @@ def test_slip_grows_outward_from_the_stick_zone(known):
     assert np.all(slip(case, np.linspace(-zone[0], zone[1], 5), cycle, zone) == 0)
 
 
-@pytest.mark.parametrize("away", (1e-13, 1e-9, 1e-6, 1e-3, 0.2))
+@pytest.mark.parametrize("away", (1e-13, 1e-6, 0.2))
 @pytest.mark.parametrize("side", (-1, 1))
 def test_the_change_is_exact_close_to_a_slip_zone(known, side, away):
     case, cycle, zone = known
@@ -178,13 +181,7 @@ def test_the_change_is_exact_close_to_a_slip_zone(known, side, away):
     across = h - away
 
     # y = away sinh(u)**2 leaves nothing singular
-    reach = cycle[0:3:2] if side < 0 else cycle[1:4:2]
-    kinks = [side * k for k in case.functions.breaks(case.own)]
-    ends = {
-        0.0,
-        *(e - end[side] for e in (*reach, *kinks) if 0 < e - end[side] <= max(reach) - end[side]),
-    }
-    ends = [math.asinh(math.sqrt(y / away)) for y in sorted(ends)]
+    ends = [math.asinh(math.sqrt(y / away)) for y in cuts(side, case, cycle, end[side])]
 
     def of(u):
         y = away * math.sinh(u) ** 2
@@ -202,39 +199,21 @@ def test_the_change_is_exact_close_to_a_slip_zone(known, side, away):
 
 
 LARGE_CYCLE = (1.2, 1.0, 1.2, 1.0, 0.3, 0.8, f)
-"""Of a cylinder, whose zone follows; as well as after three quarters of it."""
+"""Of a cylinder."""
 
 
-@pytest.fixture(scope="module")
-def large_zones():
-    part = (*LARGE_CYCLE[:4], 0.75 * LARGE_CYCLE[4], 0.75 * LARGE_CYCLE[5], f)
-    return large_zone(hertz, LARGE_CYCLE, (0.8, 0.9)), large_zone(hertz, part, (0.9, 0.9))
-
-
-def sheared(x, fall, zones, rise=LARGE_CYCLE):
-    a, c, _, _, dQ, dsigma, _ = rise
+def sheared(x, fall, zones):
+    a, c, _, _, dQ, dsigma, _ = LARGE_CYCLE
     loads = (a, c, dQ / 2, dsigma / 2, *fall, f, *zones[0], *zones[1])
     return run(shear.each_shear, hertz, np.column_stack([x, np.tile(loads, (len(x), 1))]))
 
 
-def test_shear_under_large_tension(large_zones):
-    x, weight = places(hertz, LARGE_CYCLE, large_zones[0], -large_zones[1][0], large_zones[1][1])
-    rise, fall = LARGE_CYCLE[4:6], (0.75 * LARGE_CYCLE[4], 0.75 * LARGE_CYCLE[5])
-    dq = change(hertz, x, LARGE_CYCLE, large_zones[0])
-    still = (1.2, 1.0, FULL_STICK)
-    assert np.array_equal(sheared(x, (0, 0), (large_zones[0], still)), dq / 2)
-    assert np.array_equal(sheared(x, rise, (large_zones[0],) * 2), -dq / 2)
-    q = sheared(x, fall, large_zones)
-    assert weight @ q == pytest.approx(rise[0] / 2 - fall[0], abs=1e-7)
-    friction = f * np.sqrt((1.2 + x) * (1.0 - x)) / 2
-    assert np.all(np.abs(q) <= friction * (1 + 1e-12))
-
-
-def test_no_shear_where_a_cycle_takes_another_way(large_zones):
-    whole, part = large_zones
+def test_no_shear_where_a_cycle_takes_another_way():
     dQ, dsigma = LARGE_CYCLE[4:6]
     x, fall, nan = [0.1], (0.75 * dQ, 0.75 * dsigma), math.nan
-    assert np.isfinite(sheared(x, fall, large_zones))
+    whole = large_zone(hertz, LARGE_CYCLE, (0.8, 0.9))
+    part = large_zone(hertz, (*LARGE_CYCLE[:4], *fall, f), (0.9, 0.9))
+    assert np.isfinite(sheared(x, fall, (whole, part)))
     for loads, zones in (
         ((1.01 * dQ, dsigma), (whole, whole)),  # more than there is
         ((0.75 * dQ, -0.75 * dsigma), (whole, part)),  # slip in the other sense
@@ -276,16 +255,3 @@ def test_dq_is_finite_at_a_corner_that_sticks():
     found = change(wedge, [-1e-9, 0.0, 1e-9], cycle, zone)
     assert found[1] == pytest.approx(found[0], rel=1e-7)
     assert found[1] == pytest.approx(found[2], rel=1e-7)
-
-
-def test_seen_from_the_other_side(known):
-    case, cycle, zone = known
-    a1, c1, a2, c2, dQ, dsigma, _ = cycle
-    m, n, regime = zone
-    x, _ = places(case, cycle, zone, count=5)
-    x = x[(x > -min(a1, a2)) & (x < min(c1, c2))]
-    turned = (c1, a1, c2, a2, dQ, -dsigma, f), (n, m, regime)
-    for of in (change, slip):
-        assert of(case, -x, *turned) == pytest.approx(
-            of(case, x, cycle, zone), rel=1e-12, abs=1e-14
-        )
