@@ -42,49 +42,49 @@ R, b, k, phi = symbols("R b k phi", positive=True)
 third = Rational(1, 3)
 DEEPEST = OF_PROFILES.deepest
 
-ACCEPTED = [
-    ("x**2/(2*R)", x**2 / (2 * R)),
-    ("phi*abs(x)", phi * Abs(x)),
-    ("0.5*x**2/R", x**2 / (2 * R)),
-    ("5e-1*x**2/R", x**2 / (2 * R)),
-    ("1E+2*x", 100 * x),
-    ("0.1*x", Rational(1, 10) * x),
-    ("007*x", 7 * x),
-    ("1/3*x", x / 3),
-    ("Abs(x)**(1/3)*b**(2/3)", Abs(x) ** third * b ** (2 * third)),
-    ("abs(x)**1.5/sqrt(R)", Abs(x) ** Rational(3, 2) / sqrt(R)),
-    ("-x**2/R", -(x**2) / R),
-    ("x**-2", x**-2),
-    ("x**2**3", x**8),
-    ("2**-1*x", x / 2),
-    ("---x + +b", b - x),
-    ("x - (b - R)", x - b + R),
-    ("x/(b/R)", x * R / b),
-    ("sqrt(x**2 + b**2)*phi", sqrt(x**2 + b**2) * phi),
-    ("Max(0, x - b)**2/R", Max(0, x - b) ** 2 / R),
-    ("max(x, -x, b)", Max(x, -x, b)),
-    ("-min(x, -x)", -Min(x, -x)),
-    ("x*sign(x) + x*Heaviside(x - b)", x * sign(x) + x * Heaviside(x - b)),
-    ("R*cosh(x/R) - R", R * cosh(x / R) - R),
-    ("x*atan(x/b)*2/pi", x * atan(x / b) * 2 / pi),
-    ("Piecewise((0, Abs(x) <= b), (x**2, True))", Piecewise((0, Abs(x) <= b), (x**2, True))),
-    ("Piecewise((0, -b < x < b), (x, True))", Piecewise((0, (-b < x) & (x < b)), (x, True))),
-    ("Piecewise((0, x > -b and x < b), (x, True))", Piecewise((0, (x > -b) & (x < b)), (x, True))),
-    ("Piecewise((x, x < -b or b < x), (b, True))", Piecewise((x, (x < -b) | (b < x)), (b, True))),
-    ("Piecewise((x, not x < b), (b, True))", Piecewise((x, ~(x < b)), (b, True))),
-    ("Piecewise((x, ~(x < b)), (b, True))", Piecewise((x, ~(x < b)), (b, True))),
-    (
-        "Piecewise((x, (x < b or x > R) and x > k), (b, True))",
-        Piecewise((x, ((x < b) | (x > R)) & (x > k)), (b, True)),
-    ),
-    ("Piecewise((x, 0 < x), (b, True))", Piecewise((x, x > 0), (b, True))),
-    ("x0_1*x", Symbol("x0_1", positive=True) * x),
-]
+ACCEPTED = {
+    "x**2/(2*R)": x**2 / (2 * R),
+    "phi*abs(x)": phi * Abs(x),
+    "5e-1*x**2/R": x**2 / (2 * R),
+    "1E+2*x": 100 * x,
+    "0.1*x": Rational(1, 10) * x,
+    "007*x": 7 * x,
+    "1/3*x": x / 3,
+    "Abs(x)**(1/3)*b**(2/3)": Abs(x) ** third * b ** (2 * third),
+    "abs(x)**1.5/sqrt(R)": Abs(x) ** Rational(3, 2) / sqrt(R),
+    "-x**2/R": -(x**2) / R,
+    "x**-2": x**-2,
+    "x**2**3": x**8,
+    "2**-1*x": x / 2,
+    "---x + +b": b - x,
+    "x - (b - R)": x - b + R,
+    "x/(b/R)": x * R / b,
+    "sqrt(x**2 + b**2)*phi": sqrt(x**2 + b**2) * phi,
+    "Max(0, x - b)**2/R": Max(0, x - b) ** 2 / R,
+    "max(x, -x, b) - min(x, -x)": Max(x, -x, b) - Min(x, -x),
+    "x*sign(x) + x*Heaviside(x - b)": x * sign(x) + x * Heaviside(x - b),
+    "R*cosh(x/R) - R": R * cosh(x / R) - R,
+    "x*atan(x/b)*2/pi": x * atan(x / b) * 2 / pi,
+    "x0_1*x": Symbol("x0_1", positive=True) * x,
+}
+CONDITIONS = {
+    "Abs(x) <= b": Abs(x) <= b,
+    "0 < x": x > 0,
+    "-b < x < b": (-b < x) & (x < b),
+    "x > -b and x < b": (x > -b) & (x < b),
+    "x < -b or b < x": (x < -b) | (b < x),
+    "not x < b": ~(x < b),
+    "~(x < b)": ~(x < b),
+    "(x < b or x > R) and x > k": ((x < b) | (x > R)) & (x > k),
+}
+ACCEPTED |= {
+    f"Piecewise((x, {t}), (b, True))": Piecewise((x, c), (b, True)) for t, c in CONDITIONS.items()
+}
 
 
-@pytest.mark.parametrize(("text", "expr"), ACCEPTED, ids=[text for text, _ in ACCEPTED])
-def test_a_text_is_read_as_what_it_says(text: str, expr: Expr) -> None:
-    assert read(text) == expr
+@pytest.mark.parametrize("text", ACCEPTED)
+def test_a_text_is_read_as_what_it_says(text: str) -> None:
+    assert read(text) == ACCEPTED[text]
 
 
 def test_names_come_in_the_order_of_the_text() -> None:
@@ -209,13 +209,6 @@ MEANING = [
 REFUSED = CODE + CHARACTERS + GRAMMAR + NAMES + MEANING
 
 
-def caret(message: str) -> tuple[str, int]:
-    """What is shown, and the character of it that the caret is under."""
-    lines = message.splitlines()
-    place = next(i for i, line in enumerate(lines) if line.strip() == "^")
-    return lines[place - 1], lines[place].index("^")
-
-
 @pytest.mark.parametrize(
     ("text", "column", "why", "remedy"),
     REFUSED,
@@ -228,15 +221,14 @@ def test_a_bad_text_is_refused_at_its_place(text: str, column: int, why: str, re
     error = caught.value
     assert time.perf_counter() - began < 5
     assert (error.given, error.column) == (text, column)
-    assert why in error.why
-    assert remedy in error.remedy
+    assert why in error.why and remedy in error.remedy
     assert error.message.startswith(f"{error.why}: {error.remedy}\n")
     assert error.message.endswith(f"allowed in g(x): {ALLOWED}")
-    shown, place = caret(error.message)
+    _, shown, below, _ = error.message.splitlines()
+    assert below.strip() == "^"
+    place = below.index("^")
     assert shown[place : place + 1].strip() in (text[column : column + 1], "?", "")
-    assert len(shown) < 100
-    assert shown.isprintable()
-    assert len(error.message.splitlines()) == 4
+    assert len(shown) < 100 and shown.isprintable()
 
 
 def test_nothing_is_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -356,28 +348,26 @@ def test_any_text_is_read_or_refused(text: str) -> None:
         assert 0 <= error.column <= len(text)
 
 
-@pytest.mark.parametrize(
-    ("text", "code"),
-    [
-        ("x*1/3", "x * 1 / 3"),
-        ("6*2/4*x", "Rational(6 * 2, 4) * x"),
-        ("x**(1/3)", "x**Rational(1, 3)"),
-        ("x**.5", "x**Rational(1, 2)"),
-        ("2**-1*x", "Rational(2)**-1 * x"),
-        ("-1/2*x", "Rational(-1, 2) * x"),
-        ("2/sqrt(3)*x", "2 / sqrt(3) * x"),
-        ("(x+b)-(x-b)", "x + b - (x - b)"),
-        ("x**-k", "x**-k"),
-        ("x*-b", "x * -b"),
-        ("Piecewise((0, 0 < x < b), (b, True))", "Piecewise((0, (x > 0) & (x < b)), (b, True))"),
-        ("Piecewise((0, not x < b))", "Piecewise((0, ~(x < b)))"),
-        (
-            "Piecewise((0, (x < b or x > R) and x < k))",
-            "Piecewise((0, ((x < b) | (x > R)) & (x < k)))",
-        ),
-    ],
-)
-def test_python_keeps_the_user_s_order(text: str, code: str) -> None:
+AS_PYTHON = {
+    "x*1/3": "x * 1 / 3",
+    "6*2/4*x": "Rational(6 * 2, 4) * x",
+    "x**(1/3)": "x**Rational(1, 3)",
+    "x**.5": "x**Rational(1, 2)",
+    "2**-1*x": "Rational(2)**-1 * x",
+    "-1/2*x": "Rational(-1, 2) * x",
+    "2/sqrt(3)*x": "2 / sqrt(3) * x",
+    "(x+b)-(x-b)": "x + b - (x - b)",
+    "x**-k": "x**-k",
+    "x*-b": "x * -b",
+    "Piecewise((0, 0 < x < b), (b, True))": "Piecewise((0, (x > 0) & (x < b)), (b, True))",
+    "Piecewise((0, not x < b))": "Piecewise((0, ~(x < b)))",
+    "Piecewise((0, (x < b or x > R) and x < k))": "Piecewise((0, ((x < b) | (x > R)) & (x < k)))",
+}
+
+
+@pytest.mark.parametrize("text", AS_PYTHON)
+def test_python_keeps_the_user_s_order(text: str) -> None:
+    code = AS_PYTHON[text]
     assert Python().write(parse(text)).text == code
     assert sympy.sympify(computed(code)) == read(text)
 
