@@ -45,13 +45,13 @@ def test_errors_fall_with_the_power_of_the_order(name: str) -> None:
         assert_allclose(of.slopes, [1, 2, 3], atol=0.1)
 
 
-@pytest.mark.parametrize("tension", [0.5, 2.5, -2.5])
-def test_varying_loads_at_every_order(tension: float) -> None:
+@pytest.mark.parametrize(("tension", "dc"), [(0.5, 0.01), (0.5, -0.01), (2.5, 0.01), (-2.5, 0.01)])
+def test_varying_loads_at_every_order(tension: float, dc: float) -> None:
     """Both edges move by a part of what slips; an eighth of all changes: 8**-order of the errors,
     and 8**-1 more for the size of the slip zone."""
     errors = []
     for by in (1 / 8, 1 / 64):
-        first = Contact(1.5 * (1 - 0.02 * by), 1.0 * (1 - 0.01 * by), 0.0)
+        first = Contact(1.5 * (1 - 0.02 * by), 1.0 * (1 - dc * by), 0.0)
         second = Contact(1.5, 1.0, 0.0)
         shear = 0.3 * F * load(1.5, 1.0) * by
         dsigma = tension * 8 * shear / (np.pi * 2.5)
@@ -71,10 +71,10 @@ def test_varying_loads_at_every_order(tension: float) -> None:
 def test_the_estimate_of_tiny_slip_zones_by_hand(share: float) -> None:
     """A cylinder: K, L = -K/(2 h), N = -K/(8 h**2).  By the first order d = h q/4, q = dQ/(2 f P).
 
-    Exactly the stick zone is h sqrt(1 - q) wide, d = h (q/4 + q**2/16 + ...): the second order adds
-    d**2/h.  To the conditions, (1/2) K sqrt(h) d = dQ/(2 pi f) at first, the third order adds
-    (-K/128 + L h/32 + 5 N h**2/16) d**3/h**(3/2) at one edge and (-K/32 + L h/16) d**3/h**(3/2)
-    from the other one, -K d**3/(8 h**(3/2)) together, so that d grows by d**3/(4 h**2).
+    Exactly d = h (q/4 + q**2/16 + ...): the second order adds d**2/h.  To the conditions, (1/2) K
+    sqrt(h) d = dQ/(2 pi f) at first, the third order adds (-K/128 + L h/32 + 5 N h**2/16)
+    d**3/h**(3/2) at one edge and (-K/32 + L h/16) d**3/h**(3/2) from the other one, -K
+    d**3/(8 h**(3/2)) together, so that d grows by d**3/(4 h**2).
     With a = c = 1, E* = 1 and R = pi/2 the load is P = pi E* h**2/(16 R) = 1/2.
     """
     here, law = (1.0, 1.0, F * share, 0.0), {"f": F, "E_star": 1.0, "R": np.pi / 2}
