@@ -10,36 +10,6 @@ from generated.runtime.inverse import each_contact, each_contact_at_tilt
 from generated.runtime.kernels import BREAKS, LOOP, SLOPE, STATE, Law, handed, kernel, opened
 from tests.runtime.laws import Case, flat_rounded, hertz, wedge
 
-NOTHING = (math.nan, math.nan, math.nan, math.nan, math.nan)
-
-
-# ---------------------------------------------------------------- a cubic body, g = |x|**3/3
-
-
-@kernel(STATE)
-def _cubic_state(a, c, own):
-    h, mid, q = a + c, (c - a) / 2, (a + c) / 2
-    if not h > 0:
-        return NOTHING
-    t = math.acos(min(max(-mid / q, -1.0), 1.0))
-    S, C = math.sin(t), math.cos(t)
-    # from 0 to t less from t to pi: int cos**k, and int sin**2 cos**k
-    I0, I1, I2 = 2 * t - math.pi, 2 * S, t + S * C - math.pi / 2
-    J0, J1 = t - S * C - math.pi / 2, 2 * S**3 / 3
-    J2 = t / 4 - math.sin(4 * t) / 16 - math.pi / 8
-    load = q * q * (mid * J0 + q * J1)
-    moment = -load * mid - q**3 * (mid * J1 + q * J2) / 2
-    alpha = -(mid * mid * I0 + 2 * mid * q * I1 + q * q * I2) / math.pi
-    even, odd = mid * I0 + q * I1, mid * I1 + q * I2
-    scale = math.sqrt(h) / math.pi
-    return load, moment, alpha, scale * (even - odd), scale * (even + odd)
-
-
-@kernel(SLOPE)
-def _cubic_slope(x, own):
-    return x * abs(x), 2 * abs(x)
-
-
 # ---------------------------------------------------------------- a cylinder cut off at x = -1, 1
 
 
@@ -47,7 +17,7 @@ def _cubic_slope(x, own):
 def _cut_state(a, c, own):
     h = a + c
     if not h > 0:
-        return NOTHING
+        return math.nan, math.nan, math.nan, math.nan, math.nan
     if a > 1 or c > 1:
         return math.inf, math.nan, math.nan, math.inf, math.inf
     load, K = math.pi * h * h / 16, math.sqrt(h) / 2
@@ -64,12 +34,8 @@ def _no_breaks(own):
     return np.empty(0)
 
 
-def _case(state, slope) -> Case:
-    functions = Law(hertz.functions.pressure, state, slope, hertz.functions.series, _no_breaks)
-    return Case(handed(functions), functions, np.ones(2))
-
-
-cubic, cut = _case(_cubic_state, _cubic_slope), _case(_cut_state, _cut_slope)
+_CUT = Law(hertz.functions.pressure, _cut_state, _cut_slope, hertz.functions.series, _no_breaks)
+cut = Case(handed(_CUT), _CUT, np.ones(2))
 wide_flat = flat_rounded._replace(own=np.array([1e12, 1e12]))
 narrow_flat = flat_rounded._replace(own=np.array([1e-12, 3e-12]))
 
@@ -145,7 +111,7 @@ def test_of_a_wedge_tilted_nearly_to_its_flank(short_of):
 # ---------------------------------------------------------------- put back
 
 
-@pytest.mark.parametrize("case", [flat_rounded, wide_flat, narrow_flat, cubic])
+@pytest.mark.parametrize("case", [flat_rounded, wide_flat, narrow_flat])
 def test_the_contact_carries_what_is_asked(case):
     size = case.own[1]
     P, centre = abs(spread(-3, 3)) * size, spread(-3, 1, seed=1) * size
@@ -181,7 +147,7 @@ def test_edges_lie_just_beyond_kinks():
     assert a - 1 == pytest.approx(1e-5, rel=1e-5)
 
 
-@pytest.mark.parametrize("case", [wedge, flat_rounded, cubic])
+@pytest.mark.parametrize("case", [wedge, flat_rounded])
 def test_mirrored(case):
     P, M = abs(spread(-2, 2, 50)), spread(-2, 1, 50, seed=1)
     a, c, alpha = solved(case, P, M)
@@ -220,7 +186,6 @@ def test_a_body_ends():
 
 def test_level_places():
     assert level(hertz, 0.25, 0.0, -1e9) == pytest.approx([-0.25, 0.0, 1e9], rel=1e-14)
-    assert level(cubic, 4e-20, -9e20) == pytest.approx([-2e-10, 3e10], rel=1e-13)
     assert level(flat_rounded, 0.0, 0.5, -7.0) == pytest.approx([0.0, -1.5, 8.0], rel=1e-14)
     assert np.array_equal(level(wedge, 0.0, 0.9, -0.9, 1.0), np.zeros(4))
     assert np.all(np.isnan(level(wedge, 1.1, -3.0, math.nan)))
@@ -239,15 +204,9 @@ def plain(monkeypatch):
 
 
 CASES = [
-    (hertz, 1.0, -3.0),
-    (wedge, 1.0, 0.7),
-    (wedge, 1e-9, 1e-3),
-    (flat_rounded, 0.01, 0.005),
-    (flat_rounded, 0.01, 0.02),
-    (flat_rounded, 20.0, -9.0),
-    (cubic, 3.0, 1.0),
-    (cut, 0.1, 0.03),
-    (cut, 0.1, 0.09),
+    *((hertz, 1.0, -3.0), (wedge, 1.0, 0.7), (wedge, 1e-9, 1e-3)),
+    *((flat_rounded, 0.01, 0.005), (flat_rounded, 0.01, 0.02), (flat_rounded, 20.0, -9.0)),
+    *((cut, 0.1, 0.03), (cut, 0.1, 0.09)),
 ]
 
 
@@ -264,34 +223,3 @@ def test_from_brackets_alone_it_is_the_same(plain):
                 found = inverse._nested(law, own, breaks, target, P)
                 found = inverse._newton(law, own, breaks, target, *found)
                 np.testing.assert_allclose(found, edges, rtol=1e-11)
-
-
-# ---------------------------------------------------------------- a root
-
-
-def sought(function, far=math.inf, top=math.inf, guess=1.0):
-    """Where an increasing function of a distance is zero, and how often it was asked for."""
-    search = inverse._begun(0.0, far, top, guess)
-    for count in range(inverse.STEPS):
-        at = math.exp(search.y)
-        value, rate = function(at)
-        search = getattr(inverse._next, "py_func", inverse._next)(search, value, rate * at)
-        if search.step == 0:
-            return (at if search.top < math.inf else math.nan), count
-    return math.nan, inverse.STEPS
-
-
-@pytest.mark.parametrize("root", [1e-60, 1e-9, 0.75, 1e12, 1e70])
-def test_a_root_is_found_from_any_guess(root):
-    for power in (0.5, 1.0, 4.0):
-        found, count = sought(lambda d, p=power: ((d / root) ** p - 1, p / d * (d / root) ** p))
-        assert found == pytest.approx(root, rel=1e-12, abs=0) and count < 60
-    found, _ = sought(lambda d: (-1.0 if d < root else 1.0, 0.0))
-    assert found == pytest.approx(root, rel=1e-12, abs=0)
-
-
-def test_no_root_is_found_where_there_is_none():
-    assert math.isnan(sought(lambda d: (-1.0, 0.0))[0])
-    assert math.isnan(sought(lambda d: (d - 3.0, 1.0) if d < 2.0 else (math.inf, 0.0))[0])
-    assert math.isnan(sought(lambda d: (d - 3.0, 1.0), far=2.0)[0])
-    assert sought(lambda d: (d - 3.0, 1.0), far=4.0, top=1.0)[0] == pytest.approx(3.0, rel=1e-14)
