@@ -130,22 +130,17 @@ def test_at_its_limit_a_body_is_a_cylinder_of_radius_one(body: str, own: dict[st
 
 @pytest.mark.enough("exponential")
 @pytest.mark.parametrize(
-    "name",
-    [
-        "exponential",
-        "power_from_a_kink_on",
-        "skew_hyperbola_on_a_wedge",
-    ],
+    "name", ["exponential", "power_from_a_kink_on", "skew_hyperbola_on_a_wedge"]
 )
 def test_a_mirrored_body_carries_the_mirror_image(name: str) -> None:
     mirrored = with_closed_forms(derive_sheet(Geometry("other", g=MADE_UP[name].subs(x, -x))))
-    signs = {"tilt": ("tilt", -1), "load": ("load", 1), "moment": ("moment", -1)}
-    signs |= {f"K_N_{s}": (f"K_N_{o}", 1) for s, o in (("left", "right"), ("right", "left"))}
-    signs |= {f"L_N_{s}": (f"L_N_{o}", 1) for s, o in (("left", "right"), ("right", "left"))}
+    images = {"tilt": ("tilt", -1), "load": ("load", 1), "moment": ("moment", -1)}
+    for of in ("K_N", "L_N"):
+        images |= {f"{of}_left": (f"{of}_right", 1), f"{of}_right": (f"{of}_left", 1)}
     own = {"R": 1.5, "b": 0.25, "A": 0.5, "L": 2, "phi": 0.125, "E_star": 2}
     with mpmath.workdps(40):
         for left, right in ((1, mpf("0.375")), (mpf("0.5"), 1), (mpf("-0.125"), 1)):
-            for here, (there, sign) in signs.items():
+            for here, (there, sign) in images.items():
                 found = value(sheet(name), here, a=left, c=right, **own)
                 image = sign * value(mirrored, there, a=right, c=left, **own)
                 assert abs(found - image) < mpf(10) ** -30 * max(abs(found), mpf(1)), here
@@ -154,28 +149,18 @@ def test_a_mirrored_body_carries_the_mirror_image(name: str) -> None:
 # ------------------------------------------------------------------ against the defining integrals
 
 
-def demand_all(of: FormulaSheet) -> None:
-    """Every closed form is there, and no other."""
-    assert [key for key in of if of[key].closes] == sorted(CLOSED, key=[*of].index)
-
-
-@pytest.mark.enough(
-    "power",
-    "hyperbola",
-    "circular_arc",
-    "exponential",
-)
+@pytest.mark.enough("power", "hyperbola", "circular_arc", "exponential")
 @pytest.mark.parametrize("name", [*MADE_UP, *LIBRARY])
 def test_every_form_is_proven(name: str) -> None:
-    demand_all(sheet(name))
-    routes = NumericalRoutes(sheet(name))
-    drawn = contacts(sheet(name))
-    assert {point[a] < point[c] for point in drawn} == {True, False}
+    """It is there, and no other."""
+    of = sheet(name)
+    assert [key for key in of if of[key].closes] == sorted(CLOSED, key=[*of].index)
+    routes = NumericalRoutes(of)
+    assert {point[a] < point[c] for point in contacts(of)} == {True, False}
     for closed in CLOSED:
         proof = routes.proof(closed)
-        assert proof is not None
+        assert proof is not None and proof.digits >= DIGITS
         assert (proof.verdict, proof.points) == (Verdict.NUMERICAL, POINTS), f"{closed}: {proof}"
-        assert proof.digits >= DIGITS
 
 
 def test_what_is_not_proven_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -220,9 +205,7 @@ def test_a_term_without_a_rule_leaves_the_integrals(name: str) -> None:
     given = derive_sheet(Geometry("body", g=profile))
     found = with_closed_forms(given)
     assert {*found} == {*given}
-    assert found.remark.startswith("No closed form known: no rule for ")
-    assert told in found.remark
-    assert found.remark.endswith("the formulas remain integrals.")
+    assert "no rule for " in found.remark and told in found.remark
 
 
 def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -233,7 +216,7 @@ def test_what_sympy_cannot_do_leaves_the_integrals(monkeypatch: pytest.MonkeyPat
     given = derive_sheet(load_geometry("catenary"))
     found = with_closed_forms(given)
     assert {*found} == {*given}
-    assert found.remark == "No closed form found: SymPy gave up; the formulas remain integrals."
+    assert "SymPy gave up" in found.remark
 
 
 # ------------------------------------------------------------------ in time
@@ -244,15 +227,12 @@ def endless(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
         time.sleep(0.01)
 
 
-def endless_but_looking(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
+def looking(frame: Frame, look: LookAtClock) -> dict[str, Expr]:
     while True:
         look()
 
 
-@pytest.mark.parametrize(
-    ("search", "alarms"),
-    [(endless, True), (endless_but_looking, True), (endless_but_looking, False)],
-)
+@pytest.mark.parametrize(("search", "alarms"), [(endless, True), (looking, True), (looking, False)])
 def test_the_search_ends_at_its_limit(
     monkeypatch: pytest.MonkeyPatch, search: Any, alarms: bool
 ) -> None:
@@ -264,7 +244,7 @@ def test_the_search_ends_at_its_limit(
     found = with_closed_forms(given, 0.25)
     assert 0.25 <= time.monotonic() - began < 5
     assert {*found} == {*given}
-    assert found.remark == f"{NONE_IN_TIME} 0.25 s; the formulas remain integrals."
+    assert found.remark.startswith(f"{NONE_IN_TIME} 0.25 s;")
 
 
 def test_nothing_rings_behind_the_block() -> None:
@@ -298,6 +278,5 @@ def test_the_sheet_says_which_is_evaluated() -> None:
     printed = str(sheet("hyperbola"))
     assert "Generated code evaluates the integrals" in printed
     assert "q_left_1 = sqrt(a**2 + b**2)" in printed
-    assert "m_1 = ((a + c)**2 - (-q_left_1 + q_right_1)**2)/(4*q_left_1*q_right_1)" in printed
     assert not sheet("hyperbola").is_closed("load")
     assert sheet("hyperbola").is_closed("load_closed")
