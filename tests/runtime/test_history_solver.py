@@ -1,5 +1,7 @@
 """The solver of load histories: a small part of what tests/accuracy/histories.py measures."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -43,31 +45,27 @@ def test_a_random_history_is_that_of_the_independent_solver(body, varies, smooth
 # ---------------------------------------------------------------- exact zones
 
 
-@pytest.mark.parametrize("tol", [1e-3, 1e-5])
+@pytest.mark.parametrize("tol", [1e-3, pytest.param(1e-5, marks=pytest.mark.thorough)])
 def test_a_first_loading_is_cattaneo_s_and_mindlin_s(tol):
     off, covered = first_loading(tol)
     assert off < tol and covered > 1
 
 
-@pytest.mark.parametrize("one", CLOSED, ids=str)
+@pytest.mark.parametrize("one", CLOSED, ids=map(str, range(9)))
 def test_turning_points_and_steady_cycles_come_to_the_exact_zone(one):
     for off, covered in (turning_points(one, 1e-3), settled(one, 1e-3)):
         assert off < 1e-3 and covered > 1
 
 
-@pytest.mark.parametrize("one", [CLOSED[1], CLOSED[8]], ids=str)
-def test_and_a_steady_cycle_too(one):
-    off, covered = settled(one, 1e-5)
-    assert off < 2e-5 and covered > 1
-
-
+@pytest.mark.enough("turning_points-1-*", "settled-1-0.0001", "settled-8-0.0001")
 @pytest.mark.parametrize(
-    "one", [CLOSED[1], pytest.param(CLOSED[2], marks=pytest.mark.thorough)], ids=str
+    ("found", "at", "tol"),
+    [*((turning_points, at, 1e-5) for at in (1, 2)), *product([settled], (1, 8), (1e-4, 1e-5))],
 )
-def test_and_closer_when_asked(one):
+def test_and_closer_when_asked(found, at, tol):
     """Large tension; moderate tension at varying loads."""
-    off, covered = turning_points(one, 1e-5)
-    assert off < 2e-5 and covered > 1
+    off, covered = found(CLOSED[at], tol)
+    assert off < 2 * tol and covered > 1
 
 
 @pytest.mark.parametrize("body", ["hertz", "rounded_wedge"])
@@ -113,7 +111,7 @@ def test_a_cycle_that_slides_has_no_zone():
 # ---------------------------------------------------------------- energy
 
 
-@pytest.mark.enough("hertz", "rounded_wedge")
+@pytest.mark.enough("rounded_wedge")
 @pytest.mark.parametrize("body", TURNED)
 def test_friction_takes_what_the_loads_give(body):
     """Within what is stated, and 1e-4 for the sums over time and place of the loads' work."""
