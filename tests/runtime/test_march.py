@@ -155,12 +155,6 @@ def test_nothing_is_told_of_a_cycle_in_which_slip_turns_round(tension, order):
     assert np.all(found[6] == Regime.MIXED)
 
 
-@pytest.mark.parametrize("tension", [0.5, -0.5])
-def test_constant_loads_go_back_as_they_came(tension):
-    found = march(wedge, *loads(wedge, tension=tension))
-    assert found[2:4, UP] == pytest.approx(found[2:4, DOWN], rel=1e-12)
-
-
 def test_slip_that_overtakes_is_told_from_none():
     """Wedge, dQ = 0.3 f P, 0.929 of the closing tension: MIXED with a known zone at the end."""
     t = np.linspace(0, 1, 41)
