@@ -11,7 +11,7 @@ from generated.runtime.slip.bounded import Slip, Zone
 from generated.runtime.slip.quadrature import slip_nodes
 
 from .laws import flat_rounded, hertz, wedge
-from .test_moderate import solved, zone
+from .test_moderate import solved
 
 LEVEL = 2
 
@@ -37,19 +37,6 @@ def _each_sums(law, given, own, out):
         m, n = given[i, 7], given[i, 8]
         slip = bounded.beside(of, m, n, of.a - m, of.c - n, LEVEL)
         out[i, 0], out[i, 1], out[i, 2], out[i, 3] = bounded.sums(slip)
-
-
-@kernel(LOOP)
-def _each_solution(law, given, own, out):
-    """given: a cycle, m and n; out: m, n and the share of the loads, found in either way."""
-    law = opened(law)
-    for i in range(given.shape[0]):
-        of = bounded.friction(law, own[i], given[i, :7].copy(), 1.0, -1.0, math.nan)
-        m, n = given[i, 7], given[i, 8]
-        slip = bounded.solved(of, 1.01 * (of.a - m), 0.99 * (of.c - n), LEVEL)
-        out[i, 0], out[i, 1], out[i, 2] = slip.m, slip.n, bounded.share(of, slip)
-        slip = bounded.placed(of, m + n, math.nan, LEVEL)
-        out[i, 3], out[i, 4], out[i, 5] = slip.m, slip.n, bounded.share(of, slip)
 
 
 def test_both_conditions_by_hand():
@@ -91,15 +78,6 @@ def test_rates_are_those_of_differences(case, cycle, ends):
     of_n = (off(m, n + step)[0] - off(m, n - step)[0]) / (2 * step)
     wanted = -F / 2 + by_m / 2, F / 2, -F / 2, F / 2 + by_n / 2
     assert (*of_m, *of_n) == pytest.approx(wanted, abs=5e-5 * abs(of_m[0]))
-
-
-@EACH
-def test_a_zone_is_found_by_two_unknowns_and_in_a_bracket(case, cycle, ends):
-    """Newton's method from a guess; and the place of a stick zone of that width, which leaves all
-    of the loads."""
-    ((m, n, _),) = zone(case, cycle)
-    (found,) = solved(_each_solution, case, [(*cycle, m, n)], 6)
-    assert found == pytest.approx([m, n, 1, m, n, 1], rel=1e-8)
 
 
 def test_a_cycle_is_seen_so_that_tension_loads_the_left_edge_more():
