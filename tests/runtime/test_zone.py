@@ -28,9 +28,8 @@ LOAD = math.pi / 4  # of a cylinder whose contact is [-1, 1]
         ((1, 1, 1, 1, 0.0, 0.0, 0.5), FULL_STICK),
         ((1, 1, 1.1, 1.1, 1e-3, 1e-3, 0.5), FULL_STICK),
         ((1, 1, 1, 1, -0.1, 0.0, 0.5), NONE),
-        ((1, 1, 1, 1, 0.1, 0.0, -0.5), NONE),
         ((1, 1, 1, 1, 0.1, math.inf, 0.5), NONE),
-        *(((1, 1, 1, 1, 0.1, 0.0, f), NONE) for f in (0.0, math.nan)),
+        *(((1, 1, 1, 1, 0.1, 0.0, f), NONE) for f in (0.0, math.nan, -0.5)),
         ((1, 1, 1, 1, math.nan, 0.0, 0.5), NONE),
         ((1, 1, -1, 0.5, 0.1, 0.0, 0.5), NONE),
         # the moment turns an edge ahead of slip
@@ -58,12 +57,11 @@ def test_shear_that_grows_with_the_load_sticks_up_to_friction():
     assert above[2] == MODERATE
 
 
-@pytest.mark.parametrize("case", [hertz, wedge, flat_rounded], ids=["hertz", "wedge", "flat"])
-@pytest.mark.parametrize("sense", [-1, 1])
+@pytest.mark.parametrize(("case", "sense"), [(hertz, -1), (wedge, 1), (flat_rounded, -1)])
 def test_mixed_cycles_lead_from_moderate_to_large(case, sense):
     a, c, dQ, f = 1.4, 1.3, 0.1, 0.5
     start = 8 * dQ / (math.pi * (a + c))
-    tensions = sense * start * np.linspace(0.98, 2.5, 150)
+    tensions = sense * start * np.linspace(0.98, 2.5, 100)
     rows = [(a, c, a, c, dQ, tension, f) for tension in tensions]
     m, n, regime = solved(mixed.each_stick_zone, case, rows, 3).T
     changes = np.flatnonzero(np.diff(regime))
