@@ -7,30 +7,6 @@ import pytest
 from generated.runtime.slip.newton import log_step, moved, narrowed
 
 
-def found(function, low, high, x, least, rounds=200):
-    """The bracket after as many steps as it takes to close it to 2 `least`."""
-    bracket = low, high, x, high - low
-    for count in range(rounds):
-        bracket = narrowed(bracket, *function(bracket[2]), least)
-        if bracket[1] - bracket[0] <= 2 * least:
-            return bracket, count
-    return bracket, rounds
-
-
-def test_a_root_in_a_bracket():
-    """x**3 = 2 by Newton's steps, which are quick; the bracket closes from both sides."""
-    (low, high, *_), count = found(lambda x: (x**3 - 2, 3 * x * x), 0.0, 4.0, 3.0, 1e-15)
-    assert low <= 2 ** (1 / 3) + 1e-15 and high >= 2 ** (1 / 3) - 1e-15
-    assert high - low <= 2e-15 and count < 12
-
-
-@pytest.mark.parametrize("rate", [0.0, 1e-9, 1e9])
-def test_a_rate_that_is_wrong_costs_halvings_alone(rate):
-    """A step function: nothing but the middle leads anywhere."""
-    (low, high, *_), count = found(lambda x: (-1.0 if x < 0.3 else 1.0, rate), 0.0, 1.0, 0.5, 1e-12)
-    assert low <= 0.3 <= high and count < 100
-
-
 def test_one_step_by_hand():
     """From x = 1 with value 2 and rate 8: to 3/4; with rate 1 the step leaves the bracket."""
     assert narrowed((0.0, 2.0, 1.0, 2.0), 2.0, 8.0, 0.0) == (0.0, 1.0, 0.75, 0.25)
