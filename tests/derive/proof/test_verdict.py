@@ -30,11 +30,8 @@ def agreeing(count: int) -> list[Comparison]:
 @pytest.mark.parametrize(
     ("first", "second", "digits"),
     [
-        (ONE, ONE, WORKING),
-        (ONE, -ONE, 0),
-        (mpf(0), mpf("1e-40"), 0),
-        (ONE, nan, 0),
-        (inf, inf, 0),
+        *((ONE, ONE, WORKING), (ONE, -ONE, 0), (mpf(0), mpf("1e-40"), 0)),
+        *((ONE, nan, 0), (inf, inf, 0)),
     ],
     ids=str,
 )
@@ -51,15 +48,12 @@ def test_digits_are_relative_and_never_overstated(power: int, scale: mpf) -> Non
         assert comparison(scale, scale * (1 + gap)).digits == power
 
 
-def test_agreement_at_every_point_is_numerical() -> None:
-    proof = numerical_proof("a route", agreeing(POINTS))
+def test_agreement_at_every_point_is_numerical_and_the_worst_point_is_reported() -> None:
+    some = agreeing(POINTS)
+    proof = numerical_proof("a route", some)
     assert proof == Proof(Verdict.NUMERICAL, "a route", POINTS, WORKING)
     assert proof.holds
-
-
-def test_the_worst_point_is_reported() -> None:
     with workdps(WORKING):
-        some = agreeing(POINTS)
         some[7] = comparison(ONE, ONE + mpf(10) ** -(DIGITS + 3) / 2, some[7].point)
     assert numerical_proof("a route", some).digits == DIGITS + 3
 
@@ -78,11 +72,8 @@ def test_one_point_refutes(at: int, wrong: mpf) -> None:
     some = agreeing(POINTS)
     some[at] = comparison(ONE, wrong, "x = 7, y = 8")
     proof = numerical_proof("a route", some)
-    assert proof.verdict == Verdict.REFUTED
-    assert not proof.holds
-    assert proof.points == at + 1
-    assert "x = 7, y = 8" in proof.example
-    assert "against" in str(proof)
+    assert (proof.verdict, proof.holds, proof.points) == (Verdict.REFUTED, False, at + 1)
+    assert "x = 7, y = 8" in proof.example and "against" in str(proof)
 
 
 def test_many_comparisons_at_one_point_are_one_point() -> None:
@@ -119,16 +110,13 @@ def test_a_route_that_could_not_be_tried_is_not_named_as_a_proof() -> None:
     ("proof", "text"),
     [
         (Proof(Verdict.PROVEN, "by parts"), "proven: by parts"),
+        (Proof(Verdict.NUMERICAL, "a", 24, 40), "numerical: a; 40 digits at 24 points"),
         (
-            Proof(Verdict.NUMERICAL, "put back", 24, 40),
-            "numerical: put back; 40 digits at 24 points",
-        ),
-        (
-            Proof(Verdict.REFUTED, "put back", 1, 0, "x = 1: 1 against 2"),
-            "refuted: put back; 0 digits at 1 points; at x = 1: 1 against 2",
+            Proof(Verdict.REFUTED, "a", 1, 0, "x = 1: 1 against 2"),
+            "refuted: a; 0 digits at 1 points; at x = 1: 1 against 2",
         ),
     ],
-    ids=lambda given: str(given.verdict) if isinstance(given, Proof) else "",
+    ids=str,
 )
 def test_a_proof_in_words(proof: Proof, text: str) -> None:
     assert str(proof) == text
