@@ -36,39 +36,28 @@ def test_K_N_and_L_N_are_what_the_pressure_tends_to(
 
 
 @ALL
-def test_K_N_on_the_right_is_that_of_the_contact_law(name: str, left: float, right: float) -> None:
-    """Mossakovskii: K_N,right = (2/pi) P'(c)/sqrt(a + c)."""
-    rate = value(name, "load_rate", a=left, c=right)
-    expected = 2 / mpmath.pi * rate / mpmath.sqrt(mpf(left) + right)
-    assert close(value(name, "K_N_right", a=left, c=right), expected)
-
-
-@ALL
-def test_K_N_of_both_edges_are_in_the_ratio_of_their_advance(
+def test_K_N_of_both_edges_are_those_of_the_contact_law(
     name: str, left: float, right: float
 ) -> None:
-    """Mossakovskii: K_N,left = K_N,right / a'(c)."""
-    ratio = value(name, "edge_ratio", a=left, c=right)
-    first, second = (value(name, f"K_N_{side}", a=left, c=right) for side in ("left", "right"))
-    assert close(first, second / ratio)
+    """Mossakovskii: K_N,right = (2/pi) P'(c)/sqrt(a + c), and K_N,left = K_N,right/a'(c)."""
+    on_left, on_right, rate, ratio = (
+        value(name, of, a=left, c=right)
+        for of in ("K_N_left", "K_N_right", "load_rate", "edge_ratio")
+    )
+    assert close(on_right, 2 / mpmath.pi * rate / mpmath.sqrt(mpf(left) + right))
+    assert close(on_left, on_right / ratio)
 
 
 @pytest.mark.parametrize("edge", Edge, ids=lambda e: e.name.lower())
-@pytest.mark.parametrize(
-    "name",
-    ["hertz", "shifted_wedge", "two_radii", "skew"],
-)
+@pytest.mark.parametrize("name", ["hertz", "shifted_wedge", "two_radii", "skew"])
 def test_four_terms_leave_an_error_of_the_fifth(name: str, edge: Edge) -> None:
     """p - (four terms) ~ s^(9/2): a tenth of s leaves 10^-4.5 of it."""
-    body, (left, right) = sheet(name), (mpf(2), mpf("1.5"))
-    terms = [
-        number(body.frame.flat(term), a=left, c=right)
-        for term in pressure_series(body.frame, edge, 4)
-    ]
+    frame, at = sheet(name).frame, {"a": mpf(2), "c": mpf("1.5")}
+    terms = [number(frame.flat(term), **at) for term in pressure_series(frame, edge, 4)]
 
     def rest(step: mpf) -> mpf:
         series = sum(term * step**n for n, term in enumerate(terms))
-        return near(name, edge, step, left, right) - mpmath.sqrt(step) * series
+        return near(name, edge, step, at["a"], at["c"]) - mpmath.sqrt(step) * series
 
     with mpmath.workdps(60):
         ratio = rest(mpf("1e-5")) / rest(mpf("1e-6"))
@@ -77,8 +66,7 @@ def test_four_terms_leave_an_error_of_the_fifth(name: str, edge: Edge) -> None:
 
 def test_the_series_of_a_cylinder_is_the_binomial_series() -> None:
     """p = (E*/2R) sqrt(s) sqrt(h - s) and sqrt(1 - t) = 1 - t/2 - t^2/8 - t^3/16 - 5 t^4/128."""
-    R = Symbol("R", positive=True)
-    found = pressure_series(sheet("hertz").frame, Edge.LEFT, 5)
-    for n, factor in enumerate((1, -Rational(1, 2), -Rational(1, 8), -Rational(1, 16))):
-        assert simplify(found[n] - E_star / (2 * R) * sqrt(h) * factor / h**n) == 0
-    assert simplify(found[4] + E_star / (2 * R) * sqrt(h) * Rational(5, 128) / h**4) == 0
+    first = E_star / (2 * Symbol("R", positive=True)) * sqrt(h)
+    factors = (1, -Rational(1, 2), -Rational(1, 8), -Rational(1, 16), -Rational(5, 128))
+    for n, found in enumerate(pressure_series(sheet("hertz").frame, Edge.LEFT, 5)):
+        assert simplify(found - first * factors[n] / h**n) == 0
