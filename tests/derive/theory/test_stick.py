@@ -23,35 +23,21 @@ def change(place: mpf, left: float, right: float, load: float, tension: float) -
 
 @pytest.mark.parametrize(("left", "right"), CONTACTS)
 @pytest.mark.parametrize(("load", "tension"), LOADS)
-def test_its_force_is_the_change_of_the_shear_load(
+def test_its_force_and_its_strain_are_the_changes_of_the_loads(
     left: float, right: float, load: float, tension: float
 ) -> None:
-    total = over_contact(
-        lambda t: change(t, left, right, load, tension) * root(t, mpf(left), mpf(right)),
-        left,
-        right,
-    )
-    assert close(total, mpf(load), scale=1)
-
-
-@pytest.mark.parametrize(("left", "right"), CONTACTS)
-@pytest.mark.parametrize(("load", "tension"), LOADS)
-def test_its_strain_is_the_change_of_the_tension(
-    left: float, right: float, load: float, tension: float
-) -> None:
-    """(1/pi) PV int dq(s)/(x - s) ds = dsigma/4, and PV int ds/(w (x - s)) = 0 inside."""
+    """int dq ds = dQ; (1/pi) PV int dq(s)/(x - s) ds = dsigma/4, as PV int ds/(w (x - s)) = 0."""
 
     def numerator(t: mpf) -> mpf:
         return change(t, left, right, load, tension) * root(t, mpf(left), mpf(right))
 
+    assert close(over_contact(numerator, left, right), mpf(load), scale=1)
     for share in ("0.1875", "0.59375", "0.84375"):
         place = -mpf(left) + mpf(share) * (mpf(left) + right)
         here = numerator(place)
         regular = over_contact(
             lambda t, here=here, place=place: (numerator(t) - here) / (place - t),
-            left,
-            right,
-            (place,),
+            *(left, right, (place,)),
         )
         assert close(regular / mpmath.pi, mpf(tension) / 4, digits=15, scale=1)
 
