@@ -147,7 +147,7 @@ def made(
 
 
 class Wanted(NamedTuple):
-    """Of one contact, by quadrature; x a place in it, steepest the size of its tilt."""
+    """Of one contact; steepest is the size of its tilt."""
 
     load: mpf
     moment: mpf
@@ -155,31 +155,30 @@ class Wanted(NamedTuple):
     pressure: mpf
     steepest: mpf
 
-    @classmethod
-    def of(cls, profile: Profile, left: float, right: float, x: float) -> "Wanted | None":
-        """Nothing where the contact carries no load."""
-        exact = {name: mpf(value) for name, value in values(profile).items()}
-        slope, kinks = profile.slope(exact), profile.kinks(exact)
-        contact = mpf(left), mpf(right), kinks
-        load = integrals.load(slope, *contact, mpf(E_STAR), "tanh-sinh")
-        if load < mpf(10) ** -mpmath.mp.dps * 10**20:
-            return None
-        return cls(
-            load,
-            integrals.moment(slope, *contact, mpf(E_STAR), "tanh-sinh"),
-            integrals.tilt(slope, *contact, "tanh-sinh"),
-            integrals.pressure(slope, mpf(x), *contact, mpf(E_STAR), "tanh-sinh"),
-            max(abs(slope(-mpf(left))), abs(slope(mpf(right)))),
-        )
 
-    def demand(self, module: ModuleType, own: dict[str, float], *at: float) -> None:
-        """That the functions give these numbers."""
-        left, right, x = at
-        given, reach = {"E_star": E_STAR, **own}, max(abs(left), abs(right))
-        assert close(module.load(left, right, **given), self.load, self.load)
-        assert close(module.moment(left, right, **given), self.moment, self.load * reach)
-        assert close(module.tilt(left, right, **own), self.tilt, self.steepest)
-        assert close(module.pressure(x, left, right, **given), self.pressure, self.pressure)
+def demanded(
+    profile: Profile, module: ModuleType, left: float, right: float, x: float, digits: int = DIGITS
+) -> Wanted | None:
+    """What quadrature finds, x a place in the contact, after a check that the functions give it;
+    nothing where the contact carries no load."""
+    own = values(profile)
+    given, reach = {"E_star": E_STAR, **own}, max(abs(left), abs(right))
+    with mpmath.workdps(digits):  # loads are differences of slopes
+        exact = {name: mpf(value) for name, value in own.items()}
+        slope, kinks = profile.slope(exact), profile.kinks(exact)
+        contact, rest = (mpf(left), mpf(right), kinks), (mpf(E_STAR), "tanh-sinh")
+        load = integrals.load(slope, *contact, *rest)
+        if load < mpf(10) ** (20 - digits):
+            return None
+        moment = integrals.moment(slope, *contact, *rest)
+        tilt = integrals.tilt(slope, *contact, "tanh-sinh")
+        pressure = integrals.pressure(slope, mpf(x), *contact, *rest)
+        steepest = max(abs(slope(-mpf(left))), abs(slope(mpf(right))))
+    assert close(module.load(left, right, **given), load, load)
+    assert close(module.moment(left, right, **given), moment, load * reach)
+    assert close(module.tilt(left, right, **own), tilt, steepest)
+    assert close(module.pressure(x, left, right, **given), pressure, pressure)
+    return Wanted(load, moment, tilt, pressure, steepest)
 
 
 def close(found: float, wanted: mpf, size: mpf) -> bool:
@@ -189,18 +188,14 @@ def close(found: float, wanted: mpf, size: mpf) -> bool:
 @pytest.mark.enough("one_side_cubic", "lopsided")
 def test_every_function_against_quadrature_of_the_slope(made: tuple[Profile, ModuleType]) -> None:
     profile, module = made
-    own = values(profile)
-    given = {"E_star": E_STAR, **own}
+    given = {"E_star": E_STAR, **values(profile)}
     carried = 0
     for left, right in CONTACTS:
-        x = (3 * right - 5 * left) / 8
-        with mpmath.workdps(DIGITS):
-            wanted = Wanted.of(profile, left, right, x)
+        wanted = demanded(profile, module, left, right, (3 * right - 5 * left) / 8)
         if wanted is None:
             assert np.isnan(module.load(left, right, **given))
             continue
         carried += 1
-        wanted.demand(module, own, left, right, x)
         found = module.contact(float(wanted.load), float(wanted.moment), **given)
         assert close(found.a, mpf(left), mpf(left + right))
         assert close(found.c, mpf(right), mpf(left + right))
@@ -212,15 +207,10 @@ def test_every_function_against_quadrature_of_the_slope(made: tuple[Profile, Mod
 def test_narrow_contacts_around_a_kink_keep_their_digits(made: tuple[Profile, ModuleType]) -> None:
     """Wherever the kink lies: nothing is lost to powers of its distance from the origin."""
     profile, module = made
-    own = values(profile)
-    kinks = profile.kinks({name: mpf(value) for name, value in own.items()})
+    kinks = profile.kinks({name: mpf(value) for name, value in values(profile).items()})
     for kink, half, shift in product(kinks, HALVES, SHIFTS):
         mid = float(kink) + shift * half
-        at = half - mid, half + mid, mid + half / 4
-        with mpmath.workdps(80):  # loads are differences of slopes
-            wanted = Wanted.of(profile, *at)
-        if wanted is not None:
-            wanted.demand(module, own, *at)
+        demanded(profile, module, half - mid, half + mid, mid + half / 4, digits=80)
 
 
 @pytest.mark.enough("one_side_cubic", "lopsided")
