@@ -38,9 +38,6 @@ def at_most(seconds: int) -> Iterator[None]:
 
 def test_a_flat_program_holds_no_step() -> None:
     assert CIRCLE.flat() == {"height": sqrt(x**2 + y**2) + y, "width": 2 * x**2 + 2 * y**2}
-
-
-def test_a_program_without_steps_is_flat() -> None:
     assert Program({"": x + y}).flat() == {"": x + y}
 
 
@@ -54,25 +51,14 @@ def test_a_flat_logarithm_asks_nothing_of_its_lengths() -> None:
     assert abs(flat.subs(at).evalf() - log(1 + 2 * (sqrt(Rational(12, 5)) + 1)).evalf()) < 1e-12
 
 
-def test_steps_come_after_those_they_need() -> None:
-    assert [step.symbol for step in CIRCLE.ordered().steps] == [s, t]
-
-
-def test_only_steps_that_some_output_needs_remain() -> None:
-    assert Program({"": x}, CIRCLE.steps).ordered().steps == ()
-
-
-def test_ordering_changes_no_output_and_no_step() -> None:
+def test_steps_that_are_needed_come_after_those_they_need() -> None:
+    """Whatever the order given; ordering changes no output and no step."""
     ordered = CIRCLE.ordered()
-    assert ordered.outputs == CIRCLE.outputs
-    assert ordered.flat() == CIRCLE.flat()
+    assert [step.symbol for step in ordered.steps] == [s, t]
     assert set(ordered.steps) < set(CIRCLE.steps)
-    assert ordered.ordered() == ordered
-
-
-def test_the_order_does_not_depend_on_the_order_given() -> None:
-    backwards = Program(CIRCLE.outputs, CIRCLE.steps[::-1])
-    assert backwards.ordered() == CIRCLE.ordered()
+    assert ordered.outputs == CIRCLE.outputs and ordered.flat() == CIRCLE.flat()
+    assert ordered == ordered.ordered() == Program(CIRCLE.outputs, CIRCLE.steps[::-1]).ordered()
+    assert Program({"": x}, CIRCLE.steps).ordered().steps == ()
 
 
 def test_a_change_reaches_outputs_and_steps() -> None:
@@ -81,29 +67,20 @@ def test_a_change_reaches_outputs_and_steps() -> None:
     assert CIRCLE.flat()["width"].has(y)
 
 
-def test_a_new_step_takes_its_expression_s_place() -> None:
-    program = Program({"": sin(x + y) + cos(x + y)}).with_steps(Step(s, x + y, "sum"))
+def test_a_new_step_takes_its_expression_s_place_in_outputs_and_steps() -> None:
+    """A later one may use an earlier one, and one that nothing holds is no harm."""
+    new = Step(s, x + y, "sum")
+    program = Program({"": sin(x + y) + cos(x + y)}).with_steps(new)
     assert program.outputs[""] == sin(s) + cos(s)
     assert program.flat()[""] == sin(x + y) + cos(x + y)
-
-
-def test_a_new_step_takes_its_place_in_steps_too() -> None:
-    program = Program({"": t}, (Step(t, sin(x + y), ""),)).with_steps(Step(s, x + y, "sum"))
+    program = Program({"": t}, (Step(t, sin(x + y), ""),)).with_steps(new)
     assert program.steps[0].expr == sin(s)
     assert program.flat() == {"": sin(x + y)}
-
-
-def test_a_later_new_step_may_use_an_earlier_one() -> None:
-    program = Program({"": sin(x + y) ** 2})
-    program = program.with_steps(Step(s, x + y, "sum"), Step(t, sin(s), "its sine"))
+    program = Program({"": sin(x + y) ** 2}).with_steps(new, Step(t, sin(s), "its sine"))
     assert program.outputs[""] == t**2
     assert program.flat() == {"": sin(x + y) ** 2}
-
-
-def test_a_new_step_that_nothing_holds_is_no_harm() -> None:
-    program = Program({"": x}).with_steps(Step(s, x + y, "sum"))
-    assert program.flat() == {"": x}
-    assert program.ordered().steps == ()
+    program = Program({"": x}).with_steps(new)
+    assert program.flat() == {"": x} and program.ordered().steps == ()
 
 
 @pytest.mark.parametrize("taken", [["s"], ["t"], ["s", "t"], ["s", "t", "r", "unheard_of"]])
@@ -119,20 +96,15 @@ def test_renaming_leaves_other_steps_alone() -> None:
     assert {"t", "r"} < kept
 
 
-def test_renaming_evades_a_new_name_that_is_taken_as_well() -> None:
+def test_renaming_evades_a_new_name_that_is_taken_as_well_and_the_other_steps() -> None:
     """Two parameters s and s_ leave neither name to a step."""
     s_ = Symbol("s_", positive=True)
     program = Program({"": s * s_}, (Step(s, x**2, ""),))
+    other = Program({"": s * s_}, (Step(s, x**2, ""), Step(s_, y**2, "")))
     with at_most(20):
         renamed = program.renamed(["s", "s_"])
         assert {str(step.symbol) for step in renamed.steps}.isdisjoint({"s", "s_"})
         assert renamed.flat() == {"": x**2 * s_}
-
-
-def test_renaming_evades_the_other_steps() -> None:
-    s_ = Symbol("s_", positive=True)
-    program = Program({"": s * s_}, (Step(s, x**2, ""), Step(s_, y**2, "")))
-    with at_most(20):
-        renamed = program.renamed(["s"])
+        renamed = other.renamed(["s"])
         assert len({step.symbol for step in renamed.steps}) == 2
         assert renamed.flat() == {"": x**2 * y**2}
