@@ -4,7 +4,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from sympy import (
-    Integer,
     Integral,
     Max,
     Piecewise,
@@ -16,6 +15,7 @@ from sympy import (
     log,
     sign,
     sqrt,
+    sympify,
     tan,
 )
 
@@ -27,44 +27,24 @@ length, stress, angle = Symbol("length"), Symbol("stress"), Symbol("angle")
 HELD = {length: parse_unit("m"), stress: parse_unit("Pa"), angle: parse_unit("rad"), n: NUMBER}
 
 
-def dimension(pressure: object, length: object) -> Dimension:
-    return Dimension(Integer(0) + pressure, Integer(0) + length)
-
-
 @pytest.mark.parametrize(
     ("text", "pressure", "metres"),
     [
-        ("m", 0, 1),
-        ("Pa", 1, 0),
+        *(("m", 0, 1), ("Pa", 1, 0), ("N/m", 1, 1), ("rad", 0, 0), ("-", 0, 0), ("1/m", 0, -1)),
         ("N", 1, 2),  # Pa m^2
-        ("N/m", 1, 1),
-        ("rad", 0, 0),
-        ("-", 0, 0),
-        ("1/m", 0, -1),
-        ("m**3", 0, 3),
-        ("m**(1/3)", 0, Rational(1, 3)),
+        *(("m**3", 0, 3), ("m**(1/3)", 0, Rational(1, 3)), ("m**(1 - n)", 0, 1 - n)),
         ("Pa/sqrt(m)", 1, Rational(-1, 2)),
-        ("m**(1 - n)", 0, 1 - n),
     ],
 )
 def test_a_unit_is_read(text: str, pressure: object, metres: object) -> None:
-    assert parse_unit(text).agrees(dimension(pressure, metres))
+    assert parse_unit(text).agrees(Dimension(sympify(pressure), sympify(metres)))
 
 
 @pytest.mark.parametrize(
     "text",
     [
-        "kg",
-        "2*m",
-        "m + m",
-        "m**0.5",
-        "m**(1/0)",
-        "m^2",
-        "m(",
-        "m; m",
-        "__import__('os')",
-        "m\0",
-        "(" * 10_000 + "m" + ")" * 10_000,
+        *("kg", "2*m", "m + m", "m**0.5", "m**(1/0)", "m^2", "m(", "m; m", "__import__('os')"),
+        *("m\0", "(" * 10_000 + "m" + ")" * 10_000),
     ],
 )
 def test_a_bad_unit_is_refused_with_a_remedy(text: str) -> None:
@@ -84,22 +64,16 @@ def test_units_multiply_divide_and_rise_as_their_exponents_do(
     p, q = parse_unit(first), parse_unit(second)
     assert parse_unit(f"({first})*({second})").agrees(p * q)
     assert (parse_unit(f"({first})/({second})") * q).agrees(p)
-    assert parse_unit(f"({first})**{power}").agrees(dimension(p.pressure * power, p.length * power))
+    assert parse_unit(f"({first})**{power}").agrees(Dimension(p.pressure * power, p.length * power))
 
 
 @pytest.mark.parametrize(
     ("expr", "unit"),
     [
-        (length * stress, "N/m"),
-        (length + 3 * length, "m"),
-        (sqrt(length) * stress, "Pa*sqrt(m)"),
-        (Max(0, length), "m"),
-        (sign(length), "-"),
-        (atan2(length, 2 * length), "-"),
-        (angle + 1, "-"),
-        (tan(angle), "-"),
-        (log(length / (2 * length + length)), "-"),
-        (length**n * length ** (1 - n), "m"),
+        *((length * stress, "N/m"), (length + 3 * length, "m"), (Max(0, length), "m")),
+        *((sqrt(length) * stress, "Pa*sqrt(m)"), (length**n * length ** (1 - n), "m")),
+        *((sign(length), "-"), (atan2(length, 2 * length), "-"), (angle + 1, "-")),
+        *((tan(angle), "-"), (log(length / (2 * length + length)), "-")),
         (Piecewise((0, length < 0), (stress, True)), "Pa"),
     ],
     ids=str,
@@ -113,15 +87,10 @@ def test_the_dimension_of_an_expression(expr: object, unit: str) -> None:
 @pytest.mark.parametrize(
     "expr",
     [
-        length + stress,
-        Max(1, length),
-        atan2(length, stress),
-        cosh(length),
-        hyper((length, 2), (3,), angle),
-        2**length,
+        *(length + stress, Max(1, length), atan2(length, stress), cosh(length)),
+        *(hyper((length, 2), (3,), angle), 2**length),
         Piecewise((length, length > 0), (stress, True)),
-        Piecewise((1, length > stress), (2, True)),
-        sqrt(length + length**2),
+        *(Piecewise((1, length > stress), (2, True)), sqrt(length + length**2)),
         Integral(length, (length, stress, angle)),
     ],
     ids=str,
