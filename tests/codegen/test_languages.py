@@ -5,24 +5,20 @@ import json
 import math
 import shutil
 import subprocess
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from sympy import Symbol
 
 from derive import Geometry, derive_sheet, load_geometry, parameter, x
 from derive.codegen.languages import LANGUAGES, code_of
 from derive.errors import NoSuchName
 
 BODIES = {  # parameters in the order of their names
-    "hertz": {"R": 0.3},
-    "wedge": {"phi": 0.02},
-    "rounded_wedge": {"b": 0.4e-3, "phi": 0.05},
-    "flat_rounded": {"R": 0.1, "b": 0.2e-3},
+    **{"hertz": {"R": 0.3}, "wedge": {"phi": 0.02}},
+    **{"rounded_wedge": {"b": 0.4e-3, "phi": 0.05}, "flat_rounded": {"R": 0.1, "b": 0.2e-3}},
 }
 E_STAR = 60e9
 A, C = 1.1e-3, 0.7e-3
@@ -32,44 +28,33 @@ LOADS = {"dQ": 2e5, "dsigma": 3e7}
 def calls(name: str) -> list[tuple[str, tuple[float, ...], float]]:
     """Functions of another language, their arguments, and what the generated module gives."""
     module, own = import_module(f"generated.{name}"), BODIES[name]
-    law = (E_STAR, *own.values())
-    material = {"E_star": E_STAR, **own}
+    law, material = (E_STAR, *own.values()), {"E_star": E_STAR, **own}
     found = [("tilt", (A, C, *own.values()), module.tilt(A, C, **own))]
     for function in ("load", "moment"):
-        value = getattr(module, function)(A, C, **material)
-        found.append((function, (A, C, *law), value))
+        found.append((function, (A, C, *law), getattr(module, function)(A, C, **material)))
     for place in (-0.9e-3, 0.1e-3, 0.5e-3, 2e-3):
         value = module.pressure(place, A, C, **material)
         found.append(("pressure", (place, A, C, *law), value))
-    for function in ("K_N", "L_N"):
-        edges = getattr(module, function)(A, C, **material)
-        found += [(f"{function}_{side}", (A, C, *law), getattr(edges, side)) for side in ENDS]
-    for function in ("K_T", "L_T"):
-        edges = getattr(module, function)(A, C, **LOADS)
-        arguments = (A, C, *LOADS.values())
-        found += [(f"{function}_{side}", arguments, getattr(edges, side)) for side in ENDS]
+    for function in ("K_N", "L_N", "K_T", "L_T"):
+        given = material if function.endswith("N") else LOADS
+        edges = getattr(module, function)(A, C, **given)
+        passed = (A, C, *(law if given is material else LOADS.values()))
+        found += [(f"{function}_{s}", passed, getattr(edges, s)) for s in ("left", "right")]
     return found
 
 
-ENDS = ("left", "right")
+Call = tuple[str, tuple[float, ...]]
 
 
-def nothing(name: str) -> list[tuple[str, tuple[float, ...]]]:
-    """Calls whose state does not exist."""
-    law = (E_STAR, *BODIES[name].values())
-    return [
-        ("load", (A, -2 * A, *law)),
-        ("load", (A, C, -E_STAR, *law[1:])),
-        ("pressure", (math.nan, A, C, *law)),
-        ("pressure", (0.0, A, math.nan, *law)),
+def demand_values(name: str, values_of: Callable[[list[Call]], list[float]]) -> None:
+    known, law = calls(name), (E_STAR, *BODIES[name].values())
+    nowhere: list[Call] = [  # states that do not exist
+        *(("load", (A, -2 * A, *law)), ("load", (A, C, -E_STAR, *law[1:]))),
+        *(("pressure", (math.nan, A, C, *law)), ("pressure", (0.0, A, math.nan, *law))),
     ]
-
-
-def demand_values(name: str, value_of: Any) -> None:
-    for function, arguments, expected in calls(name):
-        assert_allclose(value_of(function, arguments), expected, rtol=1e-11, atol=0)
-    for function, arguments in nothing(name):
-        assert np.isnan(value_of(function, arguments))
+    found = values_of([*((function, arguments) for function, arguments, _ in known), *nowhere])
+    expected = [*(value for *_, value in known), *[math.nan] * len(nowhere)]
+    assert_allclose(found, expected, rtol=1e-11, atol=0)
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")
@@ -85,7 +70,7 @@ def test_c(name: str, tmp_path: Path) -> None:
         called.restype, called.argtypes = ctypes.c_double, [ctypes.c_double] * len(arguments)
         return float(called(*arguments))
 
-    demand_values(name, value_of)
+    demand_values(name, lambda asked: [value_of(*call) for call in asked])
 
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript engine")
@@ -93,15 +78,15 @@ def test_c(name: str, tmp_path: Path) -> None:
 def test_javascript(name: str, tmp_path: Path) -> None:
     (tmp_path / "body.mjs").write_text(code_of(derive_sheet(load_geometry(name)), "javascript"))
 
-    def value_of(function: str, arguments: tuple[float, ...]) -> float:
-        call = f"body.{function}({', '.join(json.dumps(v) for v in arguments)})"
-        run = f"import('./body.mjs').then(body => console.log({call}))"
+    def values_of(asked: list[Call]) -> list[float]:
+        listed = (f"body.{of}({', '.join(map(json.dumps, given))})" for of, given in asked)
+        run = f"import('./body.mjs').then(body => console.log([{', '.join(listed)}].join(' ')))"
         done = subprocess.run(
             ["node", "-e", run], cwd=tmp_path, capture_output=True, text=True, check=True
         )
-        return float(done.stdout)
+        return [float(value) for value in done.stdout.split()]
 
-    demand_values(name, value_of)
+    demand_values(name, values_of)
 
 
 HERTZ_LOAD = {
@@ -126,37 +111,28 @@ HERTZ_LOAD = {
 @pytest.mark.parametrize("language", HERTZ_LOAD)
 def test_the_load_of_a_cylinder(language: str) -> None:
     """P = pi E* (a + c)**2/(16 R), as each language writes it."""
-    lines = [
-        line.strip() for line in code_of(derive_sheet(load_geometry("hertz")), language).split("\n")
-    ]
-    for line in HERTZ_LOAD[language]:
-        assert line in lines
+    text = code_of(derive_sheet(load_geometry("hertz")), language)
+    assert {*HERTZ_LOAD[language]} <= {line.strip() for line in text.split("\n")}
 
 
 def test_julia_has_atan_of_two_arguments() -> None:
     text = code_of(derive_sheet(load_geometry("wedge")), "julia")
-    assert "atan(" in text
-    assert "atan2" not in text
+    assert "atan(" in text and "atan2" not in text
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_integrals_are_named_and_left_out(language: str) -> None:
     text = code_of(derive_sheet(load_geometry("catenary")), language)
-    assert "Not included, because they are integrals: tilt, load, moment, pressure" in text
+    assert "tilt, load, moment, pressure" in text
     assert "K_T_left" in text
 
 
 @pytest.mark.parametrize(
     ("language", "name", "why"),
-    [
-        ("c", "register", "is reserved in code of that language"),
-        ("javascript", "var", "is reserved in code of that language"),
-        ("fortran", "e_star", "is the same name as 'E_star'"),
-    ],
+    [("c", "register", ""), ("javascript", "var", ""), ("fortran", "e_star", ".*'E_star'")],
 )
 def test_a_name_that_a_language_has_no_room_for(language: str, name: str, why: str) -> None:
     R = parameter(name, "relative radius of curvature", unit="m")
-    assert isinstance(R, Symbol)
     sheet = derive_sheet(Geometry("cylinder", g=x**2 / (2 * R)))
-    with pytest.raises(NoSuchName, match=f"cylinder in {language}: '{name}' {why}"):
+    with pytest.raises(NoSuchName, match=f"cylinder in {language}: '{name}'{why}"):
         code_of(sheet, language)
