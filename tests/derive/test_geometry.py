@@ -1,25 +1,14 @@
 """Parameters and bodies: what is accepted, and what is refused in which words."""
 
 import pytest
-from sympy import Abs, GoldenRatio, Integral, Max, Symbol, cosh, nan, oo, sqrt
+from sympy import Abs, Expr, GoldenRatio, Integral, Max, Symbol, cosh, nan, oo, sqrt
 
 from derive import Geometry, parameter, x
-from derive.errors import (
-    BadName,
-    DimensionMismatch,
-    UnknownSymbol,
-    UserError,
-)
+from derive.errors import BadName, DimensionMismatch, UnknownSymbol, UserError
 from derive.symbols import QUANTITIES, RESERVED
 
 R = parameter("R", "radius", unit="m")
 phi = parameter("phi", "slope", unit="rad")
-
-
-def test_a_parameter_is_positive_and_remembers_what_it_means() -> None:
-    assert R.is_positive
-    assert R.is_real
-    assert (R.name, R.meaning, R.unit) == ("R", "radius", "m")
 
 
 @pytest.mark.parametrize(
@@ -52,6 +41,8 @@ def test_a_geometry_lists_its_parameters_in_alphabetical_order() -> None:
     assert [q.name for q in body.parameters] == ["R", "R2", "phi"]
     assert [q.unit for q in body.parameters] == ["m", "m", "rad"]
     assert body.parameters[0].meaning == "radius"
+    assert R.is_positive and R.is_real
+    assert (R.name, R.meaning, R.unit) == ("R", "radius", "m")
 
 
 def test_a_parameter_used_twice_has_the_unit_its_last_maker_said() -> None:
@@ -73,12 +64,8 @@ def test_two_parameters_of_one_name_in_one_body_are_refused() -> None:
 @pytest.mark.parametrize(
     ("symbol", "made"),
     [
-        (Symbol("y"), "y"),
-        (Symbol("R"), "R"),
-        (QUANTITIES["alpha"].symbol, "alpha0"),
-        (Symbol("a"), "a0"),
-        (Symbol("lambda"), "lambda0"),
-        (Symbol("w_1"), "my_w_1"),
+        *((Symbol("y"), "y"), (Symbol("R"), "R"), (QUANTITIES["alpha"].symbol, "alpha0")),
+        *((Symbol("a"), "a0"), (Symbol("lambda"), "lambda0"), (Symbol("w_1"), "my_w_1")),
         (Symbol("my radius"), "R0"),
     ],
     ids=str,
@@ -110,23 +97,17 @@ def test_a_symbol_of_the_theory_is_refused_with_what_it_means() -> None:
     assert "reserved by the theory (left edge of the contact" in caught.value.message
 
 
-@pytest.mark.parametrize(
-    "g",
-    [x**2, x**2 / R + 1, R * cosh(x), phi],
-    ids=str,
-)
-def test_a_profile_that_is_no_length_is_refused(g: object) -> None:
+@pytest.mark.parametrize("g", [x**2, x**2 / R + 1, R * cosh(x), phi], ids=str)
+def test_a_profile_that_is_no_length_is_refused(g: Expr) -> None:
     with pytest.raises(DimensionMismatch) as caught:
         Geometry("body", g=g)
     assert "a number has no unit, so replace" in caught.value.message
-    has_parameters = bool(getattr(g, "free_symbols", set()) - {x})
+    has_parameters = bool(g.free_symbols - {x})
     assert ("check the units of the parameters" in caught.value.message) == has_parameters
 
 
 @pytest.mark.parametrize(
-    "g",
-    [nan * x, oo * x, x > 0, Integral(x / R, x), "x**2/R", [x], None],
-    ids=str,
+    "g", [nan * x, oo * x, x > 0, Integral(x / R, x), "x**2/R", [x], None], ids=str
 )
 def test_what_is_no_real_profile_is_refused(g: object) -> None:
     with pytest.raises(UserError):
