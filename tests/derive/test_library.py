@@ -20,9 +20,7 @@ geometry = Geometry("cylinder", g=x**2 / (2 * radius))
 
 @pytest.fixture
 def cylinder(tmp_path: Path) -> Path:
-    path = tmp_path / "cylinder.py"
-    path.write_text(CYLINDER)
-    return path
+    return written(tmp_path / "cylinder.py", CYLINDER)
 
 
 def written(path: Path, text: str) -> Path:
@@ -30,18 +28,13 @@ def written(path: Path, text: str) -> Path:
     return path
 
 
-def test_the_library_is_the_folder() -> None:
+def test_the_library_is_the_folder_and_a_body_bears_its_file_s_name_and_words() -> None:
     assert {"hertz", "wedge"} <= set(library())
     assert list(library()) == sorted(library())
-    assert not any(name.startswith("_") for name in library())
-
-
-@pytest.mark.parametrize("name", library())
-def test_a_body_of_the_library_bears_its_file_s_name_and_words(name: str) -> None:
-    body = load_geometry(name)
-    assert body.name == name
-    assert body.description
-    assert all(q.meaning for q in body.parameters)
+    for name in library():
+        body = load_geometry(name)
+        assert body.name == name and not name.startswith("_")
+        assert body.description and all(q.meaning for q in body.parameters)
 
 
 def test_a_file_is_loaded_by_text_and_by_path(cylinder: Path) -> None:
@@ -81,22 +74,15 @@ def test_the_bytecode_switch_is_restored_after_a_failure(
     assert sys.dont_write_bytecode == switch
 
 
-PRESSES = """import os, signal
-os.kill(os.getpid(), signal.SIGINT)
-while True:
-    pass
-"""
+PRESSES = "import os, signal\nos.kill(os.getpid(), signal.SIGINT)\nwhile True:\n    pass\n"
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no signal can be sent to a process of one's own")
-def test_ctrl_c_while_a_file_is_loaded_is_no_mistake_in_the_file(
-    tmp_path: Path,
-) -> None:
-    (tmp_path / "presses.py").write_text(PRESSES)
+def test_ctrl_c_while_a_file_is_loaded_is_no_mistake_in_the_file(tmp_path: Path) -> None:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with pytest.raises(KeyboardInterrupt):
-            load_geometry(tmp_path / "presses.py")
+            load_geometry(written(tmp_path / "presses.py", PRESSES))
         assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     finally:
         signal.signal(signal.SIGINT, before)
