@@ -24,12 +24,9 @@ def number(expr: Expr, **given: float) -> mpf:
     "expr",
     [
         (a + c) ** 2 - a**2 - 2 * a * c - c**2,
-        1 / (a + c) + 1 / (a - c) - 2 * a / ((a + c) * (a - c)),
-        KINK.w**2 - (a + b) * (c - b),
-        KINK.w**3 / (a + b) - KINK.w * (c - b),
-        1 / KINK.w - KINK.w / ((a + b) * (c - b)),
-        w**2 - (a + x) * (c - x),
-        KINK.theta * (a + c) - KINK.theta * a - KINK.theta * c,
+        *(1 / (a + c) + 1 / (a - c) - 2 * a / ((a + c) * (a - c)), KINK.w**2 - (a + b) * (c - b)),
+        *(KINK.w**3 / (a + b) - KINK.w * (c - b), 1 / KINK.w - KINK.w / ((a + b) * (c - b))),
+        *(w**2 - (a + x) * (c - x), KINK.theta * (a + c) - KINK.theta * a - KINK.theta * c),
     ],
     ids=str,
 )
@@ -40,12 +37,8 @@ def test_what_is_zero_is_found_zero(expr: Expr) -> None:
 @pytest.mark.parametrize(
     "expr",
     [
-        Integer(1),
-        KINK.w - KINK.theta,
-        KINK.w**2 - (a + b) * (c + b),
-        KINK.w**3 - KINK.w,
-        a * c - c * a + Rational(1, 10**30) * KINK.theta,
-        w - KINK.w,
+        *(Integer(1), KINK.w - KINK.theta, KINK.w**2 - (a + b) * (c + b), KINK.w**3 - KINK.w),
+        *(a * c - c * a + Rational(1, 10**30) * KINK.theta, w - KINK.w),
         1 / (KINK.w**2 - (a + b) * c),
     ],
     ids=str,
