@@ -2,17 +2,10 @@
 
 import pytest
 from mpmath import mpf
-from sympy import Expr, lambdify
 
 from derive.theory.moments import full_moment, kink_moment
-from tests.derive.bodies import VALUES, close, sheet
+from tests.derive.bodies import close, number, sheet
 from tests.derive.integrals import over_contact
-
-
-def number(expr: Expr, **given: float) -> mpf:
-    held = sorted(expr.free_symbols, key=str)
-    numbers = VALUES | given
-    return mpf(lambdify(held, expr, modules="mpmath")(*(mpf(numbers[s.name]) for s in held)))
 
 
 @pytest.mark.parametrize("k", range(8))
