@@ -14,14 +14,10 @@ b, theta = Symbol("b", positive=True), Symbol("theta_1", nonnegative=True)
 @pytest.mark.parametrize(
     "expr",
     [
-        Rational(-3, 7),
-        (x - a) * (a - c) / (2 * c + 4 * a) / 3,
-        1 / (a - c) + 1 / (c - a),
+        *(Rational(-3, 7), (x - a) * (a - c) / (2 * c + 4 * a) / 3, 1 / (a - c) + 1 / (c - a)),
         E_star * (theta * (a + b) - pi * (c - b)) / (pi**2 * b**3),
-        2 * (a + c) ** 2 * (x - c) ** 3 / (3 * (a + c) ** 5),
-        h ** Rational(3, 2) + sqrt(h) * b,
-        (a * cos(x) + c * cos(x)) / b,
-        (a**2 + 2 * b**2) / (4 * a**2 - 9 * b**2) - 1,
+        *(2 * (a + c) ** 2 * (x - c) ** 3 / (3 * (a + c) ** 5), h ** Rational(3, 2) + sqrt(h) * b),
+        *((a * cos(x) + c * cos(x)) / b, (a**2 + 2 * b**2) / (4 * a**2 - 9 * b**2) - 1),
     ],
     ids=str,
 )
