@@ -11,10 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from derive.cli import main
-from derive.errors import BadFormula
 from derive.paper.displays import displays
-from derive.paper.latex import Latex
-from derive.paper.spellings import spellings
 from derive.paper.statements import statements
 
 ROOT = Path(__file__).parents[2]
@@ -146,57 +143,6 @@ def test_statements(latex: str, found: list[str]) -> None:
     assert texts == found
 
 
-@pytest.mark.parametrize(
-    ("latex", "understood"),
-    [
-        (r"c = \sin^{-1}\left(\frac{a}{b}\right)", "c = asin(a/b)"),
-        (r"c = \int_0^a \frac{F(s)}{\sqrt{s}}\,\mbox{d}s", "c = integral(F_at_s/sqrt(s), s, 0, a)"),
-        (r"F(c) = \frac{\mbox{d}P}{\mbox{d}c}", "F_at_c = dP_dc"),
-        (r"K_{N}^{\text{LHS}} = E^{*} a'(c)", "K_N_LHS = E_star*a_prime_at_c"),
-        (r"c = b - a + \frac{-a}{b}d^{-1}", "c = b - a + (-a)/b*d**(-1)"),
-        (r"P = \int_{-a}^a p(x) dx", "P = integral(p_at_x, x, -a, a)"),
-        (
-            r"P = \int_0^a\!\int_0^b p(x)\, dx\, ds",
-            "P = integral(integral(p_at_x, x, 0, b), s, 0, a)",
-        ),
-        (r"u = -\!\!\!\int_0^1 \frac{ds}{s - x}", "u = pv(1/(s - x), s, 0, 1)"),
-        (r"u = \mathrm{PV}\int_0^1 \frac{f\,{\rm d}s}{s - x}", "u = pv(f/(s - x), s, 0, 1)"),
-        (r"\frac{dP}{da} = \frac{\partial p}{\partial x}", "dP_da = dp_dx"),
-        (r"dP/da = \frac{d^2 u}{d x^2}", "dP_da = d2u_dx2"),
-        (r"c = \sum_{k=1}^{3} k^2 a", "c = sum(k**2*a, k, 1, 3)"),
-        (r"c = \lim_{x \to \infty} \frac{a}{x}", "c = limit(a/x, x, oo)"),
-        (r"c = \bar{u} + \hat p_0", "c = u_bar + p_hat_0"),
-        (r"c = \max(a, b)", "c = Max(a, b)"),
-        (r"c = \Gamma\left(\frac{3}{2}\right)", "c = gamma_function(3/2)"),
-        (
-            r"c = \begin{cases} a & \text{for } x<0 \\ b, & \text{otherwise} \end{cases}",
-            "c = Piecewise((a, x < 0), (b, True))",
-        ),
-        (
-            r"c = \left\{ \begin{array}{ll} a & 0<x<b \\ b & x>b \end{array} \right.",
-            "c = Piecewise((a, 0 < x < b), (b, x > b))",
-        ),
-    ],
-)
-def test_what_is_understood(latex: str, understood: str) -> None:
-    (one,) = statements("here", latex)
-    assert Latex("here", one.latex, spellings(one.latex)).understood() == understood
-
-
-@pytest.mark.parametrize(
-    ("latex", "condition"),
-    [
-        (r"a = b \text{ for } x > 0", "x > 0"),
-        (r"a = b, \quad |x| < a", "| x | < a"),
-        (r"a = b \quad\text{for } x > 0, y < 2", "x > 0 , y < 2"),
-        (r"p \sim \sqrt{x} \;\text{as}\; x \to 0", r"x \to 0"),
-    ],
-)
-def test_conditions_are_kept(latex: str, condition: str) -> None:
-    (one,) = statements("here", latex)
-    assert one.condition == condition
-
-
 PHYSICS = r"""
 \newcommand{\half}[1]{\frac{#1}{2}}
 \DeclareMathOperator{\sgn}{sgn}
@@ -265,8 +211,3 @@ def test_a_file_that_cannot_be_drafted(text: str, part: str, tmp_path: Path) -> 
     done = run(str(written(tmp_path, text)), "--draft", str(tmp_path / "new.toml"))
     assert (done.exit_code, part in done.output) == (2, True), done.output
     assert not (tmp_path / "new.toml").exists()
-
-
-def test_brackets_that_do_not_fit() -> None:
-    with pytest.raises(BadFormula, match="matches nothing"):
-        statements("here", "a = b)")
