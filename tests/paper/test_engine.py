@@ -33,12 +33,9 @@ from derive.paper.claim import (
     Relation,
     Verdict,
 )
-from derive.paper.draw import points, variables
-from derive.paper.numbers import DIGITS, both
-from derive.paper.quick import Unknown, approximately
+from derive.paper.draw import points
 from derive.paper.repair import edits
-from derive.paper.report import printed as printed_form
-from derive.paper.values import Undecided, evaluated
+from derive.paper.values import evaluated
 from derive.paper.verdict import check
 from derive.paper.zero import vanishes
 
@@ -53,19 +50,6 @@ def claim(left: object, right: object, **more: object) -> Claim:
 
 
 # ------------------------------------------------------------------ verdicts
-
-
-def test_what_is_equal_holds() -> None:
-    finding = check(claim(a, b**2, meaning={a: u**2, b: u}))
-    assert finding.verdict == Verdict.HOLDS
-    assert len(finding.judged.pairs) >= 20
-    assert finding.as_expected
-
-
-def test_what_is_equal_by_quadrature_is_numerical() -> None:
-    finding = check(claim(a, Integral(sqrt(u**2 - s**2), (s, -u, u)), meaning={a: pi * u**2 / 2}))
-    assert finding.verdict == Verdict.NUMERICAL
-    assert min(pair.digits for pair in finding.judged.pairs) >= DIGITS
 
 
 @pytest.mark.parametrize(
@@ -102,22 +86,14 @@ def test_what_cannot_be_mended_fails_all_the_same() -> None:
     assert (finding.verdict, finding.repair) == (Verdict.FAILS, None)
 
 
-def test_a_map_of_signs_makes_a_convention() -> None:
+def test_a_map_of_signs_that_helps_makes_a_convention() -> None:
     turned = Convention("a downward", {a: -u}, "eq. (0), where a is upward")
     finding = check(claim(a, -b, meaning={a: u, b: u}, conventions=(turned,)))
     assert finding.verdict == Verdict.CONVENTION
     assert finding.convention is turned
     assert finding.repair is not None
-
-
-def test_a_map_that_does_not_help_is_no_convention() -> None:
-    turned = Convention("a downward", {a: -u}, "eq. (0)")
     finding = check(claim(a, 3 * b, meaning={a: u, b: u}, conventions=(turned,)))
     assert finding.verdict == Verdict.FAILS
-
-
-def test_a_difference_in_a_late_digit_is_found() -> None:
-    assert check(claim(a, b + b / 10**25, meaning={a: u, b: u})).verdict == Verdict.FAILS
 
 
 def test_what_gives_no_number_is_unchecked() -> None:
@@ -135,12 +111,6 @@ def test_cancellation_beyond_all_digits_is_unchecked_and_never_holds() -> None:
     assert finding.verdict == Verdict.UNCHECKED
 
 
-def test_a_reason_makes_a_claim_unchecked() -> None:
-    finding = check(claim(a, b, unchecked="no equation"))
-    assert finding.verdict == Verdict.UNCHECKED
-    assert not finding.as_expected
-
-
 def test_a_definition_is_judged_where_it_stands() -> None:
     through = (c, 3 * a)
     finding = check(claim(a, b**3, meaning={b: u, c: 3 * u**2}, through=through))
@@ -150,33 +120,25 @@ def test_a_definition_is_judged_where_it_stands() -> None:
 
 
 @pytest.mark.parametrize(
-    ("relation", "verdict"),
-    [(Relation.BELOW, Verdict.NUMERICAL), (Relation.ABOVE, Verdict.FAILS)],
+    ("relation", "right", "mended"),
+    [
+        (Relation.BELOW, 2 * u, None),
+        (Relation.ABOVE, 2 * u, Relation.BELOW),
+        (Relation.BELOW, u, Relation.EQUAL),
+    ],
 )
-def test_inequalities(relation: Relation, verdict: Verdict) -> None:
-    finding = check(claim(a, b, meaning={a: u, b: 2 * u}, relation=relation))
-    assert finding.verdict == verdict
-    if verdict == Verdict.FAILS:
-        assert finding.repair is not None
-        assert finding.repair.relation == Relation.BELOW
-
-
-def test_equal_sides_are_neither_above_nor_below() -> None:
-    finding = check(claim(a, b, meaning={a: u, b: u}, relation=Relation.BELOW))
-    assert finding.verdict == Verdict.FAILS
-    assert finding.repair is not None
-    assert finding.repair.relation == Relation.EQUAL
+def test_inequalities(relation: Relation, right: Expr, mended: Relation | None) -> None:
+    finding = check(claim(a, b, meaning={a: u, b: right}, relation=relation))
+    assert finding.verdict == (Verdict.FAILS if mended else Verdict.NUMERICAL)
+    assert (finding.repair.relation if finding.repair else None) == mended
 
 
 def test_a_modulus_is_put_in_and_taken_out() -> None:
     w = Symbol("w", real=True)
-    signed = {"ranges": {w: SIGNED}}
-    without = check(claim(a, b, meaning={a: Abs(w), b: w}, **signed))
-    assert without.repair is not None
-    assert without.repair.kind == "modulus"
-    one_too_many = check(claim(a, Abs(b), meaning={a: w, b: w}, **signed))
-    assert one_too_many.repair is not None
-    assert one_too_many.repair.kind == "modulus"
+    for right, meaning in ((b, {a: Abs(w), b: w}), (Abs(b), {a: w, b: w})):
+        finding = check(claim(a, right, meaning=meaning, ranges={w: SIGNED}))
+        assert finding.repair is not None
+        assert finding.repair.kind == "modulus"
 
 
 def test_two_claims_of_one_label_are_refused() -> None:
@@ -193,11 +155,6 @@ def test_points_are_the_same_on_every_machine() -> None:
     assert all(0.05 <= point[v] <= 0.95 for point in points(one))
 
 
-def test_variables_of_integration_are_not_drawn() -> None:
-    one = claim(a, Integral(b * s, (s, 0, c)), meaning={a: u, b: s**2, c: v})
-    assert variables(one) == [u, v]
-
-
 @pytest.mark.parametrize(
     ("integrand", "low", "high", "value"),
     [
@@ -212,36 +169,6 @@ def test_integrals(integrand: Expr, low: int, high: int, value: Expr) -> None:
     with mpmath.workdps(36):
         found = evaluated(Integral(integrand, (s, low, high)), {})
         assert mpmath.almosteq(found, evaluated(value, {}), mpf(10) ** -31)
-
-
-def test_digits_that_cancel_are_computed_again() -> None:
-    tiny = (1 + b) - 1
-    pair = both(tiny, b, lambda care: {b: mpf(2) ** -60}, {})
-    assert pair.agree
-
-
-def test_a_sum_that_cancels_wholly_is_zero() -> None:
-    pair = both(a, sqrt(b) ** 2 - b, lambda care: {a: mpf(0), b: mpf(3)}, {})
-    assert pair.agree
-
-
-def test_an_integral_over_two_variables_is_computed() -> None:
-    twice = Integral(s * u, (s, 0, 1), (u, 0, 1))
-    assert check(claim(a, twice, meaning={a: S(1)})).verdict == Verdict.FAILS
-    assert check(claim(a, twice, meaning={a: S(1) / 4})).verdict == Verdict.NUMERICAL
-
-
-def test_what_is_not_finite_is_undecided() -> None:
-    with pytest.raises(Undecided):
-        both(a, 1 / (b - b * a), lambda care: {a: mpf(1), b: mpf(3)}, {})
-
-
-def test_a_few_digits_in_no_time() -> None:
-    assert approximately(sqrt(a) + sin(b) ** 2, {a: 4, b: 0}) == 2
-    with pytest.raises(Unknown):
-        approximately(Integral(s, (s, 0, a)), {a: 1})
-    with pytest.raises(Unknown):
-        approximately(1 / a, {a: 0})
 
 
 # ------------------------------------------------------------------ exact zeros
@@ -313,28 +240,14 @@ def test_a_number_is_counted_once() -> None:
     assert "in 2 cases" in finding.judged.why
 
 
-def test_the_source_s_own_form_is_what_is_printed() -> None:
-    one = claim(a, b, meaning={a: u, b: u}, source="a = b + b - b")
-    assert printed_form(one) == "a = b + b - b"
-    assert printed_form(claim(a, b)) == "a = b"
-
-
 # ------------------------------------------------------------------ repairs and lemmas
 
 
 def test_every_edit_changes_and_none_comes_twice() -> None:
     printed = a * sqrt(b + c) - 2 * Integral(s * a, (s, 0, b))
-    found = [edit.expr for edit in edits(printed, (a, b))]
+    made = [*edits(printed, (a, b))]
+    found = [edit.expr for edit in made]
     assert printed not in found
     assert len(found) == len(set(found))
-    assert {edit.kind for edit in edits(printed, (a, b))} >= {"sign", "factor", "swap", "exponent"}
-
-
-def test_the_order_of_edits_does_not_change() -> None:
-    printed = a * sqrt(b + c) - a**2 + b
-    assert [e.what for e in edits(printed, (a, b))] == [e.what for e in edits(printed, (a, b))]
-
-
-def test_a_range_has_a_simple_place() -> None:
-    assert Range(0, 0.5).place == S(1) / 4
-    assert SIGNED.place == 1
+    assert {edit.kind for edit in made} >= {"sign", "factor", "swap", "exponent"}
+    assert [edit.what for edit in edits(printed, (a, b))] == [edit.what for edit in made]
