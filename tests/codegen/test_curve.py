@@ -12,10 +12,9 @@ from sympy import Abs, Expr, Max, Rational, cosh, log, pi, sqrt
 from sympy import exp as sympy_exp
 
 from derive import parameter, x
-from derive.codegen.integrals import Integrals
 from tests.codegen.made import module_of, text_of_body
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("no_integrals_printed")]
 
 b = parameter("b", "width", unit="m")
 k = parameter("k", "exponent", unit="-")
@@ -60,14 +59,6 @@ def summed(t: mpf, k: mpf) -> list[list[mpf]]:
             -3 * slope * width**2 * t / root**5,
         ],
     ]
-
-
-@pytest.fixture(autouse=True, scope="module")
-def _no_docstrings() -> Iterator[None]:
-    """Their integrals take more than half of the time, and have tests/codegen/test_integrals.py."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Integrals, "lines", lambda *_: iter(()))
-        yield
 
 
 @contextmanager
