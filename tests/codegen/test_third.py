@@ -59,19 +59,16 @@ def test_it_is_what_the_pressure_leaves_over(body: str) -> None:
             assert_allclose(found[i], wanted, rtol=1e-6)
 
 
-def test_hertz_by_hand() -> None:
+def test_hertz_and_the_wedge_by_hand() -> None:
     """p = (E*/(2 R)) sqrt(s (h - s)), and sqrt(1 - s/h) = 1 - s/(2 h) - s**2/(8 h**2): at h = 4,
     E* = R = 1 it is -(1/2) 2/(8 16) = -1/128.
-    """
-    assert_allclose(third_of("hertz", 2.5, 1.5, 1.0), -1 / 128, rtol=1e-15)
 
-
-def test_the_wedge_by_hand() -> None:
-    """p = (2 phi E*/pi) artanh(r t), t = sqrt(s/(h - s)), r = sqrt(a/c) at the right edge: by
+    p = (2 phi E*/pi) artanh(r t), t = sqrt(s/(h - s)), r = sqrt(a/c) at the right edge: by
     powers of s r (15 + 20 r**2 + 8 r**4)/(40 h**(5/2)) of artanh.  At a = 4/5, c = 1/5, phi = 1/2:
     h = 1, r = 2 to the right, 1/2 to the left: 2 (15 + 80 + 128)/40 = 11.15 and
     (15 + 5 + 1/2)/80 = 0.25625, over pi.
     """
+    assert_allclose(third_of("hertz", 2.5, 1.5, 1.0), -1 / 128, rtol=1e-15)
     by_hand = [0.25625 / math.pi, 11.15 / math.pi]
     assert_allclose(third_of("wedge", 0.8, 0.2, 0.5), by_hand, rtol=1e-15)
 
