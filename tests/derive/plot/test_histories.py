@@ -101,11 +101,9 @@ TWO = History(*(np.stack([v, v]) for v in WHOLE))
 @pytest.mark.parametrize(
     ("history", "x", "words"),
     [
-        (WHOLE, X[:9], "give the same x"),
-        (NO_PLACES, X, "history contains no slip"),
-        (TWO, X, "only one history can be drawn"),
+        *((WHOLE, X[:9], "give the same x"), (NO_PLACES, X, "history contains no slip")),
+        *((TWO, X, "only one history"), (WHOLE, X[:, None], "an array of one dimension")),
         (hertz.contact(P, 0.0, **STEEL), X, "not a History"),
-        (WHOLE, X[:, None], "an array of one dimension"),
     ],
 )
 def test_what_cannot_be_drawn_is_refused(history: Any, x: Any, words: str) -> None:
