@@ -220,6 +220,7 @@ def test_from_brackets_alone_it_is_the_same(plain):
         wanted = solved(case, [P], M)[:2, 0], at_tilt(case, [P], M)[:, 0]
         for target, edges in zip((by_moment, by_tilt), wanted, strict=True):
             if not math.isnan(target.place):
-                found = inverse._nested(law, own, breaks, target, P)
-                found = inverse._newton(law, own, breaks, target, *found)
+                with np.errstate(all="ignore"):  # plain Python, which has no errors in kernels
+                    found = inverse._nested(law, own, breaks, target, P)
+                    found = inverse._newton(law, own, breaks, target, *found)
                 np.testing.assert_allclose(found, edges, rtol=1e-11)

@@ -13,8 +13,7 @@ from .test_moderate import state, zone
 
 
 def pressure(case, x, a, c):
-    function = case.functions.pressure
-    return getattr(function, "py_func", function)(x, a, c, case.own)
+    return case.functions.pressure(x, a, c, case.own)
 
 
 def conditions(case, cycle, m, n):
