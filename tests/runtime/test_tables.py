@@ -57,13 +57,6 @@ def test_roots_at_the_ends_converge_fast(near, of):
         assert held(x) == pytest.approx(of(x), abs=1e-11)
 
 
-@pytest.mark.parametrize("near", [0.0, 0.1])
-def test_outside_it_is_as_at_the_nearer_end(near):
-    held = table(lambda x: x, 1.0, 3.0, near)
-    assert held(-5.0) == pytest.approx(1, rel=1e-13)
-    assert held(7.0) == pytest.approx(3, rel=1e-13)
-
-
 def test_gauss_s_rule_is_of_degree_127():
     for power in (0, 1, 127):
         assert GAUSS_WEIGHTS @ GAUSS**power == pytest.approx(1 / (power + 1), rel=1e-13)
