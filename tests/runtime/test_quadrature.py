@@ -45,16 +45,6 @@ def test_it_is_cut_where_the_smaller_contact_ends():
         assert found == pytest.approx(2 / 3 / math.sqrt(8), rel=1e-14)
 
 
-def test_what_has_no_length_has_no_nodes():
-    assert slip_nodes(NO_CUTS, 1.0, 0.0, 0.0, 0.0, 0).shape == (2, 0)
-
-
-def test_cuts_elsewhere_are_passed_over():
-    plain = slip_nodes(NO_CUTS, 1.0, 0.5, 1.0, 1.0, 0)
-    for cut in (-1.0, 0.25, 1.75, math.nan):
-        assert np.array_equal(slip_nodes(np.array([cut]), 1.0, 0.5, 1.0, 1.0, 0), plain)
-
-
 def test_the_double_exponential_rule():
     """int_0^1 ln(q) dq = -1."""
     q, weight = double_exponential(2.0**-5)
