@@ -393,7 +393,7 @@ def test_what_is_no_real_number_is_refused_by_name_and_in_short(kind: str) -> No
 
 
 @pytest.mark.parametrize("name", [name for name in FUNCTIONS if name.endswith(".pressure")])
-@pytest.mark.parametrize(("a", "c"), [(2.0, 1.5), (1e-3, 3e-4), (1e12, 2e12), (0.1, 0.2)])
+@pytest.mark.parametrize(("a", "c"), [(1e-3, 3e-4), (1e12, 2e12)])
 def test_pressure_is_zero_at_the_edges_and_outside(name: str, a: float, c: float) -> None:
     own = {k: v for k, v in values(name).items() if k not in "xac"}
     own |= {"R": PARAMETER * min(a, c)} if "R" in own else {}
