@@ -1,7 +1,5 @@
 """Stick zones of cycles in which slip turns round: another solution, borders, what must hold."""
 
-import importlib
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -12,27 +10,20 @@ from scipy.optimize import brentq
 from generated import wedge
 from generated.runtime.forward import each_pressure
 from generated.runtime.types import Contact, Regime
+from tests.generated import test_stick
+from tests.generated.test_stick import E_STAR, F, module
 from tests.reference.conditions import HalfCycle, Patch
 from tests.reference.loads import State
 from tests.reference.mixed import turning
 
 pytestmark = pytest.mark.slow
 
-E_STAR, F = 1.25, 0.5
+LIKE = ("hertz", "wedge", "unequal_wedge", "two_radii", "flat_rounded", "quartic")
 OWN: dict[str, dict[str, float]] = {
-    "hertz": {"R": 1.5},
-    "wedge": {"phi": 0.25},
-    "unequal_wedge": {"phi_1": 0.25, "phi_2": 0.375},
-    "two_radii": {"R_1": 0.75, "R_2": 1.5},
-    "flat_rounded": {"R": 1.5, "b": 0.5},
+    **{name: test_stick.OWN[name] for name in LIKE},
     "rounded_wedge": {"phi": 0.25, "b": 1.0},
-    "quartic": {"L": 1.25},
     "parabola_quartic": {"R": 1.5, "L": 1.25},
 }
-
-
-def module(name: str) -> ModuleType:
-    return importlib.import_module(f"generated.{name}")
 
 
 def cycle(name: str, a: Any, c: Any, dQ: Any, tension: Any) -> tuple[Any, Any, Any]:
