@@ -1,12 +1,12 @@
-"""What generated modules need besides NumPy: an ordinary library, copied beside them unchanged.
+"""What generated modules need besides NumPy: a library copied next to them unchanged.
 
 types       return types of the functions
-arrays      evaluation of a formula for all arguments that broadcast
+arrays      evaluation of a formula on arguments that broadcast
 chunks      the same for Dask arrays
-edge/       an edge without its geometry
+edge/       an edge given by its coefficients, without the geometry of the body
 elementary  small functions that formulas call
-segments    functions of the parts of a contact that pieces of a polynomial body cover
-shared      functions for arrays that kernels can call too, once numba compiles them
+segments    functions of the parts of a contact, each on one piece of a polynomial body
+shared      functions of arrays that kernels can also call, compiled by numba
 body        one body: its law, its parameters, its functions of a cycle
 cycle       the public functions of a cycle; they load the kernels on first use
 reasons     the meaning of a regime, and why a cycle has none

@@ -1,7 +1,7 @@
-"""Evaluation of a function of float64 for all arguments that broadcast.
+"""Evaluation of a function of float64 on arguments that broadcast.
 
-The temporaries of a formula are as large as its argument.  Long arrays are cut into blocks, so that
-the temporaries of one block stay in the processor's cache.
+The temporary arrays of a formula are as large as its arguments.  Long arrays are cut into blocks,
+so that the temporary arrays of one block stay in the processor's cache.
 """
 
 import math
@@ -105,7 +105,7 @@ def _in_blocks(function: Callable[..., Any], numbers: Numbers, count: int, block
 
 
 def shape_of(numbers: Mapping[str, Any]) -> tuple[int, ...]:
-    """The common shape of the arguments; a length that Dask does not know yet agrees with any.
+    """The common shape of the arguments; a length that Dask does not know yet fits any other.
 
     Raises ValueError with the names and shapes of the arguments if there is no common shape.
     """
@@ -138,8 +138,9 @@ def is_foreign(value: Any) -> bool:
 def real(value: Any, label: str) -> Any:
     """A real number as np.float64, anything else as a float64 array with NaN for masked elements.
 
-    A Dask array is returned as it is: each chunk is converted to float64 when it is computed.  A
-    long array of another real type is also returned as it is: each block is converted.
+    A Dask array is returned unchanged: each chunk is converted to float64 when it is computed.  A
+    long array of another real type is also returned unchanged: each block is converted when it is
+    evaluated.
 
     Raises TypeError for anything that is not a real number.
     """

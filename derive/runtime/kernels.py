@@ -6,7 +6,7 @@ Python.
 
 A body reaches the kernels as a `Law`, a few functions of fixed signature, so that the kernels are
 compiled once for all bodies.  Python passes a law as the addresses of its functions, and the kernel
-restores it with `opened`, because numba takes ten microseconds to unwrap each function itself.
+restores it with `opened`, because numba itself takes ten microseconds to unwrap each function.
 """
 
 import sys
@@ -164,7 +164,7 @@ if COMPILED:
         return at
 
     def value_of(signature: Any) -> Any:
-        """Turn a kernel into a value.  Code with numba's own such values is not kept on disk."""
+        """Turn a kernel into a value.  Code that holds numba's own values is not kept on disk."""
 
         @intrinsic  # type: ignore[untyped-decorator]
         def value(_: Any, given: Any) -> Any:

@@ -9,10 +9,10 @@ and a corner adds the jump of g' there in place of g'' ds.  Load and edge coeffi
     P = (1/2) int g'' w ds,   K_left = (1/(pi sqrt(h))) int g'' w/(a + s) ds,   K_right alike,
     alpha = -(1/pi) int g'/w ds.
 
-On a convex body the first three have no negative terms, so that no digits are lost, wherever the
-contact lies.  The contact is cut at the body's breaks, and for the pressure also at x.  On each
+For a convex body P, K_left and K_right have no negative terms, so that no digits are lost, wherever
+the contact lies.  The contact is cut at the body's breaks, and for the pressure also at x.  On each
 part the nodes of the double exponential rule crowd towards both ends, and every distance from an
-end is a product, not a difference.  The step is halved until two sums agree.
+end is a product, not a difference.  The step is halved until two successive sums agree.
 
 Formulas that have the same form on both sides of a contact are written once: for the other side the
 body is mirrored.
@@ -48,10 +48,10 @@ FINEST = 8
 EPS = 2.0**-52
 
 AGREED = 1e-12
-"""If two sums agree to this, the later one is exact to rounding."""
+"""If two sums agree to within this, the later one is exact to rounding."""
 
 SHORT = 0.03
-"""A neighbouring part is short if its length is below this fraction of a part."""
+"""A neighbouring part is short if it is shorter than this fraction of the part itself."""
 
 BESIDE = 0.1
 """For L_N, smooth breaks closer to an edge than this, relative to the width, do not cut the
@@ -215,8 +215,9 @@ def _coarsest(part: Any) -> int:
 def _integrate(integrand: Any, given: Any, curve: Any, part: Any, own: Any, total: Any) -> None:
     """Add the integrals over a part to `total`; NaN where the sums do not agree or do not converge.
 
-    All integrals are infinite beyond the body's curve, where the first one is infinite or NaN. From
-    the third level on, the rule stops at the largest t whose terms have changed the sums so far.
+    If the first integral is infinite or NaN, the part extends beyond the body's curve, and all
+    integrals are infinite.  From the third level on, the rule stops at the largest t whose terms
+    have changed the sums so far.
 
     integrand: returns its values, as many as `total` holds, from a node and three given numbers.
     """
@@ -276,7 +277,7 @@ def state(curve: Any, a: float, c: float, own: Any) -> tuple[float, ...]:
     """Load, moment, tilt, K_N at the left and the right edge, for E* = 1.
 
     NaN where [-a, c] is not a contact, and for quantities that are infinite, such as K_N where g''
-    is infinite at an edge.  The load is infinite where the contact exceeds the body's curve.
+    is infinite at an edge.  The load is infinite where the contact extends beyond the body's curve.
     """
     h, total = a + c, np.zeros(5)
     if not 0 < h < math.inf:

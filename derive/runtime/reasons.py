@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from .types import Regime
 
 MEANINGS = {
-    Regime.MODERATE: "slip runs forward at both edges: m and n are exact",
-    Regime.LARGE: "slip has opposite signs at the edges: m and n are exact",
+    Regime.MODERATE: "both edges slip forward: m and n are exact",
+    Regime.LARGE: "the edges slip in opposite directions: m and n are exact",
     Regime.MIXED: "slip reverses within a half-cycle: use stick_zone(..., mixed=True) for constant "
     "normal loads, or steady_cycle for any loads",
     Regime.SLIDING: "dQ reaches f (P1 + P2): the contact slides and nothing sticks",
@@ -36,7 +36,7 @@ def reason(
     wrong = [*_wrong_numbers(constants, changes), *_wrong_edges(edges)]
     if not wrong:
         wrong = [
-            "no load and tilt give the body the contacts [-a, c] of both first and second: pass "
+            "first or second is not a contact [-a, c] of the body under any load and tilt: pass "
             "contacts returned by contact(...)"
         ]
         if demands:

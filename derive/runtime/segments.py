@@ -24,17 +24,17 @@ _RULE = tuple(
     for q, weight in zip(*np.polynomial.legendre.leggauss(24), strict=True)
     if q < 0
 )
-"""Gauss's rule on (0, 1): q, 1 - q and the weight of both.  Integrals over a part of powers of a
+"""Gauss's rule on (0, 1): q, 1 - q and the weight of both.  Over a part, integrals of powers of a
 distance up to the ninth are exact to rounding."""
 
 _AFAR = 0.15
-"""From farther than this, in lengths of the part, the rule is as accurate for a logarithm."""
+"""Beyond this distance, in lengths of the part, the rule is as accurate for a logarithm."""
 
 NOTHING = 1e-300
 """Substitute for zero in a denominator."""
 
 _TURN = 1.0
-"""Below this angle the function segment is expanded in a series; involute is below 3/2 of it."""
+"""Below this angle `segment` is expanded in a series; `involute` is below 3/2 of this angle."""
 
 _NEAR, _WIDE = 0.5, 1.0
 """A part is distant if its logarithms differ by less than artanh of the first number and half its
@@ -89,7 +89,7 @@ def involute(t: Array) -> Array:
 
 @shared
 def edge_angle(within: Array, beyond: Array) -> Array:
-    """2 atan2(sqrt(within), sqrt(beyond)), each at least zero: the angle of a part at an edge.
+    """2 atan2(sqrt(within), sqrt(beyond)), the angle of a part at an edge; negatives count as 0.
 
     >>> float(edge_angle(1.0, -1.0))
     3.141592653589793
@@ -171,7 +171,7 @@ def second_term(t: Array, near: Array, far: Array) -> Array:
 
     t: the angle of the part, 0 <= t < pi.
     near, far: the product of the sines, and of the cosines, of the half angles of its ends;
-        exchanged for the left edge.  The result is zero where far is: the part ends at the edge.
+        exchanged for the left edge.  The result is zero if far = 0: the part ends at the edge.
 
     With e = t/2, cos(e) = near + far and X = sin(e)/far, the difference of the tangents, it is
 
@@ -268,8 +268,8 @@ def part_pressure(
         (t/2) sin(f) cos(f) + end L_2 - start L_1,   L = artanh of the ratio of both tangents,
 
     a sum of positive terms if x lies on the part.  If x lies outside, let d be the distance of the
-    nearer end, w_1 its sine times its cosine, l the length of the part, L that of the farther end,
-    e = t/2 and w = sin(f) cos(f).  For y < 1/2 and e < 1 it is
+    nearer end, w_1 its sine times its cosine, l the length of the part, L its value at the farther
+    end, e = t/2 and w = sin(f) cos(f).  For y < 1/2 and e < 1 it is
 
         l L + (w/cos(e)) (w_1 sin(e)**2/(d cos(e) + w_1 sin(e)) - involute(e)) - d excess(y),
         y = w sin(e)/(d cos(e) + w_1 sin(e)),   l = sin(e) sin(f_1 + f_2).
@@ -386,8 +386,8 @@ def rising_pressure(
         past**(k + 1) L_1 + ahead S(length) L_2 + (w/2) int S(u) dtheta,
         S(u) = past**k + past**(k - 1) u + ... + u**k,
 
-    which is a sum of positive terms if x lies on the part.  From afar the integral is evaluated
-    directly, because the logarithm is smooth there.
+    which is a sum of positive terms if x lies on the part.  If x is far away, the integral is
+    evaluated directly, because the logarithm is then smooth.
 
     >>> whole = (np.pi, 0.0, 1.0, 1.0, 0.0)
     >>> f"{rising_pressure(0, *whole, 0.6, 0.8, 0.36, 0.64) / (0.24 * np.pi):.12g}"

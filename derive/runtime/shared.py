@@ -1,4 +1,4 @@
-"""Functions that take arrays in NumPy and that kernels can call once numba compiles them.
+"""Functions that take arrays in NumPy and that kernels can also call, compiled by numba.
 
 A formula is written in NumPy.  Called from Python it takes numbers and arrays; called from a kernel
 the same source is compiled for numbers.  This module does not import numba, because that takes a
@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 SHARED: list[Callable[..., Any]] = []
-"""Functions that kernels may call, until they are registered with numba."""
+"""Functions that kernels may call and that are not yet registered with numba."""
 
 
 def shared(function: Function) -> Function:

@@ -14,11 +14,11 @@ MEANINGS = {
     "dsigma": "change in the differential bulk tension over the same half-cycle [Pa]",
     "f": "coefficient of friction [-]",
     "first": "Contact at the start of the half-cycle that raises the shear load",
-    "mixed": "whether to solve cycles in which slip reverses as well, to 1e-7 of the contact width",
+    "mixed": "whether to also solve cycles in which slip reverses, to 1e-7 of the contact width",
     "order": "order of the series: 1, 2 or 3",
     "second": "Contact at the end of that half-cycle; equal to first for constant normal loads",
     "sigma": "differential bulk tension at every instant [Pa]",
-    "tol": "target error, relative to the contact width for ends and to f P/(a + c) for shear",
+    "tol": "target error, relative to the contact width for m and n, to f P/(a + c) for shear",
     "x": "position along the interface, positive to the right [m]",
     "E_star": "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]",
 }
@@ -34,14 +34,14 @@ OTHERWISE = {
     "shear": {
         "Q": "shear load reached in the first loading [N/m]",
         "sigma": "differential bulk tension reached together with Q [Pa]",
-        "dQ": "decrease of the shear load since then [N/m]",
-        "dsigma": "decrease of the tension since then [Pa]",
+        "dQ": "decrease in the shear load since then [N/m]",
+        "dsigma": "decrease in the tension since then [Pa]",
     },
     "history": {"x": "positions at which to return shear and slip; none unless given [m]"},
     "steady_cycle": {"x": "positions at which to return shear and slip; none unless given [m]"},
     "march": {"order": "order of the series; 0 for the exact conditions"},
 }
-"""Meanings that differ in a single function."""
+"""Meanings that apply to a single function only."""
 
 _HERE = """\
 >>> law = dict({law})

@@ -23,7 +23,7 @@ from .chunks import any_lazy, is_lazy, over_chunks
 _SHAPES = "Arguments broadcast; results are float64 of the broadcast shape."
 
 CASES = 65_536
-"""Number of cases that are solved in one piece."""
+"""Number of cases that are solved at once."""
 
 
 class Parameter(NamedTuple):
@@ -37,7 +37,7 @@ class Parameter(NamedTuple):
 class Example(NamedTuple):
     """A contact in plain numbers, for E* = 1, from which the examples in docstrings are made.
 
-    law      E* and the parameters, as a call has them
+    law      E* and the parameters, as they are written in a call
     edges    a and c
     carried  load, moment and tilt
     K_N      at the left and the right edge
@@ -68,7 +68,7 @@ class Body:
     origin      the file that g(x) came from
     example     the contact from which the examples in docstrings are made
     parameters  of the geometry, in the order in which those functions receive them
-    demands     conditions on the parameters besides being positive, in words
+    demands     conditions on the parameters, other than being positive, in words
     """
 
     def __init__(

@@ -106,7 +106,7 @@ def _axes(ndim: int) -> tuple[int, ...]:
 
 
 def _empty(value: Any, instants: int) -> Any:
-    """An empty array in place of the value; the length of time is kept, unless `instants` is 0."""
+    """An empty array in place of the value; time keeps its length unless `instants` is 0."""
     if not _is_array(value):
         return value
     shape = [0] * value.ndim

@@ -68,7 +68,7 @@ class _Series(NamedTuple):
 
 
 def integrated(asked: Asked, a: Array, c: Array, *, E_star: Array = 1.0, x: Array = None) -> Any:
-    """A quantity of a contact by quadrature: the one whose function of the body was called.
+    """A quantity of a contact by quadrature; the name of the called function tells which one.
 
     The generated module shows the integral in its docstring.
     """
@@ -171,11 +171,11 @@ def stick_zone(
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
         MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P1 + P2),
         because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
-        given under constant normal loads if forward slip finally overtakes the reversed slip, or
-        if `mixed` is True.  Only the changes in the loads are known here: under large tension, and
-        if a moment rocks the contact, no zone sticks if the mean shear load is too high; march
-        and steady_cycle check this.
-        steady_cycle solves every cycle and estimates the error of computed results.
+        given only under constant normal loads: if forward slip finally overtakes the reversed
+        slip, or if `mixed` is True.  This function knows only the changes in the loads.  Under
+        large tension, or if a moment rocks the contact, no zone sticks if the mean shear load is
+        too high; march and steady_cycle check this.  steady_cycle solves every cycle and
+        estimates the error of computed results.
     """
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, one value for all; got {mixed!r:.60}")
@@ -239,7 +239,7 @@ def why(
 def tension_threshold(
     asked: Asked, first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array
 ) -> Threshold:
-    """Changes in bulk tension between which tension is moderate and the moderate solution exact.
+    """Changes in bulk tension between which tension is moderate and its solution exact.
 
         constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
 
@@ -250,8 +250,8 @@ def tension_threshold(
     Returns
     -------
     Threshold
-        lower [Pa], upper [Pa].  NaN unless such a range exists, and where dQ < 0 or dQ >=
-        f (P1 + P2), which is sliding.
+        lower [Pa], upper [Pa].  NaN unless such a range exists.  Also NaN where dQ < 0, and where
+        dQ >= f (P1 + P2), which is sliding.
     """
     return _tensions(asked, "tension_threshold", first, second, dQ, f, E_star)
 
@@ -273,8 +273,8 @@ def closing_tension(
     -------
     Threshold
         lower [Pa], upper [Pa].  Slip reverses before the zone closes; see tension_threshold.
-        NaN unless the reduced load is positive, and where dQ < 0 or dQ >= f (P1 + P2), which is
-        sliding.
+        NaN unless the reduced load is positive.  Also NaN where dQ < 0, and where
+        dQ >= f (P1 + P2), which is sliding.
     """
     return _tensions(asked, "closing_tension", first, second, dQ, f, E_star)
 
@@ -324,8 +324,8 @@ def slip_zones(
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both edges slip and part of the contact sticks, and
-        where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+        left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
+        where dQ < 0, and where dQ >= f (P1 + P2), which is sliding.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 3)
@@ -356,8 +356,8 @@ def slip_error(
     Returns
     -------
     Edges
-        left [m], right [m].  NaN unless both orders give slip zones, and where dQ < 0 or dQ
-        >= f (P1 + P2), which is sliding.
+        left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
+        where dQ >= f (P1 + P2), which is sliding.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 2)
@@ -396,9 +396,9 @@ def shear_change(
 ) -> Array:
     """Change in the shear traction at x over the half-cycle; zero outside the contacts.
 
-        dq = kappa f (p1 + p2) where it slips
+        dq = kappa f (p1 + p2) in the slip zones
         moderate tension: dq = f (p1 + p2) - 2 f p(x; m, n)
-        large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi where it sticks,
+        large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi in the stick zone,
             w = sqrt((xi + m)(xi - n)), negative on the left
 
     Parameters
@@ -410,8 +410,8 @@ def shear_change(
     dq : ndarray
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
-        NaN unless the stick zone is known without `mixed`, in full stick between two different
-        contacts, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+        NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
+        different contacts, where dQ < 0, and where dQ >= f (P1 + P2), which is sliding.
     """
     return _at_places(asked, "shear_change", x, first, second, dQ, dsigma, f, E_star)
 
@@ -430,7 +430,7 @@ def slip_range(
     """Slip range of the surfaces at x over the half-cycle; zero where they stick.
 
         (E*/2) d slip/dx = (1/pi) PV int dq/(x - xi) dxi - dsigma/4
-        moderate tension and constant loads: 2 f times the gap beside the patch [-m, n]
+        moderate tension and constant loads: 2 f times the gap outside the contact [-m, n]
 
     Parameters
     ----------
@@ -440,7 +440,7 @@ def slip_range(
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK, and where dQ < 0 or dQ >= f (P1 + P2), which is sliding.
+        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P1 + P2), which is sliding.
     """
     return _at_places(asked, "slip_range", x, first, second, dQ, dsigma, f, E_star)
 
@@ -494,9 +494,9 @@ def shear(
 
         q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq from shear_change
         first the shear load rises from zero to Q and the tension to sigma, in proportion; then
-            they fall by dQ and dsigma, again in proportion: by zero at the upper end of a cycle,
-            and by the full change of the half-cycle at the lower end, from which q rises again by
-            shear_change
+            they fall by dQ and dsigma, again in proportion.  A fall of zero gives q at the upper
+            end of a cycle.  The fall of a whole half-cycle gives q at the lower end, from which
+            it rises again by shear_change
 
     Parameters
     ----------
@@ -509,7 +509,7 @@ def shear(
         the first rise locked in.  NaN unless the regimes of (2 Q, 2 sigma) and of (dQ, dsigma)
         are both MODERATE or both LARGE, or the latter is FULL_STICK.  Also NaN unless reverse
         slip is confined to points that slipped during the rise and drives none of them further
-        in the same sense, and dQ <= 2 Q.  If the shear load is larger in magnitude at the lower
+        in the same direction, and dQ <= 2 Q.  If the shear load is larger in magnitude at the lower
         end, reverse all signs, including that of q.  Also NaN where Q < 0 or dQ < 0, and where
         Q >= f P, which is sliding.
     """
@@ -545,7 +545,7 @@ def march(
     E_star: Array,
     order: int = 0,
 ) -> March:
-    """A steady cycle instant by instant: contact, stick zone, and sense of slip at the edges.
+    """A steady cycle instant by instant: contact, stick zone, direction of slip at the edges.
 
         since the last reversal of the loads, at the least or the greatest Q, slip has grown as in
             a half-cycle that ends now: by stick_zone, or by slip_zones if an order is given; this
@@ -563,8 +563,8 @@ def march(
         loads are not in proportion at every instant, to 1e-6 of their change), NOT_CLOSED (the
         last instant does not lead back to the first), SLIDING (|Q| >= f P at some instant),
         NO_STICK (no stick zone can hold the mean of Q, to 1e-3 of f P) or NONE (a contact does
-        not exist).  Use steady_cycle for cycles out of phase, and history
-        for load histories that are not cycles.
+        not exist).  Use steady_cycle for cycles out of phase, and history for load histories that
+        are not cycles.
 
     Notes
     -----

@@ -9,7 +9,7 @@ from .kernels import LOOP, kernel, opened
 
 @kernel(LOOP)
 def each_state(law: Any, given: Any, own: Any, out: Any) -> None:
-    """Load, moment, tilt and K_N of the contacts a, c; NaN where a contact exceeds the body."""
+    """Load, moment, tilt and K_N of contacts a, c; NaN where they extend beyond the body."""
     law = opened(law)
     for i in range(given.shape[0]):
         load, moment, tilt, left, right = law.state(given[i, 0], given[i, 1], own[i])

@@ -34,7 +34,8 @@ NEAR = 1.0
 """Newton's method starts once the logarithm of the load is off by less than this."""
 
 NARROWED = 0.1
-"""It also starts once the logarithm of the width is known to this: the load may jump at a kink."""
+"""It also starts once the logarithm of the width is known to within this: the load may jump at a
+kink."""
 
 LONGEST = 4.0
 """Longest step of Newton's method in the logarithm of a distance."""
@@ -116,7 +117,7 @@ def _begun(start: float, far: float, top: float, guess: float) -> Search:
 def _next(search: Any, value: float, rate: float) -> Search:
     """The search after the function has been evaluated at y.
 
-    value, rate: the function and its rate with y; rate is 0 if it is not known.
+    value, rate: the function and its derivative with respect to y; rate is 0 if it is not known.
 
     Newton's step is taken if it stays between the bounds and is at most half of the last step.
     Otherwise the next step doubles the distance from the guess, but goes at most half of the way
@@ -152,8 +153,8 @@ def _residuals(target: Any, a: float, c: float, now: Any) -> Any:
     """How far a contact is from its target.
 
     The first value is the logarithm of the target load over the load.  The second value is the
-    residual of the second condition, relative to h/4 or comparable with a change in the load's
-    logarithm.
+    residual of the second condition: a distance relative to h/4, or a tilt in a unit that makes it
+    comparable with a change in the logarithm of the load.
     """
     load, moment, tilt, _, _ = now
     h = a + c
@@ -193,7 +194,8 @@ def _error(target: Any, a: float, c: float, now: Any) -> float:
 def _width(law: Any, own: Any, breaks: Any, target: Any) -> float:
     """Width of a contact centred at the place with nearly the target load; NaN if there is none.
 
-    The search starts from the curvature at the place, but not far beyond the nearest break.
+    The first guess follows from the curvature at the place, but does not reach far beyond the
+    nearest break.
     """
     curvature = law.slope(target.place, own)[1]
     h = nearest = math.inf
@@ -279,7 +281,7 @@ def _newton(law: Any, own: Any, breaks: Any, target: Any, a: float, c: float) ->
 
 @kernel(results(2)(LAW, vector, TARGET, real, real))
 def _second_condition(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
-    """A function that grows with c and is zero where the second condition is met; its rate."""
+    """An increasing function of c, zero where the second condition is met; its derivative."""
     now = law.state(a, c, own)
     load, moment, tilt, _, right = now
     if load == math.inf:
@@ -296,7 +298,7 @@ def _second_condition(law: Any, own: Any, target: Any, a: float, c: float) -> An
 
 @kernel(results(2)(LAW, vector, TARGET, real, real))
 def _load_condition(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
-    """The logarithm of load over target load; its rate with a, the second condition being met."""
+    """log(load/target load), and its derivative with respect to a if the second condition holds."""
     if c == math.inf:
         return -1.0, 0.0
     now = law.state(a, c, own)
@@ -411,7 +413,7 @@ def level(law: Any, own: Any, alpha: float) -> float:
 
 @kernel(results(2)(LAW, vector, TARGET, real, real))
 def _checked(law: Any, own: Any, target: Any, a: float, c: float) -> Any:
-    """The error of a contact apart from rounding, and its tilt, NaN if that is not determined.
+    """The error of a contact apart from rounding, and its tilt, which is NaN if not determined.
 
     Rounding of the edges changes the load; rounding of the given place or tilt moves the edges.
     """

@@ -27,11 +27,11 @@ class Regime(IntEnum):
     """How a cycle slips.
 
     NONE        there is no such cycle, or one of its numbers is invalid: `why` gives the reason
-    MODERATE    slip in the same sense at both edges: m and n are exact
-    LARGE       slip of opposite signs at the edges: m and n are exact
-    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, except at
-                constant normal loads where forward slip finally overtakes the reversed slip, or
-                where `mixed=True` makes stick_zone solve the cycle
+    MODERATE    both edges slip in the same direction: m and n are exact
+    LARGE       the edges slip in opposite directions: m and n are exact
+    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, except
+                under constant normal loads if forward slip finally overtakes the reversed slip, or
+                if `mixed=True` makes stick_zone solve the cycle
     SLIDING     nothing sticks: m and n are NaN
     FULL_STICK  nothing slips: m and n are the edges of the smaller contact
     UNSOLVED    the iteration did not converge, the tilts do not determine the edges, or the phases
@@ -39,8 +39,8 @@ class Regime(IntEnum):
     OUT_OF_PHASE  the loads of a march are not in proportion at every instant: NaN at all instants
     NOT_CLOSED  the instants of a march do not form a closed cycle: NaN at all instants
     COMPUTED    solved on elements, with an estimate of the error
-    NO_STICK    every point slips at some time in a cycle that does not slide, because no stick zone
-                can hold the mean of the shear load: m and n are NaN
+    NO_STICK    every point slips at some time, although the contact never slides, because no stick
+                zone can hold the mean shear load: m and n are NaN
     """
 
     NONE = 0
@@ -65,7 +65,7 @@ class StickZone(NamedTuple):
 
 
 class Threshold(NamedTuple):
-    """Lower and upper limit of the change in bulk tension between which tension is moderate."""
+    """Lower and upper limits of the change in bulk tension between which tension is moderate."""
 
     lower: Array
     upper: Array
@@ -76,7 +76,7 @@ class March(NamedTuple):
 
     a, c         the contact [-a, c]
     m, n         the zone [-m, n] that has not slipped since the last reversal of the loads
-    left, right  sense of slip at each edge: +1 forward, -1 reverse, 0 none or not known
+    left, right  direction of slip at each edge: +1 forward, -1 reverse, 0 none or not known
     regime       a code of Regime; where a series gives m and n, it follows from the signs of K_T
     """
 
@@ -93,16 +93,17 @@ class History(NamedTuple):
     """A load history instant by instant.
 
     a, c       the contact [-a, c]
-    m, n       the ends of all that sticks, [-m, n], during the motion that led to this instant,
-               also while the loads rest; NaN where nothing sticks
+    m, n       [-m, n] spans all points that stick during the last change in the loads up to this
+               instant, also while the loads rest; NaN where nothing sticks
     intervals  the number of stick intervals
-    regime     a code of Regime: COMPUTED, or MODERATE where all is exact; FULL_STICK, SLIDING,
-               NONE, UNSOLVED
+    regime     a code of Regime: COMPUTED, or MODERATE where all results are exact; FULL_STICK,
+               SLIDING, NONE, UNSOLVED
     q, slip    shear traction and accumulated forward slip at x, with one more axis than the other
                fields; None without x
     work       work dissipated by friction up to this instant
-    error      estimated error of the ends relative to the contact width, and mean error of the
-               shear traction relative to f P/(a + c); 0 where all is exact
+    error      the larger of the estimated errors of m and n, relative to the contact width, and
+               of the shear traction, on average and relative to f P/(a + c); 0 where all results
+               are exact
     work_error estimated error of work; its difference between two instants is the estimated error
                of the work done between them
     """
@@ -124,12 +125,13 @@ class SteadyCycle(NamedTuple):
     """The steady cycle that a repeated load history settles to.
 
     m, n        the permanent stick zone [-m, n]
-    regime      a code of Regime: an exact one as from stick_zone, COMPUTED, NO_STICK, SLIDING, ...
+    regime      a code of Regime: that of stick_zone where m and n are exact, otherwise COMPUTED,
+                NO_STICK, SLIDING, ...
     slip_range  the slip range in a cycle at x; None without x
     q           shear traction at x at the first instant; None without x
     work        work dissipated by friction in one cycle
     rounds      how many times the cycle was repeated
-    drift       change of slip between the last two rounds, relative to the largest slip
+    drift       change in slip between the last two rounds, relative to the largest slip
     error       estimated error of m and n alone, relative to the contact width; 0 if they are
                 exact, inf if slip does not repeat to 1e-6 within 100 rounds
     work_error  estimated error of work, which is always computed numerically

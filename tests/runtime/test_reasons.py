@@ -16,8 +16,8 @@ GIVEN = {"f": 0.5, "E_star": 1.0, "R": 1.0}
 @pytest.mark.parametrize(
     ("first", "dQ", "dsigma", "changed", "part"),
     [
-        (HERE, 0.1, 0.0, {}, "slip runs forward at both edges"),
-        (HERE, 0.1, 2.0, {}, "slip has opposite signs at the edges"),
+        (HERE, 0.1, 0.0, {}, "both edges slip forward"),
+        (HERE, 0.1, 2.0, {}, "the edges slip in opposite directions"),
         (HERE, 5.0, 0.0, {}, "the contact slides"),
         (HERE, 0.0, 0.0, {}, "nothing slips"),
         (HERE, -0.1, 0.0, {}, "dQ = -0.1 is negative"),
@@ -43,7 +43,7 @@ def test_a_contact_that_the_body_cannot_make() -> None:
     """A wedge leans on its apex: [-a, c] holds x = 0."""
     told = wedge.why(Contact(2.0, -1.0, 0.0), HERE, 0.1, 0.0, f=0.5, E_star=1.0, phi=0.1)
     assert told == (
-        "no load and tilt give the body the contacts [-a, c] of both first and second: "
+        "first or second is not a contact [-a, c] of the body under any load and tilt: "
         "pass contacts returned by contact(...)"
     )
 

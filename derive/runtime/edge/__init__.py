@@ -1,6 +1,6 @@
-"""The edge of a contact without its geometry, as published by generated/edge.py.
+"""An edge given by its coefficients, without the body's geometry; published as generated/edge.py.
 
-zone     the slip zone from coefficients: of an edge alone, with the width, or with the other edge
+zone     the slip zone from coefficients: of a single edge, with the width, or with the other edge
 near     tractions, slip and work of friction next to an edge
 fit      coefficients from nodal pressures, from full-stick shear, from reaction forces
 elastic  the composite modulus

@@ -9,7 +9,7 @@ from ..types import Array
 
 @kernel(nothing(matrix, real, matrix))
 def each_pair(given: Array, order: Array, out: Array) -> None:
-    """Slip zone of the first edge, for rows of h, f, both K_T, both moves, and the pressures.
+    """Slip zone of the first edge, for rows of h, f, both K_T, both displacements, and pressures.
 
     The current pressures at the first and at the other edge come first, followed by those at the
     other end of the half-cycle.

@@ -9,7 +9,7 @@ from ..arrays import evaluated, real
 from ..types import Array
 
 SEPARATE = 1e-9
-"""Largest value of Dundurs' beta up to which bodies count as similar."""
+"""Bodies count as similar up to this value of Dundurs' beta."""
 
 
 class EdgeWarning(UserWarning):

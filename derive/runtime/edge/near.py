@@ -2,11 +2,12 @@ r"""Tractions, slip and frictional work next to a single edge, from the series o
 
 With t = s - d the distance from the slip zone (derive/theory/edge.py)
 
-    dq = f (p_1 + p_2) - sqrt(t) R(t)   where it sticks,   dq = f (p_1 + p_2)   where it slips,
+    dq = f (p_1 + p_2) - sqrt(t) R(t)   in the stick zone,   dq = f (p_1 + p_2)   in the slip zone,
     slip range = (2/E*) int_0^(d - s) sqrt(u) R(-u) du,
 
-times the sense of slip, where the polynomial R makes dq tend to full stick far from the edge.  A
-part of a half-cycle obeys the same equations with the change up to that point.
+times the direction of slip, +1 or -1.  The polynomial R makes dq tend to its full-stick value
+far from the edge.  A part of a half-cycle obeys the same equations, with the change up to that
+point.
 
 The shear traction itself is known if the normal loads are constant.  The first loading to Q and
 sigma produces half of the change under twice these loads, because friction in the slip zone is then
@@ -158,11 +159,12 @@ def tractions(
     back: bool = False,
     mean: Array = 0.0,
 ) -> Tractions:
-    """Pressure and shear traction next to an edge alone, at any instant of the steady cycle.
+    """Pressure and shear traction next to a single edge, at any instant of the steady cycle.
 
-        where it slips   dq = f (p_1 + p_2), times the sense of slip
-        where it sticks  dq = f (p_1 + p_2) - sqrt(s - d) R(s - d), which tends to full stick far
-            from the edge
+        in the slip zone   dq = f (p_1 + p_2)
+        in the stick zone  dq = f (p_1 + p_2) - sqrt(s - d) R(s - d), which tends to its full-stick
+            value far from the edge
+        both are multiplied by the direction of slip, +1 or -1
 
     Parameters
     ----------
@@ -171,17 +173,17 @@ def tractions(
     K_N, K_T, f, L_N, L_T, N_N, N_T, da, order : array_like
         As in slip_zone.
     share : array_like, optional
-        Part of the half-cycle, 0 at its start to 1 at its end; all loads change linearly.
+        Completed part of the half-cycle, from 0 to 1; all loads change linearly.
     back : bool, optional
-        Whether to take the half-cycle that lowers the shear load, not the one that raises it.
+        Whether to take the half-cycle that lowers the shear load instead of the one that raises it.
     mean : array_like, optional
         Mean of K_T over the cycle, to which Q and sigma rose from zero [Pa sqrt(m)].
 
     Returns
     -------
     Tractions
-        p [Pa], q [Pa], dq [Pa].  NaN where slip_zone is; q is also NaN where the edge moves and
-        the surfaces do not slip at s. Accurate where s is small compared with `reach`.
+        p [Pa], q [Pa], dq [Pa].  NaN where slip_zone gives NaN; q is also NaN where the edge moves
+        and the surfaces do not slip at s. Accurate where s is small compared with `reach`.
 
     Notes
     -----
@@ -236,7 +238,7 @@ def slip_range(
     da: Array = 0.0,
     order: int | None = None,
 ) -> Array:
-    """Slip range of a cycle next to an edge alone.
+    """Slip range of a cycle next to a single edge.
 
         (2/E*) int_0^(d - s) sqrt(u) R(-u) du; order 1: (8 f K_N/(3 E*)) (d - s)**(3/2)
 
@@ -252,8 +254,8 @@ def slip_range(
     Returns
     -------
     ndarray
-        The slip range [m]; 0 where the surfaces stick. NaN where slip_zone is, and at points that
-        leave the contact during the cycle.
+        The slip range [m]; 0 where the surfaces stick. NaN where slip_zone gives NaN, and at
+        points that leave the contact during the cycle.
 
     Notes
     -----
@@ -290,7 +292,7 @@ def work(
     N_T: Array = None,
     order: int | None = None,
 ) -> Array:
-    """Work of friction next to an edge alone, per cycle and unit depth, at constant normal loads.
+    """Frictional work next to a single edge, per cycle and unit depth, at constant normal loads.
 
         2 int_0^d f p times the slip range ds; order 1: pi f**2 K_N**2 d**3/(3 E*)
 
@@ -304,7 +306,7 @@ def work(
     Returns
     -------
     ndarray
-        The work [J/m]. NaN where slip_zone is.
+        The work [J/m]. NaN where slip_zone gives NaN.
 
     Notes
     -----
@@ -344,10 +346,10 @@ def peak(
     order: int | None = None,
     mean: Array = 0.0,
 ) -> Peak:
-    """The largest shear traction of a cycle next to an edge alone, at constant normal loads.
+    """The largest shear traction of a cycle next to a single edge, at constant normal loads.
 
         f p(s) at the end of the slip zone at the highest load (s = d if mean = 0).  Closer to the
-        edge q = f p, and there q/p is largest
+        edge, q = f p, and q/p is largest
 
     Parameters
     ----------
@@ -359,7 +361,8 @@ def peak(
     Returns
     -------
     Peak
-        s [m], q [Pa], positive in the sense of slip there. NaN where slip_zone is.
+        s [m], q [Pa], positive in the direction of slip there. NaN where slip_zone
+        gives NaN.
 
     Notes
     -----
@@ -389,7 +392,7 @@ def reach(
 ) -> Array:
     """The distance from the edge at which the next term of the series equals the first.
 
-        the least of |K_N/L_N|, |K_T/L_T| and h, of those given
+        the least of |K_N/L_N|, |K_T/L_T| and h; those not given are left out
 
     Parameters
     ----------
@@ -399,8 +402,8 @@ def reach(
     Returns
     -------
     ndarray
-        The distance [m]; the relative error of a first-order slip zone d is about d over it. NaN
-        if neither L_N, L_T nor h is given.
+        The distance [m]; the relative error of a first-order slip zone d is about d divided by it.
+        NaN if none of L_N, L_T and h is given.
 
     Notes
     -----

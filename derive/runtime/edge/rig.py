@@ -3,14 +3,14 @@ r"""Loads of a body whose edge then matches the edge of another contact: a rig f
 To first order, slip next to an edge depends only on K_N, K_T, f and the displacement of the edge.
 The contact of a body under P and M has two free numbers, a and c, so that a rig can match
 
-    one edge     K_N by the width, at M = 0; the move by dP, at dM = 0; K_T by dQ; if requested, L_T
-                 by dQ and dsigma together, and L_N by a free parameter of the body
-    both edges   both K_N by P and M; both moves by dP and dM; both K_T by dQ and dsigma
+    one edge     K_N by the width, at M = 0; the displacement by dP, at dM = 0; K_T by dQ; if
+                 requested, L_T by dQ and dsigma together, and L_N by a free parameter of the body
+    both edges   both K_N by P and M; both displacements by dP and dM; both K_T by dQ and dsigma
 
 The remaining differences are one order higher: L_N and L_T, the width, and the other edge.  Some
 requests exclude each other: a cylinder has the same K_N at both edges, and L_N = -K_N/(2 h) there.
 
-The body enters only by its functions of (a, c), which are explicit.  One damped Newton's method in
+The body enters only by its functions of (a, c), which are explicit.  One damped Newton method in
 log h, mid/h and the logarithm of the free parameter therefore serves all bodies.
 """
 
@@ -30,7 +30,7 @@ WIDTHS = np.geomspace(1e-9, 1e6, 121)
 """Widths of the contact from which the search starts [m]."""
 
 LEANS = np.linspace(-0.45, 0.45, 7)
-"""Positions of the middle, over the width, from which the search starts."""
+"""Positions of the middle, relative to the width, from which the search starts."""
 
 FREE = np.geomspace(1e-6, 1e6, 37)
 """Values of a free parameter from which the search starts."""
@@ -75,7 +75,7 @@ class Rig(NamedTuple):
     d               Edges: exact slip zones at `second` [m]; NaN where none is known
     regime          a code of Regime, as returned by stick_zone
     met, missed     requests that are met, and those that are not, in words
-    next_order      Edges: relative change of the rig's slip zone due to L_N and L_T; NaN where they
+    next_order      Edges: relative change in the rig's slip zone due to L_N and L_T; NaN where they
                     are not known or nothing was requested
     warning         reasons against these loads, in words; "" if there are none
     """
@@ -122,14 +122,14 @@ def match(
     E_star : float
         Composite modulus of the rig [Pa].
     free : str, optional
-        The name of a parameter that is determined as well, so that L_N is met.
+        The name of a parameter that is also determined, so that L_N is met.
     **parameters : float
         All parameters of the body except the free one.
 
     Returns
     -------
     Rig
-        The loads; its warning gives the reasons against them, if any.
+        The loads, and a warning that gives the reasons against them, if there are any.
 
     Raises
     ------
@@ -140,7 +140,7 @@ def match(
     -----
     All arguments are numbers.  L_T, if given, is met by dsigma; otherwise dsigma = 0 for one edge.
     If the shear load would fall, all its signs are reversed so that dQ >= 0: slip is the same, in
-    the opposite sense.  If a body has several solutions, the widest contact is taken.
+    the opposite direction.  If a body has several solutions, the widest contact is taken.
 
     Examples
     --------
@@ -375,10 +375,10 @@ def _lowest(cost: Any) -> list[tuple[int, ...]]:
 
 
 def _solved(function: Callable[[Any], Any], u: Any) -> tuple[Any, float]:
-    """Newton's method, in which steps are halved until they help; u, and the largest residual.
+    """u and the largest residual, by Newton's method with steps that are halved until they help.
 
     If the requests leave a direction undetermined, as for a cylinder that rolls, u does not move in
-    it.
+    that direction.
     """
     residual = function(u)
     for _ in range(STEPS):
@@ -500,7 +500,7 @@ def _edges(
     dsigma: float,
     sense: float,
 ) -> Edges:
-    """The data of both edges, with K_T and L_T in the prototype's sense."""
+    """The data of both edges, with K_T and L_T signed as in the prototype."""
     at = second.a, second.c
     K_N, L_N = (body.of(name, *at, own) for name in ("K_N", "L_N"))
     K_T, L_T = (of(*at, sense * dQ, sense * dsigma) for of in (body.module.K_T, body.module.L_T))
@@ -537,7 +537,7 @@ def _compared(
 
 
 def _next_order(requested: Edge | None, actual: Edge, f: float) -> float:
-    """Relative change of the slip zone due to L_N and L_T, each edge taken alone."""
+    """Relative change in the slip zone due to L_N and L_T, with each edge taken alone."""
     if requested is None or requested.L_N is None or requested.L_T is None:
         return math.nan
 

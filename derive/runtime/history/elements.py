@@ -1,7 +1,7 @@
 r"""Elements on the interface: mesh, influence matrix, mean pressure and mean full-stick shear.
 
-The shear traction is constant on each element, and all conditions hold for means over elements of
-widths w_i.  With L the length of the mesh,
+The shear traction is constant on each element, and all conditions hold for means over the elements.
+With w_i the width of element i and L the length of the mesh,
 
     A_ij = -(1/pi) int_i int_j ln(|x - xi|/(2 L)) dxi dx
 
@@ -46,7 +46,7 @@ _COSINES = np.cos(np.pi * np.arange(4 * TERMS) / (2 * TERMS))
 
 @kernel(real(matrix, real))
 def _elements_before(parts: Any, x: float) -> float:
-    """Number of elements to the left of x.  A part is a row of kind, start, end and elements."""
+    """Number of elements left of x.  A part is a row: kind, start, end, number of elements."""
     total = 0.0
     for k in range(parts.shape[0]):
         kind, start, end, count = parts[k]
@@ -209,7 +209,7 @@ def expand(law: Any, own: Any, a: float, c: float, series: Any) -> int:
     """Compute the series of the pressure; its first term is NaN if it does not converge.
 
     It does not converge if the profile has a corner or kink in the contact.  The series saves many
-    evaluations of pressures that are integrals.
+    evaluations of pressures that are computed as integrals.
     """
     for count in (TERMS // 2, TERMS):
         tail, largest = _expanded(law, own, a, c, count, series)

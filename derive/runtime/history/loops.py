@@ -19,7 +19,7 @@ A history changes s as follows.  While P grows and |dQ| <= f dP, the whole conta
 added loads have s = dQ/(f dP).  While P falls, s is removed together with the loads that are
 removed, and does not change at the loads that remain.  If Q is then larger than f int_0^P s dL, s
 becomes 1 from a load L up to P; if Q is smaller, s becomes -1 there.  The value of Q determines L.
-This solves the shear problem, whose solution is unique: inside S(L) the change of displacement is
+This solves the shear problem, whose solution is unique: inside S(L) the change in displacement is
 uniform, so that the surfaces stick; outside S(L), q = f p (for s = 1), and the displacement changes
 by less under each of the punches, so that the surfaces slip forward.
 
@@ -34,7 +34,7 @@ A constant tension leaves behind a shear traction of its own.  Consider two hist
 changes in the loads.  The energy of the difference of their shear tractions does not grow, and in
 the steady cycle it is constant.  Then both slip in the same way: neither slips where the tractions
 differ, and elsewhere the difference of the tractions does not change, so that the difference of the
-slip rates does no work on the change of traction that it causes.
+slip rates does no work on the change in traction that it causes.
 
 Barber, Davies and Hills (2011) give P_E for convex loops.
 """
@@ -46,8 +46,8 @@ from ..cycle import contact, contact_at_tilt
 from ..types import Array, Contact
 
 LEVEL = 1e-10
-"""Tilts that differ by less are equal.  The unit is the tilt of a flat punch whose load acts at a
-distance of a quarter of its width from its centre."""
+"""Tilts that differ by less than this count as equal.  The unit is the tilt of a flat punch whose
+load acts at a distance of a quarter of its width from its centre."""
 
 ROUNDING = 1e-12
 """The contact slides if |Q| is below f P by less than this fraction of f P."""

@@ -33,7 +33,7 @@ def _touch(law: Any, own: Any, row: Any) -> int:
 
 @kernel(whole(LAW, vector, matrix, whole, real, vector))
 def _between(law: Any, own: Any, instants: Any, k: int, t: float, row: Any) -> int:
-    """Write the row at the fraction t of the step from instant k - 1 to k; return 0 if no contact.
+    """Write the row at fraction t of the step to instant k; return 0 if there is no contact.
 
     instants: the rows of the instants.
     """

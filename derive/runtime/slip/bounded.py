@@ -43,7 +43,7 @@ ROUGH = 1e-7
 """The same for the coarsest rule, whose own error is larger."""
 
 STEPS = 40
-"""Largest number of Newton's steps for one rule; a solution takes two to eight."""
+"""Largest number of Newton steps for one rule; a solution takes two to eight."""
 
 MET = 1e-7
 """Largest residual of a solution, relative to the drive: at a break, steps may also become small
@@ -59,8 +59,7 @@ LEAST_STUCK = 1e-3
 """Narrowest stick zone that is sought, relative to the width at which slip would reverse."""
 
 NEAREST = 1e-9
-"""Closer to the stick zone than this fraction of a slip zone, finite parts are left to their
-limit."""
+"""Finite parts omit nodes that are closer to the stick zone than this fraction of a slip zone."""
 
 CLOSE = 4 * EPS
 """Accuracy of the position of a stick zone of given width, relative to this width."""
@@ -86,7 +85,7 @@ class Friction(NamedTuple):
     cuts           points where r changes its formula
     a, c           edges of the smaller contact, to which slip zones extend
     da, dc         how much further out the edges of the larger contact are
-    kappa          sense of slip on the right
+    kappa          direction of slip on the right
     left, right    gains
     """
 
@@ -364,7 +363,7 @@ def placed(of: Any, stuck: float, n: float, level: int) -> Any:
     """Slip zones that leave a stick zone of given width as the loads grow in proportion.
 
     Both conditions require L and R in the ratio of the drives; the deviation from this ratio grows
-    monotonically with n.  Slip must be driven in opposite senses, or not at all on the right.
+    monotonically with n.  Slip must be driven in opposite directions, or not at all on the right.
     n: the first guess.
     """
     least, most, close = stuck - of.a, of.c, CLOSE * stuck

@@ -1,8 +1,8 @@
 r"""Whether the stick zone can hold the shear load of the cycle.
 
 The stick zone follows from the changes in the loads, dQ and dsigma.  It is permanent only if there
-is a shear traction q1 at the first end of the half-cycle that carries Q there and is within
-friction at both ends:
+is a shear traction q1 at the first end of the half-cycle that carries Q there and is within the
+friction limit at both ends:
 
     -f p1 <= q1 <= f p1,    -f p2 <= q1 + dq <= f p2.
 
@@ -10,7 +10,7 @@ Then Q lies between the integrals of the largest lower and the smallest upper of
 slip zone both are equal, and q1 is -f p1 or f p1.  If Q lies outside, every point slips in every
 cycle, and the bodies ratchet along each other although |Q| < f P.
 
-Under large tension at a high mean shear load this happens, as the slip zones slip in opposite
+Under large tension at a high mean shear load this happens, because the slip zones slip in opposite
 directions and carry little.  If nothing slips under the changes in the loads, it happens only if
 the moment rocks the contact and Q and sigma are constant: dq = 0, and the limits hold on the whole
 path.  If both edges advance, |dq| <= f dp everywhere, so that |Q| < f P is enough.  Under moderate
@@ -31,7 +31,7 @@ POINTS = 200
 """Points at which the limits are integrated."""
 
 ROUGH = 1e-3
-"""Accuracy of the integrals over f P."""
+"""Accuracy of the integrals, relative to f P."""
 
 
 @kernel(results(2)(vector, vector, real))
@@ -86,7 +86,7 @@ def holds_load(
 ) -> Any:
     """Whether a cycle whose shear load is Q at its first end can stick in [-m, n].
 
-    ends  both contacts, as by zone.ends_of
+    ends  both contacts, as returned by zone.ends_of
     """
     f = cycle[6]
     rough = ROUGH * f * min(ends[0, LOAD], ends[1, LOAD])

@@ -1,4 +1,4 @@
-r"""A steady cycle instant by instant: where it slips, and in which sense.
+r"""A steady cycle instant by instant: where it slips, and in which direction.
 
 All loads move in proportion, back and forth between two states, at the smallest and at the largest
 shear load.  Let `progress` be the fraction of the way from the first state to the second.  Since
@@ -68,7 +68,10 @@ def _contacts(law: Any, own: Array, loads: Array) -> Array:
 
 @kernel(vector(matrix, matrix, real))
 def _roundings(loads: Array, contacts: Array, f: Array) -> Array:
-    """Changes of each load that count as zero: a part of its size, and of P, P h, f P and f P/h."""
+    """Changes in each load that count as zero, relative to its size or to that of normal loading.
+
+    The latter is P, P h, f P and f P/h for P, M, Q and sigma; the larger one applies.
+    """
     sizes = np.zeros(4)
     for i in range(loads.shape[1]):
         h, load = contacts[i, A] + contacts[i, C], abs(loads[P, i])
@@ -216,7 +219,7 @@ def _begin(found: Array, contacts: Array, regime: Array) -> Array:
 
 @kernel(real(vector, real, real, real))
 def _finish(found: Array, regime: Array, left: Array, order: Array) -> Array:
-    """Fill in the senses of slip, and the regime, at an instant whose stick zone was computed."""
+    """Fill in directions of slip, and the regime, at an instant whose stick zone was computed."""
     if math.isnan(found[2]):
         found[6] = UNSOLVED if order == 0 else NONE
     elif regime != FULL_STICK:

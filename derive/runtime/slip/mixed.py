@@ -10,8 +10,8 @@ half-cycle has three phases:
 
        dq/dlambda = (dsigma/4) sqrt((H - t)/t),    t = x + m,
 
-   where lambda is the part of the half-cycle.  The rate at which m falls, Lambda = -dlambda/dm,
-   follows from friction at -m, which is Abel's equation:
+   where lambda is the completed part of the half-cycle.  The rate at which m falls, Lambda =
+   -dlambda/dm, follows from friction at -m, which is Abel's equation:
 
        (dsigma/4) int_m^m1 sqrt((H - t)/t) Lambda(mu) dmu = 2 f p(-m) - dq1(-m),    t = mu - m,
 
@@ -22,8 +22,8 @@ half-cycle has three phases:
 
 Each half-cycle starts from the end of the other one, with the sign of shear reversed.  In phase 1
 the reversed slip on the right therefore leaves 2 f p less the gain, the shear gained since the
-point stuck again; the gain is 2 f p where phase 3 brought the point to friction.  The gain is found
-by iteration, in tables of more and more terms, until m and n converge.
+point stuck again; the gain is 2 f p where phase 3 brought the point to the friction
+limit.  The gain is found by iteration, in tables of more and more terms, until m and n converge.
 
 The shear traction must not be driven further where it has been at the friction limit since the last
 half-cycle: on the left, and on the right where nothing was gained.  In phase 1 its rate changes
@@ -91,7 +91,8 @@ LEVEL = 2
 """Level of the quadrature of slip zones."""
 
 AGREED = 1e-7
-"""If zones by two tables agree to this, relative to the contact width, the finer one is exact."""
+"""If zones by two tables agree to within this, relative to the contact width, the finer one is
+exact."""
 
 ROUNDS = 20
 """Largest number of iterations; three to five are common."""
@@ -186,7 +187,7 @@ def _width(of: Any) -> float:
 
 @kernel(vector(matrix))
 def _eliminated(rows: Any) -> Any:
-    """The solution of linear equations by Gaussian elimination; the right side comes last."""
+    """The solution of linear equations by Gaussian elimination; the right-hand side comes last."""
     count = len(rows)
     for k in range(count):
         pivot = k
@@ -215,7 +216,7 @@ def abel(width: float, right: Any) -> Any:
     """The series Lambda(s) whose integrals at the points s are `right`.
 
     int_0^(pi/2) sqrt(width - (v sin(phi))**2) cos(phi) Lambda dphi = right,   v = sin(pi s/2),
-    with Lambda taken where v is v cos(phi)
+    with Lambda taken at v cos(phi) in place of v
     """
     count = len(right)
     rows = np.zeros((count, count + 1))
@@ -485,7 +486,7 @@ def mixed_zone(law: Any, own: Any, ends: Any, cycle: Any) -> Any:
 
     In a strip beyond the end of the moderate zone, tables fail.  There n departs from the moderate
     solution as the square of a + n - H, and m departs far less.  Both departures are scaled from
-    a tension a little larger.
+    those at a slightly larger tension.
 
     ends, cycle: as in zone.py.
     """

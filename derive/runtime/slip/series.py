@@ -9,14 +9,14 @@ the stick zone and e = d/h_s.  In the conditions for a bounded change in shear
     far  = int_0^d p sqrt((d - s)/(h_s + d - s)) ds
          = pi d**2/sqrt(h_s) (K (1/8 - e/32) + L d/16 + ...)
 
-at its own end of the stick zone and at the other end.  Let kappa = +1 or -1 be the sense of slip at
-an edge.  With sums over the contacts at both ends of the half-cycle, the conditions are
+at its own end of the stick zone and at the other end.  Let kappa = +1 or -1 be the direction of
+slip at an edge.  With sums over the contacts at both ends of the half-cycle, the conditions are
 
     left    sum f (kappa_left near_left + kappa_right far_right) = dQ + pi h_s dsigma/8
     right   sum f (kappa_right near_right + kappa_left far_left) = dQ - pi h_s dsigma/8.
 
 Order n keeps powers of d up to n.  Orders 2 and 3 are solved without further approximation.  The
-first order takes the width of the contact for that of the stick zone: d = |K_T|/(f K) + da/2.
+first order takes the width of the contact as that of the stick zone: d = |K_T|/(f K) + da/2.
 """
 
 import math
@@ -34,7 +34,7 @@ FAR = ((1 / 8, -1 / 32, 0.0), (1 / 16, 0.0, 0.0), (0.0, 0.0, 0.0))
 """binomial(-1/2, j) B(i + 3/2, j + 3/2)/pi, the factor of C_i d**(i + j + 2) h_s**(-1/2 - j)."""
 
 STEPS = 40
-"""Largest number of Newton's steps; four to six are common."""
+"""Largest number of Newton steps; four to six are common."""
 
 LONGEST = 1.0
 """Longest Newton step, in the logarithm of a slip zone over the stick zone."""
@@ -55,7 +55,7 @@ class Series(NamedTuple):
     h            width of the intersection of both contacts
     left, right  K, L, N at the edges of the contact now; left_2, right_2 at the other end
     da, dc       how much further out the edges are now than at the other end
-    kappa_left   sense of slip at the left edge, times f; kappa_right at the right one
+    kappa_left   direction of slip at the left edge, times f; kappa_right at the right one
     """
 
     h: Array
@@ -77,7 +77,7 @@ SERIES: Any = record(Series, *(real,) * 7, *(TERMS,) * 4)
 
 @kernel(TERMS(TERMS, real, real, whole, whole))
 def _integral(pressure: Any, d: Array, stuck: Array, order: Array, shift: Array) -> Any:
-    """near (shift 0) or far (shift 1) truncated after an order; its rates with d and with h_s."""
+    """near (shift 0) or far (shift 1), truncated; its derivatives with respect to d and h_s."""
     table = NEAR if shift == 0 else FAR
     value = by_d = by_stuck = 0.0
     for i in range(order - shift):
@@ -103,13 +103,13 @@ def _sum(
 
 @kernel(results(2)(SERIES, real, real, whole))
 def _step(of: Any, left: Array, right: Array, order: Array) -> Any:
-    """Newton's step of the logarithms of both slip zones over the stick zone."""
+    """The Newton step in the logarithms of both slip zones over the stick zone."""
     stuck, by_tension = of.h - left - right, math.pi * of.dsigma / 8
     near_left = _sum(of.left, of.left_2, left, of.da, stuck, order, 0)
     far_left = _sum(of.left, of.left_2, left, of.da, stuck, order, 1)
     near_right = _sum(of.right, of.right_2, right, of.dc, stuck, order, 0)
     far_right = _sum(of.right, of.right_2, right, of.dc, stuck, order, 1)
-    # residuals of the conditions, and their rates with h_s = h - left - right
+    # residuals of the conditions, and their derivatives with respect to h_s = h - left - right
     off_left, off_right = -of.dQ - by_tension * stuck, -of.dQ + by_tension * stuck
     off_left += of.kappa_left * near_left[0] + of.kappa_right * far_right[0]
     off_right += of.kappa_right * near_right[0] + of.kappa_left * far_left[0]
@@ -132,7 +132,7 @@ def _step(of: Any, left: Array, right: Array, order: Array) -> Any:
 def _solved(of: Any, left: Array, right: Array, order: Array) -> Any:
     """Solve both conditions, truncated after an order, by Newton's method from first-order zones.
 
-    The unknowns are log(d/h_s), so that the slip zones stay positive and leave some stick.  The
+    The unknowns are log(d/h_s), so that the slip zones stay positive and leave a stick zone.  The
     slip zones are those in the contact that extends less far; NaN if the steps do not converge.
     """
     if of.dQ == 0 and of.dsigma == 0 and of.da == 0 and of.dc == 0:

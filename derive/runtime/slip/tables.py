@@ -1,6 +1,7 @@
 """Functions of a single position, stored as Chebyshev series.
 
-A series is in s, from 0 to 1; its terms follow from the values at the points `chebyshev_place`.
+The variable of a series is s, from 0 to 1; its terms follow from the values at the points
+`chebyshev_place`.
 """
 
 import math

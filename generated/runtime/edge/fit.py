@@ -5,10 +5,11 @@ Next to an edge p**2 = K_N**2 s + 2 K_N L_N s**2 + ... is a polynomial, whose ro
 Once the edge is known, full-stick dq sqrt(s) = K_T + L_T s + ... is another polynomial.
 
 The first node under pressure belongs to the element in which the contact ends, and is left out.
-The edge lies between this node and the node before it, which is used as an additional datum.
+That the edge lies between this node and the node before it is used as an additional data point.
 Polynomials of degree 1 to 3 are fitted to all stretches that begin after the first node.  The
-scatter of the nodes is estimated from short cubics all over the contact, at most two thirds of
-which are assumed to meet kinks.  The error of the mesh next to the edge is added to the scatter.
+scatter of the nodes is estimated from cubics fitted to short stretches all over the contact, at
+most two thirds of which are assumed to meet kinks.  The error of the mesh next to the edge is added
+to the scatter.
 The stretch and the degree are those that minimise
 
     misfit**2 + 2 (coefficients + nodes left out)
@@ -53,9 +54,9 @@ AWAY = 1.5
 """Largest distance, in elements, of an edge from that middle."""
 
 LEAST = 12
-"""Smallest number of nodes between an edge and the middle of the contact, or the largest pressure,
-for which there are several ranges of nodes to choose from.  With fewer nodes, errors that are small
-by chance are misleading."""
+"""Smallest number of nodes between an edge and the middle of the contact, or the point of largest
+pressure, that leaves several ranges of nodes to choose from.  With fewer nodes, errors that are
+small by chance are misleading."""
 
 POOR = 0.075
 """Relative error of K above which a warning is given: half of all draws of a normal distribution
@@ -373,10 +374,10 @@ def K_N_from_loads(P: Array, M: Array, a: Array, c: Array) -> Edges:
 def _chosen(
     places: Any, y: Any, sd: Any, degrees: tuple[int, ...], known: int, evaluate: Any
 ) -> _Chosen | None:
-    """The values from the best stretch and degree, with one degree more.
+    """The values from the best stretch of nodes, with one degree more than the best degree.
 
     known: number of leading data points that are not nodes.
-    says: (coefficients, covariance, frame) -> values and their covariance, or None.
+    evaluate: (coefficients, covariance, frame) -> values and their covariance, or None.
     """
     origin, length = places[known], float(places[-1] - places[known])
     u = (places - origin) / length
@@ -538,7 +539,7 @@ def _warning(nodes: int, misfit: float, part: float, name: str) -> str:
             + (" or slip next to the edge" if name == "K_T" else " next to the edge")
         )
     if not part < POOR:
-        reasons.append(f"{name} is known only to {100 * part:.0f} %")
+        reasons.append(f"{name} is known only to within {100 * part:.0f} %")
     return "; ".join(reasons)
 
 

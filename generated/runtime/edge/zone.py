@@ -6,14 +6,15 @@ At a distance s from the edge
     p = K_N s**(1/2) + L_N s**(3/2) + N_N s**(5/2),
     full-stick dq = K_T s**(-1/2) + L_T s**(1/2) + N_T s**(3/2).
 
-For an edge alone, take f (p_1 + p_2) of the contacts at both ends of the half-cycle, with slip
+For a single edge, take f (p_1 + p_2) of the contacts at both ends of the half-cycle, with slip
 zones d_1 and d_2.  The bounded change in shear tends to that of full stick if
 (derive/theory/edge.py)
 
     sum f (K_N d/2 + 3 L_N d**2/8 + 5 N_N d**3/16) = |K_T| + L_T d/2 + 3 N_T d**2/8,
 
-with L_T and N_T taken in the sense of slip.  A contact of width h adds sum f K_N d**2/(16 h) to the
-right-hand side.  If the other edge is known, both edges obey the conditions of ../slip/series.py.
+with L_T and N_T positive in the direction of slip.  A contact of width h adds
+sum f K_N d**2/(16 h) to the right-hand side.  If the other edge is known, both edges obey the
+conditions of ../slip/series.py.
 """
 
 from typing import Any, NamedTuple
@@ -34,16 +35,16 @@ GROWN = (1.0, 2 / 3, 8 / 15)
 """B(k + 1, 1/2)/2, the factor of b**k in K_N(b) that gives s**(k + 1/2) in the pressure."""
 
 STEPS = 60
-"""Largest number of Newton's steps."""
+"""Largest number of Newton steps."""
 
 CASES = 65_536
-"""Number of cases solved in one piece."""
+"""Number of cases that are solved at once."""
 
 Coefficients = tuple[Any, Any, Any]
 
 
 class SlipZone(NamedTuple):
-    """Length of a slip zone, and its change by the next term of the series [m]."""
+    """Length of a slip zone, and its change due to the next term of the series [m]."""
 
     d: Array
     error: Array
@@ -124,9 +125,9 @@ def slip_zone(
     Returns
     -------
     SlipZone
-        d [m], error [m].  error is the change by one more term; if no further coefficients are
-        known, it is the change by the last term, and NaN at order 1. NaN unless K_N, f and h are
-        positive and slip occurs in both contacts of the half-cycle.
+        d [m], error [m].  error is the change due to one more term; if no further coefficients are
+        known, it is the change due to the last term, and NaN at order 1. Both are NaN unless K_N, f
+        and h are positive and slip occurs in both contacts of the half-cycle.
 
     Raises
     ------
@@ -173,7 +174,7 @@ def slip_zone(
 
 
 def _error(zones: list[Any], order: int) -> Any:
-    """The change by the next term, or else by the last one."""
+    """The change due to the next term, or else due to the last one."""
     if order < len(zones):
         return np.abs(zones[order] - zones[order - 1])
     if order > 1:

@@ -22,8 +22,8 @@ def run(loop: str, law: Any, rows: Any, own: Any, out: Any) -> None:
 
     numba's own setting NUMBA_NUM_THREADS limits the number of threads; its default is the number
     of cores.  A call from a thread other than the main one, such as a thread of Dask, starts no
-    threads.  While a kernel works on a row, it may store the completed fraction, times -1, in the
-    first column.
+    further threads.  While a kernel works on a row, it may store the completed fraction, times -1,
+    in the first column.
     """
     kernel, count = kernel_of(loop), len(rows)
     out[:, 0], finished = 0.0, np.zeros(count, dtype=bool)

@@ -73,9 +73,9 @@ def history(
     History
         a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error;
         work_error [J/m].  All are NaN where there is no contact.  If the contact slides, m and n
-        are NaN at that instant, and slip and work from then on.  Time is not an argument, so that
-        slip rates are not returned; for a 1-D x, the slip between two instants is
-        np.diff(slip, axis=-2).
+        are NaN at that instant, and slip and work from then on.  Slip rates are
+        not returned, because time is not an argument; for a 1-D x, the slip between two instants
+        is np.diff(slip, axis=-2).
 
     Notes
     -----
@@ -124,10 +124,10 @@ def steady_cycle(
 
         Where stick_zone is exact: its m and n, with mixed=True if the normal loads are constant.
         M = 0, tilt and sigma constant, |Q| < f P: exact, MODERATE; [-m, n] is the contact under
-            P_E = -(max(Q - f P) + max(-Q - f P))/(2 f), whatever the phase of P and Q.
+            P_E = -(max(Q - f P) + max(-Q - f P))/(2 f), whatever the phase between P and Q.
         Otherwise the history is repeated until slip repeats.  The stick zone consists of points
-            whose slip in the last cycle, to and fro added up, is below 1e-4 of the largest.  The
-            shift of its ends at a threshold thirty times as large is part of the error.
+            whose total slip in the last cycle, forward plus reverse, is below 1e-4 of the largest.
+            The shift of its ends at a threshold thirty times as large is part of the error.
 
     Parameters
     ----------

@@ -32,8 +32,8 @@ The slope of the gap outside [-m, n] is
 
     (w(x)/pi) int_-m^n (g'(x) - g'(s))/((x - s) sqrt((m + s)(n - s))) ds,
 
-w = sqrt((x + m)(x - n)), negative on the left.  It follows from g' outside the contact as the
-pressure follows from g' inside.
+w = sqrt((x + m)(x - n)), negative on the left.  This slope follows from g' outside the contact
+as the pressure follows from g' inside.
 """
 
 import math

@@ -4,7 +4,7 @@ r"""Histories and steady cycles on successively finer meshes, and the estimate o
 Each mesh has twice as many elements as the one before, and is refined towards the ends of the stick
 zone that were found on it.  The refinement stops when two meshes agree to the tolerance, and the
 results of the last mesh are returned.  The estimated error is the difference between the last two
-meshes, which is more than the error of the last one.  For m and n half an element is added, because
+meshes, which exceeds the error of the last one.  For m and n half an element is added, because
 a stick-slip boundary lies between two elements.  The estimated error of the frictional work is the
 sum of the differences between the last two meshes from instant to instant.
 """
@@ -35,7 +35,7 @@ from .steps import (
 )
 
 NO_STICK = 10.0
-"""Another code of Regime: every point slips at some time in the cycle, though it never slides."""
+"""Another code of Regime: every point slips at some time, though the contact never slides."""
 
 SAMPLES = 24
 """Number of points at which shear tractions on two meshes are compared."""
@@ -51,7 +51,8 @@ FEWEST = 64
 one instant to the next, and a history at least k/2."""
 
 REACH = 3.84
-"""Largest motion of an edge in a step, relative to the contact width, times the elements."""
+"""Largest motion of an edge in a step, relative to the contact width, times the number of
+elements."""
 
 LAST = 0.05
 """Length of the last step before an instant relative to the others.  The stick zone of the instant
@@ -74,7 +75,8 @@ THRESHOLD = 1e-4
 tried."""
 
 NOTICED = 0.01
-"""Growth of the stick zone, relative to its width, from which the extrapolated slip is used."""
+"""The extrapolated slip is used if it widens the stick zone by more than this fraction of the
+width."""
 
 RISEN = 4.0
 """The end of the stick zone is extrapolated from slip at two points.  This is the smallest ratio of
@@ -286,7 +288,7 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(vector(vector, vector, vector, vector))
 def _extrapolated(ends: Any, total_slip: Any, coarse_ends: Any, coarse_slip: Any) -> Any:
-    """The total slip on a mesh, less what it still falls by from a mesh of half the elements.
+    """The total slip on a mesh, less the amount by which it fell from a mesh of half the elements.
 
     Where the surfaces stick close to the friction limit, as under a high mean shear load, elements
     slip a little on every mesh, but less as the mesh is refined.
@@ -298,10 +300,10 @@ def _extrapolated(ends: Any, total_slip: Any, coarse_ends: Any, coarse_slip: Any
 
 @kernel(results(2)(vector, vector, vector, real))
 def _permanent_zone(ends: Any, always: Any, total_slip: Any, threshold: float) -> Any:
-    """m and n of the permanent stick zone, from the total slip of a cycle, to and fro added up.
+    """m and n of the permanent stick zone, from the total slip of a cycle, forward plus reverse.
 
     The zone is the longest run of elements that are always in contact and slip by no more than the
-    threshold.  Its ends are extrapolated to zero slip, because slip rises from there with the power
+    threshold.  Its ends are extrapolated to zero slip, because slip rises from there as the power
     3/2 of the distance.
     """
     x = (ends[1:] + ends[:-1]) / 2
@@ -339,8 +341,9 @@ def cycle_on_mesh(
 ) -> Any:
     """A cycle on one mesh: the results of a cycle, then slip range and first q at the points.
 
-    m and n are those of the smallest contact, and work_error is only that due to the drift.  Then
-    the ends of the elements, whether they are always in contact, and their total slip in a cycle.
+    m and n are the edges of the smallest contact, and work_error is only the part due to the drift.
+    Also returns the ends of the elements, whether they are always in contact, and their total slip
+    in a cycle.
     """
     nothing = np.empty(0)
     asked = points.size
@@ -428,10 +431,10 @@ def _apart(one: Any, other: Any) -> float:
 
 @kernel(whole(vector, vector, vector, vector, vector))
 def _choose_zone(fine: Any, direct: Any, less: Any, coarse_direct: Any, coarse_less: Any) -> int:
-    """Fill in the zone of a mesh, with its error by comparison with the mesh before.
+    """Fill in the zone on a mesh, with its error by comparison with the previous mesh.
 
-    direct  by the slip on this mesh
-    less    by the extrapolated slip, which is used if it makes the zone clearly wider
+    direct  the zone by the slip on this mesh
+    less    the zone by the extrapolated slip, which is used if it is clearly wider
     """
     h, shift = less[0] + less[1], _apart(direct, less)
     fine[:7] = direct[:7]

@@ -103,8 +103,8 @@ def _end(x: Any, state: Any, last: int, side: int, edge: float) -> float:
 def _inward(x: Any, state: Any, last: int, side: int, edge: float, least: float) -> int:
     """The last element of a stick interval, without outer elements that slip by very little.
 
-    If these elements are many, they belong to the interval: the shear traction has returned to its
-    earlier extreme there.
+    If there are many of these elements, they belong to the interval: the shear traction has
+    returned to its earlier extreme there.
     """
     i = last
     while state[STATUS, i] != 0 and state[STATUS, i - side] == state[STATUS, i]:
@@ -119,7 +119,7 @@ def _inward(x: Any, state: Any, last: int, side: int, edge: float, least: float)
 def sticking(x: Any, state: Any, a: float, c: float) -> Any:
     """m, n, the number of stick intervals, and the number of elements that slip.
 
-    A single element that sticks counts as an interval only if there is no longer interval.
+    A single element that sticks counts as an interval only if no interval is longer.
     """
     first, last, intervals, slips, length, single = -1, -1, 0, 0, 0, -1
     quiet, least = min(QUIET, (FINE / x.size) ** 2), 0.0
@@ -149,7 +149,7 @@ def sticking(x: Any, state: Any, a: float, c: float) -> Any:
 
 @kernel(real(vector, vector, real))
 def interpolated(x: Any, values: Any, point: float) -> float:
-    """Values at the middles x of the elements, interpolated at a point; constant beyond them."""
+    """Values at the midpoints x of the elements, interpolated at a point; constant beyond them."""
     j = min(max(np.searchsorted(x, point) - 1, 0), x.size - 2)
     t = min(max((point - x[j]) / (x[j + 1] - x[j]), 0.0), 1.0)
     return (1 - t) * values[j] + t * values[j + 1]
@@ -209,7 +209,7 @@ def _add_slip(w: Any, bound: Any, q: Any, s: Any, state: Any) -> float:
 
 @kernel(whole(vector, matrix, whole))
 def _guess_status(old: Any, state: Any, new_contact: int) -> int:
-    """Guess the status of elements that have come into contact: that of the last one at the edge.
+    """Guess the status of new elements in the contact: that of the last element at the edge.
 
     In a new contact all elements are assumed to stick.
     """

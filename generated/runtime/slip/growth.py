@@ -21,12 +21,12 @@ Along the path the shear traction grows at the rate
 
 where mid is the middle of the current stick zone.  This rate changes its sign at
 x = mid + 4 dQ/(pi dsigma).  Under large tension that point must lie between the final slip zones,
-which have been at friction since the last half-cycle.  It lies there all along the path if it does
-at both ends of the path.
+which have been at the friction limit since the last half-cycle.  It lies there all along the path
+if it does at both ends of the path.
 
 A path is a matrix with a row for each of its points; the first and the last row are the two
-contacts of the cycle.  The columns are a, c, tilt, load, moment.  Constant loads have these two
-rows alone.
+contacts of the cycle.  The columns are a, c, tilt, load, moment.  Under constant loads the path has
+only these two rows.
 """
 
 import math
@@ -42,7 +42,7 @@ from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .quadrature import slip_nodes
 
 PARTS = 8
-"""Number of parts of a half-cycle at which the growth of slip is tested."""
+"""Number of parts into which a half-cycle is divided to test the growth of slip."""
 
 PLACES = 4
 """Number of points in a future slip zone at which the shear is compared with friction."""
@@ -81,7 +81,7 @@ def advances(path: Any, stuck: float, a: float, c: float) -> Any:
 
 @kernel(truth(matrix, vector, real))
 def slips_at_the_start(path: Any, cycle: Any, right: float) -> Any:
-    """Whether slip begins at both ends of the cycle, forward on the left, in sense `right` at c."""
+    """Whether slip begins at both ends of the cycle, forward at -a, in direction `right` at c."""
     for end in (0, path.shape[0] - 1):
         a, c = path[end, A], path[end, C]
         advance_left, advance_right = advances(path, a + c, a, c)
@@ -168,9 +168,9 @@ def holds_at_the_start(path: Any, cycle: Any, m: float, n: float) -> Any:
     """Whether the shear traction stays within the friction limit at points that have not slipped
     yet, starting from either end.
 
-    The changes in shear in full stick and of pressure, times w, are both linear in x.  Shear
-    therefore stays within friction all over a future slip zone if it does at the inner end, -m or
-    n, and if slip begins at the edge.
+    Both the change in shear under full stick and the change in pressure, times w, are linear in x.
+    The shear therefore stays within the friction limit all over a future slip zone if it does so at
+    the inner end, -m or n, and if slip begins at the edge.
     """
     for sense in (1, -1):
         end = 0 if sense > 0 else path.shape[0] - 1

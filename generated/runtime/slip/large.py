@@ -2,8 +2,8 @@
 r"""The stick zone between slip zones of opposite signs, for a cycle with dsigma >= 0.
 
 Newton's method starts from the leading order of both slip zones.  If it fails, the width of the
-stick zone is sought in a bracket: a wider stick zone belongs to a smaller part of the loads.  No
-zone of this kind is narrower than the width H = 8 dQ/(pi dsigma) at which slip reverses on the
+stick zone is sought in a bracket: a wider stick zone corresponds to a smaller part of the loads.
+No zone of this kind is narrower than the width H = 8 dQ/(pi dsigma) at which slip reverses on the
 right.  If a zone of that width takes more than the given loads, slip has not reversed; if it takes
 less, slip has reversed.
 """
@@ -30,7 +30,8 @@ from .newton import EPS, narrowed
 from .quadrature import FINEST
 
 EXACT = 1e-12
-"""If slip zones by two rules agree to this, those by the finer rule are exact to rounding."""
+"""If slip zones by two rules agree to within this, those by the finer rule are exact to
+rounding."""
 
 LAST = 100.0
 """The finest rule is accepted at a change larger by this factor, since its own error is far
@@ -45,7 +46,7 @@ NARROWEST = 1e-6
 
 @kernel(results(2)(LAW, vector, FRICTION))
 def _first_guess(law: Any, own: Any, of: Any) -> Any:
-    """Slip zones K_T/(f K_N), reduced so that they leave some stick between them."""
+    """Slip zones K_T/(f K_N), reduced so that they leave a stick zone between them."""
     K_left = K_right = 0.0
     for end in (0, 2):
         a, c = of.cycle[end], of.cycle[end + 1]
@@ -91,8 +92,8 @@ def large_slip(law: Any, own: Any, cycle: Any, sense: float, agreed: float) -> A
     """The stick zone with its slip zones.
 
     m and n are -inf if slip reverses, NaN if they are not found.
-    agreed: zones by two rules are accepted if they agree to this, relative to their own lengths;
-    EXACT or more.
+    agreed: zones by two rules are accepted if they agree to within this, relative to their own
+    lengths; EXACT or more.
     """
     of = friction(law, own, cycle, sense, -1.0, math.nan)
     left, right = _first_guess(law, own, of)

@@ -37,9 +37,10 @@ def narrowed(bracket: Any, value: float, rate: float, least: float) -> Any:
 
 @kernel(results(2)(real, real, results(3), results(3), real))
 def log_step(left: float, right: float, one: Any, other: Any, stuck: float) -> Any:
-    """Newton's step of the logarithms of both slip zones over the stick zone.
+    """The Newton step in the logarithms of both slip zones over the stick zone.
 
-    one, other: the residual of each condition, and its rates with `left` and with `right`.
+    one, other: the residual of each condition, and its derivatives with respect to `left` and
+    `right`.
     """
     residual, by_left, by_right = one
     other_residual, other_by_left, other_by_right = other

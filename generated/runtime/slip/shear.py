@@ -125,7 +125,7 @@ def each_shear_change(law: Any, given: Any, own: Any, out: Any) -> None:
 
 @kernel(truth(vector, results(3), real, real))
 def _turns_between(cycle: Any, zone: Any, a: float, c: float) -> Any:
-    """Whether the rate of shear, while [-a, c] sticks, changes its sign within a stick zone."""
+    """Whether the rate of shear, while [-a, c] sticks, changes sign within a stick zone."""
     turn = (c - a) / 2 + 4 * cycle[4] / (math.pi * cycle[5])
     margin = ROUNDED * (cycle[0] + cycle[1])
     return -zone[0] - margin < turn < zone[1] + margin

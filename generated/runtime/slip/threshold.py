@@ -15,7 +15,7 @@ from .moderate import A, C, closing
 from .zone import ends_of, exists, resolved, slides
 
 HALVINGS = 52
-"""Number of halvings of an interval, enough to reach the last bit of float64."""
+"""Number of bisections of an interval, enough to reach the last bit of float64."""
 
 
 @kernel(vector(vector))

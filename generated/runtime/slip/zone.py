@@ -30,7 +30,7 @@ from .moderate import LOAD, MOMENT, TILT, A, C, patch
 from .newton import EPS
 
 LEAST_RESOLVED = 1e-6
-"""Largest shift of an edge by rounding of the tilt, relative to the width."""
+"""Largest shift of an edge due to rounding of the tilt, relative to the width."""
 
 NONE, MODERATE, LARGE, MIXED, SLIDING, FULL_STICK, UNSOLVED = (float(code) for code in range(7))
 """Codes of Regime."""
@@ -79,7 +79,7 @@ def resolved(ends: Any) -> Any:
 
 @kernel(results(3)(LAW, vector, matrix, vector))
 def _large(law: Any, own: Any, path: Any, cycle: Any) -> Any:
-    """Slip in opposite senses, forward at the edge that tension loads more; otherwise MIXED."""
+    """Slip in opposite directions, forward at the edge that tension loads more; otherwise MIXED."""
     sense, cycle = sense_of(cycle), oriented(cycle)
     path = path if sense > 0 else mirrored(path)
     if slips_at_the_start(path, cycle, -1.0):
@@ -101,10 +101,10 @@ def _overtaken(law: Any, own: Any, path: Any, cycle: Any) -> Any:
     """m and n where slip reverses temporarily at constant loads without a lasting effect.
 
     Tension a little beyond its threshold reverses slip at one edge, say the right one.  The shear
-    there has been at friction since the last half-cycle.  The reversed slip, dq = 0, extends at
-    once to the point where the drive vanishes, a + n0 = 8 dQ/(pi dsigma), and sticks again as soon
-    as the left zone grows.  Forward slip as under moderate tension then comes in beyond n0 and
-    overtakes the reversed slip.
+    there has been at the friction limit since the last half-cycle.  The reversed slip, dq = 0,
+    extends at once to the point where the drive vanishes, a + n0 = 8 dQ/(pi dsigma), and sticks
+    again as soon as the left zone grows.  Forward slip as under moderate tension then comes in
+    beyond n0 and overtakes the reversed slip.
     """
     m, n = patch(law, own, path, 0, 1, 1.0, cycle)
     whole = cycle[1] + m if cycle[5] < 0 else cycle[0] + n
