@@ -69,9 +69,9 @@ def _contacts(law: Any, own: Array, loads: Array) -> Array:
 
 @kernel(vector(matrix, matrix, real))
 def _roundings(loads: Array, contacts: Array, f: Array) -> Array:
-    """Changes in each load that count as zero, relative to its size or to that of normal loading.
+    """Changes in each load that count as zero: a fraction of its size, or of a reference if larger.
 
-    The latter is P, P h, f P and f P/h for P, M, Q and sigma; the larger one applies.
+    The references for P, M, Q and sigma are P, P h, f P and f P/h.
     """
     sizes = np.zeros(4)
     for i in range(loads.shape[1]):
