@@ -1,4 +1,4 @@
-"""Contact laws of half-plane contacts: derived from g(x), proven, generated as NumPy.
+"""Contact laws of half-plane contacts, derived from g(x), proven and generated as NumPy code.
 
 A geometry file needs only three names from this package::
 

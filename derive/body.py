@@ -54,8 +54,8 @@ def by_form(is_closed: Callable[[str], bool]) -> tuple[tuple[str, ...], tuple[st
 
     is_closed: tells whether the formula of a given name is closed.
 
-    A part belongs to both groups if it has a closed form in special functions, but the generated
-    code evaluates its integral.
+    A part belongs to both groups if it has a closed form in special functions although the
+    generated code evaluates its integral.
 
     >>> by_form({"load", "contact_a"}.__contains__)
     (('forward', 'from (P, M)'), ('from (P, alpha)',))

@@ -1,4 +1,4 @@
-"""A cache of built bodies, found again by the content of everything that they depend on.
+"""A cache of built bodies, identified by the content of everything that they depend on.
 
     program_digest  the sources of `derive` and the versions of libraries -> a digest
     key_of          a geometry file and that digest -> the body's key; None if it is never kept
@@ -104,12 +104,12 @@ def _version(library: str) -> str:
 
 
 def key_of(geometry: Path, origin: str, program: str) -> str | None:
-    """Key of the body that `program` makes of a geometry file; None if the body is never kept.
+    """Key of the body that `program` makes from a geometry file; None if the body is never kept.
 
     origin: the source of g(x) that the module states.
     """
     try:
-        if not geometry.is_file():  # a read from a device may never return
+        if not geometry.is_file():  # reading from a device may never end
             return None
         source = geometry.read_bytes()
     except (OSError, ValueError):

@@ -57,12 +57,12 @@ _limit = click.option(
     default=DEFAULT,
     show_default=True,
     metavar="SECONDS",
-    help="Time for the search for closed forms of one body's integrals.",
+    help="Time limit for the search for closed forms of one body's integrals.",
 )
 
 
 class _Commands(click.Group):
-    """Show a user's mistake as a single message, and exit with the status that belongs to it."""
+    """Show a user's mistake as a single message, and exit with the matching status."""
 
     def invoke(self, ctx: click.Context) -> object:
         try:
@@ -109,13 +109,13 @@ def _demand_surroundings() -> None:
 
 
 def _forget_the_output() -> None:
-    """Prevent a second attempt, at the end of the process, to write output that failed."""
+    """Prevent a second attempt, at the end of the process, to write the output that failed."""
     with suppress(OSError, AttributeError):  # closed, or not a file
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 class _WithFormula(click.Command):
-    """Accept a formula such as -x + b as an argument; -h is the only option of one letter."""
+    """Accept a formula such as -x + b as an argument; -h is the only one-letter option."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         shielded = [
@@ -127,7 +127,7 @@ class _WithFormula(click.Command):
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="contact-derive", prog_name="derive")
 def main() -> None:
-    """Contact laws of half-plane contacts: derived from g(x), proven, generated as NumPy code."""
+    """Derive contact laws of half-plane contacts from g(x), prove them and generate NumPy code."""
 
 
 @main.command("list")

@@ -1,4 +1,4 @@
-"""Functions of numbers from expressions, whatever the names of their symbols."""
+"""Make numerical functions from expressions, whatever the names of their symbols."""
 
 import builtins
 import math

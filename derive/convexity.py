@@ -56,11 +56,11 @@ _WIDE = 48
 _LEAST, _MOST = Rational(1, 1000), Integer(1000)
 """Smallest and largest value of those parameters."""
 _DIGITS = 30
-"""Number of digits of a curvature; three times as many where it seems to be negative."""
+"""Digits to which a curvature is computed; three times as many where it seems to be negative."""
 _ENOUGH = 10
-"""Number of sets, of 40 around typical parameters, that suffices if they meet the conditions."""
+"""If this many of 40 sets around typical parameters meet the conditions, no more are needed."""
 _PATIENCE = 2.0
-"""Time in seconds for the limit of a curvature at infinity, or of a profile next to a point."""
+"""Seconds allowed for the limit of a curvature at infinity, or of a profile next to a point."""
 
 REAL_AND_FINITE = (
     "g(x) must be real and finite on both sides of x = 0, and wherever else contact can occur; "
@@ -96,7 +96,7 @@ def _demands(pieces: list[Piece]) -> tuple[tuple[Boolean, ...], list[Piece]]:
     """Conditions, and the pieces that may still not be convex when the conditions are met.
 
     The jump of g' at a corner, and the factors of a curvature that do not contain x, must be
-    positive.  Otherwise the body is convex for no parameters, or only for some of them, such as
+    positive.  Otherwise the body is convex for no parameter values, or only for some, such as
     k > 1 for Abs(x)**k.  If such a power is one of several terms, or is multiplied by a function,
     its coefficient at the root of the power decides.
     """
@@ -325,9 +325,9 @@ def value_beside(expr: Expr, place: Expr, sense: int) -> Expr | None:
 
 
 def typical(demands: tuple[Boolean, ...]) -> Values:
-    """Typical parameters that meet the conditions; empty if all parameters can be one.
+    """Typical parameters that meet the conditions; empty if all parameters can equal one.
 
-    The search covers powers of two that lie further and further from one.
+    The search covers powers of two farther and farther from one.
     """
     least = {d.gts: d.lts for d in demands if d.lts.is_number and d.gts.is_Symbol}
     symbols = sorted(set().union(*(d.free_symbols for d in demands)) - {*least}, key=str)
@@ -341,7 +341,7 @@ def typical(demands: tuple[Boolean, ...]) -> Values:
         return all(bool(demand.subs(given)) for demand in demands)
 
     def rank(values: Values) -> tuple[int, int]:
-        """Number of 40 similar sets that meet the conditions, up to a limit; nearness to one."""
+        """How many of 40 similar sets meet the conditions, up to a limit; then nearness to one."""
         near = sum(met(drawn(values, 1)) for _ in range(40))
         return min(near, _ENOUGH), -max(map(_size, values.values()))
 
@@ -551,7 +551,7 @@ def _roots_between(poly: Poly, lower: Expr, upper: Expr) -> int:
 
 
 def _least_between(poly: Poly, lower: Expr, upper: Expr) -> Rational:
-    """The point with the least value, of one point in each interval between roots and ends."""
+    """Of one point in each interval between roots and ends, the one with the least value."""
     found = poly.intervals(eps=Rational(1, 10**9))
     roots = [(low + high) / 2 for (low, high), _ in found]
     marks = [end for end in (lower, *roots, upper) if lower <= end <= upper and end.is_finite]

@@ -180,7 +180,7 @@ def _by_parts(sheet: FormulaSheet) -> FormulaSheet:
     formulas = dict(sheet.formulas)
     for name in formulas.keys() & parts.formulas.keys():
         formula, computed = formulas[name], parts.formulas[name]
-        check(computed, formula.unit, f"{name} of {sheet.geometry.name!r}, by parts", known)
+        check(computed, formula.unit, f"{name} of {sheet.geometry.name!r}, part by part", known)
         formulas[name] = replace(formula, computed=computed)
     return replace(sheet, formulas=formulas)
 

@@ -212,8 +212,8 @@ class BadPage(UserError):
         if _is_full(self.why):
             return f"{self.given} {self.why}; {_FREE}"
         return (
-            f"{self.given} {self.why}; only what does not exist, or was made by `derive`, is "
-            f"written: choose another path with {self.option}"
+            f"{self.given} {self.why}; a path is written only if it does not exist or was made by "
+            f"`derive`: choose another path with {self.option}"
         )
 
 
@@ -283,7 +283,7 @@ class LostProcess(UserError):
 
 @dataclass
 class RanAway(UserError):
-    """The work on a body exceeded its time or its memory, or made its process fail."""
+    """The work on a body exceeded its limit of time or memory, or made its process fail."""
 
     what: str
     stage: str
@@ -390,7 +390,7 @@ class OpenUnits(UserError):
         options = " ".join(f"--unit {name}=m" for name in self.enough)
         return (
             f"the units of {', '.join(self.parameters)} are not determined: g(x) must be a length "
-            f"in m, and more than one choice of units makes it one; give units, such as {options}"
+            f"in m, which leaves more than one choice of units; give units, such as {options}"
         )
 
 

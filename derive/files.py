@@ -36,7 +36,7 @@ def bytes_of(path: Path, most: int) -> bytes:
 
 
 def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:
-    """Replace a file in one step; nobody sees a part of it, and after a failure the old one stays.
+    """Replace a file in one step: it is never seen incomplete, and a failure leaves the old one.
 
     Raises OSError.
     """
@@ -46,7 +46,7 @@ def write_whole(content: bytes, path: Path, mode: int = 0o644) -> None:
 
 
 def write_new(content: bytes, path: Path) -> None:
-    """Write a new file; nobody sees a part of it.
+    """Write a new file, which is never seen incomplete.
 
     Raises FileExistsError if the file exists or is created in the meantime, or another OSError.
     """

@@ -80,12 +80,12 @@ def _usable(name: str) -> bool:
 
 
 def _stranger(body: str, given: str) -> UnknownSymbol:
-    """The error for a symbol that is neither x nor a parameter, with a line that mends it."""
+    """The error for a symbol that is neither x nor a parameter, with a line that corrects it."""
     if given == x.name:
         remedy = "this is another symbol named x; write `from derive import x` and use that x"
         return UnknownSymbol(body, given, remedy)
     if _usable(given) and not _is_taken(given):
-        return UnknownSymbol(body, given, f"declare it by {_line(given)}")
+        return UnknownSymbol(body, given, f"declare it with {_line(given)}")
     candidates = (f"{given}0", f"my_{given}", "R0")
     free = next(name for name in candidates if _usable(name) and not _is_taken(name))
     why = "cannot be the name of a parameter"
@@ -202,7 +202,7 @@ class Geometry:
         return read_slope(self.name, self.g)
 
     def described(self, description: str) -> "Geometry":
-        """The same body with the docstring of its file as description."""
+        """The same body with the docstring of its file as its description."""
         twin = copy(self)
         object.__setattr__(twin, "description", description)
         return twin

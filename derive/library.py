@@ -32,7 +32,7 @@ def is_in_library(name: str) -> bool:
 
 
 def load_geometry(name_or_path: str | Path) -> "Geometry":
-    """Load the geometry of a library name or of a file's path.
+    """Load a geometry, given by its name in the library or by the path of its file.
 
     Raises UnknownGeometry or BadGeometryFile; a fault in g(x) itself is raised by Geometry.
 

@@ -1,12 +1,12 @@
 """Search, in double precision at thousands of points, for places where a function may be negative.
 
 In:  an expression of x; numbers for its parameters, and the ends of an interval.
-Out: places where it seems to be negative or undefined, few enough to be computed to many digits:
-     double precision alone does not decide.
+Out: places where it seems to be negative or undefined, few enough to be checked with many digits,
+     because double precision alone does not decide.
 
-The points lie densely at all distances from the origin, from the ends and from places where the
-arguments of functions are zero or one, since narrow features are found there.  Between the points
-the search descends.
+The points lie at distances of all magnitudes from the origin, from the ends and from places where
+the arguments of functions are zero or one, since narrow features are found there.  Between the
+points, the search descends.
 """
 
 from collections.abc import Iterator, Sequence

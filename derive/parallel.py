@@ -43,7 +43,7 @@ _MOST = 60
 _INTERVAL = 0.2
 """Seconds between two checks for Ctrl-C, on systems where waiting delays it."""
 _GRACE = 2.0
-"""Seconds in which a process that is ended may remove its temporary files."""
+"""Seconds that a process has, once it is told to end, to remove its temporary files."""
 _NO_MEMORY = 77
 """Exit status of a process that has no memory left."""
 
@@ -98,7 +98,7 @@ def in_processes(
 def _processes(
     function: Callable[[Item, Report], Result], jobs: int, bounds: Bounds | None
 ) -> Iterator[dict[Connection, BaseProcess]]:
-    """Processes that work until the end of the block, and no longer, by their connections."""
+    """The processes, by connection; they work until the end of the block and no longer."""
     context = get_context("spawn")
     started: dict[Connection, BaseProcess] = {}
     lines: list[Connection] = []

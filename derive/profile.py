@@ -154,8 +154,7 @@ class Slope:
         return bounds if rises else (-oo, oo)  # SymPy's limits of powers can be wrong
 
     def _limit(self, piece: Piece, end: Expr, side: str, otherwise: Expr) -> Expr:
-        """Limit of g' at an end; `otherwise`, which is not a bound, if SymPy cannot find the
-        limit."""
+        """Limit of g' at an end, or `otherwise`, which is not a bound, if SymPy cannot find it."""
         try:
             slope = gently(simplify, with_surpluses(piece.slope, surpluses(self.demands)))
             found = limit(slope, x, end, side)

@@ -153,7 +153,7 @@ class FormulaSheet(Mapping[str, Formula]):
         return definitions
 
     def is_closed(self, name: str) -> bool:
-        """Whether the sheet contains a formula and this is not an integral for quadrature."""
+        """Whether the sheet contains this formula and it is not an integral for quadrature."""
         return name in self and not self[name].expr.has(Integral)
 
     @cached_property

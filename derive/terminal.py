@@ -18,11 +18,11 @@ from rich.console import Console, RenderableType
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 _WIDE = 10_000
-"""Columns of output that is not a terminal, if COLUMNS is not set: large enough that no line is
-broken before another program reads it."""
+"""Width, in columns, of output that does not go to a terminal, if COLUMNS is not set: large enough
+that no line is broken before another program reads it."""
 
 _NARROW = 100
-"""Columns below which a table leaves as much room as possible to texts."""
+"""Width, in columns, below which a table leaves as much room as possible for texts."""
 
 PATIENCE = 10.0
 """Seconds after which a line says what is taking so long, if standard error is not a terminal."""

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def listing(sheets: "Iterable[FormulaSheet]", narrow: bool = False) -> Table:
-    """A table of all geometries: g(x), and which parts are closed form or numerical.
+    """A table of all geometries: g(x), and which parts are in closed form or numerical.
 
     narrow: whether the columns of closed and numerical parts are as narrow as their words allow
     """

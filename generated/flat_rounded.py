@@ -103,8 +103,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
 
         P = E_star*h**2*(segment(t_1) + segment(t_3))/(16*R)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
 
     Parameters
     ----------
@@ -135,9 +135,9 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
         M = E_star*h**2*(-h*(-sin(t_1)**3 + sin(t_3)**3)/3 + (a - c)*(segment(t_1) +
             segment(t_3)))/(32*R)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
-    module.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
+    see the module.
 
     Parameters
     ----------

@@ -86,8 +86,8 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         P = E_star*phi*sqrt(Max(0, a - b)*Max(0, b + c))/2 + E_star*phi*sqrt(Max(0, a +
             b)*Max(0, -b + c))/2
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
 
     Parameters
     ----------
@@ -121,9 +121,9 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         M = E_star*phi*sqrt(Max(0, a - b)*Max(0, b + c))*(a + 2*b - c)/8 +
             E_star*phi*sqrt(Max(0, a + b)*Max(0, -b + c))*(a - 2*b - c)/8
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
-    module.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
+    see the module.
 
     Parameters
     ----------

@@ -155,8 +155,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
         P = pi*E_star*(a + c)**2/(16*R)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/hertz.py.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/hertz.py.
 
     Parameters
     ----------
@@ -187,8 +187,9 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
 
         M = pi*E_star*(a - c)*(a + c)**2/(32*R)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From derive/geometries/hertz.py.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
+    derive/geometries/hertz.py.
 
     Parameters
     ----------

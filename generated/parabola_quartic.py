@@ -80,8 +80,9 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
         P = pi*E_star*(a + c)**2*(16*L**3 + 15*R*a**2 - 18*R*a*c + 15*R*c**2)/(256*L**3*R)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/parabola_quartic.py.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From
+    derive/geometries/parabola_quartic.py.
 
     Parameters
     ----------
@@ -117,8 +118,8 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
 
         M = pi*E_star*(a - c)*(a + c)**2*(8*L**3 + 9*R*a**2 - 6*R*a*c + 9*R*c**2)/(256*L**3*R)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
     derive/geometries/parabola_quartic.py.
 
     Parameters

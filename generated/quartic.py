@@ -75,8 +75,8 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
         P = 3*pi*E_star*(a + c)**2*(5*a**2 - 6*a*c + 5*c**2)/(256*L**3)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/quartic.py.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/quartic.py.
 
     Parameters
     ----------
@@ -107,8 +107,9 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
 
         M = 3*pi*E_star*(a - c)*(a + c)**2*(3*a**2 - 2*a*c + 3*c**2)/(256*L**3)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From derive/geometries/quartic.py.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
+    derive/geometries/quartic.py.
 
     Parameters
     ----------

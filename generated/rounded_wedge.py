@@ -135,8 +135,8 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
 
         P = E_star*h**2*phi*part_area(t_2, cos_1*sin_2 + cos_2*sin_1)/(16*b)
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
 
     Parameters
     ----------
@@ -167,9 +167,9 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
         M = E_star*h**2*phi*(-h*part_arm(t_2, sin_1, cos_1, sin_2, cos_2)/3 + (a -
             c)*part_area(t_2, cos_1*sin_2 + cos_2*sin_1))/(32*b)
 
-    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
-    module.
+    Proven symbolically and checked numerically to 46 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
+    see the module.
 
     Parameters
     ----------

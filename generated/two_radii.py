@@ -103,8 +103,8 @@ def load(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Array:
 
         P = E_star*h**2*(segment(t_2)/R_2 + segment(t_1)/R_1)/16
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
 
     Parameters
     ----------
@@ -136,9 +136,9 @@ def moment(a: Array, c: Array, *, E_star: Array, R_1: Array, R_2: Array) -> Arra
         M = E_star*h**2*(-h*(sin(t_2)**3/R_2 - sin(t_1)**3/R_1)/3 + (a - c)*(segment(t_2)/R_2 +
             segment(t_1)/R_1))/32
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
-    module.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
+    see the module.
 
     Parameters
     ----------

@@ -179,8 +179,9 @@ def load(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> Ar
 
         P = E_star*sqrt(a*c)*(phi_1 + phi_2)/2
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/unequal_wedge.py.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From
+    derive/geometries/unequal_wedge.py.
 
     Parameters
     ----------
@@ -211,8 +212,8 @@ def moment(a: Array, c: Array, *, E_star: Array, phi_1: Array, phi_2: Array) -> 
 
         M = E_star*sqrt(a*c)*(a - c)*(phi_1 + phi_2)/8
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
     derive/geometries/unequal_wedge.py.
 
     Parameters

@@ -174,8 +174,8 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
 
         P = E_star*phi*sqrt(a*c)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/wedge.py.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  From derive/geometries/wedge.py.
 
     Parameters
     ----------
@@ -206,8 +206,9 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
 
         M = E_star*phi*sqrt(a*c)*(a - c)/4
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From derive/geometries/wedge.py.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  From
+    derive/geometries/wedge.py.
 
     Parameters
     ----------

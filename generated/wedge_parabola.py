@@ -107,8 +107,8 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
 
         P = E_star*phi*sqrt(Max(0, a)*Max(0, c))/2 + E_star*h**2*segment(t_2)/(16*R)
 
-    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: by parts, P =
-    (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
+    Proven symbolically and checked numerically to 50 digits at 24 points.  Routes: integration by
+    parts, P = (E*/2) int g'' w ds; int p dx by quadrature.  For symbols and source, see the module.
 
     Parameters
     ----------
@@ -142,9 +142,9 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
         M = E_star*phi*sqrt(Max(0, a)*Max(0, c))*(a - c)/8 + E_star*h**2*(-h*sin(t_2)**3/3 + (a
             - c)*segment(t_2))/(32*R)
 
-    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: by parts, M =
-    -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source, see the
-    module.
+    Proven symbolically and checked numerically to 49 digits at 24 points.  Routes: integration by
+    parts, M = -(E*/2) int g'' w (s + mid)/2 ds; -int p x dx by quadrature.  For symbols and source,
+    see the module.
 
     Parameters
     ----------

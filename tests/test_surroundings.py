@@ -91,5 +91,5 @@ def test_a_cache_that_others_may_write_to(tmp_path: Path) -> None:
     (tmp_path / "open").chmod(0o777)
     done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="open")
     assert done.returncode == 0
-    assert "nothing is kept in this directory, because others may write to it" in done.stderr
+    assert "nothing is kept in this directory, because other users can write to it" in done.stderr
     assert list((tmp_path / "open").iterdir()) == []

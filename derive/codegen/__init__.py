@@ -3,12 +3,10 @@
 plan      chooses how each function is evaluated: formula, sum over parts, quadrature or solver
 program   the steps and outputs of a function, before they are printed as text
 rewrite   rules that avoid loss of digits in floating point; results are compared with the source
-parts     formulas of kinked polynomial bodies as sums over the parts of a contact
+parts     functions of kinked polynomial bodies as sums over the parts of a contact
 printer   SymPy -> NumPy source
 contract  the functions that every module has
 function  the text of one function that has a formula
-summed    the text of one function that is a sum over parts, and of the steps these functions share
-third     the third coefficient of the pressure next to the edges
 law       the text of the body's functions that the solvers call
 cuts      the points at which a body without closed formulas is cut for quadrature
 integrals the integrals that are evaluated for such a body, as its docstrings print them

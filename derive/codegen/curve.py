@@ -47,7 +47,7 @@ class CurveText(LawText):
     """The text of the law of a body for which at least one function, such as L_N, is integrated."""
 
     def _functions(self) -> Iterator[str]:
-        """Code for the curve and for what is integrated over it; the rest calls formulas."""
+        """Code for the curve and for the functions that integrate it; the others call formulas."""
         slope = self.sheet.geometry.slope
         positions, pieces = cuts_of(slope)
         functions = {
@@ -85,7 +85,7 @@ class CurveText(LawText):
     def _demands(self) -> Iterator[str]:
         """Code that returns NaN unless the parameters meet the conditions of the body.
 
-        These are the conditions other than that the parameters are positive.
+        These are the conditions besides the positivity of the parameters.
         """
         for demand in self.sheet.geometry.slope.demands:
             yield f"    if not ({NumPyPrinter().doprint(demand)}):"
@@ -214,7 +214,7 @@ def _positive_form(curvature: Expr) -> Expr:
 def _shortest(
     form: Callable[[Expr], Expr], terms: Sequence[Expr], is_positive: bool = False
 ) -> Expr:
-    """The sum of the terms after `form`: applied as a whole or term by term, whichever is shorter.
+    """The sum of the terms, with `form` applied to the sum or to each term, whichever is shorter.
 
     is_positive: allow the sum term by term only if no term is known to be negative or zero
 

@@ -30,7 +30,7 @@ from derive.units import Dimension, dimension_of
 LINE = 100
 
 OF_E_STAR = ", 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain"
-"""What the docstring of a module, and not those of its functions, says of the modulus."""
+"""What the docstring of a module, but not those of its functions, says about the modulus."""
 
 _width = Symbol("h")
 """The contact width as a plain name, used in the conditions that the code checks."""
@@ -48,7 +48,7 @@ class FunctionText:
         self.sheet, self.function, self.source = sheet, function, source
         self.keywords = function.keywords(sheet)
         self.outputs, self.conditions = function.outputs(sheet), function.conditions(sheet)
-        self.example = example_of(sheet, self.conditions)
+        self.example = example_of(sheet, self.conditions, function.geometric)
         self.program = self._made()
 
     def _made(self) -> Program:
@@ -117,7 +117,7 @@ class FunctionText:
     def _further_checks(self) -> Iterator[str]:
         """A check that x is not NaN, for functions in which `fmax` replaces 0/0 by zero.
 
-        That replacement, made at a corner at an edge, would also replace the NaN of x.
+        That replacement, needed for a corner at an edge, would also replace a NaN in x.
         """
         corners = (k for k in self.sheet.frame.kinks if k.clipped and k.kink.is_corner)
         if self.function.name == "pressure" and any(corners):
@@ -141,7 +141,7 @@ class FunctionText:
 
     @property
     def _given(self) -> Iterator[str]:
-        """The arguments and their meanings; both edges have one entry, and so have all keywords."""
+        """The arguments and their meanings; both edges share one entry, and so do all keywords."""
         quantities = self.sheet.geometry.quantities
         for symbol in self.function.arguments:
             q = quantities[str(symbol)]
@@ -231,7 +231,7 @@ class FunctionText:
 
 
 def _in_words(condition: Boolean, inner: bool = False) -> str:
-    """A condition with `and` and `or` for its operators.
+    """A condition in words, with `and` and `or` as its operators.
 
     inner: put a condition of several parts in parentheses
 
@@ -280,7 +280,7 @@ def step_lines(
 ) -> Iterator[str]:
     """The code of the steps of a program, each with its meaning and unit.
 
-    given: the number of steps at the beginning that are already defined, and are not printed
+    given: the number of leading steps that are already defined and are therefore not printed
     """
     known: dict[Symbol, Dimension] = dict(sheet.dimensions)
     for number, step in enumerate(program.steps):
@@ -317,7 +317,7 @@ def checks_of(conditions: Iterable[Boolean]) -> list[str]:
 
 
 def _without_constants(conditions: Iterable[Boolean]) -> list[Boolean]:
-    """The conditions other than that a constant is positive.
+    """The conditions, without those that require a constant to be positive.
 
     h > 0 is left out if a > 0 and c > 0 are among the conditions, because they imply it.
     """
@@ -327,7 +327,7 @@ def _without_constants(conditions: Iterable[Boolean]) -> list[Boolean]:
 
 
 def _is_of_a_constant(condition: Boolean) -> bool:
-    """Whether the condition is that a constant is positive."""
+    """Whether a condition requires a constant to be positive."""
     if not isinstance(condition, Gt):
         return False
     symbol, least = condition.args
@@ -359,8 +359,11 @@ _LONGER = mpf("1.5")
 """The ratio a/c of an example."""
 
 
-def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
-    """Simple numbers that meet the assumptions of a function, for its docstring."""
+def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean], geometric: bool = True) -> Point:
+    """Simple numbers that meet the assumptions of a function, for its docstring.
+
+    geometric  whether the function depends on the body, so that kinks matter
+    """
     needed = tuple(conditions)
     given = [_plain_parameters(sheet, lengths) for lengths in (1, 2)]
     sized = [(plain, size) for plain in given for size in _SIZES]
@@ -381,7 +384,7 @@ def example_of(sheet: FormulaSheet, conditions: Iterable[Boolean]) -> Point:
             dM: mpf("0.25"),
             f: mpf("0.5"),
         }
-        if holds(needed, point) and _off_all_kinks(sheet, point):
+        if holds(needed, point) and (not geometric or _off_all_kinks(sheet, point)):
             return point
     raise NotProven(
         f"{sheet.geometry.name!r}: none of the numbers that were tried for an example meets the "

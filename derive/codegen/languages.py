@@ -5,7 +5,7 @@ Out: source text in C, Fortran, JavaScript, Julia or MATLAB.
 
 Each closed formula of a generated module becomes a function of scalars, whose steps are the symbols
 that the sheet defines.  It returns NaN if its conditions are not met.  The formula is printed as
-derived.  Unlike the formulas of the generated module it is not rewritten for floating point, so it
+derived.  Unlike the formulas of the generated module, it is not rewritten for floating point, so it
 loses digits where its terms cancel, for example next to a kink.
 """
 

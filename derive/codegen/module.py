@@ -126,7 +126,7 @@ def _offered(names: list[str]) -> str:
 
 
 def full_stick_text(sheet: FormulaSheet) -> str:
-    """The module of the functions without parameters of a body; any sheet gives the same text."""
+    """The module of the functions that depend on no body; any sheet gives the same text."""
     made = (f for f in CONTRACT if not f.geometric)
     code = "\n\n".join(FunctionText(sheet, f, "derive/theory/stick.py").text for f in made)
     return formatted(f'''{MARK}

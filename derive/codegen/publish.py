@@ -57,7 +57,7 @@ _FOLDERS = {_RUNTIME.name, *(path.name for path in _RUNTIME.rglob("*") if path.i
 """Names of the folders of a package."""
 
 _OLD = 5.0
-"""Age in seconds from which a hidden directory may be the rest of a run that was killed."""
+"""Age in seconds above which a hidden directory may be left over from a run that was killed."""
 
 _SUFFIXES = (".pyc", ".nbi", ".nbc")
 """Suffixes of compiled files; a package with any other file in that folder is not replaced."""
@@ -81,7 +81,7 @@ class Difference:
 
 
 def package_files(modules: Files) -> dict[str, str]:
-    """All files of a package of `modules`, given as texts by module name, and the runtime."""
+    """All files of a package: `modules`, given as texts by module name, and the runtime."""
     names = sorted({*modules, "edge"})
     listed = "\n".join([f"{_LISTED} = [", *(f'    "{name}",' for name in names), "]"])
     files = {"__init__.py": f"{MARK}\n{_TITLE}\n{listed}\n", "py.typed": ""}
@@ -185,7 +185,7 @@ def _in_use(workshop: Path) -> Iterator[bool]:
 def remove_leftovers(folder: Path) -> None:
     """Remove the hidden directories that killed runs have left beside a package.
 
-    Only directories of the names that `publish` gives are removed, if they hold nothing but
+    Only directories with names that `publish` gives are removed, and only if they hold nothing but
     generated files and no process uses them.
     """
     named = re.compile(rf"\.{re.escape(folder.name)}-[a-z0-9_]{{8}}")

@@ -110,7 +110,7 @@ def prove_equal(program: Program, source: dict[str, Expr], points: Iterable[Poin
 def demand_equal(
     words: str, program: Program, source: dict[str, Expr], points: Iterable[Point]
 ) -> None:
-    """Raise NotProven, with `words` for the formulas, if the program does not agree with them."""
+    """Raise NotProven, which calls the formulas `words`, unless the program agrees with them."""
     proof = prove_equal(program, source, points)
     if not proof.holds:
         raise NotProven(f"{words}: {proof}")
@@ -304,7 +304,7 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
     is exactly zero, and so is the logarithm.  Outside the contact, u v has no real root, and z is
     set to zero.
 
-    A formula that is printed as it is has no kink but a corner that every contact spans.
+    If a formula is printed as it is, its only kink is a corner that every contact spans.
     """
     words = "twice the logarithm of the kink"
     for k in sheet.frame.kinks:

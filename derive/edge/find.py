@@ -49,7 +49,7 @@ class Zone:
     error   one standard deviation, due to the uncertainty of the fit [m]
     series  the change that one more term of the series would make [m]
     order   the order of the series
-    part    the slip zone divided by the distance at which the next term matters as much
+    part    the slip zone divided by the distance at which the next term equals the first
     """
 
     side: str
@@ -102,7 +102,7 @@ def find(
         if shears:
             raise BadTable(
                 shown,
-                "the table has a shear traction, and --dQ or --dsigma are given as well",
+                "the table has a shear traction, and --dQ or --dsigma is given as well",
                 "remove either the shear column or these options",
             )
         if len(last) < 2:
@@ -141,7 +141,7 @@ def find(
         elif zone.part > 0.3:
             notes.append(
                 f"{zone.side} edge: the slip zone is {zone.part:.1f} times the distance at which "
-                "the next term matters as much, so the series is not reliable there"
+                "the next term equals the first, so the series is not reliable there"
             )
     return Findings(tuple(edges), tuple(shears), zones, tuple(notes))
 
@@ -249,7 +249,7 @@ def _from_loads(
 
 
 def _move(first: FittedEdge | None, last: FittedEdge) -> float:
-    """Return how much further out an edge is at the end of the half-cycle."""
+    """Return how far an edge moves outward from the start to the end of the half-cycle."""
     if first is None:
         return 0.0
     outward = -1 if last.side == "left" else 1

@@ -23,7 +23,7 @@ ZONES = (
 )
 
 SERIES = "series is the change that one more term would make"
-REACH = "d/reach is the slip zone divided by the distance at which the next term matters as much"
+REACH = "d/reach is the slip zone divided by the distance at which the next term equals the first"
 
 PAGE = """<!doctype html>
 <html lang="en">

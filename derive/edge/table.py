@@ -183,7 +183,7 @@ def _better(
 ) -> tuple[tuple[int, int], _Lines]:
     """Return the better of two ways to split lines.
 
-    More rows that consist of two or more numbers are better, and then more rows with any two.
+    More rows that hold only numbers, at least two, are better; if equal, more rows with any two.
     """
     rows = tuple((number, _fields(line, separator)) for number, line in lines)
     counts = [(sum(_is_number(f, comma) for f in of), len(of)) for _, of in rows]
@@ -317,7 +317,7 @@ def _columns(names: Sequence[str], shown: str) -> dict[str, list[int]]:
             raise BadTable(
                 shown,
                 f"each of the columns {several} may be {what!r}",
-                "rename all of them but one",
+                "rename all but one of them",
             )
     doubled = {name for name in names if names.count(name) > 1}
     if doubled & {names[i] for i in columns["p"] + columns.get("q", [])}:

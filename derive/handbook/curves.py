@@ -21,7 +21,7 @@ from derive.symbols import E_star, a, c, x
 
 SAMPLES = 241
 CONTACTS = ((1.0, 0.0, "P"), (0.5, 0.0, "P/2"), (1.0, 0.25, "P, and a moment M = P a₀/4"))
-"""The contacts that are drawn: load over P, moment over load and half-width, and label."""
+"""The contacts that are drawn: load over P, moment over load times half-width, and label."""
 
 SKETCHED = 1.5
 """The range of x in the sketch of a profile, on either side, in half-widths."""

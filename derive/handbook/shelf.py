@@ -16,7 +16,7 @@ MARK = '<meta name="generator" content="derive '
 """A tag in every page made by a command of this package; only such pages are replaced."""
 
 _OLD = 60.0
-"""Age in seconds from which a hidden directory is the rest of a run that was killed."""
+"""Age in seconds above which a hidden directory is left over from a run that was killed."""
 
 
 def put_page(text: str, path: Path, option: str = "--out", mark: str = MARK) -> None:

@@ -12,8 +12,8 @@
     series      errors of the series of the slip zones, over the size of the zones
 
 A generated module and its constants are passed as arguments, for example
-``pressures(wedge, states, ...)``; this package reads no body itself.  Every function draws into the
-Axes that are passed in, or into new ones, and returns them.
+``pressures(wedge, states, ...)``; this package does not load any body itself.  Every function draws
+into the Axes that are passed in, or into new ones, and returns them.
 """
 
 from importlib.util import find_spec

@@ -18,7 +18,7 @@ def demand_contact(name: str, state: Any) -> None:
     shape = np.broadcast(state.a, state.c).shape
     if shape:
         raise ValueError(
-            f"{name} contains contacts in the shape {shape}, but only one can be drawn; select one "
+            f"{name} contains contacts of shape {shape}, but only one can be drawn; select one "
             "of them, for example by Contact(*(v[0] for v in state))"
         )
     if not (np.isfinite(state.a) and np.isfinite(state.c)):
@@ -34,7 +34,7 @@ def demand_contact_of(name: str, body: Any, state: Any, constants: dict[str, flo
     own = {key: value for key, value in constants.items() if key != "E_star"}
     tilt, stated = float(body.tilt(state.a, state.c, **own)), float(state.alpha)
     if np.isnan(tilt):
-        why = f"the body cannot touch from {-state.a:g} to {state.c:g} m"
+        why = f"the body cannot be in contact from {-state.a:g} to {state.c:g} m"
     elif np.isfinite(stated) and stated and abs(tilt - stated) > 1e-6 * max(abs(tilt), abs(stated)):
         why = f"its edges require a tilt of {tilt:g} rad, but its tilt is {stated:g} rad"
     else:
@@ -66,7 +66,7 @@ def demand_numbers(**given: Array) -> None:
     """Demand finite numbers, not arrays; the keywords are the names of the arguments."""
     for name, value in given.items():
         if np.ndim(value) or not np.isfinite(value):
-            what = f"an array of the shape {np.shape(value)}" if np.ndim(value) else f"{value}"
+            what = f"an array of shape {np.shape(value)}" if np.ndim(value) else f"{value}"
             raise ValueError(
                 f"{name} is {what}, but only one half-cycle can be drawn; give a finite number, or "
                 "draw a map of many half-cycles with `sweep`"

@@ -41,7 +41,7 @@ def _demand_history(history: Any, x: Array) -> None:
     demand_row("x", x)
     if np.shape(history.slip) != (np.size(history.a), np.size(x)):
         shape = np.shape(history.slip)
-        given = "no slip" if history.slip is None else f"slip of the shape {shape}"
+        given = "no slip" if history.slip is None else f"slip of shape {shape}"
         raise ValueError(
             f"history contains {given}, but slip at the {np.size(x)} positions of x is needed; "
             "give the same x to `history`"
@@ -266,7 +266,7 @@ def film(
     stress: Measure | None = None,
     **constants: float,
 ) -> FuncAnimation:
-    """Make an animation of the shear traction and the friction bounds, with a frame per instant.
+    """Make an animation of the shear traction and the friction bounds, with one frame per instant.
 
     The method `save` of the result writes a GIF, and `to_jshtml` makes a player for a notebook.
 

@@ -39,7 +39,7 @@ class Live:
     """A picture of a steady cycle under constant normal loads, which can be redrawn in place.
 
     body       a generated module
-    largest    the largest loads; the axes show the contact under their P and M, of either sign
+    largest    the largest loads; the axes show the contacts under their P and M, and under P and -M
     constants  E_star and the parameters of the body
 
     The axes are moved or widened for a contact beyond their limits, such as one under M and a
@@ -151,7 +151,7 @@ class Live:
         threshold = self.body.tension_threshold(state, state, loads.dQ, **law).upper
         if np.isfinite(threshold):
             moderate = unit(threshold, "Pa")
-            parts.append(f"tension is moderate to {moderate(threshold):.4g} {moderate.name}")
+            parts.append(f"tension is moderate up to {moderate(threshold):.4g} {moderate.name}")
         return "; ".join(parts)
 
     def png(self) -> bytes:

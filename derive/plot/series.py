@@ -36,7 +36,7 @@ def relative_errors(
 
     body        a generated module
     state       Contact under the normal loads
-    dQ, dsigma  changes in the shear load and of the tension in the half-cycle: numbers or arrays
+    dQ, dsigma  changes in the shear load and in the tension over the half-cycle: numbers or arrays
     f           coefficient of friction
     orders      orders of the series
     constants   E_star and the parameters of the body

@@ -72,8 +72,8 @@ def style() -> Iterator[None]:
     """Apply the style of this package to pictures that are drawn inside ``with style():``.
 
     Unlike the context manager of matplotlib, this one restores only the settings that it has
-    changed.  If the first figure of a notebook is made inside, the settings of its display must
-    remain.
+    changed.  A notebook that makes its first figure inside the block sets up its display there, and
+    these settings must remain.
     """
     before = {name: mpl.rcParams[name] for name in _STYLE}
     mpl.rcParams.update(_STYLE)

@@ -23,7 +23,8 @@ SAMPLES = 401
 IN_A_ZONE = 61
 """Number of points along a slip zone, minus one.
 
-It is small because slip takes long to compute for integrated bodies; slip outside the zone is zero.
+It is small because slip takes long to compute if the body has no closed formulas.  Slip outside the
+zone is zero.
 """
 
 
@@ -115,12 +116,12 @@ def tractions(
 
     The surfaces slip where the change in shear traction reaches the bound f (p1 + p2).  These zones
     are shaded in the colour of the direction of slip.  A zone in which slip reverses within the
-    half-cycle is dotted; the shear traction may then be unknown, which a note in the picture
-    states.
+    half-cycle is dotted; the shear traction may then be unknown, and a note in the picture says
+    so.
 
     body           a generated module
     first, second  Contacts at the start and at the end of the half-cycle that raises the shear load
-    dQ, dsigma     changes in the shear load and of the tension in this half-cycle
+    dQ, dsigma     changes in the shear load and in the tension over this half-cycle
     f              coefficient of friction
     mixed          whether to compute stick zones where slip reverses; see `stick_zone`
     axes           two Axes to draw into; new ones by default
@@ -185,8 +186,8 @@ def shear(
 
     body        a generated module
     contact     Contact under the normal loads, as returned by `body.contact`
-    Q, sigma    shear load and tension at the upper end, which is reached first, from zero loads
-    dQ, dsigma  changes of both in the half-cycle
+    Q, sigma    shear load and tension at the upper end, which is reached first, starting from zero
+    dQ, dsigma  changes in both over the half-cycle
     f           coefficient of friction
     between     number of states that are drawn between the upper and the lower end
     axes        Axes to draw into; new ones by default

@@ -17,11 +17,11 @@ MODERATE, LARGE, MIXED = 1, 2, 3
 
 
 def senses(zone: Any, dsigma: Array) -> tuple[Array, Array]:
-    """Sense of slip at the left and at the right edge at the end of the half-cycle that raises Q.
+    """Direction of slip at the left and right edges at the end of the half-cycle that raises Q.
 
     It is +1 for slip in the direction of a positive dQ, -1 for slip against it, and 0 if there is
-    no slip or its sense is not known.  In the mixed regime, slip reverses at one edge: the edge at
-    which the tension opposes the shear load.
+    no slip or its direction is not known.  In the mixed regime, slip reverses at one edge: the edge
+    at which the tension opposes the shear load.
     """
     regime, negative = np.asarray(zone.regime), np.asarray(dsigma) < 0
     large, mixed = regime == LARGE, (regime == MIXED) & np.isfinite(zone.m)
@@ -85,7 +85,7 @@ def sweep(
     parameter  the values of the parameter
     contact    Contact at the end of the half-cycle: one for all values, or one for each
     zone       StickZone for each value, as returned by `stick_zone`
-    dsigma     change in tension: one for all values, or one for each; its sign determines the
+    dsigma     change in the tension: one for all values, or one for each; its sign determines the
                direction of slip at each edge
     label      the label of the axis of the parameter
     axes       Axes to draw into; new ones by default
@@ -126,7 +126,7 @@ def _demand_tension(zone: Any, dsigma: Array) -> None:
 
 
 class _Zones(NamedTuple):
-    """Contact, stick zone, senses of slip and code of Regime for every value along an axis."""
+    """Contact, stick zone, directions of slip and code of Regime for every value along an axis."""
 
     a: Array
     c: Array
@@ -221,7 +221,7 @@ def key(axes: Axes) -> None:
 
 
 def _broken(at: Array, values: Array, sense: tuple[Array, Array]) -> tuple[Array, Array]:
-    """A line with a gap wherever the sense of slip changes."""
+    """A line with a gap wherever the direction of slip changes."""
     changes = [np.flatnonzero(np.diff(np.atleast_1d(of_edge)) != 0) + 1 for of_edge in sense]
     gaps = np.unique(np.concatenate(changes))
     return np.insert(at, gaps, np.nan), np.insert(values, gaps, np.nan)

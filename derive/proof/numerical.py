@@ -149,7 +149,7 @@ class NumericalRoutes:
         yield self._at("L_N_right", point), self._second("right", point, contact)
 
     def _second(self, side: str, point: Point, contact: Contact) -> mpf:
-        """(p/sqrt(s) - K_N)/s so close to the edge that the next term is below all digits."""
+        """(p/sqrt(s) - K_N)/s so close to the edge that the next term affects no digit."""
         with mpmath.workdps(3 * WORKING):
             s = contact.h * mpf(10) ** (2 - WORKING)
             place = s - point[a] if side == "left" else point[c] - s
@@ -169,7 +169,8 @@ class NumericalRoutes:
         """int dq = dQ and (1/pi) PV int dq(s)/(x - s) ds = dsigma/4.
 
         PV int ds/(w(s) (x - s)) is zero inside the contact, so the value at x can be subtracted.
-        The difference is divided by x - s as a polynomial, since numbers would lose digits near x.
+        The difference is divided by x - s as a polynomial.  A division of numbers would lose digits
+        near x.
         """
         at_s, with_x = self._stuck
         force = numeric_along(at_s, _s)(point)

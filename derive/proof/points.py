@@ -155,7 +155,8 @@ def numeric_along(expr: Expr, variable: Symbol) -> Callable[[Point], Function]:
     """`expr` at a point as a function of one variable, in balls for quadrature.
 
     Parts without the variable are computed once per point; other terms are collected by the factors
-    that contain it.  Not for branches, because one that is not taken may have no value.
+    that contain it.  Not for expressions with branches, because a branch that is not taken may have
+    no value.
     """
     fixed: dict[Expr, Symbol] = {}
     moving = _collected(expr.subs(e, M / P), variable, fixed)

@@ -16,7 +16,7 @@ from derive.theory.segments import Parts, written_out
 def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
     """Prove every formula by all its routes; the verdict states if a formula is not proven.
 
-    A closed form that is not proven is left out if its integral is.
+    A closed form of an integral is left out if it is not proven.
 
     >>> from derive.derivation import derive_sheet
     >>> from derive.library import load_geometry
@@ -35,7 +35,7 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
             proven[name] = replace(formula, proof=proof)
     remark = sheet.remark
     if left_out:
-        remark = f"{remark}  Left out, since not proven: {', '.join(left_out)}."
+        remark = f"{remark}  Not proven, and therefore left out: {', '.join(left_out)}."
     return replace(sheet, formulas=proven, remark=remark)
 
 

@@ -84,9 +84,10 @@ class Contact:
         return integral(lambda theta: integrand(self.at(theta)), cuts, method, inside)
 
     def outside(self, left: mpf, right: mpf, integrand: Function) -> mpf:
-        """int integrand(s) ds over the contact outside [-left, right]; it may have roots there.
+        """int integrand(s) ds over the contact outside [-left, right], where it may contain roots.
 
-        The integrand is evaluated with twice the digits, so that distances from the ends keep them.
+        The integrand is evaluated with twice as many digits, so that distances from the ends remain
+        accurate.
         """
         total, twice = mpf(0), 2 * mpmath.mp.dps
         for edge, end in ((-self.a, -left), (self.c, right)):
@@ -184,7 +185,7 @@ def _slope_as_given(g: Expr) -> Expr:
 
 
 def _larger(first: Expr, *others: Expr) -> Expr:
-    """Max by branches; comparing with other values than zero may take SymPy endless time."""
+    """Max by branches; comparing with values other than zero may take SymPy forever."""
     if not others:
         return first
     second = _larger(*others)

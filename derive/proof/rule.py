@@ -89,8 +89,8 @@ def _size(integrand: Function, low: mpf, high: mpf) -> mpf:
 
 
 _AT_AN_END = arb(2) ** -50
-"""Largest share of all weights at nodes without a value.  Such nodes are so close to an end that
-the integrand divides by zero at the given precision."""
+"""Largest share of the total weight that nodes without a value may have.  Such nodes are so close
+to an end that the integrand divides by zero at the given precision."""
 
 
 class _InBalls(QuadratureRule):
@@ -118,7 +118,7 @@ class _InBalls(QuadratureRule):
         previous: Sequence[mpf],
         verbose: bool = False,
     ) -> mpf:
-        """The sum of this level; `previous` are the sums of the levels before.
+        """The sum of this level; `previous` are the sums of the earlier levels.
 
         New nodes of the tanh-sinh rule lie between the previous ones; half the previous sum is
         added.

@@ -4,8 +4,9 @@ In:  FormulaSheet, and the name of a formula.
 Out: Proof with the verdict *proven*, or None if there is no symbolic route or if it fails.
 
 The integrals are evaluated a second time by antiderivatives, certified by differentiation.
-Load and moment are derived by parts from the curvature of g, and the pressure from its growth by
-flat punches.  The contact law is compared with the edge limit of p, and inverses are substituted.
+Load and moment are derived from the curvature of g, after integration by parts, and the pressure
+from its growth by flat punches.  The contact law is compared with the edge limit of p, and inverses
+are substituted.
 """
 
 from collections.abc import Callable
@@ -266,8 +267,8 @@ def _is_in_the_rates(sheet: FormulaSheet, name: str) -> bool:
 
 _ROUTES: dict[str, Route] = {
     "tilt": _equal_to(_tilt, "I_0 from antiderivatives checked by differentiation"),
-    "load": _equal_to(_load, "by parts, P = (E*/2) int g'' w ds"),
-    "moment": _equal_to(_moment, "by parts, M = -(E*/2) int g'' w (s + mid)/2 ds"),
+    "load": _equal_to(_load, "integration by parts, P = (E*/2) int g'' w ds"),
+    "moment": _equal_to(_moment, "integration by parts, M = -(E*/2) int g'' w (s + mid)/2 ds"),
     "pressure": _pressure,
     "edge_ratio": _by_rates(lambda s: s["K_N_right"].expr / s["K_N_left"].expr, _LIMIT),
     "load_rate": _by_rates(lambda s: pi / 2 * sqrt(h) * s["K_N_right"].expr, _LIMIT),

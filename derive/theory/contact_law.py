@@ -91,7 +91,7 @@ def _middle_and_half_width(
 
 
 def _corner_at_tilt(corner: KinkFrame, tilt: Expr, load: Expr, arm: Expr) -> Inverse | None:
-    """Contact of one corner between straight flanks, by half of the corner's angle.
+    """Contact of one corner between straight flanks, from half the angle of the corner.
 
     Since (1 - cos u)/sin u = tan(u/2), the edge on the side of the jump lies at the distance
     (h/2) sin(theta_1) tan(theta_1/2) from the corner, and the other edge at the distance
@@ -128,7 +128,7 @@ def _in_middle_and_width(frame: Frame) -> dict[Expr, Expr]:
 
 
 def _angles(frame: Frame) -> dict[Expr, Expr]:
-    """theta_j by its sine 2 w_j/h and its cosine, which both follow directly from the loads."""
+    """theta_j from its sine 2 w_j/h and its cosine; both follow directly from the loads."""
     return {k.theta: atan2(k.w, k.kink.side * (k.kink.position - _mid)) for k in frame.kinks}
 
 

@@ -93,7 +93,7 @@ class KinkFrame:
 
     @property
     def logarithm_in_words(self) -> dict[Symbol, Expr]:
-        """Definition of L_j by two more symbols, u_j and v_j."""
+        """Definition of L_j in terms of two more symbols, u_j and v_j."""
         u, v = symbols(f"u_{self.kink.number} v_{self.kink.number}", nonnegative=True)
         return {self.L: _logarithm(u, v), u: self.u, v: self.v}
 

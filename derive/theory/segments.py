@@ -209,7 +209,7 @@ class root_ratio(Named):
 class kink_logarithm(Named):
     """log(1 + (sqrt(A B) + Min(A, B))/Abs(d)), or zero if A or B is negative.
 
-    A fourth argument is a lower bound of |d|.
+    A fourth argument is a lower bound on |d|.
     """
 
     nargs = (3, 4)
@@ -421,7 +421,7 @@ class Part:
 
     @cached_property
     def rise(self) -> "Rise | None":
-        """g' and g'' by the distance from an end of the piece where they grow; None if uniform."""
+        """g' and g'' by distance from the end of the piece where growth begins; None if uniform."""
         if self.is_uniform or degree(self.bend, x) > HIGHEST:
             return None
         for kink, sense in ((self.before, 1), (self.behind, -1)):

@@ -98,8 +98,8 @@ def conditions(order: int) -> tuple[Expr, Expr]:
 def terms(order: int) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
     """Terms of order 1, 2, ... of the slip zones at constant loads, at the left and the right edge.
 
-    A condition is d - D and products of higher order, so that its terms of order k, with d up to
-    order k - 1, are those of order k of -d.
+    A condition is d - D plus products of higher order.  With d inserted up to order k - 1, the
+    terms of order k of the condition are therefore those of -d.
 
     >>> first, second = terms(2)[0]
     >>> first

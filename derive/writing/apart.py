@@ -13,7 +13,7 @@ BOUNDS = Bounds(seconds=60, gigabytes=2)
 
 
 class Asked(NamedTuple):
-    """The description of a new geometry by a user; see `derive.writing.draft.Wanted`."""
+    """A user's description of a new geometry; see `derive.writing.draft.Wanted`."""
 
     name: str
     profile: str

@@ -36,7 +36,7 @@ _MODULES = sys.stdlib_module_names | {
 
 @dataclass(frozen=True)
 class Wanted:
-    """The description of a new geometry by a user.
+    """A user's description of a new geometry.
 
     units, meanings: those of the parameters, by name; both are optional
 
@@ -105,7 +105,7 @@ def _absent(name: str, parameters: Sequence[str]) -> str:
 
 
 def _demand_plain(unit: str) -> None:
-    """Refuse a unit that should not be passed to the parser of Python."""
+    """Refuse a unit that should not be passed to Python's parser."""
     if not unit.isprintable() or len(unit) > _LONGEST_UNIT:
         why = f"it has more than {_LONGEST_UNIT} characters, or characters that cannot be printed"
         raise BadUnit(unit[:_LONGEST_UNIT], why)

@@ -1,4 +1,4 @@
-"""Splits a text of g(x) into numbers, names and operators, one at a time."""
+"""Splits the text of g(x) into numbers, names and operators, one at a time."""
 
 import re
 import unicodedata

@@ -1,4 +1,4 @@
-"""The functions and names that a text of g(x) may contain; all others are refused."""
+"""The functions and names that the text of g(x) may contain; all others are refused."""
 
 import keyword
 from collections.abc import Callable, Mapping
