@@ -27,6 +27,11 @@ def rows(*columns: np.ndarray, by: str = ",", comma: bool = False) -> str:
     return text.replace(".", ",") if comma else text
 
 
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "t.csv"
+
+
 def with_line(line: str) -> str:
     """A good table with one more line at its middle."""
     lines = (HEAD + rows(X, P)).splitlines()
@@ -61,8 +66,7 @@ GOOD = {
 
 
 @pytest.mark.parametrize("name", GOOD)
-def test_a_table_is_read(tmp_path: Path, name: str) -> None:
-    path = tmp_path / "t.csv"
+def test_a_table_is_read(path: Path, name: str) -> None:
     path.write_text(GOOD[name], encoding="utf-8")
     (step,) = read(path)
     scale = (1.0, 1.0) if name == "units in SI" else (1e-3, 1e6)
@@ -70,9 +74,8 @@ def test_a_table_is_read(tmp_path: Path, name: str) -> None:
     assert_allclose(step.p, scale[1] * P, atol=1e-6 * scale[1])
 
 
-def test_load_steps(tmp_path: Path) -> None:
+def test_load_steps(path: Path, tmp_path: Path) -> None:
     """By a column, and by several columns of pressure."""
-    path = tmp_path / "t.csv"
     long = "".join(
         f"{n},{x:.6f},{k * p:.6f}\n"
         for n, k in ((1, 1), (2, 0.5))
@@ -87,8 +90,7 @@ def test_load_steps(tmp_path: Path) -> None:
     assert [step.name for step in read(path)] == ["1", "2"]
 
 
-def test_units_may_be_said(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
+def test_units_may_be_said(path: Path) -> None:
     path.write_text("x,p\n" + rows(X, P))
     (step,) = read(path, {"x": "mm", "p": "MPa"})
     assert_allclose(step.x, 1e-3 * X, atol=1e-9)
@@ -148,9 +150,8 @@ def test_there_are_forty() -> None:
 
 
 @pytest.mark.parametrize("number", range(len(BAD)))
-def test_a_bad_table_gets_one_message(tmp_path: Path, number: int) -> None:
+def test_a_bad_table_gets_one_message(path: Path, number: int) -> None:
     text, words = BAD[number]
-    path = tmp_path / "t.csv"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(BadTable) as raised:
         find(read(path), path.name, 0.5)
@@ -163,8 +164,7 @@ def run(*args: object) -> Result:
     return CliRunner().invoke(main, ["edge", *map(str, args)])
 
 
-def test_a_bad_table_leaves_with_two_and_no_traceback(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
+def test_a_bad_table_leaves_with_two_and_no_traceback(path: Path, tmp_path: Path) -> None:
     path.write_text("x,p\n" + rows(X, P))
     result = run(path, "--f", 0.5)
     assert result.exit_code == 2
@@ -175,7 +175,7 @@ def test_a_bad_table_leaves_with_two_and_no_traceback(tmp_path: Path) -> None:
     assert run(path, "--f", 0.5, "--unit", "z=mm").exit_code == 2
 
 
-def test_the_command_by_hand(tmp_path: Path) -> None:
+def test_the_command_by_hand(path: Path, tmp_path: Path) -> None:
     """A cylinder, a = 1 mm, p = 200 sqrt(1 - x**2) MPa: K_N = 200 sqrt(2) MPa/sqrt(mm); dQ = 94.25
     N/mm, that is dq = 30/sqrt(1 - x**2): K_T = 30/sqrt(2), d_1 = K_T/(f K_N) = 0.15 mm.  Exactly
     1 - sqrt(1 - 2*0.15): f (p_1 + p_2) has 0.3 of its square to give."""
@@ -191,8 +191,7 @@ def test_the_command_by_hand(tmp_path: Path) -> None:
     assert "<svg" in page.read_text() and table.read_text().startswith("load_step,side,edge")
 
 
-def test_loads_in_place_of_shear(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
+def test_loads_in_place_of_shear(path: Path) -> None:
     path.write_text(HEAD + rows(X, P))
     without = run(path, "--f", 0.5)
     assert without.exit_code == 0 and "no slip zone" in without.output
@@ -201,10 +200,9 @@ def test_loads_in_place_of_shear(tmp_path: Path) -> None:
         assert_allclose(zone.d, 1e-3 * (1 - np.sqrt(0.7)), rtol=0.01)
 
 
-def test_both_ends_of_a_half_cycle(tmp_path: Path) -> None:
+def test_both_ends_of_a_half_cycle(path: Path) -> None:
     """The edges of two cylinders' contacts, 1 and 1.05 mm: they move by 0.05 mm."""
     wide = 210 * np.sqrt(np.maximum(1 - (X / 1.05) ** 2, 0))
-    path = tmp_path / "t.csv"
     path.write_text("x [mm],p 1 [MPa],p 2 [MPa]\n" + rows(X, P, wide))
     found = find(read(path), "t.csv", 0.5, dQ=30e6 * np.pi * 1e-3)
     for zone in found.zones:
@@ -212,9 +210,8 @@ def test_both_ends_of_a_half_cycle(tmp_path: Path) -> None:
         assert zone.d > 0.05e-3
 
 
-def test_columns_that_are_numbered_are_load_steps(tmp_path: Path) -> None:
+def test_columns_that_are_numbered_are_load_steps(path: Path) -> None:
     """p1 and p2; of Abaqus' two components of shear the second is another direction."""
-    path = tmp_path / "t.csv"
     path.write_text("x [mm],p1 [MPa],p2 [MPa],q1 [MPa],q2 [MPa]\n" + rows(X, P, P, 0 * Q, Q))
     assert [(step.name, step.q.max() > 0) for step in read(path) if step.q is not None] == [
         ("p1", False),
@@ -225,9 +222,8 @@ def test_columns_that_are_numbered_are_load_steps(tmp_path: Path) -> None:
     assert step.q is not None and step.q.max() > 0
 
 
-def test_a_contact_that_slides_has_no_slip_zone(tmp_path: Path) -> None:
+def test_a_contact_that_slides_has_no_slip_zone(path: Path) -> None:
     """P = 100 pi N/mm and f = 0.5 hold 100 pi over a half-cycle; 3.2 dq is 96 pi, 3.5 dq 105 pi."""
-    path = tmp_path / "t.csv"
     for factor, slides in ((3.2, False), (3.5, True)):
         path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X, P, factor * Q))
         found = find(read(path), "t.csv", 0.5)
@@ -235,24 +231,21 @@ def test_a_contact_that_slides_has_no_slip_zone(tmp_path: Path) -> None:
         assert all(np.isnan(zone.d) == slides for zone in found.zones)
 
 
-def test_the_validity_knows_the_width(tmp_path: Path) -> None:
+def test_the_validity_knows_the_width(path: Path) -> None:
     """Here K_N/L_N and K_T/L_T are 4 mm, and the contact is 2 mm wide."""
-    path = tmp_path / "t.csv"
     path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X, P, Q))
     for zone in find(read(path), "t.csv", 0.5).zones:
         assert_allclose(zone.part, zone.d / 2e-3, rtol=0.01)
 
 
 @pytest.mark.parametrize(("units", "told"), [("m Pa", True), ("mm Pa", True), ("mm MPa", False)])
-def test_units_that_cannot_be_are_told(units: str, told: bool, tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
+def test_units_that_cannot_be_are_told(units: str, told: bool, path: Path) -> None:
     path.write_text("x [{}],p [{}]\n".format(*units.split()) + rows(X, P))
     found = find(read(path), "t.csv", 0.5)
     assert any("check the units" in note for note in found.notes) is told
 
 
-def test_without_an_edge_shear_is_not_said_to_be_missing(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
+def test_without_an_edge_shear_is_not_said_to_be_missing(path: Path) -> None:
     some = np.abs(X) < 0.15
     path.write_text(
         "x [mm],p [MPa],dq [MPa]\n"
@@ -263,9 +256,8 @@ def test_without_an_edge_shear_is_not_said_to_be_missing(tmp_path: Path) -> None
     assert not any("has no shear" in note for note in notes)
 
 
-def test_one_edge_alone(tmp_path: Path) -> None:
+def test_one_edge_alone(path: Path) -> None:
     part = X < -0.1
-    path = tmp_path / "t.csv"
     path.write_text("x [mm],p [MPa],dq [MPa]\n" + rows(X[part], P[part], Q[part]))
     found = find(read(path), "t.csv", 0.5)
     assert [zone.side for zone in found.zones] == ["left"]
@@ -294,8 +286,7 @@ def test_the_chain_on_the_example() -> None:
         assert off < 0.1 * exact[one.side]
 
 
-def test_a_table_that_was_given_is_not_written_over(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
+def test_a_table_that_was_given_is_not_written_over(path: Path, tmp_path: Path) -> None:
     path.write_text("mine\n")
     table = tmp_path / "given.csv"
     table.write_text(HEAD + rows(X, P))
@@ -306,8 +297,7 @@ def test_a_table_that_was_given_is_not_written_over(tmp_path: Path) -> None:
     assert path.read_text() == "mine\n"
 
 
-def test_a_unit_that_the_table_gives_otherwise_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
+def test_a_unit_that_the_table_gives_otherwise_is_refused(path: Path) -> None:
     path.write_text(HEAD + rows(X, P))
     result = run(path, "--f", 0.5, "--unit", "p=Pa")
     assert result.exit_code == 2
