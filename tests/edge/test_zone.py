@@ -45,6 +45,7 @@ CASES = [
 ]
 
 
+@pytest.mark.enough("hertz-*", "wedge-*", "flat_sloped-*", "power-*", "unequal_wedge-*")
 @pytest.mark.parametrize("order", [1, 2, 3])
 @pytest.mark.parametrize("name", BODIES)
 def test_with_both_edges_it_is_the_bodys_own(name: str, order: int) -> None:
@@ -76,8 +77,7 @@ def test_with_both_edges_it_is_the_bodys_own(name: str, order: int) -> None:
 
 def test_first_order_by_hand() -> None:
     """0.01/(0.5*0.3125) = 0.064; half of what the edge gains is added, half taken off."""
-    assert_allclose(slip_zone(0.3125, 0.01, f=0.5).d, 0.064, rtol=1e-15)
-    assert_allclose(slip_zone(0.3125, -0.01, f=0.5).d, 0.064, rtol=1e-15)
+    assert_allclose(slip_zone(0.3125, [0.01, -0.01], f=0.5).d, 0.064, rtol=1e-15)
     found = slip_zone(0.3125, 0.01, f=0.5, da=[0.004, -0.002])
     assert_allclose(found.d, [0.066, 0.063], rtol=1e-14)
     assert np.all(np.isnan(found.error))
@@ -172,16 +172,10 @@ def test_the_other_edge_from_what_it_gains_where_before_is_not_given() -> None:
 
 
 def test_where_there_is_none() -> None:
-    assert np.isnan(slip_zone(-1.0, 0.01, f=0.5).d)
-    assert np.isnan(slip_zone(1.0, 0.01, f=-0.5).d)
-    assert np.isnan(slip_zone(1.0, np.nan, f=0.5).d)
+    assert np.all(np.isnan(slip_zone([-1.0, 1.0, 1.0], [0.01, 0.01, np.nan], f=[0.5, -0.5, 0.5]).d))
     assert np.isnan(slip_zone(1.0, 0.01, f=0.5, da=0.5).d)  # the edge runs ahead of slip
     assert np.isnan(slip_zone(1.0, 0.01, f=0.5, L_N=-30.0, L_T=0.0).d)  # friction never holds
-    assert slip_zone(1.0, 0.0, f=0.5).d == 0
-    assert slip_zone(1.0, 0.0, f=0.5, L_N=1.0, L_T=0.0).d == 0
-
-
-def test_it_broadcasts() -> None:
+    assert slip_zone(1.0, 0.0, f=0.5).d == slip_zone(1.0, 0.0, f=0.5, L_N=1.0, L_T=0.0).d == 0
     found = slip_zone(np.ones((3, 1)), 0.01, f=[0.5, 0.6], L_N=0.1, L_T=0.0)
     assert found.d.shape == found.error.shape == (3, 2)
 
@@ -192,18 +186,14 @@ def test_it_broadcasts() -> None:
         ({"order": 2}, "order 2 needs L_N and L_T"),
         ({"order": 9}, "order must be 1 with the coefficients given; got 9"),
         ({"L_N": 1.0, "L_T": 1.0, "N_N": 1.0, "N_T": 1.0, "h": 1.0, "order": 3}, "1 to 2"),
+        ({"order": 1.5}, "whole number"),
         ({"other": OtherEdge(1.0, 1.0)}, "give h, too"),
         ({"other": OtherEdge(1.0, 1.0), "h": 1.0, "L_T": 1.0}, "follow from h and K_T"),
     ],
 )
 def test_what_is_refused(given: dict[str, Any], words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+    with pytest.raises((ValueError, TypeError), match=words):
         slip_zone(1.0, 0.01, f=0.5, **given)
-
-
-def test_an_order_is_a_whole_number() -> None:
-    with pytest.raises(TypeError, match="whole number"):
-        slip_zone(1.0, 0.01, f=0.5, order=1.5)  # type: ignore[arg-type]
 
 
 def test_what_is_published_is_there() -> None:
