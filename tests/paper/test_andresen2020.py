@@ -1,5 +1,6 @@
 """The paper is complete, its verdicts are computed, and what holds holds for a reason."""
 
+import re
 from collections import Counter, defaultdict
 from dataclasses import replace
 
@@ -8,15 +9,7 @@ import pytest
 from derive.paper.claim import Verdict
 from derive.paper.draw import LEAST, variables
 from derive.paper.numbers import DIGITS
-from derive.paper.report import (
-    as_latex,
-    as_markdown,
-    corrected,
-    errata,
-    evidence,
-    printed,
-    signs,
-)
+from derive.paper.report import as_latex, as_markdown, corrected, errata, evidence, printed, signs
 from derive.paper.userfile import built_in as paper
 from derive.paper.verdict import Finding, check
 from tests.paper.displayed import DISPLAYED
@@ -69,10 +62,7 @@ def test_no_displayed_equation_is_missing() -> None:
     extra["(27)"] = 1  # its two sides beside M
     assert {n: c - extra.get(n, 0) for n, c in parts.items()} == expected
     assert len(DISPLAYED) == 49
-
-
-def test_no_claim_is_without_a_limit_in_time() -> None:
-    assert all(claim.seconds for claim in paper().claims)
+    assert all(claim.seconds for claim in paper().claims)  # none without a limit in time
 
 
 def test_labels_and_places_are_those_of_the_source() -> None:
@@ -102,12 +92,12 @@ def test_an_equation_is_printed_as_its_source_has_it() -> None:
     assert "- (K_Q2*sqrt(x + a_2 - d_2) - " in printed(paper()["section 3.2/difference"])
     assert "f*K_N*(2*(d_2/(2*sqrt(x + a_1))) + Delta_a/" in printed(paper()["eq:DeltaQApprox"])
     assert "(1 + gamma)*4*f**2*P**2" in printed(paper()["inequalitywedge"])
+    assert printed(paper()["section 3.2/limit"]).count("sqrt(x + a_2 - d_2)") == 2
+    assert "c - x" in printed(paper()["eqn:FlatPunchCP"])
 
 
 @pytest.mark.thorough
-def test_every_verdict_is_the_expected_one_and_has_evidence(
-    findings: dict[str, Finding],
-) -> None:
+def test_every_verdict_is_the_expected_one_and_has_evidence(findings: dict[str, Finding]) -> None:
     for label, finding in findings.items():
         assert finding.claim.expected is not None, label
         assert finding.as_expected, f"{label}: {finding.verdict}"
@@ -128,12 +118,7 @@ def test_what_is_wrong_is_what_a_person_found(findings: dict[str, Finding]) -> N
         told = corrected(finding)
         assert told is not None
         assert part in told, f"{label}: {told}"
-
-
-@pytest.mark.thorough
-def test_the_larger_shear_is_that_of_the_traction_called_first(
-    findings: dict[str, Finding],
-) -> None:
+    # the larger shear is that of the traction called first
     assert corrected(findings["eq:CJshear/sense"]) == "q_1 - q_2 = Delta_Q"
 
 
@@ -141,10 +126,13 @@ def test_the_larger_shear_is_that_of_the_traction_called_first(
 def test_the_error_falls_only_relatively_and_where_a_zone_has_just_opened(
     findings: dict[str, Finding],
 ) -> None:
-    said = {label: found.verdict for label, found in findings.items() if "/accuracy/" in label}
+    said = {label: found for label, found in findings.items() if "/accuracy/" in label}
     assert len(said) == 4
-    wrong = [label for label, verdict in said.items() if verdict == Verdict.FAILS]
+    wrong = [label for label, found in said.items() if found.verdict == Verdict.FAILS]
     assert wrong == ["section 5.3/accuracy/right/relative"]
+    for label, found in findings.items():  # a computed number is counted once
+        if label in said or "5.3/overestimated" in label:
+            assert len(found.judged.pairs) == 1
 
 
 @pytest.mark.parametrize(
@@ -161,45 +149,25 @@ def test_the_direction_of_a_bound_is_judged(label: str) -> None:
 
 
 @pytest.mark.thorough
-def test_a_computed_number_is_counted_once(findings: dict[str, Finding]) -> None:
-    for label, found in findings.items():
-        if "/accuracy/" in label or "5.3/overestimated" in label:
-            assert len(found.judged.pairs) == 1
-
-
-def test_what_sympy_would_write_otherwise_is_shown_as_printed() -> None:
-    assert printed(paper()["section 3.2/limit"]).count("sqrt(x + a_2 - d_2)") == 2
-    assert "c - x" in printed(paper()["eqn:FlatPunchCP"])
-
-
-@pytest.mark.thorough
-def test_every_corrected_equation_is_proven(findings: dict[str, Finding]) -> None:
-    wrong = errata(findings.values())
-    mended = [finding for finding in wrong if finding.repair]
-    assert all(finding.repair.judged.good for finding in mended if finding.repair)
-    without = {finding.claim.label for finding in wrong if finding.repair is None}
-    assert without == {"section 4.1/alpha_0(M_0, P_0)", "section 5.3/validity"}
-
-
-@pytest.mark.thorough
-def test_a_convention_holds_under_its_map_and_names_the_place(
+def test_every_corrected_equation_is_proven_and_its_consequence_told(
     findings: dict[str, Finding],
 ) -> None:
-    for finding in findings.values():
-        if finding.verdict == Verdict.CONVENTION:
-            assert finding.under is not None
-            assert finding.under.good
-            assert finding.convention is not None
-            assert "eq" in finding.convention.contradicts or "section" in (
-                finding.convention.contradicts
-            )
+    wrong = errata(findings.values())
+    assert all(finding.repair.judged.good for finding in wrong if finding.repair)
+    without = {finding.claim.label for finding in wrong if finding.repair is None}
+    assert without == {"section 4.1/alpha_0(M_0, P_0)", "section 5.3/validity"}
+    assert {found.claim.label for found in wrong if not found.claim.consequence} <= {
+        "eqn:FIE/cylinder"
+    }
 
 
 @pytest.mark.thorough
-def test_the_consequence_of_every_error_is_told(findings: dict[str, Finding]) -> None:
-    for finding in errata(findings.values()):
-        if finding.claim.label != "eqn:FIE/cylinder":
-            assert finding.claim.consequence, finding.claim.label
+def test_a_convention_holds_under_its_map_and_names_the_place(findings: dict[str, Finding]) -> None:
+    for finding in findings.values():
+        if finding.verdict == Verdict.CONVENTION:
+            assert finding.under is not None and finding.under.good
+            assert finding.convention is not None
+            assert re.search("eq|section", finding.convention.contradicts)
 
 
 @pytest.mark.thorough
@@ -223,7 +191,7 @@ def test_the_signs_of_the_sections_are_compared(findings: dict[str, Finding]) ->
         assert number in told["moment"].partition("opposite sign in")[2]
 
 
-@pytest.mark.enough("0")
+@pytest.mark.enough("3")
 @pytest.mark.parametrize("part", range(5))
 def test_broken_claims_are_found(part: int) -> None:
     """At least five ways a claim; survivors are named with the reason, and are no errors."""
