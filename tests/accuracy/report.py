@@ -54,9 +54,9 @@ The bounds are {BOUNDS[True]:.0e} in the bulk and {BOUNDS[False]:.0e} elsewhere.
 An error meets its bound if it lies within the bound or if rounding of the inputs explains it, that
 is, if it is no more than a few units in the last place times the condition of the problem.  `~`
 marks an error that rounding of the inputs explains, and **bold** marks an error that does not meet
-its bound.  Brackets give the number of points at which the function returned no number or no
-solution was found near its result, and the number of all points.  A dash means that nothing was
-measured, because the body has no such region or a point would take minutes.
+its bound.  The numbers in parentheses are the number of points at which the function returned no
+number or no solution was found near its result, and the total number of points.  A dash means that
+nothing was measured, because the body has no such region or a point would take minutes.
 """
 
 

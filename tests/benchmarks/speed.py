@@ -43,8 +43,8 @@ BODIES: dict[str, dict[str, float]] = {
 
 WORDS = """\
 This page is written by `make bench`, and all figures come from one run.  They are medians, except
-that times at neighbouring sizes are the least of several calls.  Functions that are compared were
-timed in turn.  One thread was used, except where two threads are named.
+that times at neighbouring sizes are the shortest of several calls.  Functions that are compared
+with each other were timed in turn.  One thread was used, except where two threads are named.
 
 Times of one call are for scalar arguments and exclude compilation.  The hand-written kernel
 (tests/benchmarks/by_hand.py) is compiled by numba.  It solves large tension on a wedge without any
