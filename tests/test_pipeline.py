@@ -98,17 +98,13 @@ def test_to_find_what_is_kept_does_not_wait_for_sympy() -> None:
 # ------------------------------------------------------------------ kept
 
 
-def test_nothing_is_built_twice(asked: list[str], files: list[str]) -> None:
+def test_only_what_changed_is_built_again(asked: list[str], files: list[str]) -> None:
     first = build_all(files)
     second = build_all(files)
     assert asked == files
     assert second == first
     assert [body.kept for body in (*first, *second)] == [False] * 3 + [True] * 3
     assert [body.seconds for body in second] == [0.5] * 3
-
-
-def test_only_what_changed_is_built_again(asked: list[str], files: list[str]) -> None:
-    build_all(files)
     with Path(files[1]).open("a") as file:
         file.write("# more\n")
     found = build_all(files)
