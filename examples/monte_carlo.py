@@ -1,20 +1,21 @@
-"""How far a wedge slips when its loads and its friction are scattered: a Monte Carlo.
+"""Compute how far a wedge slips if its loads and its friction scatter, by the Monte Carlo method.
 
     python examples/monte_carlo.py                               1e7 samples, on this machine
-    python examples/monte_carlo.py --samples 1e8 --out slip.csv  more, and the histogram as a file
-    python examples/monte_carlo.py --scheduler tcp://host:8786   on a cluster that is running
+    python examples/monte_carlo.py --samples 1e8 --out slip.csv  1e8 samples and a histogram file
+    python examples/monte_carlo.py --scheduler tcp://host:8786   on a running cluster
 
-Needs `pip install 'contact-derive[cluster]'`.  Nothing here is special to Dask but how samples are
-drawn and counted: `slip_zones` below takes NumPy arrays just as well.
+The program needs `pip install 'contact-derive[cluster]'`.  Only the code that draws and counts the
+samples depends on Dask: `slip_zones` below also accepts NumPy arrays.
 
-Samples are drawn, evaluated and counted chunk by chunk, and portions of so many chunks are handed
-out as others are done: memory does not grow with the number of samples.  Every STREAM samples have
-a seed of their own; the result is the same to the last count whatever the chunks, the workers and
-their order.
+Samples are drawn, evaluated and counted chunk by chunk.  A new portion of PORTION chunks is handed
+out only when another one is finished, so that memory use does not grow with the number of samples.
+Every STREAM samples have a seed of their own.  The counts are therefore exactly the same for any
+size of the chunks, any number of workers, and any order in which the workers finish.
 
-A cluster of your own: start `dask scheduler` on one machine, `dask worker tcp://host:8786` on each,
-and give that address; clusters of batch systems and clouds have an address, too.  The package
-`generated` is sent there; NumPy, SciPy and Dask must be there, in the versions that are here.
+To use a cluster of your own, start `dask scheduler` on one machine and
+`dask worker tcp://host:8786` on each machine, and give this address with `--scheduler`.  Clusters
+of batch systems and clouds also have an address.  The program sends the package `generated` to the
+cluster.  NumPy, SciPy and Dask must be installed there, in the same versions as on this machine.
 """
 
 import argparse
@@ -38,7 +39,7 @@ import generated
 from generated import wedge
 
 WEDGE = {"E_star": 60e9, "phi": 0.05}  # Pa, rad
-DQ, DSIGMA = 3e5, 400e6  # change in shear [N/m] and of bulk tension [Pa] over the half-cycle
+DQ, DSIGMA = 3e5, 400e6  # changes in shear load [N/m] and bulk tension [Pa] in a half-cycle
 
 SCATTER: Mapping[str, Callable[[np.random.Generator, int], Any]] = {
     "P": lambda rng, n: rng.normal(2e6, 2e5, n),  # N/m
@@ -48,26 +49,26 @@ SCATTER: Mapping[str, Callable[[np.random.Generator, int], Any]] = {
 """The uncertain inputs: replace them with your own."""
 
 STREAM = 50_000
-"""Samples that share a seed."""
+"""Number of samples that share a seed."""
 
 PORTION = 8
-"""Chunks that are handed out together, as one Dask array."""
+"""Number of chunks that are handed out together, as one Dask array."""
 
 SHORT = {
     "distributed.diagnostics.computations.max-history": 1,
     "distributed.admin.low-level-log-length": 100,
     "distributed.admin.log-length": 100,
 }
-"""How much of its past work a local cluster remembers: otherwise its memory grows slowly."""
+"""Limits on the records that a local cluster keeps; without them, its memory use grows slowly."""
 
 BINS, LONGEST = 2_000, 500.0
-"""Bins of the histogram, from zero to the longest slip zone [um]."""
+"""Number of bins of the histogram, and the longest slip zone that it covers [um]."""
 
 QUANTILES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 
 
 class Counts(NamedTuple):
-    """How many samples fall into each bin of the left and the right slip zone, and each regime."""
+    """Number of samples in each bin of the left and the right slip zone, and in each regime."""
 
     left: Any
     right: Any
@@ -75,7 +76,7 @@ class Counts(NamedTuple):
 
 
 def drawn(name: str, seed: int, start: int, stop: int) -> Any:
-    """Samples from `start` to `stop` of one quantity; `start` is the first of a stream."""
+    """Samples from `start` to `stop` of one quantity; a stream must begin at `start`."""
     place = [*SCATTER].index(name)
     streams = range(start // STREAM, -(-stop // STREAM))
     rows = [SCATTER[name](np.random.default_rng([seed, place, s]), STREAM) for s in streams]
@@ -90,7 +91,7 @@ def slip_zones(P: Any, M: Any, f: Any) -> tuple[Any, Any, Any]:
 
 
 def counted(start: int, stop: int, chunk: int, seed: int) -> da.Array:
-    """Counts of some samples, one behind the other; lazily: nothing is drawn yet."""
+    """All counts of some samples as one lazy array; nothing is drawn yet."""
     whole, rest = divmod(stop - start, chunk)
     sizes = (*[chunk] * whole, *([rest] if rest else []))
 
@@ -106,7 +107,7 @@ def counted(start: int, stop: int, chunk: int, seed: int) -> da.Array:
 
 
 def summed(client: Client, samples: int, chunk: int, seed: int) -> Counts:
-    """The counts of all samples; a few portions are under way at once, however many there are."""
+    """Counts of all samples; only a few portions are computed at once, however many there are."""
     starts = range(0, samples, PORTION * chunk)
     portions = (counted(s, min(s + PORTION * chunk, samples), chunk, seed) for s in starts)
     ahead = 1 + sum(client.nthreads().values())
@@ -122,7 +123,7 @@ def summed(client: Client, samples: int, chunk: int, seed: int) -> Counts:
 
 
 def quantiles(counts: Any) -> list[float]:
-    """Lengths [um] that the given parts of what was counted do not exceed, to a bin's width."""
+    """Quantiles of the counted lengths [um], accurate to the width of a bin."""
     below = np.concatenate([[0], np.cumsum(counts)])
     edges = np.linspace(0.0, LONGEST, BINS + 1)
     return [float(v) for v in np.interp(np.multiply(QUANTILES, below[-1]), below, edges)]
@@ -134,7 +135,7 @@ def report(counts: Counts) -> Iterator[str]:
     yield f"{total:,} samples; slip zones in um, to {LONGEST / BINS:g}"
     yield "edge  " + "".join(f"{100 * q:7g} %" for q in QUANTILES) + "   not counted"
     for edge, found in zip(("left", "right"), counts[:2], strict=True):
-        rest = total - int(np.sum(found))  # m and n are not known, or beyond LONGEST
+        rest = total - int(np.sum(found))  # zone not known or longer than LONGEST
         yield f"{edge:6}" + "".join(f"{v:9.1f}" for v in quantiles(found)) + f"{rest:14,}"
     for regime in wedge.Regime:
         if counts.regime[regime]:
@@ -147,7 +148,7 @@ def report(counts: Counts) -> Iterator[str]:
 
 
 def write(counts: Counts, path: Path) -> None:
-    """The histogram as CSV."""
+    """Write the histogram as CSV."""
     edges = np.linspace(0.0, LONGEST, BINS + 1)
     with path.open("w", newline="", encoding="utf-8") as file:
         out = csv.writer(file)
@@ -157,11 +158,11 @@ def write(counts: Counts, path: Path) -> None:
 
 @contextmanager
 def connected(scheduler: str | None, workers: int | None, wait: int) -> Iterator[Client]:
-    """A cluster that is running and answers in so many seconds, or processes of this machine."""
+    """Connect to a running cluster that answers within `wait` seconds, or start local processes."""
     if scheduler is None:
         local: dict[str, Any] = {"n_workers": workers, "threads_per_worker": 1}
         local["dashboard_address"] = "127.0.0.1:0"  # any free port, so that runs do not collide
-        local["silence_logs"] = logging.CRITICAL  # what fails is raised here
+        local["silence_logs"] = logging.CRITICAL  # errors are raised in this process
         with dask.config.set(SHORT), LocalCluster(**local) as cluster, Client(cluster) as client:
             yield client
         return
@@ -177,35 +178,35 @@ def connected(scheduler: str | None, workers: int | None, wait: int) -> Iterator
             client.wait_for_workers(1, timeout=60)
         except TimeoutError:
             raise SystemExit(
-                f"no worker came to {scheduler} within a minute: start `dask worker {scheduler}`"
+                f"no worker joined {scheduler} within a minute: start `dask worker {scheduler}`"
             ) from None
         yield client
 
 
 def number(text: str) -> int:
-    """A whole number, 1e8 or 100000000."""
+    """A whole number, such as 1e8 or 100000000."""
     with suppress(ValueError, OverflowError):
         if float(text) >= 1 and float(text) == int(float(text)):
             return int(float(text))
-    raise argparse.ArgumentTypeError(f"must be a whole number, 1e8 or 100000000, got {text}")
+    raise argparse.ArgumentTypeError(f"must be a whole number, such as 1e8 or 1000000, got {text}")
 
 
 def arguments() -> argparse.Namespace:
-    """What the command line says."""
+    """Read the command line."""
     said = argparse.ArgumentParser(description="Distribution of a wedge's slip zones.")
-    said.add_argument("--samples", type=number, default=10**7, help="how many; 1e7 unless given")
+    said.add_argument("--samples", type=number, default=10**7, help="how many; default 1e7")
     said.add_argument(
-        "--chunk", type=number, default=5 * STREAM, help=f"at once, a multiple of {STREAM}"
+        "--chunk", type=number, default=5 * STREAM, help=f"size of a chunk, a multiple of {STREAM}"
     )
-    said.add_argument("--seed", type=int, default=0, help="of the random numbers, >= 0")
-    said.add_argument("--workers", type=number, help="processes of this machine; one a core")
+    said.add_argument("--seed", type=int, default=0, help="seed of the random numbers, >= 0")
+    said.add_argument("--workers", type=number, help="local processes; default one per core")
     said.add_argument(
-        "--scheduler", metavar="ADDRESS", help="of a running cluster, tcp://host:8786"
+        "--scheduler", metavar="ADDRESS", help="a running cluster, such as tcp://host:8786"
     )
     said.add_argument(
-        "--wait", type=number, default=10, help="seconds until it must answer; 10 unless given"
+        "--wait", type=number, default=10, help="seconds for the cluster to answer; default 10"
     )
-    said.add_argument("--out", type=Path, metavar="FILE", help="the histogram, as CSV")
+    said.add_argument("--out", type=Path, metavar="FILE", help="write the histogram here, as CSV")
     given = said.parse_args()
     if given.chunk % STREAM:
         said.error(f"--chunk must be a multiple of {STREAM}, got {given.chunk}")
@@ -217,7 +218,7 @@ def arguments() -> argparse.Namespace:
 
 
 def main() -> None:
-    """Draw, evaluate, count, report."""
+    """Draw, evaluate and count the samples, and report the result."""
     given = arguments()
     with connected(given.scheduler, given.workers, given.wait) as client:
         counts = summed(client, given.samples, given.chunk, given.seed)

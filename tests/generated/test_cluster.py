@@ -139,7 +139,7 @@ def test_the_quantiles_are_those_of_the_samples(monte_carlo: Any) -> None:
 @pytest.mark.parametrize(
     ("argument", "words"),
     [
-        ("--samples=0", "must be a whole number, 1e8 or 100000000, got 0"),
+        ("--samples=0", "must be a whole number, such as 1e8 or 1000000, got 0"),
         ("--chunk=7", "--chunk must be a multiple of 50000, got 7"),
         ("--out=nowhere/slip.csv", "there is no directory nowhere"),
         ("--scheduler=tcp://127.0.0.1:1", "no cluster answers at tcp://127.0.0.1:1"),
