@@ -157,14 +157,12 @@ def test_the_work_of_friction_agrees_to_the_first_order() -> None:
 # ---------------------------------------------------------------- what is told
 
 
-def test_a_rig_that_slides_says_so() -> None:
-    rig = match(Edge(1.0, 3.0), hertz, f=F, E_star=1.0, R=1.0)
-    assert rig.regime == Regime.SLIDING and "slides" in rig.warning and np.isnan(rig.d.left)
-
-
-def test_a_long_slip_zone_and_full_stick_are_warned_of() -> None:
-    assert "large part" in match(Edge(1.0, 0.5), hertz, f=F, E_star=1.0, R=1.0).warning
-    assert "nothing slips" in match(Edge(1.0, 0.01, da=0.1), hertz, f=F, E_star=1.0, R=1.0).warning
+def test_sliding_a_long_slip_zone_and_full_stick_are_warned_of() -> None:
+    edges = (Edge(1.0, 3.0), Edge(1.0, 0.5), Edge(1.0, 0.01, da=0.1))
+    slides, long, sticks = (match(edge, hertz, f=F, E_star=1.0, R=1.0) for edge in edges)
+    assert slides.regime == Regime.SLIDING and np.isnan(slides.d.left)
+    assert "slides" in slides.warning
+    assert "large part" in long.warning and "nothing slips" in sticks.warning
 
 
 def test_a_rig_in_words() -> None:
@@ -175,39 +173,35 @@ def test_a_rig_in_words() -> None:
     assert "slip zone" in words and "R = 1" in words and " %" in words
 
 
+WHOLE = {"f": F, "E_star": 1.0, "R": 1.0}
+FREE = {"f": F, "E_star": 1.0, "free": "R"}
+ONE = Edge(1.0, 0.1)
+
+
 @pytest.mark.parametrize(
-    ("edge", "given", "words"),
+    ("edge", "body", "given", "words"),
     [
-        (Edge(-1.0, 0.1), {}, "K_N must be positive"),
-        (Edge(1.0, np.nan), {}, "K_T must be one finite number"),
-        (Edge(1.0, np.ones(2)), {}, "K_T must be one finite number"),  # type: ignore[arg-type]
-        (Edge(1.0, 0.1, side="top"), {}, "side must be 'left' or 'right'"),
-        (Edge(1.0, 0.1), {"f": 0.0}, "f must be positive"),
-        (Edge(1.0, 0.1), {"R": None}, "R must be one finite number"),
-        (Edge(1.0, 0.1), {"S": 2.0}, "parameters are R; got R, S"),
-        (Edge(1.0, 0.1), {"free": "R"}, "parameters are none; got R"),
-        (Edge(1.0, 0.1), {"free": "b"}, "free must be one of R; got 'b'"),
-        (Edge(1.0, 0.1, da=3.0), {}, "no load moves the edge"),
-        (Edges(Edge(1.0, 0.1), Edge(2.0, 0.1)), {}, "match one edge alone"),
+        (Edge(-1.0, 0.1), hertz, WHOLE, "K_N must be positive"),
+        (Edge(1.0, np.nan), hertz, WHOLE, "K_T must be one finite number"),
+        (Edge(1.0, np.ones(2)), hertz, WHOLE, "K_T must be one finite number"),
+        (Edge(1.0, 0.1, side="top"), hertz, WHOLE, "side must be 'left' or 'right'"),
+        (ONE, hertz, WHOLE | {"f": 0.0}, "f must be positive"),
+        (ONE, hertz, WHOLE | {"R": None}, "R must be one finite number"),
+        (ONE, hertz, WHOLE | {"S": 2.0}, "parameters are R; got R, S"),
+        (ONE, hertz, WHOLE | {"free": "R"}, "parameters are none; got R"),
+        (ONE, hertz, WHOLE | {"free": "b"}, "free must be one of R; got 'b'"),
+        (Edge(1.0, 0.1, da=3.0), hertz, WHOLE, "no load moves the edge"),
+        (Edges(ONE, Edge(2.0, 0.1)), hertz, WHOLE, "match one edge alone"),
+        (ONE, hertz, FREE, "give L_N of an edge, or R itself"),
+        (ONE._replace(L_N=0.5), hertz, FREE, "give R in place of L_N"),  # a cylinder's is negative
+        (Edge(0.2, 0.1, side="right"), wedge_parabola, WHOLE | {"phi": 1.0}, "nearest has K_N"),
+        (ONE, np, WHOLE, "generated body"),
+        (1.0, hertz, WHOLE, "edge must be an Edge"),
+        ((1.0, 0.1), hertz, WHOLE, "edge must be an Edge"),
+        (Edges(1.0, 0.1), hertz, WHOLE, "edge must be an Edge"),
     ],
 )
-def test_what_is_refused(edge: Any, given: dict[str, Any], words: str) -> None:
-    with pytest.raises(ValueError, match=words):
-        match(edge, hertz, **({"f": F, "E_star": 1.0, "R": 1.0} | given))
-
-
-def test_a_free_radius_needs_a_wish_that_can_be() -> None:
-    with pytest.raises(ValueError, match="give L_N of an edge, or R itself"):
-        match(Edge(1.0, 0.1), hertz, f=F, E_star=1.0, free="R")
-    with pytest.raises(ValueError, match="give R in place of L_N"):  # a cylinder's is negative
-        match(Edge(1.0, 0.1, L_N=0.5), hertz, f=F, E_star=1.0, free="R")
-    with pytest.raises(ValueError, match="the nearest has K_N"):
-        match(Edge(2.1e10, 2e6, side="right"), wedge_parabola, f=F, **STEEL, phi=0.05, R=0.1)
-
-
-def test_what_is_no_edge_and_no_body() -> None:
-    with pytest.raises(TypeError, match="generated body"):
-        match(Edge(1.0, 0.1), np, f=F, E_star=1.0)
-    for given in (1.0, (1.0, 0.1), Edges(1.0, 0.1)):
-        with pytest.raises(TypeError, match="edge must be an Edge"):
-            match(given, hertz, f=F, E_star=1.0, R=1.0)  # type: ignore[arg-type]
+def test_what_is_refused(edge: Any, body: Any, given: dict[str, Any], words: str) -> None:
+    error = TypeError if words in ("generated body", "edge must be an Edge") else ValueError
+    with pytest.raises(error, match=words):
+        match(edge, body, **given)
