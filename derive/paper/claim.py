@@ -95,7 +95,7 @@ class Bound:
 
 @dataclass(frozen=True)
 class Range:
-    """The range of a variable: values between two bounds, or powers of two with such exponents."""
+    """The range of a variable: its bounds, or the bounds of its exponent as a power of two."""
 
     low: float
     high: float

@@ -257,7 +257,7 @@ class ClaimReader:
         return changed(put, self.meanings.of(put.context, own))
 
     def _follows(self, entries: Entries, symbols: Iterable[str], meant: Meant) -> Meant:
-        """Return the meanings of symbols if other claims are true; open symbols are variables."""
+        """Return the meanings if other claims are true; symbols without one become variables."""
         place, table = entries.place.inside("given"), dict[Symbol, Expr]()
         for label in entries.texts("given"):
             if label not in self._read:

@@ -32,8 +32,8 @@ _NAMED = 18
 _SIMPLE = 20
 """The largest integer in a constant that may be a misprint."""
 _FALSE, _EACH = 6, 3
-"""A claim that is false at this many points at first is false everywhere; the number of points at
-which a claim must be true, and false, to be called true in part."""
+"""If a claim is false at this many points at first, it is taken to be false everywhere; the number
+of points at which a claim must be true, and false, to be called true in part."""
 _ROOTS = {2: "sqrt", 3: "cbrt"}
 _STEEPEST, _LARGEST = 6, 1000
 """The largest power of a variable, and the largest integer in the exact form of a constant."""
@@ -159,7 +159,7 @@ def _agree(one: Value, other: Value) -> bool:
 
 
 def named(constant: Value) -> str:
-    """Write a constant as a rational number times a power of pi or a root of this, or return "".
+    """Write a constant as a rational number times a power of pi, or as a root of it; or return "".
 
     >>> with mpmath.workdps(_DIGITS):
     ...     named(mpmath.mpf(4) / mpmath.pi)

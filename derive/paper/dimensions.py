@@ -48,7 +48,7 @@ def _between(improper: Expr) -> Integral:
 
 
 class _Mismatch(Exception):
-    """Two units differ that should be equal."""
+    """Two units that should be equal differ."""
 
 
 class Units:

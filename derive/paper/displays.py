@@ -31,11 +31,11 @@ _RELATION = re.compile(
     r"[^\s{(]\s*(?:=|<|>|\\(?:sim|simeq|approx|leq?|geq?)(?![A-Za-z]))\s*[^\s})]"
 )
 _LONGEST_LINE = 300
-"""The number of characters that a formula in the text must stay below."""
+"""A formula in the text must have fewer characters than this."""
 _EXPANDED = 20_000
 """The largest number of characters in a display after its macros are expanded."""
 _LONGEST_COMMAND = 80
-"""The largest number of characters of a command."""
+"""The largest number of characters in a command."""
 _PASSES = 10
 """The largest nesting depth of macros that are expanded."""
 

@@ -346,7 +346,7 @@ def _conditions(
     if len(limits) > 1:
         return require, "", f"it holds in several limits, {', '.join(limits)}: put one in `as`"
     if statement.order and limit != f"{small} -> 0":
-        return require, "", f"its remainder is small with {small}, but its limit is {limit}"
+        return require, "", f"its remainder tends to zero with {small}, but its limit is {limit}"
     return require, limit, ""
 
 

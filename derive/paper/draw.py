@@ -4,7 +4,7 @@ All points satisfy the conditions of the claim.
 
 points    variables of moderate size, or spread evenly over a declared range
 further   points over many decades, near the ends of ranges, and on both sides of the zeros of
-          a modulus, a logarithm, a root or similar in the claim
+          a modulus, a logarithm, a root or the like in the claim
 """
 
 import hashlib
@@ -43,7 +43,7 @@ _MOST_PAST = 15
 _WIDE_PAST = 6
 """Number of points over many decades if a limit is a number, which sets an absolute scale."""
 _CLOSEST = 6
-"""Points lie as close to an end of a range as 10**-6 of the length of the range."""
+"""Points approach an end of a range to within 10**-6 of the length of the range."""
 _TOUCHING = 1e-10
 """Two sides touch if their gap is at most this fraction of the gaps next to it."""
 _SWITCHES = 10

@@ -30,7 +30,7 @@ class Place:
         return f"{self.file}:{self.line}" if self.line else self.file
 
     def inside(self, what: str) -> "Place":
-        """Return the place of a part of what is here."""
+        """Return the place of a part of what is at this place."""
         return replace(self, what=f"{self.what}: {what}" if self.what else what)
 
     def bad(self, why: str, remedy: str) -> BadClaimsFile:

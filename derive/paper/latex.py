@@ -257,7 +257,7 @@ class Latex:
         return braced
 
     def _arguments(self, pieces: list[_Piece], position: int, braced: list[_Piece]) -> int:
-        """Append both arguments of a fraction to `made`, and return where they end."""
+        """Append both arguments of a fraction to `braced`, and return where they end."""
         wanted = 2
         while wanted and position < len(pieces):
             piece = pieces[position]
@@ -452,7 +452,7 @@ class _Side:
         if self.depth > _DEEPEST:
             self._refuse("the groups are nested too deeply", "use fewer brackets")
         if [piece.text for piece in inner] == [","]:
-            why = "it is unclear whether this comma divides thousands"
+            why = "it is unclear whether this comma separates thousands"
             raise self.latex.refusal(column, why, "write a decimal point, or no comma")
         starts = bool(inner) and (side._starts_factor() or inner[0].text == "|")
         made = side._factor() if starts else None
@@ -676,7 +676,7 @@ class _Side:
             _divided(part, (",", r"\andword"))[0] for part in _divided(pieces, (r"\orword",))[0]
         ]
         if len(either) > 1 and any(len(parts) > 1 for parts in either):
-            why = "these conditions hold both and, or a comma, and or"
+            why = "some of these conditions are joined by or, and others by and or a comma"
             raise self.latex.refusal(column, why, "write the condition as text")
         return " or ".join(
             " and ".join(self._condition(part, column) for part in parts if part)

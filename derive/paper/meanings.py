@@ -80,7 +80,7 @@ class Meanings:
                 what = "a variable" if name in variables.declared else "a parameter of the body"
                 why = f"the symbol {name!r} is already {what}"
                 raise place.bad(why, "remove the symbol, or rename one of them")
-            del self.symbols[name]  # it is that variable
+            del self.symbols[name]  # the symbol is that variable
 
     def _read_spellings(self) -> dict[str, str]:
         """Return the entries of [latex], whose names must be declared in the file or bound in a
@@ -93,7 +93,7 @@ class Meanings:
         return found
 
     def of(self, context: Context, own: Mapping[str, Any] = MappingProxyType({})) -> Meant:
-        """Return the meanings of all symbols for a body, and for the own symbols of a claim."""
+        """Return the meanings of all symbols for a body and for a claim's own symbols."""
         key = repr((id(context), sorted(own.items(), key=str)))
         if key not in self._meant:
             self._meant[key] = Meant({}, {})

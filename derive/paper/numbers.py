@@ -33,7 +33,7 @@ _SHARP = (80, 120)
 _ALL = 10**6
 """The number of digits that two equal numbers share."""
 _LAST = 3
-"""Two sides that agree may share this many digits fewer than are known of them."""
+"""Two sides that agree may share fewer digits than are known of them, by at most this number."""
 _NOISE = 12
 """The remainder of a vanishing sum may exceed its last digit by this many digits."""
 _MODERATE = 30

@@ -16,7 +16,7 @@ from derive.paper.mistakes import reason
 from derive.paper.statements import statements
 
 _BESIDE = ("as", "order", "require", "given")
-"""The entries that are shown with a reading, because its verdict depends on them."""
+"""The entries that are shown with a reading, because the verdict depends on them."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def waiting(number: int, claim: Entries, error: NotAccepted, names: Names) -> Re
 
 def not_accepted(claim: Entries, error: NotAccepted) -> str:
     """Return the reason why a claim waits for the user, and what the user can do."""
-    said = f"the file accepts {error.accepted}" if error.accepted else "this is not accepted"
+    said = f"the file accepts {error.accepted}" if error.accepted else "the file does not accept it"
     by_hand = f'understood = "{error.understood}"'
     if claim.data.get("accepted") is False:
         by_hand = "accepted = true"

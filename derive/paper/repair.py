@@ -95,7 +95,7 @@ def edits(expr: Expr, swaps: Iterable[Symbol] = (), units: Units | None = None) 
 def plain_edits(
     expr: Expr, swaps: Iterable[Symbol] = (), units: Units | None = None
 ) -> Iterator[Edit]:
-    """Yield the changes that are tried in pairs: signs, swaps and factors on the whole."""
+    """Yield the changes that are tried in pairs: signs, swaps and factors on a whole side."""
     groups = (_signs(expr), _swapped(expr, tuple(swaps), units or {}), _whole_factors(expr))
     return _distinct(expr, chain(*groups))
 

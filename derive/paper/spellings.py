@@ -50,7 +50,7 @@ PROPOSALS = {
     "Delta_q": ("", "change in the shear traction", "Pa", "stress", ""),
     "Delta_K_T": (
         "",
-        "change of the coefficient of 1/sqrt(s) in the shear traction",
+        "change in the coefficient of 1/sqrt(s) in the shear traction",
         "Pa*sqrt(m)",
         "factor|multiplier|intensity",
         "",

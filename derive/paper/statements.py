@@ -2,7 +2,7 @@ r"""Split a display into statements: layout commands are dropped, chains and lis
 
 a = b = c          a = b and a = c
 a < b = c          a < b and b = c
-u, v   u and v     u and v, if each has its own relation; a wide space also divides
+u, v   u and v     u and v, if each has its own relation; a wide space also divides them
 \pm, \mp           the equation with the upper signs, then with the lower signs
 u for v            u under the condition v; an inequality after an equation is also a condition
 u + O(s^2)         u without the remainder, which is of the order 2 as s -> 0
@@ -53,7 +53,7 @@ _UNDER = re.compile(
     r"\s*\{?\s*(\\(?:sim|simeq|approx|cong)(?![A-Za-z])|=)\s*\}?"
 )
 _DECIMAL_COMMA = re.compile(r"(?<![\d.])(0|\d+(?=\{,\}(?!\d{3}(?!\d))))\{,\}(\d+)")
-"""A decimal comma.  Before three digits it may also divide thousands, unless 0 stands before it."""
+"""A decimal comma.  Before three digits it may also separate thousands, unless 0 precedes it."""
 _ALIKE = {
     r"\lvert": "|",
     r"\rvert": "|",
@@ -88,7 +88,7 @@ _STARS = frozenset((r"\ast", r"\star"))
 _PRINCIPAL = frozenset(("pv", "p.v", "p. v", "cpv"))
 _ROUGHLY = frozenset((r"\sim", r"\simeq", r"\approx", r"\cong"))
 _NEVER = {
-    r"\propto": r"\propto does not give the factor: write the equation with it",
+    r"\propto": r"\propto does not give the factor: write the equation with the factor",
     r"\to": r"\to does not form an equation: write \sim, or as text, limit(f, x, end) = ...",
     r"\ll": r"\ll does not form an equation: give the limit in `as` of the other claims",
     r"\gg": r"\gg does not form an equation: give the limit in `as` of the other claims",
@@ -123,7 +123,7 @@ _FRACTIONS = (r"\frac", r"\dfrac", r"\tfrac")
 _OPENING, _CLOSING = frozenset(("(", "{", "[", r"\begin{cases}")), frozenset(")}]")
 _CLOSED = _CLOSING | {r"\end{cases}"}
 _JOINING = frozenset(("+", "-", "/", "*", r"\cdot", r"\times", r"\pm", r"\mp")) | _RELATIONS
-"""Tokens after which, or before which, an expression goes on."""
+"""Tokens after which, or before which, an expression continues."""
 
 
 @dataclass(frozen=True)
@@ -166,9 +166,9 @@ def statements(where: str, latex: str) -> list[Statement]:
             parts[-1].require([*more, *part.condition], part.joint)
         elif part.tokens or part.condition:
             if part.joint == _IMPLIES and parts and not parts[-1].is_equation():
-                part.why = "it follows from a condition: write the condition as require"
+                part.why = "it follows from a condition: write the condition in `require`"
             if part.joint == _EQUIVALENT and parts:
-                why = "equivalent statements may be false together: write what holds as text"
+                why = "equivalent statements may both be false: write, as text, the one that holds"
                 part.why = parts[-1].why = why
             parts.append(part)
     parts = _with_fragments(parts)
@@ -647,7 +647,7 @@ def _fault(relation: str, left: list[str], right: list[str], rest: list[str]) ->
         )
     if not left or not right:
         side = "right" if left else "left"
-        return f"nothing stands to the {side} of {relation}: write both sides"
+        return f"there is nothing to the {side} of {relation}: write both sides"
     if _SMALLER in (*left, *right):
         return "a remainder o(...) has no order: write the equation with \\sim and its limit"
     if rest and relation in _ORDERED:
@@ -689,7 +689,7 @@ def _of_example(side: list[str], chain: list[str]) -> str:
     letters = any(_is_text(t) or t in GREEK or (len(t) == 1 and t.isalpha()) for t in side)
     if not words or letters:
         return ""
-    return f"numbers with the words {words!r} are an example: write it as text, without symbols"
+    return f"numbers with the words {words!r} are an example: write them as text, without symbols"
 
 
 def _with_rest(made: Statement, rest: list[str], condition: list[str]) -> Statement:

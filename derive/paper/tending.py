@@ -60,7 +60,7 @@ class Approach:
         if len({verdict for verdict, _ in results.values()}) == 1:
             return next(iter(results.values()))
         each = "; ".join(f"if {name} moves, {why}" for name, (_, why) in results.items())
-        why = f"as does not say which variable moves: {each}; name this variable, as in x -> 0"
+        why = f"`as` does not say which variable moves: {each}; name this variable, as in x -> 0"
         return Verdict.UNCHECKED, why
 
     def is_true(self, look: LookAtClock) -> bool:

@@ -4,7 +4,7 @@ In:   the path of a file, or of a folder with several.
 Out:  the Paper with all claims, and the readings that wait for the user.
 
     title = "..."
-    seconds = 30                      # time limit of reading, of a verdict and of a correction
+    seconds = 30                      # time limit for reading, for a verdict and for a correction
     body = "hertz"                    # its formulas may be called, such as load(a, c);
     # body = { g = "x**2/(2*R)", units = { R = "m" } }    or another body, or a geometry file
 
@@ -30,7 +30,7 @@ Out:  the Paper with all claims, and the readings that wait for the user.
     require = "b < w and x > 0"                # the conditions under which it is stated
     as = "c - x -> 0"                          # the ratio left/right tends to 1; or, with
     order = 1.5                                #   `order`, left - right is of this order
-    given = ["(8)", "(11)"]                    # claims symbol = ... that are taken as true
+    given = ["(8)", "(11)"]                    # claims of the form symbol = ..., taken as true
     conventions = [{ what = "...", symbols = { ... }, contradicts = "..." }]
     ranges = { t = [0.4, 0.9] }                # ranges of variables in this claim
     through = "p = integral(h, s, 0, c)"       # the equation by which h = ... is judged
@@ -82,9 +82,9 @@ _LARGEST = 200_000
 _MOST = 500
 """The largest number of claims in a file."""
 _DEEPEST = 8
-"""The number of levels of tables and lists that every claims file can do with."""
+"""The number of levels of tables and lists that is enough for every claims file."""
 _SECONDS = 30.0
-"""The default time limit for reading a claim, its verdict and its correction, in seconds."""
+"""The default time limit for reading a claim, for its verdict and its correction, in seconds."""
 _MOST_SECONDS = 86_400
 _KEYS = frozenset({"title", "seconds", "body", "variables", "symbols", "latex", "claims", "signs"})
 

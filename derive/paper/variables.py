@@ -59,7 +59,7 @@ class Variables:
 
     @cached_property
     def file(self) -> Context:
-        """The context of the file's body; all variables must be declared before."""
+        """The context of the file's body; all variables must have been declared."""
         return self._context(self.body)
 
     def _context(self, body: Body | None) -> Context:

@@ -53,9 +53,9 @@ Result = TypeVar("Result")
 _SCREENED = 3
 """Number of points at which a correction is screened before it is judged in full."""
 _DRAWN = 16
-"""Number of points from which they are chosen."""
+"""Number of points from which those points are chosen."""
 _MORE_DRAWN = 4
-"""How often more points are drawn if a side was not a real number."""
+"""Number of times that more points are drawn if a side was not a real number."""
 _OFF = 6
 """Number of points on either side of a bound."""
 

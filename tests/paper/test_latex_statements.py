@@ -132,7 +132,7 @@ def test_what_is_read(latex: str, texts: str) -> None:
         (r"y = 1,5 a", "5 a stands without a relation"),
         (r"x_1, x_2 = e", "x_1 stands without a relation"),
         (r"a = b, c, d = e", "c stands without a relation"),
-        (r"y = 1{,}500 a", "whether this comma divides thousands"),
+        (r"y = 1{,}500 a", "whether this comma separates thousands"),
         (r"P = c [1 + O(a/R)]", "only understood as the last term"),
         (r"P = c + \mathcal{O}(a/R)", "the remainder of order a / R is not understood"),
         (r"P < c + O(a)", "an inequality with a remainder"),
@@ -140,7 +140,7 @@ def test_what_is_read(latex: str, texts: str) -> None:
         (r"P \propto a^2", r"\propto does not give the factor"),
         (r"W \to a^2", r"\to does not form an equation"),
         (r"a \ll R", r"\ll does not form an equation"),
-        ("= b", "nothing stands to the left of ="),
+        ("= b", "there is nothing to the left of ="),
         (r"y = e^{-x/a}", "whether e is a symbol here"),
         (r"y = \sin x y", "the end of the function's argument is unclear"),
         (r"y = \sin\omega\, t", "the end of the function's argument is unclear"),
@@ -199,7 +199,7 @@ def test_conditions_limits_and_words_are_kept(
         (r"a = b \text{ for small } x", "its condition"),
         (r"a = b \quad \text{otherwise}", "its condition"),
         (r"a \sim b, x \to 0, c \to 1", "it holds in several limits"),
-        (r"a = b + O(x^2), \quad c \to 0", "its remainder is small with x"),
+        (r"a = b + O(x^2), \quad c \to 0", "its remainder tends to zero with x"),
         (r"a = b + \ldots", "it is an approximation"),
     ],
 )
@@ -214,7 +214,7 @@ def test_what_follows_from_a_condition_is_not_read(tmp_path: Path) -> None:
     assert first["understood"] == "x > 0"
     assert "it follows from a condition" in str(second["unchecked"])
     both = claims(tmp_path, r"\[ a = b \iff c = d \]")
-    assert all("may be false together" in str(each["unchecked"]) for each in both)
+    assert all("may both be false" in str(each["unchecked"]) for each in both)
     assert not any("understood" in each for each in both)
 
 
