@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 from sympy import Integral, Symbol, elliptic_k, pi, sqrt, symbols
 
 from derive.cli import main
-from derive.errors import BadClaimsFile, BadFormula, NotAccepted, UserError
+from derive.errors import BadFormula
 from derive.paper.claim_table import OF_A_CLAIM
 from derive.paper.formula import Names, equation, formula
 from derive.paper.latex import Latex
@@ -667,7 +667,3 @@ def test_what_can_be_judged_is_judged_and_the_symbol_to_define_is_named(tmp_path
 def test_the_page_lists_every_key_of_a_claim() -> None:
     listed = set(re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`.*?) \|", PAGE, re.MULTILINE))))
     assert listed >= OF_A_CLAIM
-
-
-def test_every_mistake_is_a_user_s() -> None:
-    assert all(issubclass(kind, UserError) for kind in (BadClaimsFile, BadFormula, NotAccepted))
