@@ -62,15 +62,30 @@ def demand_contacts(states: Sequence[Any], labels: Sequence[str]) -> None:
         )
 
 
-def demand_numbers(**given: Array) -> None:
+def real_numbers(name: str, values: Array) -> Array:
+    """The values as an array of floating-point numbers; text and other objects are refused."""
+    try:
+        found = np.asarray(values)
+    except ValueError:  # rows of different lengths
+        found = np.asarray(None)
+    if found.dtype.kind not in "iuf":
+        raise ValueError(f"{name} is {values!r:.60}; give real numbers only")
+    return found.astype(float)
+
+
+MANY = (
+    "but only one half-cycle can be drawn; give a finite number, or draw a map of many half-cycles "
+    "with `sweep`"
+)
+
+
+def demand_numbers(remedy: str = MANY, /, **given: Array) -> None:
     """Demand finite numbers, not arrays; the keywords are the names of the arguments."""
     for name, value in given.items():
-        if np.ndim(value) or not np.isfinite(value):
-            what = f"an array of shape {np.shape(value)}" if np.ndim(value) else f"{value}"
-            raise ValueError(
-                f"{name} is {what}, but only one half-cycle can be drawn; give a finite number, or "
-                "draw a map of many half-cycles with `sweep`"
-            )
+        shape = real_numbers(name, value).shape
+        if shape or not np.isfinite(value):
+            what = f"an array of shape {shape}" if shape else f"{value}"
+            raise ValueError(f"{name} is {what}, {remedy}")
 
 
 def demand_signs(dQ: float, f: float) -> None:
@@ -87,14 +102,45 @@ def demand_signs(dQ: float, f: float) -> None:
 
 def demand_row(name: str, values: Array) -> None:
     """Demand at least two finite values in an array of one dimension."""
-    shape = np.shape(values)
+    values = real_numbers(name, values)
+    shape = values.shape
     if len(shape) != 1 or shape[0] < 2:
         raise ValueError(
             f"{name} has the shape {shape}; give an array of one dimension with at least two "
             "values, such as np.linspace(0, 1, 101)"
         )
+    demand_finite(name, values)
+
+
+def demand_finite(name: str, values: Array) -> None:
+    """Demand finite values."""
     if not np.all(np.isfinite(values)):
         raise ValueError(f"{name} contains NaN or infinite values; give finite values only")
+
+
+def demand_increasing(name: str, values: Array, remedy: str) -> None:
+    """Demand that each value be larger than the one before it."""
+    wrong = np.flatnonzero(~(np.diff(values) > 0))
+    if wrong.size:
+        i = wrong[0]
+        raise ValueError(
+            f"{name} must increase, but {values[i + 1]:g} follows {values[i]:g} at index {i + 1}; "
+            f"{remedy}"
+        )
+
+
+def times(time: Array | None, default: Array) -> Array:
+    """The time of each instant, or the default; the times must be finite and increase."""
+    if time is None:
+        return default
+    at = real_numbers("time", time)
+    if at.shape != default.shape:
+        raise ValueError(
+            f"time has the shape {at.shape}; give one time for each of the {default.size} instants"
+        )
+    demand_finite("time", at)
+    demand_increasing("time", at, "give the times of successive instants")
+    return at
 
 
 def demand_fitting(shape: tuple[int, ...], **given: Array) -> None:

@@ -5,6 +5,7 @@ positions.
 """
 
 from collections.abc import Sequence
+from itertools import compress
 from types import ModuleType
 from typing import Any
 
@@ -13,7 +14,7 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
-from derive.plot.given import demand_row
+from derive.plot.given import demand_increasing, demand_numbers, demand_row, times
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import COLOURS, FORWARD, REVERSE, STICK, style, subplots
 from derive.plot.tractions import band, key_above, typical
@@ -22,11 +23,18 @@ from derive.plot.zones import AREAS, key, widened
 STILL = 1e-9
 """Slip below this fraction of the largest slip is treated as zero."""
 
+ROUNDING = 1e-6
+"""Allowance for rounding: of an edge relative to the contact width, of shear relative to f p."""
+
+SHORT = 1e-3
+"""If shear falls short of f p by more than this fraction wherever the surfaces slip, it does not
+belong to this f p."""
+
 KINDS = {"stick": STICK, "forward slip": FORWARD, "reverse slip": REVERSE}
 
 
-def _demand_history(history: Any, x: Array) -> None:
-    """Demand one history, with shear and slip at the positions x."""
+def _positions(history: Any, x: Array) -> Array:
+    """The positions x; demand one history with shear and slip at these positions."""
     if not (hasattr(history, "slip") and hasattr(history, "intervals")):
         raise ValueError(
             f"history is {history!r:.60}, which is not a History; give a result of `history`"
@@ -46,21 +54,30 @@ def _demand_history(history: Any, x: Array) -> None:
             f"history contains {given}, but slip at the {np.size(x)} positions of x is needed; "
             "give the same x to `history`"
         )
+    x = np.asarray(x, dtype=float)
+    demand_increasing("x", x, "sort x, for example by np.unique(x), and give it to `history` again")
+    _demand_same(history, x)
+    return x
+
+
+def _demand_same(history: Any, x: Array) -> None:
+    """Demand no shear outside the contact, and slip at all points in it if there is any."""
+    a, c = history.a[:, None], history.c[:, None]
+    depth = np.minimum(x + a, c - x) / (a + c)
+    shear = (depth < -ROUNDING) & (np.abs(history.q) > 0)
+    known = np.isfinite(history.slip)
+    wrong = shear | ((depth > ROUNDING) & ~known & np.any(known, axis=1, keepdims=True))
+    for i, j in np.argwhere(wrong)[:1]:
+        where, what = ("outside", "shear") if shear[i, j] else ("inside", "no slip")
+        raise ValueError(
+            f"x is not the x of history: at instant {i}, {x[j]:g} m is {where} the contact, but "
+            f"history contains {what} there; give the same x to `history`"
+        )
 
 
 def _times(history: Any, time: Array | None) -> Array:
     """The time of every instant; 0, 1, 2, ... by default."""
-    at = (
-        np.arange(np.size(history.a), dtype=float)
-        if time is None
-        else np.asarray(time, dtype=float)
-    )
-    if at.shape != np.shape(history.a):
-        raise ValueError(
-            f"time has the shape {at.shape}; give one time for each of the {np.size(history.a)} "
-            "instants"
-        )
-    return at
+    return times(time, np.arange(np.size(history.a), dtype=float))
 
 
 def _steps(history: Any) -> Array:
@@ -83,14 +100,19 @@ def slip_map(
     can be seen.
 
     history  a result of `history` of a generated module, for one history
-    x        the positions that were given to `history`; about two hundred make a smooth map
-    time     the time of each instant; 0, 1, 2, ... by default
+    x        the positions that were given to `history`, which must increase; about two hundred
+             make a smooth map
+    time     the time of each instant, which must increase; 0, 1, 2, ... by default
     axes     Axes to draw into; new ones by default
     length   the unit of x; a suitable one by default
     legend   whether to draw a legend
     """
-    _demand_history(history, x)
-    at, x = _times(history, time), np.asarray(x, dtype=float)
+    x, at = _positions(history, x), _times(history, time)
+    if at.size < 2:
+        raise ValueError(
+            "history has one instant, but a map shows the slip between instants; give a history "
+            "of at least two instants"
+        )
     length = length or unit(np.append(history.a, history.c), "m")
     step = _steps(history)
     most = np.max(np.abs(step), initial=0.0, where=np.isfinite(step))
@@ -141,12 +163,57 @@ def slip_map(
 
 def _bounds(body: ModuleType, history: Any, x: Array, f: float, constants: Any) -> Array:
     """f p at all positions and instants; NaN at a corner, where p is infinite."""
+    demand_numbers("but one history has one value; give a finite number", f=f, **constants)
     if not f > 0:
         raise ValueError(
             f"f is {f}; give the positive coefficient of friction that was given to `history`"
         )
-    p = body.pressure(np.asarray(x), history.a[:, None], history.c[:, None], **constants)
-    return np.where(np.isfinite(p), f * p, np.nan)
+    bound = f * body.pressure(x, history.a[:, None], history.c[:, None], **constants)
+    _demand_friction(history, x, bound)
+    return np.where(np.isfinite(bound), bound, np.nan)
+
+
+def _demand_friction(history: Any, x: Array, bound: Array) -> None:
+    """Demand that shear exceed f p nowhere, and reach it at a point that slips, if there is any.
+
+    All points slip that are outside [-m, n] by more than the error; on elements, a single one of
+    them may stick.
+    """
+    a, c, m, n, error = (
+        v[:, None] for v in (history.a, history.c, history.m, history.n, history.error)
+    )
+    shear, finite = np.abs(history.q), np.isfinite(bound)
+    most = bound + ROUNDING * (bound + np.max(bound, initial=0.0, where=finite))
+    slips = np.maximum(-m - x, x - n) > (error + ROUNDING) * (a + c)
+    slips &= (np.minimum(x + a, c - x) > ROUNDING * (a + c)) & finite
+    wrong = np.isfinite(shear) & ~(shear <= most)
+    if np.all(shear[slips] < (1 - SHORT) * bound[slips]):
+        wrong |= slips
+    for i, j in np.argwhere(wrong)[:1]:
+        must = "must equal f p where the surfaces slip" if slips[i, j] else "must not exceed f p"
+        raise ValueError(
+            f"history does not fit this body, f and constants: at instant {i} and x = {x[j]:g} m, "
+            f"|q| is {shear[i, j]:g} Pa and f p is {bound[i, j]:g} Pa, but |q| {must}; give the "
+            "body, f, constants and x that were given to `history`"
+        )
+
+
+def _demand_indices(at: Sequence[int], count: int) -> None:
+    """Demand a sequence of at least one index of an instant."""
+    found = np.asarray(at, dtype=object)
+    whole = all(isinstance(i, int | np.integer) and not isinstance(i, bool) for i in found.flat)
+    if found.ndim != 1 or not found.size or not (whole and all(-count <= i < count for i in found)):
+        raise ValueError(
+            f"`at` is {at!r:.60}; give a list of at least one index from {-count} to {count - 1}, "
+            f"because history has {count} instants"
+        )
+
+
+def _note(axes: Axes, why: str, names: Sequence[str], missing: Array) -> None:
+    """Write in the picture which of the curves are missing, and why."""
+    if np.any(missing):
+        text = f"{why}: {', '.join(compress(names, missing))}"
+        axes.text(0.02, 0.015, text, transform=axes.transAxes)
 
 
 def instants(
@@ -176,13 +243,8 @@ def instants(
     stress      the unit of the shear traction; a suitable one by default
     constants   E_star and the parameters of the body
     """
-    _demand_history(history, x)
-    x, count = np.asarray(x, dtype=float), np.size(history.a)
-    if not len(at) or not all(-count <= i < count for i in at):
-        raise ValueError(
-            f"`at` is {list(at)}; give at least one index from {-count} to {count - 1}, because "
-            f"history has {count} instants"
-        )
+    x, count = _positions(history, x), np.size(history.a)
+    _demand_indices(at, count)
     if labels and len(labels) != len(at):
         raise ValueError(
             f"{len(labels)} labels are given for {len(at)} instants; give one for each, or none"
@@ -196,13 +258,18 @@ def instants(
     with style():
         if axes is None:
             _, axes = subplots(2, 1, size=(5.6, 5.0), sharex=True)
-        for number, (i, limit) in enumerate(zip(at, chosen, strict=True)):
-            name = labels[number] if labels else f"instant {range(count)[i]}"
+        names = list(labels) or [f"instant {range(count)[i]}" for i in at]
+        for number, (i, name, limit) in enumerate(zip(at, names, chosen, strict=True)):
             if number == 0 or not np.allclose(limit, chosen[0], equal_nan=True):
                 band(axes[0], length(x), stress(limit), "" if number else r"$\pm f\,p$")
             axes[0].plot(length(x), stress(history.q[i]), label=name)
             axes[1].plot(length(x), depth(slip[i]))
-        highest = 1.15 * float(np.nanmax(typical(stress(np.ravel(chosen)))))
+        _note(axes[0], "no contact", names, [np.isnan(history.a[i]) for i in at])
+        if np.any(touching):
+            _note(axes[1], "slip not known", names, [np.all(np.isnan(slip[i])) for i in at])
+        else:
+            _note(axes[1], "slip not drawn", ["no point is in contact at all instants"], [True])
+        highest = 1.15 * float(np.max(typical(stress(np.ravel(chosen))), initial=0.0)) or 1.0
         axes[0].set(ylabel=stress.label("q"), ylim=(-highest, highest))
         axes[1].set(xlabel=length.label("x"), ylabel=depth.label("s"))
         key_above(axes[0])
@@ -219,8 +286,7 @@ def friction_work(
     The sum is exact if, between two instants, slip has one direction and the pressure is constant.
     For the arguments, see `instants`.
     """
-    _demand_history(history, x)
-    bound = _bounds(body, history, x, f, constants)
+    bound = _bounds(body, history, _positions(history, x), f, constants)
     step = np.abs(_steps(history))
     still = step == 0
     return np.sum(np.where(still, 0.0, (bound[1:] + bound[:-1]) / 2 * step), axis=0)
@@ -274,8 +340,8 @@ def film(
 
     For the other arguments, see `instants`, and for `time`, see `slip_map`.
     """
-    _demand_history(history, x)
-    at, bound = _times(history, time), _bounds(body, history, x, f, constants)
+    x, at = _positions(history, x), _times(history, time)
+    bound = _bounds(body, history, x, f, constants)
     length, stress = length or unit(x, "m"), stress or unit(typical(np.ravel(bound)), "Pa")
     position, highest = length(x), 1.15 * float(np.nanmax(typical(stress(np.ravel(bound)))))
     step = np.vstack([np.zeros(np.size(x)), _steps(history)])
@@ -304,7 +370,8 @@ def film(
             for area, sign in zip(areas, (1, -1), strict=True):
                 slips = (sign * step[i] > STILL * most) & (bound[i] > 0)
                 area.set_data(position, -stress(bound[i]), stress(bound[i]), where=slips)
-            caption.set_text(f"instant {i}" if time is None else f"$t$ = {at[i]:.3g}")
+            name = f"instant {i}" if time is None else f"$t$ = {at[i]:.3g}"
+            caption.set_text(name if np.isfinite(history.a[i]) else f"{name}: no contact")
         return [upper, lower, shear, *areas, caption]
 
     figure: Any = axes.figure

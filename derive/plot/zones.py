@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 
-from derive.plot.given import demand_fitting, demand_row
+from derive.plot.given import demand_fitting, demand_row, times
 from derive.plot.measure import Array, Measure, unit
 from derive.plot.style import FORWARD, LINES, REVERSE, STICK, style, subplots
 
@@ -54,11 +54,7 @@ def stick_slip(
             f"cycle has the shape {a.shape}, but only one cycle can be drawn; select one of them, "
             "for example by March(*(v[0] for v in cycle))"
         )
-    at = np.linspace(0, 1, a.size) if time is None else np.asarray(time, dtype=float)
-    if at.shape != a.shape:
-        raise ValueError(
-            f"time has the shape {at.shape}; give one time for each of the {a.size} instants"
-        )
+    at = times(time, np.linspace(0, 1, a.size))
     axes = _map(at, _Zones(*(np.asarray(v) for v in cycle)), axes, length, legend)
     axes.set_xlabel("$t$  [cycles]" if time is None else "$t$")
     return axes

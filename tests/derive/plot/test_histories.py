@@ -1,5 +1,6 @@
 """Pictures of histories hold what `history` gives, and refuse what they cannot draw."""
 
+from functools import partial
 from typing import Any
 
 import matplotlib
@@ -10,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from derive import plot
 from derive.plot.style import FORWARD, REVERSE, STICK
-from generated import hertz
+from generated import flat_rounded, hertz, wedge
 from generated.runtime.types import History
 
 STEEL = {"E_star": 115e9, "R": 0.05}
@@ -103,6 +104,10 @@ TWO = History(*(np.stack([v, v]) for v in WHOLE))
     [
         *((WHOLE, X[:9], "give the same x"), (NO_PLACES, X, "history contains no slip")),
         *((TWO, X, "only one history"), (WHOLE, X[:, None], "an array of one dimension")),
+        *((WHOLE, X[::-1], "x must increase, but .* at index 1; sort x"), (WHOLE, "x", "x is 'x'")),
+        (WHOLE, X + 0.3 * EDGE, "x is not the x of history: .* inside the contact, but .* no slip"),
+        (WHOLE, 1.3 * X, "x is not the x of history: .* outside the contact, but .* shear"),
+        (WHOLE, [X, X[:9]], "give real numbers only"),
         (hertz.contact(P, 0.0, **STEEL), X, "not a History"),
     ],
 )
@@ -113,12 +118,78 @@ def test_what_cannot_be_drawn_is_refused(history: Any, x: Any, words: str) -> No
         plot.work(hertz, history, x, **FRICTION)
 
 
-def test_instants_times_and_friction_are_checked() -> None:
-    with pytest.raises(ValueError, match="one time for each"):
-        plot.slip_map(WHOLE, X, [0.0, 1.0])
-    with pytest.raises(ValueError, match="history has 6 instants"):
-        plot.instants(hertz, WHOLE, X, [6], **FRICTION)
+@pytest.mark.parametrize(
+    ("time", "words"),
+    [
+        *(([0.0, 1.0], "one time for each of the 6"), ("abc", "time is 'abc'; give real numbers")),
+        *((np.full(6, np.nan), "time contains NaN"), (-np.arange(6), "time must increase")),
+        ([0, 1, 2, 1, 2, 3], "time must increase, but 1 follows 2 at index 3"),
+        ([0, 0, 1, 2, 3, 4], "time must increase, but 0 follows 0 at index 1"),
+    ],
+)
+def test_times_are_those_of_successive_instants(time: Any, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        plot.slip_map(WHOLE, X, time)
+    with pytest.raises(ValueError, match=words):
+        plot.film(hertz, WHOLE, X, time, **FRICTION)
+
+
+@pytest.mark.parametrize("at", [[6], [-7], [], 3, [3.5], [True], "1", [[1], [2]], [[1, 2], [3]]])
+def test_instants_are_chosen_by_a_list_of_indices(at: Any) -> None:
+    with pytest.raises(ValueError, match=r"`at` is .*from -6 to 5, because history has 6 instants"):
+        plot.instants(hertz, WHOLE, X, at, **FRICTION)
+
+
+@pytest.mark.parametrize(
+    ("body", "given", "words"),
+    [
+        *((hertz, {"f": 0}, "f is 0"), (hertz, {"f": "a"}, "f is 'a'; give real numbers")),
+        *(
+            (hertz, {"f": np.nan}, "f is nan"),
+            (hertz, {"E_star": [1e9, 2e9]}, "E_star is an array"),
+        ),
+        (hertz, {"f": np.array([0.5, 0.4])}, r"f is an array of shape \(2,\).* one value"),
+        (hertz, {"f": 0.1}, "does not fit this body, f and constants: at instant 1 and x = "),
+        (hertz, {"f": 0.51}, "must equal f p where the surfaces slip; give the body, f, constants"),
+        (hertz, {"E_star": 0.9 * STEEL["E_star"]}, "at instant 1 .* must equal f p"),
+        (hertz, {"R": 0.049}, "does not fit this body"),
+        (wedge, {"R": None, "phi": 0.01}, "does not fit this body"),
+        (flat_rounded, {"b": 2 * EDGE}, "f p is nan Pa, but .* must not exceed f p"),
+    ],
+)
+def test_friction_is_that_of_the_history(body: Any, given: dict[str, Any], words: str) -> None:
+    law = {key: value for key, value in {**FRICTION, **given}.items() if value is not None}
+    for draw in (plot.film, plot.work, partial(plot.instants, at=[1])):
+        with pytest.raises(ValueError, match=words):
+            draw(body, WHOLE, X, **law)
+
+
+def test_labels_and_the_number_of_instants_are_checked() -> None:
     with pytest.raises(ValueError, match="1 labels are given for 2"):
         plot.instants(hertz, WHOLE, X, [1, 2], ["one"], **FRICTION)
-    with pytest.raises(ValueError, match="f is 0"):
-        plot.film(hertz, WHOLE, X, f=0, **STEEL)
+    with pytest.raises(ValueError, match="history has one instant, but a map"):
+        plot.slip_map(History(*(v[:1] for v in WHOLE)), X)
+
+
+def notes(of: Any) -> list[list[str]]:
+    return [[text.get_text() for text in axes.texts] for axes in of]
+
+
+def test_an_empty_panel_says_why() -> None:
+    """The contact is lost at the third instant, and slides at the third instant of the second."""
+    lost = hertz.history([P, P, -P], 0.0, [0, F * P / 2, 0], 0.0, x=X, **FRICTION)
+    nowhere = "slip not drawn: no point is in contact at all instants"
+    assert notes(plot.instants(hertz, lost, X, [2], **FRICTION)) == [
+        ["no contact: instant 2"],
+        [nowhere],
+    ]
+    assert notes(plot.instants(hertz, lost, X, [1, -1], ["on", "off"], **FRICTION)) == [
+        ["no contact: off"],
+        [nowhere],
+    ]
+    slides = hertz.history(P, 0.0, [0, F * P / 2, F * P], 0.0, x=X, **FRICTION)
+    assert notes(plot.instants(hertz, slides, X, [1, 2], **FRICTION)) == [
+        [],
+        ["slip not known: instant 2"],
+    ]
+    assert notes(plot.instants(hertz, WHOLE, X, [1, 2], **FRICTION)) == [[], []]
