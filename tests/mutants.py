@@ -144,6 +144,9 @@ def main() -> int:
     parser.add_argument("--only", default="", help="part of a file, a line or an expression")
     given = parser.parse_args()
     mutants = chosen(given.count, given.only)
+    same = mutants[0]._replace(text=mutants[0].path.read_text(encoding="utf-8"))
+    if by := caught(same):
+        sys.exit(f"no fault is needed: {by} fails as it is; run `make` and `make test` first")
     survivors = 0
     with ThreadPoolExecutor(given.jobs) as pool:
         for mutant, by in zip(mutants, pool.map(caught, mutants), strict=True):

@@ -560,10 +560,10 @@ def march(
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
         instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
         loads are not in proportion at every instant, to 1e-6 of their change), NOT_CLOSED (the
-        last instant does not lead back to the first), SLIDING (|Q| >= f P at some instant),
-        NO_STICK (no stick zone can hold the mean of Q, to 1e-3 of f P) or NONE (a contact does
-        not exist).  Use steady_cycle for cycles out of phase, and history for load histories that
-        are not cycles.
+        step from the last instant back to the first is at least 99 % of the whole change, as in a
+        first loading), SLIDING (|Q| >= f P at some instant), NO_STICK (no stick zone can hold the
+        mean of Q, to 1e-3 of f P) or NONE (a contact does not exist).  Use steady_cycle for
+        cycles out of phase, and history for load histories that are not cycles.
 
     Notes
     -----

@@ -33,11 +33,12 @@ class Regime(IntEnum):
                 under constant normal loads if forward slip finally overtakes the reversed slip, or
                 if `mixed=True` makes stick_zone solve the cycle
     SLIDING     nothing sticks: m and n are NaN
-    FULL_STICK  nothing slips: m and n are the edges of the smaller contact
-    UNSOLVED    the iteration did not converge, the tilts do not determine the edges, or the phases
-                of a mixed cycle were not found: m and n are NaN
+    FULL_STICK  nothing slips: m and n are the smallest a and c of all contacts on the way
+    UNSOLVED    the iteration did not converge, the tilts do not determine the edges, the phases of
+                a mixed cycle were not found, or a contact rolled in from far away, so that its
+                shear is not known: m and n are NaN
     OUT_OF_PHASE  the loads of a march are not in proportion at every instant: NaN at all instants
-    NOT_CLOSED  the instants of a march do not form a closed cycle: NaN at all instants
+    NOT_CLOSED  the instants of a march are those of a first loading: NaN at all instants
     COMPUTED    solved on elements, with an estimate of the error
     NO_STICK    every point slips at some time, although the contact never slides, because no stick
                 zone can hold the mean shear load: m and n are NaN
@@ -106,6 +107,7 @@ class History(NamedTuple):
                are exact
     work_error estimated error of work; its difference between two instants is the estimated error
                of the work done between them
+    slip_error estimated error of slip, the largest in the contact
     """
 
     a: Array
@@ -119,6 +121,7 @@ class History(NamedTuple):
     work: Array
     error: Array
     work_error: Array
+    slip_error: Array
 
 
 class SteadyCycle(NamedTuple):
@@ -135,6 +138,8 @@ class SteadyCycle(NamedTuple):
     error       estimated error of m and n alone, relative to the contact width; 0 if they are
                 exact, inf if slip does not repeat to 1e-6 within 100 rounds
     work_error  estimated error of work, which is always computed numerically
+    slip_error  estimated error of the slip range, the largest in the smallest contact
+    shear_error estimated error of q, on average over the contact
     """
 
     m: Array
@@ -147,3 +152,5 @@ class SteadyCycle(NamedTuple):
     drift: Array
     error: Array
     work_error: Array
+    slip_error: Array
+    shear_error: Array

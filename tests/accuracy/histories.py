@@ -15,6 +15,7 @@ import numpy as np
 
 from generated import catenary, flat_rounded, hertz, rounded_wedge, wedge
 from generated.runtime.body import kernel_of
+from generated.runtime.history.public import FEATURES, ZONE
 from generated.runtime.types import Regime
 from tests.reference.bounded import NoSolution
 from tests.reference.friction import Friction
@@ -71,10 +72,10 @@ def on_elements(case: Case, loads: Any, tol: float = 1e-3, cycle: bool = False) 
     loads = np.array(np.broadcast_arrays(*loads), dtype=float)
     given = np.hstack([[F, tol, 0.0], loads.ravel()])[None]
     own = np.array([[case.own[parameter.name] for parameter in case.module._BODY.parameters]])
-    out = np.empty((1, 8 if cycle else 9 * loads.shape[1]))
+    out = np.empty((1, ZONE if cycle else FEATURES * loads.shape[1]))
     name = "each_cycle" if cycle else "each_history"
     kernel_of(f"history.solve.{name}")(case.module._BODY.law, given, own, out)
-    return out[0] if cycle else out.reshape(-1, 9)
+    return out[0] if cycle else out.reshape(-1, FEATURES)
 
 
 # ---------------------------------------------------------------- random histories

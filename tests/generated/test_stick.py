@@ -493,3 +493,23 @@ def test_large_tension_holds_at_every_part_of_the_way() -> None:
         for place, kappa in ((-zone.m, sense), (zone.n, -sense)):
             dq = wedge.shear_change(place, here, here, part * dQ, part * dsigma, **law)
             assert np.all((kappa * dq)[large] >= -1e-9)
+
+
+def test_an_edge_that_turns_round_on_the_way_leaves_the_smallest_contact() -> None:
+    """P from 1/2 to 2 at M = -1/r, r = sqrt(pi), cylinder with E* = R = 1: c = -M/P + 2 sqrt(P)/r
+    is 3/r at P = 1, where dc/dP = 0, and more at both ends; a = M/P + 2 sqrt(P)/r grows from
+    (sqrt(2) - 2)/r."""
+    r = np.sqrt(np.pi)
+    m, n = (np.sqrt(2) - 2) / r, 3 / r
+    own: dict[str, Any] = {"f": 0.5, "E_star": 1.0, "R": 1.0}
+    low, high = (hertz.contact(P, -1 / r, E_star=1.0, R=1.0) for P in (0.5, 2.0))
+    for zone in (hertz.stick_zone(*pair, 0.0, 0.0, **own) for pair in ((low, high), (high, low))):
+        assert zone.regime == Regime.FULL_STICK
+        assert_allclose((zone.m, zone.n), (m, n), rtol=1e-14)
+    assert np.isnan(hertz.slip_range(3.1 / r, low, high, 0.0, 0.0, **own))
+    for steps in (1, 7):
+        P = np.concatenate([np.linspace(2, 0.5, steps + 1), np.linspace(0.5, 2, steps + 1)[1:-1]])
+        found = hertz.steady_cycle(P, -1 / r, 0.0, 0.0, **own)
+        assert_allclose((found.m, found.n, found.error), (m, n, 0), rtol=1e-14)
+    states = hertz.march(P, -1 / r, 0.0, 0.0, **own)
+    assert np.all(np.diff(states.n[1:8]) <= 1e-15)  # what stuck since the reversal does not grow

@@ -73,7 +73,7 @@ def test_every_cycle_in_phase_is_answered_and_agrees_with_the_exact_one(body):
     case, rng, exact = CASES[body], np.random.default_rng(6), 0
     for _ in range(6):
         loads = in_phase(case, rng)
-        m, n, regime, _, _, _, error, _ = on_elements(case, loads, cycle=True)
+        m, n, regime, _, _, _, error, *_ = on_elements(case, loads, cycle=True)
         assert regime in (Regime.COMPUTED, Regime.FULL_STICK) and np.isfinite(error)
         known = case.module.steady_cycle(*loads, **case.constants)
         if known.regime in (Regime.MODERATE, Regime.LARGE):
@@ -127,3 +127,36 @@ def test_friction_takes_what_the_loads_give(body):
 def test_two_histories_under_the_same_loads_never_separate(body):
     loads = random_loads(CASES[body], np.random.default_rng(3), 7, True, False)
     assert contraction(CASES[body], loads) < 0.02
+
+
+@pytest.mark.parametrize("name", ["wedge", "flat_rounded"])
+def test_first_loadings_under_large_tension_are_half_of_a_steady_half_cycle(name):
+    """At constant P and M, Q and sigma from zero leave the zone of a cycle of 2 Q and 2 sigma."""
+    case, rng = CASES[name], np.random.default_rng(7)
+    ratio = []
+    for _ in range(60):
+        M = 0.06 * case.load * case.width * rng.uniform(-1, 1)
+        Q = 0.5 * case.load * rng.uniform(0.05, 0.6)
+        sigma = 2 * Q / case.width * rng.uniform(1.5, 4) * rng.choice([-1, 1])
+        here = case.module.contact(case.load, M, E_star=1.0, **case.own)
+        exact = case.module.stick_zone(here, here, 2 * Q, 2 * sigma, **case.constants)
+        if exact.regime == Regime.LARGE:
+            (found,) = on_elements(case, (case.load, M, [Q], sigma))
+            off = max(abs(found[2] - exact.m), abs(found[3] - exact.n)) / (here.a + here.c)
+            ratio.append(off / found[7])
+            assert off < 4e-3
+    assert len(ratio) > 20 and np.mean(np.array(ratio) < 1) >= 0.95
+
+
+@pytest.mark.parametrize(("dQ", "dsigma"), [(0.01, -0.09), (0.1, -0.9), (0.3, 0.1)])
+def test_the_slip_range_of_a_steady_cycle_is_known_to_the_stated_error(dQ, dsigma):
+    case, P, M = CASES["flat_rounded"], 1.0, -0.05
+    here = case.module.contact(P, M, E_star=1.0, **case.own)
+    x = -here.a + np.linspace(0.02, 0.98, 31) * (here.a + here.c)
+    for tol in (1e-2, 1e-3):
+        found = case.module.steady_cycle(
+            P, M, [dQ, 0.0, dQ], [dsigma, 0.0, dsigma], x=x, tol=tol, **case.constants
+        )
+        exact = case.module.slip_range(x, here, here, dQ, dsigma, **case.constants)
+        assert np.all(abs(found.slip_range - exact) <= found.slip_error)
+        assert found.slip_error < tol

@@ -215,6 +215,11 @@ def test_a_first_loading_is_no_cycle(rests):
     assert refused(march(wedge, P, 0.0, 0.0, sigma), Regime.NOT_CLOSED)
 
 
+def test_a_first_loading_that_overshoots_a_little_is_no_cycle():
+    Q = 0.1 * np.array([0, 0.2, 0.4, 0.8, 1, 0.995])
+    assert refused(march(wedge, 1.2, 0.0, Q, 0.0), Regime.NOT_CLOSED)
+
+
 def test_a_cycle_may_close_by_itself_or_lead_back_to_its_start():
     Q = np.linspace(0, 0.1, 5)
     there_and_back = np.concatenate([Q, Q[-2::-1]])

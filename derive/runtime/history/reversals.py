@@ -48,9 +48,8 @@ from .path import SIGMA, M, P, Q
 MODERATE, FULL_STICK = 1.0, 5.0
 """Codes of Regime."""
 
-FEATURES = 9
-"""Number of results of an instant, as in solve.py: a, c, m, n, intervals, regime, work, error and
-work_error."""
+FEATURES = 10
+"""Number of results of an instant, as in solve.py."""
 
 IN_PHASE = 1e-9
 """Largest difference between sigma and k Q, relative to the largest sigma."""

@@ -13,10 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels import LOOP, kernel, matrix, opened, real, results, truth, vector, whole
+from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, truth, vector, whole
 from ..shared import shared
+from ..slip.growth import narrowest
 from .elements import TERMS, influence, inverse_of
-from .path import INSTANT, SIGMA, A, C, Q, path
+from .path import INSTANT, SIGMA, A, C, M, P, Q, path
 from .steps import (
     BOUND,
     COMPUTED,
@@ -37,13 +38,15 @@ NO_STICK = 10.0
 """Another code of Regime: every point slips at some time, though the contact never slides."""
 
 SAMPLES = 24
-"""Number of points at which shear tractions on two meshes are compared."""
+"""Number of points at which shear tractions and slip on two meshes are compared."""
 
-FEATURES = 9
-"""Number of results of an instant: a, c, m, n, intervals, regime, work, error and work_error."""
+FEATURES = 10
+"""Number of results of an instant: a, c, m, n, intervals, regime, work, and the errors of m and n,
+of work and of slip."""
 
-ZONE = 8
-"""Number of results of a cycle: m, n, regime, work, rounds, drift, error and work_error."""
+ZONE = 10
+"""Number of results of a cycle: m, n, regime, work, rounds, drift, and the errors of m and n, of
+work, of slip and of the shear traction."""
 
 FEWEST = 64
 """Elements of the first mesh.  On a mesh with k times as many, a cycle takes at least k steps from
@@ -166,17 +169,18 @@ def history_on_mesh(
 ) -> Any:
     """A history on one mesh: one row per instant.
 
-    A row holds the features, q and slip at the points, and q at the samples.  `error` is only the
-    error of m and n due to the mesh, and work_error is NaN.
+    A row holds the features, q and slip at the points, and q and slip at the samples.  `error` is
+    only the error of m and n due to the mesh, and the other errors are NaN.
 
     progress[0] becomes the completed fraction of the work on all meshes, times -1.  A mesh with
     twice as many elements takes four times as long.
     """
     instants, asked = loads.shape[1], points.size
-    values = np.full((instants, FEATURES + 2 * asked + SAMPLES), math.nan)
+    values = np.full((instants, FEATURES + 2 * asked + 2 * SAMPLES), math.nan)
     values[:, 5] = NONE
-    rows = path(law, own, loads, f, REACH / count, max(count // (2 * FEWEST), 1), LAST)
-    touches = False
+    least = max(count // (2 * FEWEST), 1)
+    rows = path(law, own, loads, f, REACH / count, least, LAST)
+    touches, unknown = False, UNSOLVED if np.all(np.isfinite(loads)) else NONE
     for k in range(rows.shape[0]):
         touches = touches or rows[k, A] + rows[k, C] > 0
     if not (touches and f > 0):
@@ -191,20 +195,20 @@ def history_on_mesh(
         for i in range(4):
             lost = lost or not math.isfinite(row[i])
         if lost:
-            regime = NONE if regime != UNSOLVED else UNSOLVED
+            regime = unknown if regime != UNSOLVED else UNSOLVED
         elif (k == 0 or _move(row, last)) and regime != UNSOLVED:
             regime, more = step(law, own, series, f, ends, last, row, A_, B, z, state, room)
             work += more
             m, n, intervals, error = math.nan, math.nan, 0.0, 0.0
             if regime == COMPUTED:
-                m, n, intervals, slips = sticking(x, state, row[A], row[C])
+                m, n, intervals, slips, doubt = sticking(x, state, row[A], row[C], k <= least)
                 regime = FULL_STICK if slips == 0 else COMPUTED
-                error = _mesh_error(ends, m, n, row[A], row[C]) / (row[A] + row[C])
+                error = (_mesh_error(ends, m, n, row[A], row[C]) + doubt) / (row[A] + row[C])
         if row[INSTANT] < 0:
             continue
         here = values[int(row[INSTANT])]
         here[5] = regime
-        if not lost:
+        if not lost or unknown == UNSOLVED:
             here[0], here[1] = row[A], row[C]
         if regime in (UNSOLVED, NONE):
             continue
@@ -216,8 +220,26 @@ def history_on_mesh(
         for i in range(SAMPLES):
             u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
             point = -row[A] + u * (row[A] + row[C])
-            here[first + i], _ = at_point(law, own, series, f, ends, x, state, row, point)
+            here[first + i], slip = at_point(law, own, series, f, ends, x, state, row, point)
+            here[first + SAMPLES + i] = slip if work == work else math.nan
     return values
+
+
+@kernel(real(vector, vector, whole))
+def _of_slip(fine: Any, coarse: Any, first: int) -> float:
+    """The largest difference of slip at the samples, which begin at `first`."""
+    return float(np.max(np.abs(fine[first : first + SAMPLES] - coarse[first : first + SAMPLES])))
+
+
+@kernel(real(vector, vector, whole))
+def _of_shear(fine: Any, coarse: Any, first: int) -> float:
+    """The mean difference of shear traction at the samples, which begin at `first`."""
+    shear = total = 0.0
+    for i in range(SAMPLES):
+        weight = math.sin(math.pi * (i + 0.5) / SAMPLES)
+        shear += weight * abs(fine[first + i] - coarse[first + i])
+        total += weight
+    return shear / total
 
 
 @kernel(real(vector, vector, real, whole))
@@ -233,12 +255,7 @@ def _error(fine: Any, coarse: Any, mean: float, first: int) -> float:
             difference = 1.0
         error = max(error, difference if difference == difference else 0.0)
     error += fine[7]
-    shear = total = 0.0
-    for i in range(SAMPLES):
-        weight = math.sin(math.pi * (i + 0.5) / SAMPLES)
-        shear += weight * abs(fine[first + i] - coarse[first + i])
-        total += weight
-    return max(error, shear / total / mean)
+    return max(error, _of_shear(fine, coarse, first) / mean)
 
 
 @kernel(LOOP)
@@ -266,7 +283,8 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
                     here = fine[k]
                     mean = f * loads[0, k] / (here[0] + here[1])
                     here[7] = _error(here, coarse[k], mean, first)
-                    met = met and (here[7] <= tol or here[5] in (NONE, SLIDING))
+                    here[9] = _of_slip(here, coarse[k], first + SAMPLES)
+                    met = met and (here[7] <= tol or here[5] in (NONE, SLIDING, UNSOLVED))
                     if here[5] != NONE:
                         work_error += abs((here[6] - fine_work) - (coarse[k, 6] - coarse_work))
                         fine_work, coarse_work = here[6], coarse[k, 6]
@@ -334,19 +352,36 @@ def _permanent_zone(ends: Any, always: Any, total_slip: Any, threshold: float) -
     return -zone[0], zone[1]
 
 
+@kernel(results(2)(LAW, vector, matrix))
+def _smallest(law: Any, own: Any, rows: Any) -> Any:
+    """The smallest a and the smallest c of a path."""
+    ends, last, a, c = np.zeros((2, 5)), -1, math.inf, math.inf
+    for k in range(rows.shape[0]):
+        if rows[k, INSTANT] < 0:
+            continue
+        row = rows[k]
+        ends[1] = np.array([row[A], row[C], 0.0, row[P], row[M]])
+        if last >= 0:
+            smallest_a, smallest_c = narrowest(law, own, ends)
+            a, c = min(a, smallest_a), min(c, smallest_c)
+        ends[0], last = ends[1], k
+    return a, c
+
+
 @shared
 def cycle_on_mesh(
     law: Any, own: Any, f: float, loads: Any, points: Any, count: int, stick_ends: Any
 ) -> Any:
-    """A cycle on one mesh: the results of a cycle, then slip range and first q at the points.
+    """A cycle on one mesh: the results of a cycle, then slip range and first q at the points, and
+    at the samples.
 
-    m and n are the edges of the smallest contact, and work_error is only the part due to the drift.
-    Also returns the ends of the elements, whether they are always in contact, and their total slip
-    in a cycle.
+    m and n are the edges of the smallest contact, and the error of work is only that due to the
+    drift; the other errors are NaN.  Also returns the ends of the elements, whether they are
+    always in contact, and their total slip in a cycle.
     """
     nothing = np.empty(0)
     asked = points.size
-    values = np.full(ZONE + 2 * asked, math.nan)
+    values, first = np.full(ZONE + 2 * asked + 2 * SAMPLES, math.nan), ZONE + 2 * asked
     values[2] = NONE
     least = count // FEWEST
     rows = path(law, own, loads, f, REACH / count, least, 0.0)
@@ -361,10 +396,10 @@ def cycle_on_mesh(
     work, drift = 0.0, math.inf
     for round_ in range(MOST_ROUNDS + 1):
         # round 0 applies the loads of the first instant; each later round is one cycle
-        first, last = (0, least + 1) if round_ == 0 else (least + 1, rows.shape[0])
+        start, end = (0, least + 1) if round_ == 0 else (least + 1, rows.shape[0])
         total_slip[:], work = 0.0, 0.0
         low[:] = high[:] = state[SLIP]
-        for k in range(first, last):
+        for k in range(start, end):
             row, previous = rows[k], rows[max(k - 1, 0)]
             if not (k == 0 or _move(row, previous)):
                 continue
@@ -387,15 +422,18 @@ def cycle_on_mesh(
         if round_ > 1 and drift <= REPEATED:
             break
     values[3], values[5], values[7] = work, drift, drift * work
-    inner_a = inner_c = math.inf
-    for k in range(rows.shape[0]):
-        inner_a, inner_c = min(inner_a, rows[k, A]), min(inner_c, rows[k, C])
-    values[0], values[1], values[2] = inner_a, inner_c, COMPUTED
+    a, c = _smallest(law, own, rows)
+    values[0], values[1], values[2] = a, c, COMPUTED
+    slip_range, row = high - low, rows[-1]
     for i in range(asked):
-        if ends[0] <= points[i] <= ends[x.size]:
-            values[ZONE + i] = interpolated(x, high - low, points[i])
-        values[ZONE + asked + i], _ = at_point(
-            law, own, series, f, ends, x, state, rows[-1], points[i]
+        if -a <= points[i] <= c:
+            values[ZONE + i] = interpolated(x, slip_range, points[i])
+        values[ZONE + asked + i], _ = at_point(law, own, series, f, ends, x, state, row, points[i])
+    for i in range(SAMPLES):
+        u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
+        values[first + i] = interpolated(x, slip_range, u * c - (1 - u) * a)
+        values[first + SAMPLES + i], _ = at_point(
+            law, own, series, f, ends, x, state, row, u * row[C] - (1 - u) * row[A]
         )
     return values, ends, always, total_slip
 
@@ -411,7 +449,9 @@ def _find_zone(values: Any, ends: Any, always: Any, total_slip: Any, most: float
         values[2] = FULL_STICK
         return 1
     m, n = _permanent_zone(ends, always, total_slip, THRESHOLD * most)
-    values[2] = NO_STICK if math.isnan(m) else COMPUTED
+    values[2] = COMPUTED
+    if math.isnan(m):
+        values[2], values[6] = NO_STICK, math.nan
     values[0], values[1] = min(m, inner_a), min(n, inner_c)
     if values[2] == COMPUTED:
         wide_m, wide_n = _permanent_zone(ends, always, total_slip, 30 * THRESHOLD * most)
@@ -462,9 +502,9 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         points = given[row, 3 + 4 * count :]
-        elements, met, stick_ends = FEWEST, False, np.empty(0)
+        first, elements, met, stick_ends = ZONE + 2 * asked, FEWEST, False, np.empty(0)
         coarse_ends, coarse_slip = np.empty(0), np.empty(0)
-        coarse = np.full(ZONE + 2 * asked, math.nan)
+        coarse = np.full(first + 2 * SAMPLES, math.nan)
         coarse_direct, coarse_less = coarse, coarse
         while True:
             fine, ends, always, slip = cycle_on_mesh(
@@ -482,6 +522,8 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
             if elements > FEWEST:
                 met = fine[2] == coarse[2]
                 fine[7] += abs(fine[3] - coarse[3])
+                fine[8] = _of_slip(fine, coarse, first)
+                fine[9] = _of_shear(fine, coarse, first + SAMPLES)
                 if fine[2] == COMPUTED:
                     met = met and fine[6] <= tol
                 elif not met:
@@ -494,4 +536,4 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
             stick_ends = _thinned(stick_ends, coarse[0] + coarse[1], APART * tol, elements // EACH)
         if fine[5] > REPEATED:
             fine[6] = math.inf
-        out[row] = fine
+        out[row] = fine[:first]

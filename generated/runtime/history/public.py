@@ -21,6 +21,9 @@ _INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"
 _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": "p"}
 """Axes of the results: t is time, p the points."""
 
+FEATURES, ZONE = len(History._fields) - 2, len(SteadyCycle._fields) - 2
+"""Numbers of results besides those at the points, which are q and slip."""
+
 TURNING = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""
 
@@ -72,10 +75,11 @@ def history(
     -------
     History
         a, c, m, n [m]; intervals; regime; q [Pa], slip [m] at x; work [J/m]; error;
-        work_error [J/m].  All are NaN where there is no contact.  If the contact slides, m and n
-        are NaN at that instant, and slip and work from then on.  Slip rates are
-        not returned, because time is not an argument; for a 1-D x, the slip between two instants
-        is np.diff(slip, axis=-2).
+        work_error [J/m]; slip_error [m].  All are NaN where there is no contact.  If the contact
+        slides, m and n are NaN at that instant, and slip and work from then on.  UNSOLVED: only
+        a and c are known, as from P = 0 with M != 0 on, from where the contact rolls in from far
+        away.  Slip rates are not returned, because time is not an argument; for a 1-D x, the slip
+        between two instants is np.diff(slip, axis=-2).
 
     Notes
     -----
@@ -88,7 +92,7 @@ def history(
     given = _given(asked, numbers, x, tol)
     points = np.shape(x) if x is not None else ()
     count = math.prod(points) if x is not None else 0
-    out = np.empty((given.rows.shape[0], given.instants * (9 + 2 * count)))
+    out = np.empty((given.rows.shape[0], given.instants * (FEATURES + 2 * count)))
     law = asked.body.law
     run("history.reversals.each_history", law, given.rows, given.own, out)
     rest = np.flatnonzero(np.isnan(out[:, 5]))
@@ -97,15 +101,20 @@ def history(
         run("history.solve.each_history", law, given.rows[rest], given.own[rest], computed)
         out[rest] = computed
     shape = (*given.cycles, given.instants)
-    columns = out.reshape((*shape, 9 + 2 * count))
-    a, c, m, n, intervals, regime, work, error, work_error = (columns[..., i] for i in range(9))
+    columns = out.reshape((*shape, FEATURES + 2 * count))
+    features = [columns[..., i] for i in range(FEATURES)]
+    a, c, m, n, intervals, regime, work, error, work_error, slip_error = features
     q = slip = None
     if x is not None:
-        q = (columns[..., 9 : 9 + count] * given.E_star[..., None, None]).reshape((*shape, *points))
-        slip = columns[..., 9 + count :].reshape((*shape, *points))
+        tractions, slips = (
+            columns[..., FEATURES : FEATURES + count],
+            columns[..., FEATURES + count :],
+        )
+        q = (tractions * given.E_star[..., None, None]).reshape((*shape, *points))
+        slip = slips.reshape((*shape, *points))
     work, work_error = (v * given.E_star[..., None] for v in (work, work_error))
     intervals, regime = np.nan_to_num(intervals).astype(np.int64), regime.astype(np.int64)
-    return History(a, c, m, n, intervals, regime, q, slip, work, error, work_error)
+    return History(a, c, m, n, intervals, regime, q, slip, work, error, work_error, slip_error)
 
 
 def steady_cycle(
@@ -137,9 +146,10 @@ def steady_cycle(
     -------
     SteadyCycle
         m, n [m]; regime; slip_range [m], q [Pa] at x; work [J/m]; rounds; drift; error;
-        work_error [J/m].  Slip range, shear traction and work are computed on elements, even where
-        m and n are exact.  All are NaN if the contact is lost or slides; m and n are NaN if no
-        point sticks throughout the cycle.
+        work_error [J/m]; slip_error [m]; shear_error [Pa].  Slip range, shear traction and work
+        are computed on elements, even where m and n are exact; the slip range is NaN where x is
+        not in contact throughout the cycle.  All are NaN if the contact is lost or slides; m and
+        n are NaN if no point sticks throughout the cycle.
 
     Notes
     -----
@@ -153,10 +163,11 @@ def steady_cycle(
     given = _given(asked, numbers, x, tol)
     points = np.shape(x) if x is not None else ()
     count = math.prod(points) if x is not None else 0
-    out = np.empty((given.rows.shape[0], 8 + 2 * count))
+    out = np.empty((given.rows.shape[0], ZONE + 2 * count))
     run("history.solve.each_cycle", asked.body.law, given.rows, given.own, out)
-    columns = out.reshape((*given.cycles, 8 + 2 * count))
-    m, n, regime, work, rounds, drift, error, work_error = (columns[..., i] for i in range(8))
+    columns = out.reshape((*given.cycles, ZONE + 2 * count))
+    m, n, regime, work, rounds, drift, *errors = (columns[..., i] for i in range(ZONE))
+    error, work_error, slip_error, shear_error = errors
     zone, accuracy = _exact(asked, numbers)
     known = np.isfinite(zone.m)
     m, n = np.where(known, zone.m, m), np.where(known, zone.n, n)
@@ -164,11 +175,13 @@ def steady_cycle(
     error = np.where(known, accuracy, error)
     q = slip = None
     if x is not None:
-        slip = columns[..., 8 : 8 + count].reshape((*given.cycles, *points))
-        q = (columns[..., 8 + count :] * given.E_star[..., None]).reshape((*given.cycles, *points))
+        slip = columns[..., ZONE : ZONE + count].reshape((*given.cycles, *points))
+        tractions = columns[..., ZONE + count :] * given.E_star[..., None]
+        q = tractions.reshape((*given.cycles, *points))
     rounds = np.nan_to_num(rounds).astype(np.int64)
-    work, work_error = work * given.E_star, work_error * given.E_star
-    values = (m, n, regime, slip, q, work, rounds, drift, error, work_error)
+    work, work_error, shear_error = (v * given.E_star for v in (work, work_error, shear_error))
+    errors = [error, work_error, slip_error, shear_error]
+    values = (m, n, regime, slip, q, work, rounds, drift, *errors)
     return SteadyCycle(*(v if v is None else v[()] for v in values))
 
 

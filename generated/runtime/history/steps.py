@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernels import LAW, kernel, matrix, real, results, vector, whole
+from ..kernels import LAW, kernel, matrix, real, results, truth, vector, whole
 from .elements import (
     CENTRED,
     COSINE,
@@ -115,14 +115,29 @@ def _inward(x: Any, state: Any, last: int, side: int, edge: float, least: float)
     return i if narrow and abs(state[SLIP_OF_STEP, i]) <= least else last
 
 
-@kernel(results(4)(vector, matrix, real, real))
-def sticking(x: Any, state: Any, a: float, c: float) -> Any:
-    """m, n, the number of stick intervals, and the number of elements that slip.
+@kernel(real(vector, matrix, whole, whole, real))
+def _doubtful(x: Any, state: Any, last: int, side: int, edge: float) -> float:
+    """Length of the slip next to an edge that a stick interval reaches, if it may be real."""
+    following, i = last + side, last
+    if 0 <= following < x.size and state[BOUND, following] > 0:
+        return 0.0
+    while 0 <= i - side < x.size and state[STATUS, i] != 0 and state[BOUND, i] > 0:
+        i -= side
+    return 0.0 if i == last else abs(edge - (x[i] + x[i + side]) / 2)
+
+
+@kernel(results(5)(vector, matrix, real, real, truth))
+def sticking(x: Any, state: Any, a: float, c: float, fresh: bool) -> Any:
+    """m, n, the number of stick intervals and of elements that slip, and an error of m and n.
+
+    The error is the length of slip at an edge that is so small that it may be spurious.
 
     A single element that sticks counts as an interval only if no interval is longer.
+
+    fresh: whether the loads have only risen from zero, so that all slip is real.
     """
     first, last, intervals, slips, length, single = -1, -1, 0, 0, 0, -1
-    quiet, least = min(QUIET, (FINE / x.size) ** 2), 0.0
+    quiet, least = 0.0 if fresh else min(QUIET, (FINE / x.size) ** 2), 0.0
     for i in range(x.size):
         least = max(least, quiet * abs(state[SLIP_OF_STEP, i]))
     for i in range(x.size):
@@ -137,14 +152,15 @@ def sticking(x: Any, state: Any, a: float, c: float) -> Any:
         if length >= 2:
             last = i
     if single < 0:
-        return math.nan, math.nan, 0.0, float(slips)
+        return math.nan, math.nan, 0.0, float(slips), 0.0
     if first < 0:
         first, last, intervals = single, single, 1
     else:
         first = _inward(x, state, first, -1, -a, least)
         last = _inward(x, state, last, 1, c, least)
     m, n = -_end(x, state, first, -1, -a), _end(x, state, last, 1, c)
-    return m, n, float(intervals), float(slips)
+    doubt = max(_doubtful(x, state, first, -1, -a), _doubtful(x, state, last, 1, c))
+    return m, n, float(intervals), float(slips), doubt
 
 
 @kernel(real(vector, vector, real))

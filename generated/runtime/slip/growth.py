@@ -50,6 +50,9 @@ PLACES = 4
 SLACK = 1e-6
 """Allowance for rounding, relative to friction."""
 
+TURNED = 1e-9
+"""The part of the path to which the place is sought where an edge turns round."""
+
 AGREED = 1e-8
 """Accuracy of the slip zones along the path, relative to their length."""
 
@@ -77,6 +80,34 @@ def advances(path: Any, stuck: float, a: float, c: float) -> Any:
     more, turn = path[last, LOAD] - path[0, LOAD], path[last, MOMENT] - path[0, MOMENT]
     by_turning = 4 * stuck * (turn + (c - a) / 2 * more) / (a + c) ** 2
     return more + by_turning, more - by_turning
+
+
+@kernel(results(2)(LAW, vector, matrix))
+def narrowest(law: Any, own: Any, ends: Any) -> Any:
+    """The smallest a and the smallest c on the path between two contacts.
+
+    On the way an edge may recede and then advance, for instance under a constant moment.  The right
+    edge is at rest where dM + (mid - h/4) dP = 0.  There mid - h/4 = (c - 3 a)/4 changes by
+    -(3/4) da, and da has the sign of dP.  An edge therefore turns round at most once, and only from
+    receding to advancing.
+    """
+    last = ends.shape[0] - 1
+    smallest = np.array([min(ends[0, A], ends[last, A]), min(ends[0, C], ends[last, C])])
+    for side in range(2):
+        first = advances(ends, ends[0, A] + ends[0, C], ends[0, A], ends[0, C])[side]
+        final = advances(ends, ends[last, A] + ends[last, C], ends[last, A], ends[last, C])[side]
+        low, high = 0.0, 1.0
+        while first < 0 < final and high - low > TURNED:
+            part = (low + high) / 2
+            load = ends[0, LOAD] + part * (ends[last, LOAD] - ends[0, LOAD])
+            turn = ends[0, MOMENT] + part * (ends[last, MOMENT] - ends[0, MOMENT])
+            a, c, _ = contact(law, own, load, turn)
+            if advances(ends, a + c, a, c)[side] < 0:
+                low = part
+            else:
+                high = part
+            smallest[side] = min(smallest[side], a if side == 0 else c)
+    return smallest[0], smallest[1]
 
 
 @kernel(truth(matrix, vector, real))

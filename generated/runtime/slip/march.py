@@ -10,8 +10,8 @@ states at its ends are returned.
 
 Histories that cannot be solved are refused at all instants: loads out of proportion, a history that
 does not return to its first state, |Q| >= f P, and a shear load that the stick zone cannot hold.
-The last instant leads straight back to the first.  A history that only goes from one state to the
-other, so that this last step would be the whole way back, is a first loading and not a cycle.
+The last instant leads straight back to the first.  If this last step is nearly the whole way from
+one state to the other, the history is taken for a first loading and not for a cycle.
 
 The loads are a matrix with rows P, M, Q, sigma over E* and a column per instant.  The contacts are
 a matrix with columns A, C, TILT, LOAD and MOMENT and a row per instant.
@@ -25,6 +25,7 @@ import numpy as np
 from ..inverse import contact
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, vector, whole
 from ..types import Array
+from .growth import narrowest
 from .large import large_zone
 from .locked import holds_load
 from .moderate import LOAD, MOMENT, TILT, A, C, patch
@@ -39,6 +40,9 @@ P, M, Q, SIGMA = range(4)
 
 BY_RANK = (Q, SIGMA, P, M)
 """The first of these loads that changes determines the progress of the others."""
+
+WHOLE_WAY = 0.99
+"""Part of the way between both states from which the step back to the first instant is too long."""
 
 IN_PHASE = 1e-6
 """Largest deviation of a load from the way between both states, relative to its change."""
@@ -135,7 +139,7 @@ def _starts(progress: Array) -> Array:
 def _refusal(loads: Array, contacts: Array, f: Array, progress: Array, starts: Array) -> Array:
     """The regime of a history that is refused at all instants, or IN_ORDER."""
     last = progress.size - 1
-    slides, jumps = False, abs(progress[last] - progress[0]) > 1 - IN_PHASE
+    slides, jumps = False, abs(progress[last] - progress[0]) > WHOLE_WAY
     out_of_phase = False
     for i in range(progress.size):
         known = f > 0 and contacts[i, C] + contacts[i, A] > 0 and math.isfinite(contacts[i, TILT])
@@ -188,10 +192,12 @@ def _stuck(
     regime: Array,
 ) -> Any:
     """m and n of a half-cycle that ends now, if the regime of the whole half-cycle is known."""
+    if regime == FULL_STICK:
+        ends = np.empty((2, 5))
+        ends[0], ends[1] = contacts[start], contacts[now]
+        return narrowest(law, own, ends)
     a, c = min(cycle[0], cycle[2]), min(cycle[1], cycle[3])
     m, n = NOWHERE
-    if regime == FULL_STICK:
-        return a, c
     if order > 0:
         da, dc = cycle[2] - cycle[0], cycle[3] - cycle[1]
         left, right = slip_zones(

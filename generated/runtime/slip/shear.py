@@ -227,7 +227,7 @@ def slip_at(law: Any, own: Any, cycle: Any, m: float, n: float, regime: float, x
     """Slip range at x; NaN outside either contact, and where slip reverses."""
     if not (regime > 0 and -min(cycle[0], cycle[2]) <= x <= min(cycle[1], cycle[3])):
         return math.nan
-    if regime == FULL_STICK or -m <= x <= n:
+    if -m <= x <= n:
         return 0.0
     if regime not in (MODERATE, LARGE):
         return math.nan

@@ -22,6 +22,7 @@ from .growth import (
     holds_at_the_start,
     load_path,
     mirrored,
+    narrowest,
     slips_at_the_start,
     sticks_all_over,
 )
@@ -127,9 +128,7 @@ def stick_zone(law: Any, own: Any, cycle: Any) -> Any:
     last = path.shape[0] - 1
     steady = last == 1
     if sticks_all_over(path, cycle):
-        m, n = path[0, A], path[0, C]
-        for k in range(1, last + 1):
-            m, n = min(m, path[k, A]), min(n, path[k, C])
+        m, n = narrowest(law, own, ends)
         if m + n > 0:
             return m, n, FULL_STICK
     if slips_at_the_start(path, cycle, 1.0) and (steady or grows(law, own, path, cycle)):
