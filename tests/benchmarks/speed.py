@@ -331,6 +331,11 @@ def figures_of(scanned: Any) -> Iterator[Figure]:
         yield Figure(f"largest ratio between neighbouring sizes, {name}", hole(row), 2, "times")
 
 
+def shown(value: float, digits: int) -> str:
+    """A number with so many significant digits, and all digits before the point."""
+    return f"{value:,.0f}" if value >= 10 ** (digits - 1) else f"{value:.{digits}g}"
+
+
 def page(
     figures: list[Figure],
     rows: list[tuple[str, int, dict[str, float]]],
@@ -349,9 +354,9 @@ def page(
         "| --- | ---: | ---: | --- |",
     ]
     for f in figures:
-        limit = f"{'at least' if f.least else 'at most'} {f.bound:,.4g} {f.unit}"
+        limit = f"{'at least' if f.least else 'at most'} {shown(f.bound, 4)} {f.unit}"
         lines.append(
-            f"| {f.what} | {f.value:,.4g} {f.unit} | {limit} | {'yes' if f.met else 'no'} |"
+            f"| {f.what} | {shown(f.value, 4)} {f.unit} | {limit} | {'yes' if f.met else 'no'} |"
         )
     lines += [
         "",
@@ -363,13 +368,13 @@ def page(
     lines += ["| function | elements | generated | lambdify | lambdify, cse |"]
     lines += ["| --- | ---: | ---: | ---: | ---: |"]
     for name, size, times in rows:
-        values = [f"{times[n]:.3g}" for n in ("generated", "lambdify", "lambdify, cse")]
+        values = [shown(times[n], 3) for n in ("generated", "lambdify", "lambdify, cse")]
         lines.append(f"| {name} | {size:,} | " + " | ".join(values) + " |")
     lines += ["", "## Neighbouring sizes", "", WORDS_OF_SIZES, ""]
     lines += ["| function | " + " | ".join(f"{n:,}" for n in sizes) + " |"]
     lines += ["| --- |" + " ---: |" * len(sizes)]
     for name, row in scanned:
-        cells = [f"{v:.3g}" for v in row[::10]]
+        cells = [shown(v, 3) for v in row[::10]]
         cells += [""] * (len(sizes) - len(cells))
         lines.append(f"| {name} | " + " | ".join(cells) + " |")
     return "\n".join([*lines, ""])

@@ -178,7 +178,8 @@ def tractions(
     back : bool, optional
         Whether to take the half-cycle that lowers the shear load instead of the one that raises it.
     mean : array_like, optional
-        Mean of K_T over the cycle, to which Q and sigma rose from zero [Pa sqrt(m)].
+        Mean of K_T over the cycle [Pa sqrt(m)]; before the first cycle, Q and sigma rose from
+        zero to their highest values.
 
     Returns
     -------
@@ -357,7 +358,8 @@ def peak(
     K_N, K_T, f, L_N, L_T, N_N, N_T, order : array_like
         As in slip_zone.
     mean : array_like, optional
-        Mean of K_T over the cycle, to which Q and sigma rose from zero [Pa sqrt(m)].
+        Mean of K_T over the cycle [Pa sqrt(m)]; before the first cycle, Q and sigma rose from
+        zero to their highest values.
 
     Returns
     -------
