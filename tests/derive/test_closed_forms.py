@@ -177,7 +177,7 @@ def test_what_is_not_proven_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(NumericalRoutes, "proof", proof)
     proven = prove_sheet(sheet("catenary")).demand_proven()
     assert {*sheet("catenary")} - {*proven} == {"load_closed", "tilt_closed"}
-    assert "not proven: tilt_closed, load_closed" in proven.remark
+    assert "left out: tilt_closed, load_closed" in proven.remark
 
 
 # ------------------------------------------------------------------ none
