@@ -132,7 +132,7 @@ def main() -> None:
 
 @main.command("list")
 def list_() -> None:
-    """List all geometries, with g(x) and what is known in closed form or only numerically."""
+    """List all geometries, with g(x) and their closed forms."""
     from derive import load_geometry, view
     from derive.derivation import derive_law, with_closed_forms
     from derive.library import library
