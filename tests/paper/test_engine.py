@@ -33,9 +33,11 @@ from derive.paper.claim import (
     Relation,
     Verdict,
 )
-from derive.paper.draw import points
+from derive.paper.draw import points, variables
+from derive.paper.numbers import both
+from derive.paper.quick import Unknown, approximately
 from derive.paper.repair import edits
-from derive.paper.values import evaluated
+from derive.paper.values import Undecided, evaluated
 from derive.paper.verdict import check
 from derive.paper.zero import vanishes
 
@@ -155,6 +157,11 @@ def test_points_are_the_same_on_every_machine() -> None:
     assert all(0.05 <= point[v] <= 0.95 for point in points(one))
 
 
+def test_variables_of_integration_are_not_drawn() -> None:
+    one = claim(a, Integral(b * s, (s, 0, c)), meaning={a: u, b: s**2, c: v})
+    assert variables(one) == [u, v]
+
+
 @pytest.mark.parametrize(
     ("integrand", "low", "high", "value"),
     [
@@ -169,6 +176,18 @@ def test_integrals(integrand: Expr, low: int, high: int, value: Expr) -> None:
     with mpmath.workdps(36):
         found = evaluated(Integral(integrand, (s, low, high)), {})
         assert mpmath.almosteq(found, evaluated(value, {}), mpf(10) ** -31)
+
+
+def test_what_is_not_finite_is_undecided() -> None:
+    with pytest.raises(Undecided):
+        both(a, 1 / (b - b * a), lambda care: {a: mpf(1), b: mpf(3)}, {})
+
+
+def test_a_few_digits_in_no_time() -> None:
+    assert approximately(sqrt(a) + sin(b) ** 2, {a: 4, b: 0}) == 2
+    for unknown, at in ((Integral(s, (s, 0, a)), 1), (1 / a, 0)):
+        with pytest.raises(Unknown):
+            approximately(unknown, {a: at})
 
 
 # ------------------------------------------------------------------ exact zeros
@@ -251,3 +270,7 @@ def test_every_edit_changes_and_none_comes_twice() -> None:
     assert len(found) == len(set(found))
     assert {edit.kind for edit in made} >= {"sign", "factor", "swap", "exponent"}
     assert [edit.what for edit in edits(printed, (a, b))] == [edit.what for edit in made]
+
+
+def test_a_range_has_a_simple_place() -> None:
+    assert (Range(0, 0.5).place, SIGNED.place) == (S(1) / 4, 1)
