@@ -3,7 +3,7 @@
 # make test   lint, types, tests: the drift check of generated/ included
 # make quick  the tests that do not take long
 # make thorough  all tests: more bodies, cases and points than make test takes
-# make mutants  a hundred faults in the theory and the rewriting rules: which no test catches; twenty minutes
+# make mutants  a hundred faults in the theory and the rewriting rules: which no test catches; more than an hour
 # make bench  speed, all figures of one run: docs/performance.md; some minutes, on two idle cores;
 #             bench-monte-carlo: time and memory of the Monte Carlo of examples/, to 1e8 samples:
 #             notebooks/monte_carlo.md

@@ -2,9 +2,10 @@
 
     python -m tests.mutants [--count 100] [--jobs 2] [--only TEXT]
 
-A mutant changes one sign, factor or exponent of one file.  It is caught if a body can no longer be
-built, if a generated module is no longer what is committed, or if a test of the theory fails.  Each
-is printed with what caught it, and the exit status is 1 if more than one in a hundred survives.
+A mutant changes one sign, factor or exponent of one file.  It is caught if a test of the theory
+fails, if a body can no longer be built, if a generated module is no longer what is committed, or if
+a test of `make thorough` fails.  Each is printed with what caught it, and the exit status is 1 if
+more than one in a hundred survives.
 """
 
 import ast
@@ -26,7 +27,8 @@ BODIES = ("wedge", "hertz", "unequal_wedge", "quartic", "flat_rounded", "rounded
 """Built of every mutant, and compared with what is committed."""
 
 TESTS = (
-    *("tests/derive/theory", "tests/derive/test_closed_forms.py"),
+    *("derive/theory", "derive/codegen/rewrite.py"),  # their examples
+    *("tests/derive/theory", "tests/derive/test_closed_forms.py", "tests/edge/test_theory.py"),
     *("tests/codegen/test_rewrite.py", "tests/codegen/test_parts.py"),
 )
 LONGEST = 600
@@ -120,9 +122,11 @@ def caught(mutant: Mutant) -> str:
             else:
                 shutil.copy(source, home)
         (home / mutant.path.relative_to(ROOT)).write_text(mutant.text, encoding="utf-8")
+        tests = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *TESTS]
         steps = {
+            "tests": tests,
             "build": [sys.executable, "-c", BUILD, *BODIES],
-            "tests": [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *TESTS],
+            "thorough": [*tests, "-m", "thorough"],
         }
         for name, command in steps.items():
             try:
