@@ -65,6 +65,13 @@ def test_powers_are_lowered_down_to_the_least_that_is_left(least: int, left: Exp
     assert ring.written(low) == expand((a + c) ** times * left)
 
 
+def test_a_power_of_a_number_is_a_number_times_a_power() -> None:
+    power = 2 ** (Symbol("k", positive=True) - 3)
+    ring = Ring([power])
+    assert ring.written(ring.polynomial(power)).subs(Symbol("k", positive=True), 5) == 4
+    assert len(ring.generators) == 1  # 2**k; 1/8 is a coefficient
+
+
 def test_a_root_of_a_product_is_one_of_primes() -> None:
     """sqrt(6) = sqrt(2) sqrt(3), sqrt(12) = 2 sqrt(3): no further generator, and so no relation."""
     ring = Ring([sqrt(6) * a, sqrt(2) * c, sqrt(12)])
