@@ -225,10 +225,10 @@ def tangents_from_both_ends(program: Program, example: Point) -> Program:
     split = {n: _power_of_tangent(v) for n, v in outputs.items()}
     scale = next((times for times, power, _ in split.values() if power), S.One)
     steps = [Step(_scale, scale, "")]
-    if simplify(angle.subs(alpha, -alpha) - rest) == 0:
-        falls = simplify(angle.diff(alpha)).could_extract_minus_sign()
-        lean, smaller = (alpha if falls else -alpha), _angle
-        least = _shares_taken_off(angle.subs(alpha, Abs(alpha) if falls else -Abs(alpha)))
+    falls = simplify(angle.diff(alpha)).could_extract_minus_sign()
+    if falls and simplify(angle.subs(alpha, -alpha) - rest) == 0:
+        lean, smaller = alpha, _angle
+        least = _shares_taken_off(angle.subs(alpha, Abs(alpha)))
         steps += [Step(_angle, least, "half the smaller angle of the corner")]
     else:
         lean, smaller = _rest - _angle, Min(_angle, _rest)
