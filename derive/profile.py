@@ -220,7 +220,7 @@ def _ends_beyond_origin(piece: Piece) -> bool:
 
 
 def _with_moduli(g: Expr) -> Expr:
-    """Write roots of squares, which hide kinks, as moduli: sqrt(x**2 - 2 b x + b**2)."""
+    """Write roots of squares, which hide kinks, as moduli: sqrt((x - b)**2) is Abs(x - b)."""
     powers = [p for p in g.atoms(Pow) if not p.exp.is_Integer and p.base.is_rational_function(x)]
     found = {p: _without_squares(p) for p in powers if p.base.has(x) and not p.exp.has(x)}
     return g.xreplace({power: value for power, value in found.items() if value != power})

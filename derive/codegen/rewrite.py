@@ -304,7 +304,8 @@ def logarithms_to_log1p(program: Program, sheet: FormulaSheet) -> Program:
     is exactly zero, and so is the logarithm.  Outside the contact, u v has no real root, and z is
     set to zero.
 
-    If a formula is printed as it is, its only kink is a corner that every contact spans.
+    This serves formulas that are printed unchanged.  Their only kink is a corner that every contact
+    spans.
     """
     words = "twice the logarithm of the kink"
     for k in sheet.frame.kinks:

@@ -1,7 +1,7 @@
 """Read typed entries of a table in a TOML file.
 
 In:   a table as data, and its place in the file.
-Out:  texts, lists and tables.  An entry of another type raises BadClaimsFile with its place.
+Out: strings, lists and tables.  An entry of another type raises BadClaimsFile with its place.
 """
 
 from collections.abc import Callable, Mapping

@@ -175,7 +175,7 @@ def _sharpened(left: Expr, right: Expr, value: Numbers, pair: Pair) -> Pair:
         sharper = Pair(*now, pair.point, known)
         return _held_against_more(left, right, value, sharper) if sharper.agree else sharper
     if not pair.agree:
-        raise Undecided(f"both sides share {pair.digits} digits, and further digits are not known")
+        raise Undecided(f"both sides share {pair.digits} digits, and no further digits are known")
     return pair
 
 

@@ -101,7 +101,7 @@ def demand_signs(dQ: float, f: float) -> None:
 
 
 def demand_row(name: str, values: Array) -> None:
-    """Demand at least two finite values in an array of one dimension."""
+    """Require a one-dimensional array of at least two finite values."""
     values = real_numbers(name, values)
     shape = values.shape
     if len(shape) != 1 or shape[0] < 2:

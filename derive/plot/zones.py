@@ -116,7 +116,7 @@ def _demand_tension(zone: Any, dsigma: Array) -> None:
     if np.any(wrong):
         name = "large" if np.any(wrong & (regime == LARGE)) else "mixed"
         raise ValueError(
-            f"dsigma is 0 where the regime is {name}, in which its sign determines the direction "
+            f"dsigma is 0 where the regime is {name}, but there its sign determines the direction "
             "of slip at each edge; give the dsigma that was given to stick_zone"
         )
 

@@ -51,7 +51,7 @@ def _proof(sheet: FormulaSheet, name: str, numerical: NumericalRoutes) -> Proof:
 
 
 def _also_computed(sheet: FormulaSheet, name: str, proof: Proof) -> Proof:
-    """The proof of a formula, if the form that is evaluated in its place is equal to it."""
+    """The proof of a formula, or that the form evaluated in its place differs from it."""
     computed = sheet[name].computed
     if computed is None or not proof.holds:
         return proof

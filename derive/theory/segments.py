@@ -219,7 +219,7 @@ class kink_logarithm(Named):
     @staticmethod
     def definition(left: Expr, right: Expr, offset: Expr, *_: Expr) -> Expr:
         """The definition inside the contact, where |d| is above its lower bound."""
-        nearer = (left + right - Abs(left - right)) / 2  # SymPy's Min compares its arguments
+        nearer = (left + right - Abs(left - right)) / 2  # not Min, which compares its arguments
         return log(1 + (sqrt(left * right) + nearer) / Abs(offset))
 
 

@@ -198,9 +198,9 @@ def holds_at_the_start(path: Any, cycle: Any, m: float, n: float) -> Any:
     """Whether the shear traction stays within the friction limit at points that have not slipped
     yet, starting from either end.
 
-    Both the change in shear under full stick and the change in pressure, times w, are linear in x.
-    The shear therefore stays within the friction limit all over a future slip zone if it does so at
-    the inner end, -m or n, and if slip begins at the edge.
+    The full-stick change in shear and the change in pressure, each multiplied by w, are linear in
+    x. The shear therefore stays within the friction limit all over a future slip zone if it does so
+    at the inner end, -m or n, and if slip begins at the edge.
     """
     for sense in (1, -1):
         end = 0 if sense > 0 else path.shape[0] - 1

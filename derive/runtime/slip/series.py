@@ -168,7 +168,7 @@ def beside_edges(
     NaN unless slip occurs at both edges of both contacts and part of the contact sticks.
     """
     gain_left, gain_right = max(of.da, 0.0), max(of.dc, 0.0)
-    # |K_T|/(f K_N) plus half of the growth of the contact, less all of its growth
+    # in the smaller contact: |K_T|/(f K_N) less half of the movement of the edge
     scale = math.pi * math.sqrt(h) * f
     left = abs(drive_left) / (scale * of.left[0]) - abs(of.da) / 2
     right = abs(drive_right) / (scale * of.right[0]) - abs(of.dc) / 2

@@ -96,7 +96,7 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
     for k in range(1, number):
         start, power = 0.0, 1.0
         if math.isnan(instants[k - 1, A]) and math.isfinite(instants[k, A]):
-            # find the first contact that is neither too small nor far away, by bisection
+            # find, by bisection, the first contact that is neither too small nor far away
             high, power, w = 1.0, 2.0, instants[k, A] + instants[k, C]
             for _ in range(50):
                 t = (start + high) / 2

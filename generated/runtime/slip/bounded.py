@@ -2,10 +2,10 @@
 r"""Slip zones next to a stick zone at both ends of which the shear traction stays bounded.
 
 All cycles have dsigma >= 0, so that tension loads the left edge more; for dsigma < 0 the mirror
-image, x -> -x, is considered.  Slip leaves a change in shear r in both slip zones: f (p1 + p2) on
-the left, and on the right kappa f (p1 + p2), less the shear gained there since it last stuck
-(mixed.py).  Let h_s = m + n and let y be the distance from the stick zone.  With u = sqrt(y/(h_s +
-y)), the change in shear is bounded at both ends of [-m, n] if
+image, x -> -x, is considered.  Slip leaves a change in shear r in both slip zones: on the left r =
+f (p1 + p2), and on the right r = kappa f (p1 + p2) minus the shear gained there since that zone
+last stuck (mixed.py).  Let h_s = m + n and let y be the distance from the stick zone.  With u =
+sqrt(y/(h_s + y)), the change in shear is bounded at both ends of [-m, n] if
 
     left:   L = int_left r/u dy + int_right r u dy = dQ + pi h_s dsigma/8,
     right:  R = int_left r u dy + int_right r/u dy = dQ - pi h_s dsigma/8.
