@@ -155,6 +155,13 @@ def _move(row: Any, last: Any) -> bool:
     return False
 
 
+@kernel(real(whole, real, real))
+def _sample(i: int, a: float, c: float) -> float:
+    """The place of a sample in the contact [-a, c]; samples are closer together at the edges."""
+    u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
+    return -a + u * (a + c)
+
+
 @shared
 def history_on_mesh(
     law: Any,
@@ -218,8 +225,7 @@ def history_on_mesh(
             here[FEATURES + i], slip = at_point(law, own, series, f, ends, x, state, row, points[i])
             here[FEATURES + asked + i] = slip if work == work else math.nan
         for i in range(SAMPLES):
-            u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
-            point = -row[A] + u * (row[A] + row[C])
+            point = _sample(i, row[A], row[C])
             here[first + i], slip = at_point(law, own, series, f, ends, x, state, row, point)
             here[first + SAMPLES + i] = slip if work == work else math.nan
     return values
@@ -430,11 +436,9 @@ def cycle_on_mesh(
             values[ZONE + i] = interpolated(x, slip_range, points[i])
         values[ZONE + asked + i], _ = at_point(law, own, series, f, ends, x, state, row, points[i])
     for i in range(SAMPLES):
-        u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
-        values[first + i] = interpolated(x, slip_range, u * c - (1 - u) * a)
-        values[first + SAMPLES + i], _ = at_point(
-            law, own, series, f, ends, x, state, row, u * row[C] - (1 - u) * row[A]
-        )
+        values[first + i] = interpolated(x, slip_range, _sample(i, a, c))
+        point = _sample(i, row[A], row[C])
+        values[first + SAMPLES + i], _ = at_point(law, own, series, f, ends, x, state, row, point)
     return values, ends, always, total_slip
 
 

@@ -57,6 +57,16 @@ AGREED = 1e-8
 """Accuracy of the slip zones along the path, relative to their length."""
 
 
+@kernel(vector(LAW, vector, matrix, real))
+def _on_the_way(law: Any, own: Any, ends: Any, part: float) -> Any:
+    """The contact after a part of the path between two contacts, with loads in proportion."""
+    point, last = np.empty(5), ends.shape[0] - 1
+    for i in (LOAD, MOMENT):
+        point[i] = ends[0, i] + part * (ends[last, i] - ends[0, i])
+    point[A], point[C], point[TILT] = contact(law, own, point[LOAD], point[MOMENT])
+    return point
+
+
 @kernel(matrix(LAW, vector, matrix))
 def load_path(law: Any, own: Any, ends: Any) -> Any:
     """The path between two contacts, with loads in proportion; just these two if they are equal."""
@@ -66,10 +76,7 @@ def load_path(law: Any, own: Any, ends: Any) -> Any:
     for i in range(5):
         path[0, i], path[PARTS, i] = ends[0, i], ends[1, i]
     for k in range(1, PARTS):
-        part = k / PARTS
-        path[k, LOAD] = ends[0, LOAD] + part * (ends[1, LOAD] - ends[0, LOAD])
-        path[k, MOMENT] = ends[0, MOMENT] + part * (ends[1, MOMENT] - ends[0, MOMENT])
-        path[k, A], path[k, C], path[k, TILT] = contact(law, own, path[k, LOAD], path[k, MOMENT])
+        path[k] = _on_the_way(law, own, ends, k / PARTS)
     return path
 
 
@@ -99,9 +106,8 @@ def narrowest(law: Any, own: Any, ends: Any) -> Any:
         low, high = 0.0, 1.0
         while first < 0 < final and high - low > TURNED:
             part = (low + high) / 2
-            load = ends[0, LOAD] + part * (ends[last, LOAD] - ends[0, LOAD])
-            turn = ends[0, MOMENT] + part * (ends[last, MOMENT] - ends[0, MOMENT])
-            a, c, _ = contact(law, own, load, turn)
+            point = _on_the_way(law, own, ends, part)
+            a, c = point[A], point[C]
             if advances(ends, a + c, a, c)[side] < 0:
                 low = part
             else:
