@@ -15,8 +15,7 @@ import numpy as np
 
 from generated import catenary, flat_rounded, hertz, rounded_wedge, wedge
 from generated.runtime.body import kernel_of
-from generated.runtime.history.public import FEATURES, ZONE
-from generated.runtime.types import Regime
+from generated.runtime.types import FEATURES, ZONE, Regime
 from tests.reference.bounded import NoSolution
 from tests.reference.friction import Friction
 from tests.reference.kernel import Surface

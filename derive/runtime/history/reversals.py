@@ -43,13 +43,11 @@ import numpy as np
 from ..inverse import contact, contact_at_tilt
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, vector, whole
 from ..slip.shear import change_at
+from ..types import FEATURES
 from .path import SIGMA, M, P, Q
 
 MODERATE, FULL_STICK = 1.0, 5.0
 """Codes of Regime."""
-
-FEATURES = 10
-"""Number of results of an instant, as in solve.py."""
 
 IN_PHASE = 1e-9
 """Largest difference between sigma and k Q, relative to the largest sigma."""

@@ -10,7 +10,7 @@ from ..arrays import Numbers, shape_of
 from ..body import Asked, numbers_of
 from ..chunks import any_lazy
 from ..cycle import march, stick_zone
-from ..types import Array, Contact, History, Regime, SteadyCycle, StickZone
+from ..types import FEATURES, ZONE, Array, Contact, History, Regime, SteadyCycle, StickZone
 from .batch import run
 from .lazy import over_chunks
 from .loops import stick_zone_of_loop
@@ -20,9 +20,6 @@ _LOADS = ("P", "M", "Q", "sigma")
 _INSTANTS = {name: "t" for name in History._fields} | {"q": "t,p", "slip": "t,p"}
 _CYCLES = {name: "" for name in SteadyCycle._fields} | {"slip_range": "p", "q": "p"}
 """Axes of the results: t is time, p the points."""
-
-FEATURES, ZONE = len(History._fields) - 2, len(SteadyCycle._fields) - 2
-"""Numbers of results besides those at the points, which are q and slip."""
 
 TURNING = 1e-7
 """Error of a zone from stick_zone with mixed=True, relative to the contact width."""

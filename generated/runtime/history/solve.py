@@ -17,6 +17,7 @@ import numpy as np
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, truth, vector, whole
 from ..shared import shared
 from ..slip.growth import narrowest
+from ..types import FEATURES, ZONE
 from .elements import TERMS, influence, inverse_of
 from .path import INSTANT, SIGMA, A, C, M, P, Q, path
 from .steps import (
@@ -40,14 +41,6 @@ NO_STICK = 10.0
 
 SAMPLES = 24
 """Number of points at which shear tractions and slip on two meshes are compared."""
-
-FEATURES = 10
-"""Number of results of an instant: a, c, m, n, intervals, regime, work, and the errors of m and n,
-of work and of slip."""
-
-ZONE = 10
-"""Number of results of a cycle: m, n, regime, work, rounds, drift, and the errors of m and n, of
-work, of slip and of the shear traction."""
 
 FEWEST = 64
 """Elements of the first mesh.  On a mesh with k times as many, a cycle takes at least k steps from
