@@ -57,6 +57,9 @@ from sympy import (
     tanh,
 )
 
+WHOLE = "the whole expression"
+"""The end of `Edit.what` for a change of a whole side."""
+
 KINDS = ("sign", "factor", "swap", "function", "exponent", "term", "modulus")
 """The kinds of changes, in the order of preference."""
 
@@ -161,7 +164,7 @@ def _put(expr: Expr, part: Expr, other: Expr) -> Expr:
 
 
 def _signs(expr: Expr) -> Iterator[Edit]:
-    yield Edit("sign", "of the whole", -expr)
+    yield Edit("sign", f"of {WHOLE}", -expr)
     for total in _places(expr, Add):
         for term in total.args:
             yield Edit("sign", f"of {term}", _put(expr, total, total - 2 * term))
@@ -176,7 +179,7 @@ def _functions(expr: Expr) -> list[Expr]:
 
 def _whole_factors(expr: Expr) -> Iterator[Edit]:
     for factor in (*_FACTORS, *_neighbours(expr)):
-        yield Edit("factor", f"{factor} on the whole", factor * expr)
+        yield Edit("factor", f"{factor} on {WHOLE}", factor * expr)
 
 
 def _neighbours(term: Expr) -> list[Expr]:
@@ -279,7 +282,7 @@ def _in_one_factor(expr: Expr) -> Iterator[Edit]:
 
 def _upside_down(expr: Expr) -> Iterator[Edit]:
     """Yield reciprocals: of the whole expression, of a number, and of a factor and a divisor."""
-    yield Edit("exponent", "-1 on the whole", 1 / expr)
+    yield Edit("exponent", f"-1 on {WHOLE}", 1 / expr)
     for product in [n for n in _places(expr, Mul) if n.has(Symbol)]:
         number, rest = product.as_coeff_Mul()
         if number not in (1, -1):
@@ -308,7 +311,7 @@ def _terms(expr: Expr, swaps: tuple[Symbol, ...]) -> Iterator[Edit]:
 
 
 def _moduli(expr: Expr) -> Iterator[Edit]:
-    yield Edit("modulus", "around the whole", Abs(expr))
+    yield Edit("modulus", f"around {WHOLE}", Abs(expr))
     for modulus in _places(expr, Abs):
         for sense in (1, -1):
             inside = sense * modulus.args[0]

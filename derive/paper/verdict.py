@@ -43,7 +43,7 @@ from derive.paper.draw import (
     variables,
 )
 from derive.paper.numbers import DIGITS, Pair, apart, both, near, numbers
-from derive.paper.repair import KINDS, Edit, edits, plain_edits, regrouped
+from derive.paper.repair import KINDS, WHOLE, Edit, edits, plain_edits, regrouped
 from derive.paper.tending import Approach
 from derive.paper.values import Care, Undecided, Undefined, evaluated
 from derive.paper.zero import constant, vanishes, vanishes_at
@@ -495,7 +495,7 @@ def _to_the_digits_with_a_factor(claim: Claim, rounded: Rounded) -> Repair | Non
     digit = 2 * rounded.half
     other = digit * int(mpmath.nint(true * digit.q / digit.p))
     corrections = [
-        (claim.left, factor * claim.right, rounded, f"{factor} on the whole") for factor in _LOST
+        (claim.left, factor * claim.right, rounded, f"{factor} on {WHOLE}") for factor in _LOST
     ]
     if other > 0:
         larger, new = other / rounded.value, replace(rounded, value=other)
@@ -576,7 +576,7 @@ def _batches(claim: Claim) -> Iterator[Iterable[Candidate]]:
     """
     if has_integral(claim) or claim.toward is not None:
         single = list(_single(claim))
-        whole = [c for c in single if c[2].what.endswith("the whole")]
+        whole = [c for c in single if c[2].what.endswith(WHOLE)]
         yield whole
         yield _scaled(claim)
         for kind in KINDS:
@@ -637,7 +637,7 @@ def _scaled(claim: Claim) -> Iterator[Candidate]:
         ratio = quotient(claim)
         factor = ratio.simple_factor if ratio is not None else None
     if factor is not None:
-        edit = Edit("factor", f"{factor} on the whole", factor * claim.right)
+        edit = Edit("factor", f"{factor} on {WHOLE}", factor * claim.right)
         yield claim.left, edit.expr, edit
 
 

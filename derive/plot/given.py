@@ -106,8 +106,8 @@ def demand_row(name: str, values: Array) -> None:
     shape = values.shape
     if len(shape) != 1 or shape[0] < 2:
         raise ValueError(
-            f"{name} has the shape {shape}; give an array of one dimension with at least two "
-            "values, such as np.linspace(0, 1, 101)"
+            f"{name} has the shape {shape}; give a one-dimensional array of at least two values, "
+            "such as np.linspace(0, 1, 101)"
         )
     demand_finite(name, values)
 

@@ -50,7 +50,10 @@ SAME = {
         "eq17",
         "m and n exchanged",
     ): "the condition of strain is symmetric in m and n where p is even",
-    ("appendix/definitions/chi", "of the whole"): "only the square of the modulus enters",
+    (
+        "appendix/definitions/chi",
+        "of the whole expression",
+    ): "only the square of the modulus enters",
 }
 """Changes that change nothing."""
 

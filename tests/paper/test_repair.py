@@ -182,7 +182,7 @@ def test_trials_are_made_where_both_sides_are_real(tmp_path: Path) -> None:
     """For x**2 > a**2, sqrt(1/w) and 1/sqrt(w) are imaginary and have opposite signs."""
     finding = judged(tmp_path, "n*sqrt(1/(1 - x**2/a**2)) = n/(2*sqrt(1 - x**2/a**2))")
     assert finding.repair is not None
-    assert finding.repair.what == "2 on the whole"
+    assert finding.repair.what == "2 on the whole expression"
 
 
 def test_a_limit_that_depends_on_what_moves_is_unchecked(tmp_path: Path) -> None:

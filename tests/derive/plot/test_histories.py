@@ -103,7 +103,7 @@ TWO = History(*(np.stack([v, v]) for v in WHOLE))
     ("history", "x", "words"),
     [
         *((WHOLE, X[:9], "give the same x"), (NO_PLACES, X, "history contains no slip")),
-        *((TWO, X, "only one history"), (WHOLE, X[:, None], "an array of one dimension")),
+        *((TWO, X, "only one history"), (WHOLE, X[:, None], "a one-dimensional array")),
         *((WHOLE, X[::-1], "x must increase, but .* at index 1; sort x"), (WHOLE, "x", "x is 'x'")),
         (WHOLE, X + 0.3 * EDGE, "x is not the x of history: .* inside the contact, but .* no slip"),
         (WHOLE, 1.3 * X, "x is not the x of history: .* outside the contact, but .* shear"),
