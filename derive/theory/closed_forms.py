@@ -201,7 +201,8 @@ def _whole(frame: Frame, term: Special, factors: list[Expr]) -> Expr:
         starts = [i for i, end in enumerate(inner) if end.is_finite and end - term.place == 0]
         if not starts:
             raise NoRule(f"{term.term}, which does not begin at a kink")
-        acts = [(i - starts[0]) * term.side >= 0 for i in range(len(factors))]
+        indices = range(len(factors))
+        acts = [i >= starts[0] if term.side > 0 else i <= starts[0] for i in indices]
     whole = factors[acts.index(True)]
     for here, held in zip(factors, acts, strict=True):
         if simplify(here - (whole if held else 0)) != 0:

@@ -51,6 +51,7 @@ from sympy import (
 )
 from sympy.logic.boolalg import Boolean
 from sympy.polys.fields import sfield
+from sympy.polys.rings import PolyElement, PolyRing
 
 from derive.symbols import E_star, a, c, h, mid, x
 from derive.theory.frame import RootFrame
@@ -334,11 +335,11 @@ class Root:
             for order, weight in weights.items()
         ]
         polynomials = [_along(self.frame.quadratic), *(whole for _, whole in numerators)]
-        rows = [Poly(whole, X).all_coeffs()[::-1] for whole in polynomials]
+        rows = [Poly(whole, X).all_coeffs() for whole in polynomials]
         field, elements = sfield([k for row in rows for k in row])
-        inside = iter(elements)
-        quadratic, *others = ([next(inside) for _ in row] for row in rows)
-        table = _Table(field, quadratic)
+        inside, polynomials_in = iter(elements), PolyRing(X, field)
+        q, *others = (polynomials_in.from_list([next(inside) for _ in row]) for row in rows)
+        table = _Table(q)
         total = [field.zero] * 3
         for (level, _), numerator in zip(numerators, others, strict=True):
             total = _sum(total, table.integral(numerator, level))
@@ -363,35 +364,33 @@ class Root:
         return found | {K / mean: first, third_kind / mean: third}
 
 
-@dataclass(frozen=True)
 class _Table:
     """Integrals over theta of polynomials in X over q**(1/2 + level), in a field of quotients.
 
-    Polynomials are lists of coefficients that begin with the constant.  Integrals are lists of the
-    coefficients of the functions that `Root` names.
+    Integrals are lists of the coefficients of the functions that `Root` names.
     """
 
-    field: Any
-    q: list[Any]
+    def __init__(self, q: PolyElement) -> None:
+        self.q, self.X, self.field = q, q.ring.gens[0], q.ring.domain
 
-    def integral(self, numerator: list[Any], level: int) -> list[Any]:
+    def integral(self, numerator: PolyElement, level: int) -> list[Any]:
         """int numerator(X) q**(-1/2 - level)."""
         if level == 0:
-            return self._combined(numerator, self._powers(len(numerator)))
-        quotient, rest = self._divided(numerator)
+            return self._combined(numerator, self._powers(len(numerator.to_dense())))
+        quotient, rest = numerator.div(self.q)
         over = self._combined(rest, self._with_pole(level))
         return _sum(over, self.integral(quotient, level - 1))
 
-    def _combined(self, polynomial: list[Any], powers: list[list[Any]]) -> list[Any]:
+    def _combined(self, polynomial: PolyElement, powers: list[list[Any]]) -> list[Any]:
         """Sum of coefficients times integrals of powers of X."""
         total = [self.field.zero] * 3
-        for k, integral in zip(polynomial, powers, strict=False):
+        for k, integral in zip(reversed(polynomial.to_dense()), powers, strict=False):
             total = _sum(total, integral, k)
         return total
 
     def _powers(self, count: int) -> list[list[Any]]:
         """U_0, U_1, ..., up to `count` of them."""
-        q0, q1, q2 = self.q
+        q0, q1, q2 = (self.q.coeff(self.X**k) for k in range(3))
         zero, one = self.field.zero, self.field.one
         first, second = [2 * one, zero, zero], [-q1 / q2, zero, q1 / q2]
         found = [first, second, _sum([zero, 2 / q2, zero], second, -q1 / (2 * q2))]
@@ -406,9 +405,9 @@ class _Table:
     def _with_pole(self, level: int) -> list[list[Any]]:
         """int q**(-1/2 - level) and int X q**(-1/2 - level), from two integrals that are zero."""
         rows, known = [], []
-        for r in ([1], [0, 1]):
-            quotient, rest = self._divided(self._vanishing(r, level))
-            rows.append(rest)
+        for r in (self.X**0, self.X):
+            quotient, rest = self._vanishing(r, level).div(self.q)
+            rows.append([rest.coeff(1), rest.coeff(self.X)])
             known.append([-value for value in self.integral(quotient, level - 1)])
         (p, q), (r, s) = rows
         determinant = p * s - q * r
@@ -418,44 +417,13 @@ class _Table:
             _sum(_sum(nothing, known[1], p / determinant), known[0], -r / determinant),
         ]
 
-    def _vanishing(self, r: list[int], level: int) -> list[Any]:
+    def _vanishing(self, r: PolyElement, level: int) -> PolyElement:
         """Numerator over q**(1/2 + level) of the derivative of sin(theta) r(X) q**(1/2 - level)."""
-        one = self.field.one
-        sine = [one, 0 * one, -one]
-        rate = [self.q[1], 2 * self.q[2]]
-        own = [0 * one, *(one * k for k in r)]
-        slope = [one * k * i for i, k in enumerate(r)][1:] or [0 * one]
-        first = _product(_added(own, [-k for k in _product(sine, slope)]), self.q)
-        second = _product(_product(sine, [one * k for k in r]), rate)
-        return _added(first, [k * (2 * level - 1) / 2 for k in second])
-
-    def _divided(self, numerator: list[Any]) -> tuple[list[Any], list[Any]]:
-        """Quotient and remainder of the division by q."""
-        rest = [*numerator, *[self.field.zero] * (2 - len(numerator))]
-        quotient: list[Any] = []
-        while len(rest) > 2:
-            top = rest.pop() / self.q[2]
-            quotient.insert(0, top)
-            rest[-1] -= top * self.q[1]
-            rest[-2] -= top * self.q[0]
-        return quotient, rest
+        square = 1 - self.X**2
+        own = (self.X * r - square * r.diff(self.X)) * self.q
+        return own + square * r * self.q.diff(self.X) * (2 * level - 1) / 2
 
 
 def _sum(first: list[Any], second: list[Any], times: Any = 1) -> list[Any]:
     """first + times second, term by term."""
     return [p + times * q for p, q in zip(first, second, strict=True)]
-
-
-def _added(first: list[Any], second: list[Any]) -> list[Any]:
-    """The sum of two polynomials."""
-    longer, shorter = sorted((first, second), key=len, reverse=True)
-    return [k + shorter[i] if i < len(shorter) else k for i, k in enumerate(longer)]
-
-
-def _product(first: list[Any], second: list[Any]) -> list[Any]:
-    """The product of two polynomials."""
-    found = [0 * first[0]] * (len(first) + len(second) - 1)
-    for i, p in enumerate(first):
-        for j, q in enumerate(second):
-            found[i + j] = found[i + j] + p * q
-    return found
