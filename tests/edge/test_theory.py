@@ -40,3 +40,13 @@ def test_what_has_grown_grows_again() -> None:
     assert [expand(a - b) for a, b in zip(once, twice, strict=True)] == [0, 0, 0]
     assert edge.grown((K, L, N), S.Zero) == [K, L, N]
     assert list(zone.shifted((K, L, N), move)) != [K, L, N]
+
+
+def test_what_a_pressure_was_before_its_edge_advanced() -> None:
+    """K_N = K + L u + N u**2 at an edge that was still u behind, where u**k gives p a share of
+    s**(k + 1/2): int_0^1 v**k/(2 sqrt(1 - v)) dv = 1, 2/3, 8/15."""
+    second, third = Rational(2, 3), Rational(8, 15)
+    now = (K, second * L, third * N)
+    before = (K + L * move + N * move**2, second * (L + 2 * N * move), third * N)
+    pairs = zip(edge.grown(now, move), before, strict=True)
+    assert [expand(a - b) for a, b in pairs] == [0, 0, 0]
