@@ -27,6 +27,9 @@ COSINE, EVEN, CENTRED = 0.0, 1.0, 2.0
 
 GRADING = 4.0
 """Distance from the centre of a refined part over the width of an element at that distance."""
+DEEPEST = 8.0
+"""Largest logarithm of the ratio of that distance at the ends of the part to that of its smallest
+elements.  Much smaller elements would leave no digits in the influence matrix."""
 
 _TIMES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 _TIMES, _WEIGHTS = (1 + _TIMES) / 2, _WEIGHTS / 2
@@ -56,7 +59,7 @@ def _elements_before(parts: Any, x: float) -> float:
         if kind == COSINE:
             u = math.acos(1 - 2 * u) / math.pi
         elif kind == CENTRED:
-            offset, side = 2 * u - 1, count / (2 * GRADING)
+            offset, side = 2 * u - 1, min(count / (2 * GRADING), DEEPEST)
             u = (1 + math.copysign(math.log1p(abs(offset) * math.expm1(side)) / side, offset)) / 2
         total += count * u
     return total

@@ -43,7 +43,7 @@ SAMPLES = 24
 
 FEWEST = 64
 """Elements of the first mesh.  On a mesh with k times as many, a cycle takes at least k steps from
-one instant to the next, and a history at least k/2."""
+one instant to the next, and a history at least k**2/8."""
 
 REACH = 3.84
 """Largest motion of an edge in a step, relative to the contact width, times the number of
@@ -178,7 +178,7 @@ def history_on_mesh(
     instants, asked = loads.shape[1], points.size
     values = np.full((instants, FEATURES + 2 * asked + 2 * SAMPLES), math.nan)
     values[:, 5] = NONE
-    least = max(count // (2 * FEWEST), 1)
+    least = max((count // FEWEST) ** 2 // 8, 1)
     rows = path(law, own, loads, f, REACH / count, least, LAST)
     touches, unknown = False, UNSOLVED if np.all(np.isfinite(loads)) else NONE
     for k in range(rows.shape[0]):
