@@ -217,7 +217,7 @@ def _of_polynomials(frame: Frame, pieces: list[Expr], look: LookAtClock) -> dict
     """The contribution of the polynomials to every formula, by angles and roots of the kinks."""
     base = pieces[sum(k.kink.side < 0 for k in frame.kinks)]
     steps = zip(frame.kinks, pairwise(pieces), strict=True)
-    jumps = [expand((right - left) * k.kink.side) for k, (left, right) in steps]
+    jumps = [expand(q - p if k.kink.side > 0 else p - q) for k, (p, q) in steps]
     if all(part == 0 for part in (base, *jumps)):
         return dict.fromkeys(WEIGHTS, S.Zero)
     first, second, third = (polynomial_moment(k, frame, base, jumps) for k in range(3))

@@ -353,15 +353,13 @@ class Root:
         return polynomial
 
     def _written(self, coefficients: list[Expr]) -> Integrals:
-        """The sum by K, E - (1 - m) K and (1 - n) Pi, or by K - (1 - n) Pi alone."""
+        """The sum by K, E - (1 - m) K and (1 - n) Pi."""
         f = self.frame
         mean, K = sqrt(f.left * f.right), elliptic_k(f.m)
         third_kind = (1 - f.n) * elliptic_pi(f.n, f.m)
         first, second, third = (factor(k) for k in coefficients)
-        found = {(elliptic_e(f.m) - (1 - f.m) * K) * mean: second}
-        if factor(first + third) == 0:
-            return found | {(K - third_kind) / mean: first}
-        return found | {K / mean: first, third_kind / mean: third}
+        second_kind = elliptic_e(f.m) - (1 - f.m) * K
+        return {second_kind * mean: second, K / mean: first, third_kind / mean: third}
 
 
 class _Table:
@@ -391,8 +389,8 @@ class _Table:
     def _powers(self, count: int) -> list[list[Any]]:
         """U_0, U_1, ..., up to `count` of them."""
         q0, q1, q2 = (self.q.coeff(self.X**k) for k in range(3))
-        zero, one = self.field.zero, self.field.one
-        first, second = [2 * one, zero, zero], [-q1 / q2, zero, q1 / q2]
+        zero = self.field.zero
+        first, second = [self.field(2), zero, zero], [-q1 / q2, zero, q1 / q2]
         found = [first, second, _sum([zero, 2 / q2, zero], second, -q1 / (2 * q2))]
         for k in range(count - 3):
             following = _sum([zero] * 3, found[k + 2], q1 * (2 * k + 3) / 2)
