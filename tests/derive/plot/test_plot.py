@@ -445,7 +445,7 @@ REFUSED: dict[str, Callable[[], Any]] = {
     "^sigma is nan": lambda: shear(DQ, np.nan, DQ, 0.0),
     "only one cycle can be drawn": lambda: plot.stick_slip(TWO),
     "one time for each of the 41 instants": lambda: plot.stick_slip(ONE, [0.0, 1.0]),
-    r"parameter has the shape \(\); give an array": lambda: sweep(parameter=1.0),
+    r"parameter has the shape \(\); give a one-dimensional array": lambda: sweep(parameter=1.0),
     "parameter contains NaN": lambda: sweep(parameter=[0.0, np.nan]),
     r"dsigma has the shape \(3,\), but there are 2": lambda: sweep(dsigma=np.ones(3)),
     r"contact.a has the shape \(3,\)": lambda: sweep(contact=Contact(*np.ones((3, 3)))),
