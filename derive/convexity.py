@@ -180,7 +180,7 @@ def _positive(expr: Expr, relation: type[Relational] = Gt) -> list[Boolean] | No
 
 
 def _above(expr: Expr, relation: type[Relational] = Gt) -> Boolean:
-    """The relation expr > 0, if possible solved for a symbol in which `expr` is linear and rising."""
+    """The relation expr > 0, solved, if possible, for a symbol in which `expr` rises linearly."""
     for symbol in sorted(expr.free_symbols, key=str):
         rate = diff(expr, symbol)
         if rate.is_number and rate.is_positive:

@@ -408,7 +408,7 @@ def _inverse(
                 expr,
                 f"{meaning} from {loads}",
                 unit,
-                "solution of load(a, c), moment(a, c) and tilt(a, c)",
+                "inverse of load(a, c), moment(a, c) and tilt(a, c)",
                 conditions,
             )
 

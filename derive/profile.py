@@ -273,7 +273,7 @@ def _switching_points(name: str, node: Expr) -> list[Expr]:
             raise BadProfile(
                 name,
                 f"switches branches with {argument}, which is not a polynomial in x",
-                "use only polynomials in x in conditions and in Abs, Max, Min, sign and Heaviside, "
+                "in conditions and in Abs, Max, Min, sign, Heaviside, use only polynomials in x, "
                 "such as x - b",
             )
         points += _roots(name, Poly(argument, x))

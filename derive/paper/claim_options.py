@@ -98,8 +98,8 @@ def cases(claim: Entries, context: Context) -> tuple[Mapping[Symbol, str], ...]:
     for each in claim.tables("cases", "[{ l = 1 }]"):
         for name, value in each.items():
             if not isinstance(context.variables.get(name), Symbol) or not is_bound(value):
-                why = f"cases: {name} = {value!r} is not a variable with a number"
-                raise claim.place.bad(why, "write [{ l = 1 }] with variables of the claim")
+                why = f"cases: {name} = {value!r} does not give a number to a variable of the claim"
+                raise claim.place.bad(why, "give numbers to variables, such as [{ l = 1 }]")
         made.append({context.variables[name]: str(value) for name, value in each.items()})
     return tuple(made)
 

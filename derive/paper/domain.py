@@ -28,7 +28,7 @@ def _has_one_sign(expr: Expr, ranges: Mapping[Symbol, Range]) -> bool:
 
 
 def _from_positive(symbol: Symbol, span: Range | None) -> Expr:
-    """Express the variable through another one that takes all positive values."""
+    """Express the variable in terms of one that takes all positive values, where possible."""
     free = Dummy(symbol.name, positive=True)
     if span is None or span == SCALE or span.powers:
         return free if symbol.is_positive else symbol

@@ -175,7 +175,7 @@ class Meanings:
 
 
 def changed(put: Put, other: Meant) -> Meaning:
-    """Return the meanings in an equation that change if its symbols have other meanings."""
+    """Return the new meanings of the redefined symbols and of all calls in an equation."""
     replaced = {s: expr for s, expr in other.ours.items() if put.meaning.get(s) != expr}
     return {**replaced, **put.called(other.ours)}
 
