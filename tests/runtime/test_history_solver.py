@@ -60,7 +60,10 @@ def test_turning_points_and_steady_cycles_come_to_the_exact_zone(one):
 @pytest.mark.enough("turning_points-1-*", "settled-5-1e-05", "settled-8-0.0001")
 @pytest.mark.parametrize(
     ("found", "at", "tol"),
-    [*((turning_points, at, 1e-5) for at in (1, 2)), *product([settled], (1, 5, 8), (1e-4, 1e-5))],
+    [
+        *((turning_points, at, 1e-5) for at in (1, 2, 5)),
+        *product([settled], (1, 5, 8), (1e-4, 1e-5)),
+    ],
 )
 def test_and_closer_when_asked(found, at, tol):
     """Large tension; moderate tension at varying loads; both together."""

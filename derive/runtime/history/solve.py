@@ -49,7 +49,7 @@ REACH = 3.84
 """Largest motion of an edge in a step, relative to the contact width, times the number of
 elements."""
 
-LAST = 0.05
+LAST = 0.01
 """Length of the last step before an instant relative to the others.  The stick zone of the instant
 is that of this step; a slip zone that shrinks is longer in earlier steps."""
 
