@@ -443,7 +443,7 @@ def test_mirrored_loads_mirror_the_answer(case):
     assert np.max(here.error) < 0.011
     assert there.q == pytest.approx(-here.q, abs=3e-3)
     assert np.all(abs(there.work - here.work) < here.work_error + there.work_error)
-    assert here.work_error[-1] < 0.01 * here.work[-1]
+    assert here.work_error[-1] < 0.02 * here.work[-1]
 
 
 @kernel(vector(ADDRESSES, vector, real, matrix, matrix, whole))

@@ -142,6 +142,17 @@ def test_friction_takes_what_the_loads_give(body):
     assert abs(steady.work - told.by_shear) < steady.work_error + 1e-4 * told.by_shear
 
 
+@pytest.mark.parametrize("body", ["hertz", "rounded_wedge"])
+def test_the_stated_error_of_the_work_covers_it(body):
+    """In at least 95 of 100 instants; the truth is that of a mesh with more elements."""
+    case, rng, covered = CASES[body], np.random.default_rng(70), []
+    for varies, smooth in product((False, True), (False, True)):
+        loads = random_loads(case, rng, 8, varies, smooth)
+        plain, fine = (case.module.history(*loads, tol=t, **case.constants) for t in (1e-3, 1e-4))
+        covered += list((abs(plain.work - fine.work) <= plain.work_error)[fine.work > 0])
+    assert len(covered) > 24 and np.mean(covered) >= 0.95
+
+
 @pytest.mark.parametrize("body", ["hertz", "wedge"])
 def test_two_histories_under_the_same_loads_never_separate(body):
     loads = random_loads(CASES[body], np.random.default_rng(3), 7, True, False)

@@ -6,7 +6,8 @@ zone that were found on it.  The refinement stops when two meshes agree to the t
 results of the last mesh are returned.  The estimated error is the difference between the last two
 meshes, which exceeds the error of the last one.  For m and n half an element is added, because
 a stick-slip boundary lies between two elements.  The estimated error of the frictional work is the
-sum of the differences between the last two meshes from instant to instant.
+sum of the differences between the last two meshes from instant to instant, in a cycle at least the
+work of their difference in slip range, times a factor.
 """
 
 import math
@@ -59,6 +60,9 @@ EACH = 16
 
 APART = 3.0
 """Stick-slip boundaries closer together than this times `tol` count as one in the refinement."""
+
+CAUTION = 2.0
+"""Factor on the difference in work between two meshes, which is small by chance on some."""
 
 MOST_ROUNDS = 100
 """Largest number of repetitions of a cycle."""
@@ -242,6 +246,20 @@ def _of_shear(fine: Any, coarse: Any, first: int) -> float:
     return shear / total
 
 
+@kernel(real(vector, whole))
+def _work_of(slip: Any, first: int) -> float:
+    """Work over f P of the magnitude of slip at the samples, which begin at `first`.
+
+    The pressure is taken to be semi-elliptical.
+    """
+    work = total = 0.0
+    for i in range(SAMPLES):
+        weight = math.sin(math.pi * (i + 0.5) / SAMPLES)
+        work += weight**2 * abs(slip[first + i])
+        total += weight
+    return 4 / math.pi * work / total
+
+
 @kernel(real(vector, vector, real, whole))
 def _error(fine: Any, coarse: Any, mean: float, first: int) -> float:
     """Estimated error of one instant from two meshes; `mean` is f P/h."""
@@ -288,7 +306,7 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
                     if here[5] != NONE:
                         work_error += abs((here[6] - fine_work) - (coarse[k, 6] - coarse_work))
                         fine_work, coarse_work = here[6], coarse[k, 6]
-                        here[8] = work_error
+                        here[8] = CAUTION * work_error
             if met or elements >= _finest(tol):
                 break
             coarse, elements = fine, 2 * elements
@@ -519,7 +537,8 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
                     fine[:7], less[:2] = direct[:7], math.nan
             if elements > FEWEST:
                 met = fine[2] == coarse[2]
-                fine[7] += abs(fine[3] - coarse[3])
+                slipped = 2 * f * np.max(loads[0]) * _work_of(fine - coarse, first)
+                fine[7] += CAUTION * max(abs(fine[3] - coarse[3]), slipped)
                 fine[8] = _of_slip(fine, coarse, first)
                 fine[9] = _of_shear(fine, coarse, first + SAMPLES)
                 if fine[2] == COMPUTED:
