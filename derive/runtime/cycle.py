@@ -218,7 +218,8 @@ def why(
 
     Notes
     -----
-    One cycle at a time: every argument is a number.
+    One cycle at a time: every argument is a number.  The docstring of Regime explains the codes of
+    march, history and steady_cycle.
     """
     zone = stick_zone(asked, first, second, dQ, dsigma, f=f, E_star=E_star)
     if np.ndim(zone.regime):
@@ -559,7 +560,8 @@ def march(
     March
         a, c, m, n [m]; left, right: +1 forward slip, -1 reverse slip, 0 none; regime.  All
         instants of a cycle are NaN, and the regime gives the reason, if it is OUT_OF_PHASE (the
-        loads are not in proportion at every instant, to 1e-6 of their change), NOT_CLOSED (the
+        loads are not in proportion at every instant, to 1e-6 of their change, or they turn within
+        a half-cycle), NOT_CLOSED (the
         step from the last instant back to the first is at least 99 % of the whole change, as in a
         first loading), SLIDING (|Q| >= f P at some instant), NO_STICK (no stick zone can hold the
         mean of Q, to 1e-3 of f P) or NONE (a contact does not exist).  Use steady_cycle for

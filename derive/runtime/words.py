@@ -18,7 +18,7 @@ MEANINGS = {
     "order": "order of the series: 1, 2 or 3",
     "second": "Contact at the end of that half-cycle; equal to first for constant normal loads",
     "sigma": "differential bulk tension at every instant [Pa]",
-    "tol": "target error, relative to the contact width for m and n, to f P/(a + c) for shear",
+    "tol": "target error: of m and n over a + c, in a history also of shear over f P/(a + c)",
     "x": "position along the interface, positive to the right [m]",
     "E_star": "composite modulus, 1/E* = 2 (1 - nu^2)/E for similar bodies in plane strain [Pa]",
 }

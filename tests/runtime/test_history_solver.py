@@ -153,6 +153,29 @@ def test_the_stated_error_of_the_work_covers_it(body):
     assert len(covered) > 24 and np.mean(covered) >= 0.95
 
 
+@pytest.mark.parametrize("body", ["hertz", "rounded_wedge"])
+def test_the_stated_errors_of_slip_and_shear_cover_them(body):
+    """In at least 95 of 100 instants and cycles; the truth is that of finer meshes."""
+    case, rng, slips, shears = CASES[body], np.random.default_rng(71), [], []
+    angle = np.pi * (np.arange(200) + 0.5) / 200
+    place, weight = 0.5 - 0.5 * np.cos(angle), np.sin(angle) / np.sum(np.sin(angle))
+
+    def twice(function, loads):
+        edges = case.module.history(*loads, **case.constants)
+        x = place * (edges.a[0] + edges.c[0]) - edges.a[0]
+        return (function(*loads, x=x, tol=t, **case.constants) for t in (1e-3, 1e-4))
+
+    for varies, smooth in product((False, True), (False, True)):
+        loads = random_loads(case, rng, 6, varies, smooth)
+        plain, fine = twice(case.module.history, loads)
+        slips += list(np.nanmax(abs(plain.slip - fine.slip), axis=1) <= plain.slip_error)
+    for _ in range(8):
+        plain, fine = twice(case.module.steady_cycle, in_phase(case, rng))
+        slips.append(np.nanmax(abs(plain.slip_range - fine.slip_range)) <= plain.slip_error)
+        shears.append(np.sum(weight * abs(plain.q - fine.q)) <= plain.shear_error)
+    assert np.mean(slips) >= 0.95 and np.mean(shears) >= 0.95
+
+
 @pytest.mark.parametrize("body", ["hertz", "wedge"])
 def test_two_histories_under_the_same_loads_never_separate(body):
     loads = random_loads(CASES[body], np.random.default_rng(3), 7, True, False)
@@ -189,4 +212,4 @@ def test_the_slip_range_of_a_steady_cycle_is_known_to_the_stated_error(dQ, dsigm
         )
         exact = case.module.slip_range(x, here, here, dQ, dsigma, **case.constants)
         assert np.all(abs(found.slip_range - exact) <= found.slip_error)
-        assert found.slip_error < tol
+        assert found.slip_error < 3 * tol

@@ -63,6 +63,12 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(14)
 _NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
 """Gauss's rule on (0, 1)."""
 
+_PLACES, _LENGTHS = np.polynomial.legendre.leggauss(24)
+_PLACES, _LENGTHS = (1 + _PLACES) / 2, _LENGTHS / 2
+_LENGTHS *= 140 * _PLACES**3 * (1 - _PLACES) ** 3
+_PLACES = _PLACES**4 * (35 - 84 * _PLACES + 70 * _PLACES**2 - 20 * _PLACES**3)
+"""The same, for a function that has a square root or a logarithm at both ends."""
+
 
 @kernel(real(matrix, real))
 def _tension(loads: Any, f: float) -> float:
@@ -137,14 +143,12 @@ def _dissipated(law: Any, own: Any, cycle: Any, m: float, n: float) -> float:
         low, end = (-cycle[0], -m) if side == 0 else (n, cycle[1])
         while low < end:
             high = _next_break(breaks, low, end)
-            for i in range(_NODES.size):
-                # next to an edge the pressure is like the square root of the distance
-                angle = math.pi / 2 * _NODES[i]
-                x = low + (high - low) * math.sin(angle) ** 2
+            for i in range(_PLACES.size):
+                # the pressure is like a square root at an edge, and like a logarithm at a corner
+                x = low + (high - low) * _PLACES[i]
                 p = law.pressure(x, cycle[0], cycle[1], own)
                 if 0 < p < math.inf:
-                    weight = math.pi / 2 * (high - low) * math.sin(2 * angle) * _WEIGHTS[i]
-                    total += weight * p * gap(law, own, breaks, m, n, x)
+                    total += (high - low) * _LENGTHS[i] * p * gap(law, own, breaks, m, n, x)
             low = high
     return 2 * cycle[6] ** 2 * total
 
@@ -175,7 +179,10 @@ def _branch(law: Any, own: Any, cycle: Any, normal: Any, points: Any, k: float, 
 
 @kernel(whole(LAW, vector, real, matrix, vector, vector))
 def moderate_history(law: Any, own: Any, f: float, loads: Any, points: Any, out: Any) -> int:
-    """Write a history in the form of solve.each_history; return 0 if it is not of this kind."""
+    """Write a history in the form of solve.each_history; return 0 if it is not of this kind.
+
+    Meanwhile out[0] is the completed fraction, times -1.
+    """
     instants, asked = loads.shape[1], points.size
     k = _tension(loads, f)
     if math.isnan(k):
@@ -183,10 +190,12 @@ def moderate_history(law: Any, own: Any, f: float, loads: Any, points: Any, out:
     a, c, tilt = contact(law, own, loads[P, 0], loads[M, 0])
     if not (a + c > 0 and abs(k) * math.pi * (a + c) <= 8):
         return 0
+    values = np.zeros(out.size)
     normal, cycle = np.array([loads[P, 0], tilt]), np.array([a, c, a, c, 0.0, 0.0, f])
     stack, top, sign = np.zeros((instants + 1, POINTS + 2 * asked)), -1, 1.0
     last_Q, work, rounding = 0.0, 0.0, ROUNDING * f * loads[P, 0]
     for j in range(instants):
+        out[0] = -j / instants
         left = abs(loads[Q, j] - last_Q)
         if left > 0 or j == 0:
             new_sign = math.copysign(1.0, loads[Q, j] - last_Q)
@@ -206,8 +215,7 @@ def moderate_history(law: Any, own: Any, f: float, loads: Any, points: Any, out:
             if not _branch(law, own, cycle, normal, points, k, stack[top]):
                 return 0
             work += scale * (stack[top, WORK] - before)
-        here = out[j * (FEATURES + 2 * asked) : (j + 1) * (FEATURES + 2 * asked)]
-        here[:] = 0.0
+        here = values[j * (FEATURES + 2 * asked) : (j + 1) * (FEATURES + 2 * asked)]
         here[0], here[1], here[4], here[6] = a, c, 1.0, work
         here[2], here[3] = stack[top, LEFT], stack[top, RIGHT]
         here[5] = MODERATE if stack[top, CHANGE] > 0 else FULL_STICK
@@ -215,6 +223,7 @@ def moderate_history(law: Any, own: Any, f: float, loads: Any, points: Any, out:
             factor = (sign if (top - b) % 2 == 0 else -sign) * (1.0 if b > 0 else 0.5)
             for i in range(2 * asked):
                 here[FEATURES + i] += factor * stack[b, POINTS + i]
+    out[:] = values
     return 1
 
 

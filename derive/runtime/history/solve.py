@@ -6,7 +6,8 @@ results of the last mesh are returned.  The estimated error is the difference be
 meshes, which exceeds the error of the last one.  For m and n half an element is added, because
 a stick-slip boundary lies between two elements.  The estimated error of the frictional work is the
 sum of the differences between the last two meshes from instant to instant, in a cycle at least the
-work of their difference in slip range, times a factor.
+work of their difference in slip range, times a factor.  The factor also applies to slip, where the
+largest difference counts, and to the shear traction of a cycle.
 """
 
 import math
@@ -14,33 +15,37 @@ from typing import Any
 
 import numpy as np
 
+from ..inverse import contact
 from ..kernels import LAW, LOOP, kernel, matrix, opened, real, results, truth, vector, whole
 from ..shared import shared
 from ..slip.growth import narrowest
 from ..types import FEATURES, ZONE
 from .elements import TERMS, influence, inverse_of
-from .path import INSTANT, SIGMA, A, C, M, P, Q, path
+from .path import INSTANT, SIGMA, A, C, M, P, Q, notable_edges, path
 from .steps import (
     BOUND,
     COMPUTED,
     FULL_STICK,
+    JUMP,
+    KINK,
     NONE,
+    SHEAR,
     SLIDING,
     SLIP,
     SLIP_OF_STEP,
     UNSOLVED,
     at_point,
-    interpolated,
     mesh_for,
     step,
     sticking,
+    value_at,
 )
+
+TOTAL, RANGE, ALWAYS, FIRST_SHEAR = range(4)
+"""Rows of the results of a cycle on the elements."""
 
 NO_STICK = 10.0
 """Another code of Regime: every point slips at some time, though the contact never slides."""
-
-SAMPLES = 24
-"""Number of points at which shear tractions and slip on two meshes are compared."""
 
 FEWEST = 64
 """Elements of the first mesh.  On a mesh with k times as many, a cycle takes at least k steps from
@@ -57,11 +62,14 @@ is that of this step; a slip zone that shrinks is longer in earlier steps."""
 EACH = 16
 """Smallest number of elements of a mesh for each point towards which it is refined."""
 
+DISTINCT = 1e-4
+"""Edges of resting contacts closer together than this fraction of the width count as one."""
+
 APART = 3.0
 """Stick-slip boundaries closer together than this times `tol` count as one in the refinement."""
 
 CAUTION = 2.0
-"""Factor on the difference in work between two meshes, which is small by chance on some."""
+"""Factor on differences between two meshes that are small by chance on some."""
 
 MOST_ROUNDS = 100
 """Largest number of repetitions of a cycle."""
@@ -69,9 +77,11 @@ MOST_ROUNDS = 100
 REPEATED = 1e-6
 """A cycle has settled if slip changes by less than this fraction of the largest slip."""
 
-THRESHOLD = 1e-4
-"""Slip in a cycle below this fraction of the largest counts as zero; thirty times as much is also
-tried."""
+SPURIOUS, THRESHOLD, WIDE = 5e-4, 1e-4, 3e-3
+"""Slip in a cycle below the fraction THRESHOLD of the largest counts as zero, or on meshes of fewer
+than ENOUGH elements below SPURIOUS.  The fraction WIDE is also tried."""
+
+ENOUGH = 512
 
 NOTICED = 0.01
 """The extrapolated slip is used if it widens the stick zone by more than this fraction of the
@@ -135,12 +145,23 @@ def _thinned(points: Any, size: float, distance: float, most: int) -> Any:
 
 @shared
 def _discretised(law: Any, own: Any, rows: Any, count: int, stick_ends: Any) -> Any:
-    """A mesh for a path: element ends, A, its inverse, z, and two arrays for the steps to use."""
-    ends = mesh_for(law, own, rows, count, stick_ends)
+    """A mesh for a path: element ends, where slip has jumps or kinks, A, its inverse, z, and two
+    arrays for the steps to use.
+    """
+    widest = np.nanmax(rows[:, A] + rows[:, C])
+    rests = _thinned(notable_edges(rows, True), widest, DISTINCT, count // EACH)
+    turns = _thinned(notable_edges(rows, False), widest, DISTINCT, count // EACH)
+    edges = np.concatenate((rests, turns))
+    ends, bends = mesh_for(law, own, rows, count, stick_ends, edges), np.zeros(count + 1)
+    for k in range(edges.size):
+        i = min(np.searchsorted(ends, edges[k]), count)
+        if ends[i] == edges[k]:
+            bends[i] = max(bends[i], JUMP if k < rests.size else KINK)
+    bends[0] = bends[count] = JUMP
     A_ = influence(ends)
     B = inverse_of(A_)
     z = _inverse_times(B, ends[1:] - ends[:-1])
-    return ends, A_, B, z, np.zeros((count + 1, count)), np.zeros((5, count))
+    return ends, bends, A_, B, z, np.zeros((count + 1, count)), np.zeros((5, count))
 
 
 @kernel(truth(vector, vector))
@@ -152,11 +173,10 @@ def _move(row: Any, last: Any) -> bool:
     return False
 
 
-@kernel(real(whole, real, real))
-def _sample(i: int, a: float, c: float) -> float:
-    """The place of a sample in the contact [-a, c]; samples are closer together at the edges."""
-    u = 0.5 - 0.5 * math.cos(math.pi * (i + 0.5) / SAMPLES)
-    return -a + u * (a + c)
+@kernel(real(whole, real, whole))
+def _completed(count: int, part: float, finest: int) -> float:
+    """The completed fraction of the work on all meshes, when a part of that on one mesh is done."""
+    return ((count**2 - FEWEST**2) / 3 + part * count**2) / ((4 * finest**2 - FEWEST**2) / 3)
 
 
 @shared
@@ -173,14 +193,16 @@ def history_on_mesh(
 ) -> Any:
     """A history on one mesh: one row per instant.
 
-    A row holds the features, q and slip at the points, and q and slip at the samples.  `error` is
-    only the error of m and n due to the mesh, and the other errors are NaN.
+    A row holds the features, then q and slip at the points.  `error` is only the error of m and n
+    due to the mesh, and the other errors are NaN.  Also returns shear traction and slip of the
+    elements at each instant, their ends, and where slip has jumps or kinks.
 
     progress[0] becomes the completed fraction of the work on all meshes, times -1.  A mesh with
     twice as many elements takes four times as long.
     """
     instants, asked = loads.shape[1], points.size
-    values = np.full((instants, FEATURES + 2 * asked + 2 * SAMPLES), math.nan)
+    values = np.full((instants, FEATURES + 2 * asked), math.nan)
+    fields, nothing = np.full((instants, 2, count), math.nan), np.empty(0)
     values[:, 5] = NONE
     least = max((count // FEWEST) ** 2 // 8, 1)
     rows = path(law, own, loads, f, REACH / count, least, LAST)
@@ -188,13 +210,12 @@ def history_on_mesh(
     for k in range(rows.shape[0]):
         touches = touches or rows[k, A] + rows[k, C] > 0
     if not (touches and f > 0):
-        return values
-    ends, A_, B, z, room, state = _discretised(law, own, rows, count, stick_ends)
+        return values, fields, nothing, nothing
+    ends, bends, A_, B, z, room, state = _discretised(law, own, rows, count, stick_ends)
     x, series, lost = (ends[1:] + ends[:-1]) / 2, np.empty(TERMS), False
     work, regime, m, n, intervals, error = 0.0, NONE, math.nan, math.nan, 0.0, 0.0
     for k in range(rows.shape[0]):
-        done = (count**2 - FEWEST**2) / 3 + count**2 * (k / rows.shape[0])
-        progress[0] = -done / ((4 * finest**2 - FEWEST**2) / 3)
+        progress[0] = -_completed(count, k / rows.shape[0], finest)
         row, last = rows[k], rows[max(k - 1, 0)]
         for i in range(4):
             lost = lost or not math.isfinite(row[i])
@@ -205,8 +226,8 @@ def history_on_mesh(
             work += more
             m, n, intervals, error = math.nan, math.nan, 0.0, 0.0
             if regime == COMPUTED:
-                m, n, intervals, slips, doubt = sticking(x, state, row[A], row[C], k <= least)
-                regime = FULL_STICK if slips == 0 else COMPUTED
+                m, n, intervals, slipping, doubt = sticking(x, state, row[A], row[C], k <= least)
+                regime = FULL_STICK if slipping == 0 else COMPUTED
                 error = (_mesh_error(ends, m, n, row[A], row[C]) + doubt) / (row[A] + row[C])
         if row[INSTANT] < 0:
             continue
@@ -217,51 +238,47 @@ def history_on_mesh(
         if regime in (UNSOLVED, NONE):
             continue
         here[2], here[3], here[4], here[6], here[7] = m, n, intervals, work, error
-        first = FEATURES + 2 * asked
         for i in range(asked):
-            here[FEATURES + i], slip = at_point(law, own, series, f, ends, x, state, row, points[i])
+            q, slip = at_point(law, own, series, f, ends, x, state, bends, row, points[i])
+            here[FEATURES + i] = q
             here[FEATURES + asked + i] = slip if work == work else math.nan
-        for i in range(SAMPLES):
-            point = _sample(i, row[A], row[C])
-            here[first + i], slip = at_point(law, own, series, f, ends, x, state, row, point)
-            here[first + SAMPLES + i] = slip if work == work else math.nan
-    return values
+        fields[int(row[INSTANT]), 0] = state[SHEAR]
+        if work == work:
+            fields[int(row[INSTANT]), 1] = state[SLIP]
+    return values, fields, ends, bends
 
 
-@kernel(real(vector, vector, whole))
-def _of_slip(fine: Any, coarse: Any, first: int) -> float:
-    """The largest difference of slip at the samples, which begin at `first`."""
-    return float(np.max(np.abs(fine[first : first + SAMPLES] - coarse[first : first + SAMPLES])))
+@kernel(results(3)(vector, vector, vector, vector, vector, real, real))
+def _differences(
+    ends: Any, values: Any, coarse_ends: Any, coarse_bends: Any, coarse: Any, a: float, c: float
+) -> Any:
+    """Of the values of elements on two meshes in [-a, c]: the largest difference and two means.
 
-
-@kernel(real(vector, vector, whole))
-def _of_shear(fine: Any, coarse: Any, first: int) -> float:
-    """The mean difference of shear traction at the samples, which begin at `first`."""
-    shear = total = 0.0
-    for i in range(SAMPLES):
-        weight = math.sin(math.pi * (i + 0.5) / SAMPLES)
-        shear += weight * abs(fine[first + i] - coarse[first + i])
-        total += weight
-    return shear / total
-
-
-@kernel(real(vector, whole))
-def _work_of(slip: Any, first: int) -> float:
-    """Work over f P of the magnitude of slip at the samples, which begin at `first`.
-
-    The pressure is taken to be semi-elliptical.
+    The second mean is weighted by a semi-elliptical pressure.
     """
-    work = total = 0.0
-    for i in range(SAMPLES):
-        weight = math.sin(math.pi * (i + 0.5) / SAMPLES)
-        work += weight**2 * abs(slip[first + i])
-        total += weight
-    return 4 / math.pi * work / total
+    x, coarse_x = (ends[1:] + ends[:-1]) / 2, (coarse_ends[1:] + coarse_ends[:-1]) / 2
+    largest = mean = weighted = 0.0
+    for i in range(x.size):
+        if -a < x[i] < c:
+            off = abs(values[i] - value_at(coarse_ends, coarse_x, coarse_bends, coarse, x[i]))
+            largest = max(largest, off)
+            off *= ends[i + 1] - ends[i]
+            mean += off / (a + c)
+            weighted += off * math.sqrt((a + x[i]) * (c - x[i])) * 8 / math.pi / (a + c) ** 2
+    return largest, mean, weighted
 
 
-@kernel(real(vector, vector, real, whole))
-def _error(fine: Any, coarse: Any, mean: float, first: int) -> float:
-    """Estimated error of one instant from two meshes; `mean` is f P/h."""
+@kernel(real(vector, vector, vector, vector, real, real))
+def _of_shear(ends: Any, q: Any, coarse_ends: Any, coarse_q: Any, a: float, c: float) -> float:
+    """The mean difference of shear traction between two meshes in [-a, c]."""
+    smooth = np.zeros(coarse_ends.size)
+    smooth[0] = smooth[-1] = JUMP
+    return _differences(ends, q, coarse_ends, smooth, coarse_q, a, c)[1]
+
+
+@kernel(real(vector, vector))
+def _error(fine: Any, coarse: Any) -> float:
+    """Estimated error of m and n at one instant from two meshes."""
     h = fine[0] + fine[1]
     if fine[5] != coarse[5] and UNSOLVED in (fine[5], coarse[5]):
         return math.nan
@@ -271,8 +288,7 @@ def _error(fine: Any, coarse: Any, mean: float, first: int) -> float:
         if math.isnan(fine[i]) != math.isnan(coarse[i]):
             difference = 1.0
         error = max(error, difference if difference == difference else 0.0)
-    error += fine[7]
-    return max(error, _of_shear(fine, coarse, first) / mean)
+    return error + fine[7]
 
 
 @kernel(LOOP)
@@ -288,19 +304,34 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         points = given[row, 3 + 4 * count :]
-        first, elements, met = FEATURES + 2 * asked, FEWEST, False
-        coarse, stick_ends = np.empty((0, 0)), np.empty(0)
+        elements, met, stick_ends = FEWEST, False, np.empty(0)
+        coarse, coarse_fields = np.empty((0, 0)), np.empty((0, 2, 0))
+        coarse_ends, coarse_bends = stick_ends, stick_ends
         while True:
-            fine = history_on_mesh(
+            fine, fields, ends, bends = history_on_mesh(
                 law, own[row], f, loads, points, elements, stick_ends, _finest(tol), out[row]
             )
-            if elements > FEWEST:
+            met = ends.size == 0
+            if elements > FEWEST and not met:
                 met, work_error, fine_work, coarse_work = True, 0.0, 0.0, 0.0
                 for k in range(count):
-                    here = fine[k]
-                    mean = f * loads[0, k] / (here[0] + here[1])
-                    here[7] = _error(here, coarse[k], mean, first)
-                    here[9] = _of_slip(here, coarse[k], first + SAMPLES)
+                    here, field, last = fine[k], fields[k], coarse_fields[k]
+                    a, c = here[0], here[1]
+                    shear = _of_shear(ends, field[0], coarse_ends, last[0], a, c)
+                    here[7] = max(_error(here, coarse[k]), shear * (a + c) / (f * loads[0, k]))
+                    if not math.isnan(field[1, 0]):
+                        here[9] = (
+                            CAUTION
+                            * _differences(
+                                ends,
+                                field[1],
+                                coarse_ends,
+                                coarse_bends,
+                                last[1],
+                                -ends[0],
+                                ends[-1],
+                            )[0]
+                        )
                     met = met and (here[7] <= tol or here[5] in (NONE, SLIDING, UNSOLVED))
                     if here[5] != NONE:
                         work_error += abs((here[6] - fine_work) - (coarse[k, 6] - coarse_work))
@@ -308,13 +339,12 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
                         here[8] = CAUTION * work_error
             if met or elements >= _finest(tol):
                 break
-            coarse, elements = fine, 2 * elements
+            coarse, coarse_fields, elements = fine, fields, 2 * elements
+            coarse_ends, coarse_bends = ends, bends
             stick_ends = np.concatenate((-coarse[:, 2], coarse[:, 3]))
             widest = np.nanmax(coarse[:, 0] + coarse[:, 1])
             stick_ends = _thinned(stick_ends, widest, APART * tol, elements // EACH)
-        for k in range(count):
-            for i in range(first):
-                out[row, k * first + i] = fine[k, i]
+        out[row] = fine.ravel()
 
 
 # ---------------------------------------------------------------- steady cycles
@@ -389,26 +419,27 @@ def _smallest(law: Any, own: Any, rows: Any) -> Any:
 def cycle_on_mesh(
     law: Any, own: Any, f: float, loads: Any, points: Any, count: int, stick_ends: Any
 ) -> Any:
-    """A cycle on one mesh: the results of a cycle, then slip range and first q at the points, and
-    at the samples.
+    """A cycle on one mesh: the results of a cycle, then slip range and first q at the points.
 
     m and n are the edges of the smallest contact, and the error of work is only that due to the
-    drift; the other errors are NaN.  Also returns the ends of the elements, whether they are
-    always in contact, and their total slip in a cycle.
+    drift; the other errors are NaN.  Also returns the ends of the elements, where slip has jumps or
+    kinks, and rows: the total slip and the slip range of the elements in a cycle, 1 for those that
+    are always in contact, and first q.
     """
-    nothing = np.empty(0)
+    nothing, fields = np.empty(0), np.ones((4, count))
     asked = points.size
-    values, first = np.full(ZONE + 2 * asked + 2 * SAMPLES, math.nan), ZONE + 2 * asked
+    values = np.full(ZONE + 2 * asked, math.nan)
     values[2] = NONE
     least = count // FEWEST
     rows = path(law, own, loads, f, REACH / count, least, 0.0)
     for k in range(rows.shape[0]):
         known = rows[k, A] + rows[k, C] > 0 and f > 0
         if not (known and math.isfinite(rows[k, Q]) and math.isfinite(rows[k, SIGMA])):
-            return values, nothing, nothing, nothing
-    ends, A_, B, z, room, state = _discretised(law, own, rows, count, stick_ends)
+            return values, nothing, nothing, fields
+    ends, bends, A_, B, z, room, state = _discretised(law, own, rows, count, stick_ends)
     x, series = (ends[1:] + ends[:-1]) / 2, np.empty(TERMS)
-    total_slip, before, always = np.zeros(x.size), np.zeros(x.size), np.ones(x.size)
+    total_slip, slip_range, always = fields[TOTAL], fields[RANGE], fields[ALWAYS]
+    before = np.zeros(x.size)
     low, high = np.zeros(x.size), np.zeros(x.size)
     work, drift = 0.0, math.inf
     for round_ in range(MOST_ROUNDS + 1):
@@ -423,7 +454,7 @@ def cycle_on_mesh(
             code, more = step(law, own, series, f, ends, previous, row, A_, B, z, state, room)
             if code != COMPUTED:
                 values[2] = code
-                return values, nothing, nothing, nothing
+                return values, nothing, nothing, fields
             work += more
             for i in range(x.size):
                 total_slip[i] += abs(state[SLIP_OF_STEP, i])
@@ -441,16 +472,13 @@ def cycle_on_mesh(
     values[3], values[5], values[7] = work, drift, drift * work
     a, c = _smallest(law, own, rows)
     values[0], values[1], values[2] = a, c, COMPUTED
-    slip_range, row = high - low, rows[-1]
+    slip_range[:], fields[FIRST_SHEAR] = high - low, state[SHEAR]
     for i in range(asked):
+        q, _ = at_point(law, own, series, f, ends, x, state, bends, rows[-1], points[i])
+        values[ZONE + asked + i] = q
         if -a <= points[i] <= c:
-            values[ZONE + i] = interpolated(x, slip_range, points[i])
-        values[ZONE + asked + i], _ = at_point(law, own, series, f, ends, x, state, row, points[i])
-    for i in range(SAMPLES):
-        values[first + i] = interpolated(x, slip_range, _sample(i, a, c))
-        point = _sample(i, row[A], row[C])
-        values[first + SAMPLES + i], _ = at_point(law, own, series, f, ends, x, state, row, point)
-    return values, ends, always, total_slip
+            values[ZONE + i] = value_at(ends, x, bends, slip_range, points[i])
+    return values, ends, bends, fields
 
 
 @kernel(whole(vector, vector, vector, vector, real))
@@ -463,13 +491,14 @@ def _find_zone(values: Any, ends: Any, always: Any, total_slip: Any, most: float
     if most == 0 and inner_a + inner_c > 0:
         values[2] = FULL_STICK
         return 1
-    m, n = _permanent_zone(ends, always, total_slip, THRESHOLD * most)
+    threshold = THRESHOLD if ends.size > ENOUGH else SPURIOUS
+    m, n = _permanent_zone(ends, always, total_slip, threshold * most)
     values[2] = COMPUTED
     if math.isnan(m):
         values[2], values[6] = NO_STICK, math.nan
     values[0], values[1] = min(m, inner_a), min(n, inner_c)
     if values[2] == COMPUTED:
-        wide_m, wide_n = _permanent_zone(ends, always, total_slip, 30 * THRESHOLD * most)
+        wide_m, wide_n = _permanent_zone(ends, always, total_slip, WIDE * most)
         h = inner_a + inner_c
         difference = max(abs(wide_m - m), abs(wide_n - n))
         values[6] = (difference + _mesh_error(ends, m, n, inner_a, inner_c)) / h
@@ -517,29 +546,39 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         count = (given.shape[1] - 3 - asked) // 4
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         points = given[row, 3 + 4 * count :]
-        first, elements, met, stick_ends = ZONE + 2 * asked, FEWEST, False, np.empty(0)
-        coarse_ends, coarse_slip = np.empty(0), np.empty(0)
-        coarse = np.full(first + 2 * SAMPLES, math.nan)
+        elements, met, stick_ends = FEWEST, False, np.empty(0)
+        coarse_ends, coarse_bends, coarse_fields = stick_ends, stick_ends, np.empty((4, 0))
+        coarse = np.full(ZONE + 2 * asked, math.nan)
         coarse_direct, coarse_less = coarse, coarse
+        first = contact(law, own[row], loads[0, 0], loads[1, 0])
         while True:
-            fine, ends, always, slip = cycle_on_mesh(
+            out[row, 0] = -_completed(elements, 0.0, _finest(tol))
+            fine, ends, bends, fields = cycle_on_mesh(
                 law, own[row], f, loads, points, elements, stick_ends
             )
-            direct, less = fine.copy(), fine.copy()
+            direct, less, a, c = fine.copy(), fine.copy(), fine[0], fine[1]
+            slip, always = fields[TOTAL], fields[ALWAYS]
             if fine[2] == COMPUTED:
                 _find_zone(direct, ends, always, slip, np.max(slip))
-                if coarse_slip.size > 0:
-                    smaller = _extrapolated(ends, slip, coarse_ends, coarse_slip)
+                if coarse_ends.size > 0:
+                    smaller = _extrapolated(ends, slip, coarse_ends, coarse_fields[TOTAL])
                     _find_zone(less, ends, always, smaller, np.max(slip))
                     _choose_zone(fine, direct, less, coarse_direct, coarse_less)
                 else:
                     fine[:7], less[:2] = direct[:7], math.nan
             if elements > FEWEST:
                 met = fine[2] == coarse[2]
-                slipped = 2 * f * np.max(loads[0]) * _work_of(fine - coarse, first)
-                fine[7] += CAUTION * max(abs(fine[3] - coarse[3]), slipped)
-                fine[8] = _of_slip(fine, coarse, first)
-                fine[9] = _of_shear(fine, coarse, first + SAMPLES)
+                if coarse_ends.size > 0 and ends.size > 0:
+                    largest, _, weighted = _differences(
+                        ends, fields[RANGE], coarse_ends, coarse_bends, coarse_fields[RANGE], a, c
+                    )
+                    slipped = 2 * f * np.max(loads[0]) * weighted
+                    fine[7] += CAUTION * max(abs(fine[3] - coarse[3]), slipped)
+                    q, coarse_q = fields[FIRST_SHEAR], coarse_fields[FIRST_SHEAR]
+                    fine[8] = CAUTION * largest
+                    fine[9] = CAUTION * _of_shear(
+                        ends, q, coarse_ends, coarse_q, first[0], first[1]
+                    )
                 if fine[2] == COMPUTED:
                     met = met and fine[6] <= tol
                 elif not met:
@@ -547,9 +586,10 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
             if met or elements >= _finest(tol):
                 break
             coarse, elements = fine, 2 * elements
-            coarse_direct, coarse_less, coarse_ends, coarse_slip = direct, less, ends, slip
+            coarse_direct, coarse_less = direct, less
+            coarse_ends, coarse_bends, coarse_fields = ends, bends, fields
             stick_ends = np.array([-coarse[0], coarse[1]])
             stick_ends = _thinned(stick_ends, coarse[0] + coarse[1], APART * tol, elements // EACH)
         if fine[5] > REPEATED:
             fine[6] = math.inf
-        out[row] = fine[:first]
+        out[row] = fine

@@ -30,6 +30,12 @@ SHEAR, BOUND, STATUS, SLIP, SLIP_OF_STEP = range(5)
 NONE, SLIDING, FULL_STICK, UNSOLVED, COMPUTED = 0.0, 4.0, 5.0, 6.0, 9.0
 """Codes of Regime."""
 
+OUTSIDE = 0.1
+"""An element of which no larger part is outside the contact counts as in contact."""
+
+KINK, JUMP = 1.0, 2.0
+"""What slip does where an edge of the contact turns, and where it rests."""
+
 QUIET, FINE, FLAT = 1e-3, 8.0, 0.03
 """Slip in a step below the fraction QUIET of the largest may be spurious; on meshes of more than
 about 250 elements, the limit is (FINE/elements)**2.  Elements that slip so little may take up at
@@ -39,11 +45,12 @@ ROUNDING = 1e-12
 """The contact slides if |Q| is below f P by less than this fraction of f P."""
 
 
-@kernel(vector(LAW, vector, matrix, whole, vector))
-def mesh_for(law: Any, own: Any, rows: Any, count: int, stick_ends: Any) -> Any:
+@kernel(vector(LAW, vector, matrix, whole, vector, vector))
+def mesh_for(law: Any, own: Any, rows: Any, count: int, stick_ends: Any, edges: Any) -> Any:
     """A mesh for a path: finer where edges move, and refined towards edges, kinks and `stick_ends`.
 
     stick_ends: points where stick intervals end, as far as they are known.
+    edges: points where slip has jumps or kinks; elements end there.
     """
     left = right = -math.inf
     inner_left = inner_right = math.inf
@@ -69,7 +76,7 @@ def mesh_for(law: Any, own: Any, rows: Any, count: int, stick_ends: Any) -> Any:
         if -left < centre < right:
             reach = 0.1 * h
             parts[5 + k] = np.array([CENTRED, centre - reach, centre + reach, share * count])
-    return mesh(parts, -left, right, breaks, count)
+    return mesh(parts, -left, right, np.concatenate((breaks, edges)), count)
 
 
 # ---------------------------------------------------------------- stick zone
@@ -170,7 +177,24 @@ def interpolated(x: Any, values: Any, point: float) -> float:
     return (1 - t) * values[j] + t * values[j + 1]
 
 
-@kernel(results(2)(LAW, vector, vector, real, vector, vector, matrix, vector, real))
+@kernel(real(vector, vector, vector, vector, real))
+def value_at(ends: Any, x: Any, bends: Any, values: Any, point: float) -> float:
+    """Values at a point, from its element and a neighbour on the same side of any jump or kink.
+
+    bends: JUMP or KINK at the ends of elements, otherwise 0.  If there is no such neighbour, one
+    beyond a kink is taken, and otherwise none.
+    """
+    k: Any = min(max(np.searchsorted(ends, point) - 1, 0), x.size - 1)
+    toward = 1 if point > x[k] else -1
+    for most in (0.0, KINK):
+        for side in (toward, -toward):
+            if bends[k + (side + 1) // 2] <= most:
+                slope = (values[k + side] - values[k]) / (x[k + side] - x[k])
+                return values[k] + slope * (point - x[k])
+    return values[k]
+
+
+@kernel(results(2)(LAW, vector, vector, real, vector, vector, matrix, vector, vector, real))
 def at_point(
     law: Any,
     own: Any,
@@ -179,6 +203,7 @@ def at_point(
     ends: Any,
     x: Any,
     state: Any,
+    bends: Any,
     row: Any,
     point: float,
 ) -> Any:
@@ -187,7 +212,7 @@ def at_point(
         return math.nan, math.nan
     if not ends[0] <= point <= ends[x.size]:
         return 0.0, math.nan
-    slip = interpolated(x, state[SLIP], point)
+    slip = value_at(ends, x, bends, state[SLIP], point)
     bound = f * pressure_at(law, own, series, point, row[A], row[C])
     if not bound > 0:
         return 0.0, slip
@@ -200,25 +225,53 @@ def at_point(
 # ---------------------------------------------------------------- steps
 
 
-@kernel(real(vector, vector, vector, vector, matrix))
-def _add_slip(w: Any, bound: Any, q: Any, s: Any, state: Any) -> float:
+@kernel(real(real, vector, vector))
+def _part_in_contact(x: float, before: Any, now: Any) -> float:
+    """The fraction of a step during which x is in contact.
+
+    before, now: a and c, which vary linearly.
+    """
+    enters, leaves = not -before[0] < x < before[1], not -now[0] < x < now[1]
+    if enters == leaves:
+        return 0.0 if enters else 1.0
+    outside, inside = (before, now) if enters else (now, before)
+    side, at = (0, -x) if x <= -outside[0] else (1, x)
+    return (inside[side] - at) / (inside[side] - outside[side])
+
+
+@kernel(real(vector, vector, vector, vector, vector, vector, vector, matrix))
+def _add_slip(
+    ends: Any, w: Any, before: Any, now: Any, bound: Any, q: Any, s: Any, state: Any
+) -> float:
     """Add the slip of a step to the state, and return the frictional work of the step.
 
-    bound, q: their values before the step.
+    before, now: a and c; bound, q: their values before the step.
+
+    Where the edge passes, s is not slip, because surfaces apart move too.  Elements slip there like
+    the nearest one that is in contact throughout, for the time of their contact.
 
     The work includes elements that the contact reaches or leaves in this step.  Where an edge
     passes, the mean of f p over the step is not the mean of its values before and after it.  The
     sum of these differences over all elements is zero, because f P varies linearly.
     """
-    work = 0.0
+    work, first, last = 0.0, w.size, -1
     for i in range(w.size):
         state[SLIP_OF_STEP, i] = 0.0
         if state[BOUND, i] > 0 and state[STATUS, i] != 0:
             state[SLIP_OF_STEP, i] = -2 * s[i]
-            state[SLIP, i] += state[SLIP_OF_STEP, i]
             work += w[i] * (bound[i] + state[BOUND, i]) / 2 * abs(state[SLIP_OF_STEP, i])
         elif bound[i] > 0 and state[BOUND, i] == 0:
             work -= w[i] * q[i] * s[i]
+        outside = max(-ends[i] - min(before[0], now[0]), ends[i + 1] - min(before[1], now[1]))
+        if outside <= OUTSIDE * w[i]:
+            first, last = min(first, i), i
+    for i in range(w.size):
+        if last >= 0 and not first <= i <= last:
+            slips = state[BOUND, i] == 0 or state[STATUS, i] != 0
+            x = (ends[i] + ends[i + 1]) / 2
+            part = _part_in_contact(x, before, now) if slips else 0.0
+            state[SLIP_OF_STEP, i] = part * state[SLIP_OF_STEP, first if i < first else last]
+        state[SLIP, i] += state[SLIP_OF_STEP, i]
     return work
 
 
@@ -283,8 +336,8 @@ def step(
     s, given = np.empty(count), np.empty(1)
     given[0] = now[Q]
     if new_contact:
-        trial[:] = 0.0
-        add_full_stick(ends, now[A : C + 1], now[A : C + 1], now[Q], 0.0, trial)
+        # P and Q have grown from zero in proportion, and every point has stuck since its contact
+        trial[:] = state[BOUND] * (now[Q] / (f * now[P]))
     else:
         add_full_stick(
             ends,
@@ -297,4 +350,4 @@ def step(
     _guess_status(old, state, new_contact)
     if not nearest(A_, B, z, w, trial, state[BOUND], given, state[STATUS], state[SHEAR], s, room):
         return UNSOLVED, math.nan
-    return COMPUTED, _add_slip(w, old, q_before, s, state)
+    return COMPUTED, _add_slip(ends, w, before[A : C + 1], now[A : C + 1], old, q_before, s, state)

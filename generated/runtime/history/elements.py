@@ -32,6 +32,9 @@ DEEPEST = 8.0
 """Largest logarithm of the ratio of that distance at the ends of the part to that of its smallest
 elements.  Much smaller elements would leave no digits in the influence matrix."""
 
+NARROWEST = 0.1
+"""Smallest width of an element next to a break relative to the width without the break."""
+
 _TIMES, _WEIGHTS = np.polynomial.legendre.leggauss(5)
 _TIMES, _WEIGHTS = (1 + _TIMES) / 2, _WEIGHTS / 2
 
@@ -68,11 +71,15 @@ def _elements_before(parts: Any, x: float) -> float:
 
 @kernel(vector(matrix, real, real, vector, whole))
 def mesh(parts: Any, start: float, end: float, breaks: Any, count: int) -> Any:
-    """Ends of `count` elements, distributed as the parts prescribe, with an end at every break."""
+    """Ends of `count` elements, distributed as the parts prescribe, with an end at every break.
+
+    A break between two ends that are at breaks already, or very close to one of them, is left out.
+    """
     first = _elements_before(parts, start)
     step = (_elements_before(parts, end) - first) / count
-    ends = np.empty(count + 1)
+    ends, fixed = np.empty(count + 1), np.zeros(count + 1, np.bool_)
     ends[0], ends[count] = start, end
+    fixed[0] = fixed[count] = True
     for i in range(1, count):
         low, high = ends[i - 1], end
         for _ in range(40):
@@ -84,8 +91,14 @@ def mesh(parts: Any, start: float, end: float, breaks: Any, count: int) -> Any:
         ends[i] = (low + high) / 2
     for x in breaks:
         if start < x < end:
-            nearest: Any = min(max(np.argmin(np.abs(ends - x)), 1), count - 1)
-            ends[nearest] = x
+            right: Any = np.searchsorted(ends, x)
+            left = right - 1
+            size = ends[right] - ends[left]
+            to_left = fixed[right] or (x - ends[left] < ends[right] - x and not fixed[left])
+            moved = left if to_left else right
+            other = right if to_left else left
+            if not fixed[moved] and abs(x - ends[other]) > NARROWEST * size:
+                ends[moved], fixed[moved] = x, True
     return ends
 
 

@@ -4,8 +4,8 @@ r"""The loads and contacts of a history; between two instants all loads vary lin
 Rows of a path hold P, M, Q, sigma, a, c, and the number of the instant, or -1 between instants.
 Steps are so short that no edge moves farther than `reach` times the widest contact, and a step ends
 wherever |Q| reaches f P or falls below it.  After a loss of contact, the path begins with a small
-contact.  If no small contact exists, because the contact appears far away and rolls in, its shear
-traction is not known, and Q in the first row is NaN.
+contact, or that of a flat body under a small load.  If there is neither, because the contact
+appears far away and rolls in, its shear traction is not known, and Q in the first row is NaN.
 """
 
 import math
@@ -14,13 +14,17 @@ from typing import Any
 import numpy as np
 
 from ..inverse import contact
-from ..kernels import LAW, kernel, matrix, real, vector, whole
+from ..kernels import LAW, kernel, matrix, real, truth, vector, whole
 
 P, M, Q, SIGMA, A, C, INSTANT = range(7)
 """Columns of a path."""
 
 SMALL = 0.02
 """Width of the first contact after a loss of contact, relative to that at the next instant."""
+
+UNLOADED = 1e-4
+"""A flat body begins with a wide contact, under less than this fraction of the load at the next
+instant."""
 
 
 @kernel(whole(LAW, vector, vector))
@@ -111,7 +115,8 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
                     start = t
             start = high
             _between(law, own, instants, k, start, rows[count])
-            if not rows[count, A] + rows[count, C] < 2 * SMALL * w:
+            small = rows[count, A] + rows[count, C] < 2 * SMALL * w
+            if not (small or rows[count, P] < UNLOADED * instants[k, P]):
                 rows[count, Q] = math.nan
             count += 1
         limits = _sliding_limits(loads, k, f)
@@ -129,3 +134,21 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
             count += 1
             last = t
     return rows[:count]
+
+
+@kernel(vector(matrix, truth))
+def notable_edges(rows: Any, resting: bool) -> Any:
+    """Where edges of the contact rest, or else where they turn or end.
+
+    Slip has jumps where edges rest, and kinks where they turn.
+    """
+    points, count = np.empty(2 * rows.shape[0]), 0
+    for k in range(1, rows.shape[0]):
+        last, row, following = rows[k - 1], rows[k], rows[min(k + 1, rows.shape[0] - 1)]
+        for i in (A, C):
+            rests = row[i] == last[i]
+            turns = not rests and (row[i] - last[i]) * (following[i] - row[i]) <= 0
+            if rests if resting else turns:
+                points[count] = -row[i] if i == A else row[i]
+                count += 1
+    return points[:count]
