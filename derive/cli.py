@@ -30,6 +30,7 @@ from derive.terminal import (
     output_table,
     path_of,
     progress,
+    remark,
     status,
     typed,
 )
@@ -98,9 +99,16 @@ def _what_failed(error: OSError) -> str:
 
 
 def _demand_surroundings() -> None:
-    """Check that there is a standard output and a working directory."""
+    """Check that there is a standard output and a working directory.
+
+    A closed standard error becomes the null device; otherwise, another file would get its number.
+    """
     if sys.stdout is None:
         raise OSError(errno.EBADF, "the standard output is closed, so nothing can be printed")
+    if sys.stderr is None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+        os.set_inheritable(2, True)
+        sys.stderr = os.fdopen(2, "w", closefd=False)
     try:
         Path.cwd()
     except OSError as error:
@@ -195,18 +203,19 @@ def show(
     if slip:
         click.echo(apart(slip_of, name, slip))
         return
-    shown, remark = apart(sheet_of, name, "latex" if latex else code or "", limit)
-    if remark:
-        click.echo(remark, err=True)
+    shown, said = apart(sheet_of, name, "latex" if latex else code or "", limit)
+    if said:
+        remark(said)
     if isinstance(shown, str):
         click.echo(shown)
     else:
-        output(shown)
+        output_table(shown)
 
 
 def _show_page(name: str, out: Path | None, limit: float) -> None:
     """Write the page of one body."""
-    from derive.handbook.shelf import put_page
+    import derive.handbook  # noqa: F401 - reports a missing library at once
+    from derive.shelf import put_page
     from derive.showing import apart, page_of
 
     (body,) = _built((name,), None, False, limit)
@@ -217,8 +226,9 @@ def _show_page(name: str, out: Path | None, limit: float) -> None:
 
 def _show_pages(out: Path | None, limit: float) -> None:
     """Write the pages of the library with their index."""
-    from derive.handbook.shelf import demand_replaceable, put_pages
+    import derive.handbook  # noqa: F401 - reports a missing library at once
     from derive.library import library
+    from derive.shelf import demand_replaceable, put_pages
     from derive.showing import handbook
 
     folder = out or Path("handbook")
@@ -296,14 +306,14 @@ def generate(
     named.
 
     A body is taken from an earlier run if neither its geometry file nor the program has changed.
-    Such bodies are kept in the directory DERIVE_CACHE or in the user's cache; if DERIVE_CACHE is
-    empty, nothing is kept.
+    Such bodies are kept in the directory that the environment variable DERIVE_CACHE names, or else
+    in the user's cache; if DERIVE_CACHE is empty, nothing is kept.
     """
     from derive import view
     from derive.codegen.publish import resolved
     from derive.pipeline import Order
 
-    order = Order(sources, resolved(out) if out else None)
+    order = Order(sources, resolved(out) if out else None, writes=not check)
     bodies = _built(order.names, jobs, fresh or check, limit)
     if check:
         _report_drift(order, bodies)
@@ -378,8 +388,8 @@ def check(
 
     forms = {**report.FORMS}
     if page is not None or form == "html":
-        from derive.handbook.shelf import put_page
         from derive.paper.page import as_html
+        from derive.shelf import put_page
 
         forms["html"] = as_html
 
@@ -446,7 +456,7 @@ def edge(
     from derive.edge import report
     from derive.edge.find import find
     from derive.edge.table import read
-    from derive.handbook.shelf import MARK, put_page
+    from derive.shelf import MARK, put_page
     from derive.writing.options import said
 
     if not 0 < friction < inf:
@@ -456,8 +466,9 @@ def edge(
         raise click.BadParameter(
             f"{wrong.pop()!r} is neither x nor p: write x=UNIT or p=UNIT", param_hint="--unit"
         )
-    steps = read(file, given)
-    found = find(steps, file.name, friction, dQ, dsigma)
+    with status(f"fitting the edges of {file.name}"):
+        steps = read(file, given)
+        found = find(steps, file.name, friction, dQ, dsigma)
     click.echo(report.as_text(found))
     for path, option, text, mark in (
         (html, "--html", report.as_page(found, steps, file.name) if html else "", MARK),
@@ -552,12 +563,12 @@ def _built(sources: Sequence[str], jobs: int | None, fresh: bool, limit: float) 
     if folder := distrusted():
         why = "nothing is kept in this directory, because other users can write to it"
         remedy = "remove their permission to write, or set DERIVE_CACHE to another directory"
-        click.echo(f"{folder}: {why}: {remedy}", err=True)
+        remark(f"{folder}: {why}: {remedy}")
     with progress(len(sources), STAGES) as step:
         bodies = build_all(sources, step, jobs or cores(), fresh, limit)
     for body in bodies:
         if body.struck:
-            click.echo(f"{body.name}: {body.struck}", err=True)
+            remark(f"{body.name}: {body.struck}")
     return bodies
 
 

@@ -380,8 +380,8 @@ class _Fault(Exception):
         how = self.how if self.real else f"it {self.how}"
         why = f"is convex only for some values of its parameters, because {how} for {self.given}"
         remedy = (
-            "no condition on the parameters was found that can be checked; make g(x) convex for "
-            "all parameters, for example by replacing some with numbers or multiples of one length"
+            "no checkable condition on the parameters was found; make g(x) convex for all "
+            "parameters, for example by replacing some with numbers or multiples of one length"
         )
         return BadProfile(name, why, remedy)
 

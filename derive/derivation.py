@@ -148,6 +148,10 @@ def slip_series(
     terms = dict(zip(Edge, slip.terms(order), strict=True))
     held = set().union(*(term.free_symbols for found in terms.values() for term in found))
     shown = {symbol: value for symbol, value in ratios.items() if symbol in held}
+    own = {p.name for p in sheet.geometry.parameters}
+    ours = {s: Symbol(f"{s}_ratio", positive=True) for s in shown if s.name in own}
+    terms = {edge: tuple(t.xreplace(ours) for t in found) for edge, found in terms.items()}
+    shown = {ours.get(symbol, symbol): value for symbol, value in shown.items()}
     return terms, shown | {s: sheet.frame.flat(value) for s, value in values.items()}
 
 
@@ -291,7 +295,7 @@ def _rates(sheet: FormulaSheet) -> Iterator[Formula]:
                 Symbol(f"{sheet[of].symbol}_{symbol}"),
                 (a, c),
                 tidy(expr, sheet.frame),
-                f"rate of change of the {meaning} as only {symbol} grows",
+                f"rate of change of the {meaning} with {symbol} alone",
                 unit,
                 source,
                 conditions,

@@ -173,9 +173,8 @@ _FREE = "the disk is full: free some space, then run the command again"
 
 
 def _is_full(why: str) -> bool:
-    """Whether the system refused to write because the disk is full or the user's quota is
-    exceeded."""
-    codes = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
+    """Whether the system refused to write because of a full disk, a quota or a limit on size."""
+    codes = (errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC))
     return any(os.strerror(code) in why for code in codes)
 
 
@@ -283,7 +282,7 @@ class LostProcess(UserError):
 
 @dataclass
 class RanAway(UserError):
-    """The work on a body exceeded its limit of time or memory, or made its process fail."""
+    """The work on a body exceeded its limit of time or memory, or crashed."""
 
     what: str
     stage: str
@@ -295,14 +294,14 @@ class RanAway(UserError):
     def message(self) -> str:
         """State which stage was reached, which limit was exceeded, if any, and what to try."""
         if self.seconds is not None:
-            why = f"took longer than its limit of {self.seconds:g} s"
-            remedy = "the profile, or the file that defines it, takes too long: simplify it"
+            why = f"took longer than the limit of {self.seconds:g} s"
+            remedy = "simplify the profile, or the file that defines it"
         elif self.gigabytes is not None:
-            why = f"needed more memory than its limit of {self.gigabytes:g} GB"
+            why = f"needed more memory than the limit of {self.gigabytes:g} GB"
             remedy = "simplify the profile, or the file that defines it"
         else:
-            why = "made its process fail, which can happen if numbers are too large"
-            remedy = "simplify the profile, for example with fewer nested functions"
+            why = "crashed, which can happen if numbers are too large"
+            remedy = "simplify the profile, for example with fewer terms or nested functions"
         what, stage = self.what or "this body", self.stage or "starting"
         return f"{what}: the stage '{stage}' {why}: {self.remedy or remedy}"
 

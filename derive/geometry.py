@@ -66,7 +66,9 @@ _FOR_X = " for the position along the contact, which `from derive import x` prov
 
 def _is_taken(name: str) -> bool:
     """Whether a name belongs to one of the theory's own symbols."""
-    numbered = re.fullmatch(r"(theta|w|L|u|v|m|n|q_left|q_right)_\d+", name)
+    numbered = re.fullmatch(
+        r"(theta|w|L|u|v|m|n|q_left|q_right)_\d+|(t|sin|cos|tan|cot)_(x|\d+)", name
+    )
     return name in RESERVED or numbered is not None
 
 

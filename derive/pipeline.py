@@ -204,6 +204,7 @@ class Order:
 
     sources: names and files; empty for the whole library.
     folder: None for the package `generated`.
+    writes: False if the directory is only compared.
 
     Raises NeedsOutput for a file without a folder, InstalledPackage if there is no folder and
     `generated` is an installed package, and BadOutput for a folder that must not be replaced.
@@ -211,17 +212,20 @@ class Order:
 
     sources: tuple[str, ...] = ()
     folder: Path | None = None
+    writes: bool = True
 
     def __post_init__(self) -> None:
         if self.folder is not None:
-            demand_replaceable(self.folder)
+            if self.writes:
+                demand_replaceable(self.folder)
             return
         for source in self.sources:
             if not is_in_library(source):
                 if not _is_file(source):
                     load_geometry(source)  # reports what is wrong; a file is never run here
                 raise NeedsOutput(source)
-        if not (GENERATED.parent / "pyproject.toml").exists():  # installed, not a clone
+        installed = not (GENERATED.parent / "pyproject.toml").exists()
+        if installed and self.writes:
             raise InstalledPackage(str(GENERATED))
 
     @property
@@ -253,7 +257,7 @@ class Order:
         if not differences(files, self.target):
             remove_leftovers(self.target)
             return False
-        publish(files, self.target)
+        publish(files, self.target, edited=self.folder is not None)  # git keeps our own package
         return True
 
     def check(self, bodies: Iterable[Body]) -> list[Difference]:

@@ -113,7 +113,7 @@ _ALSO_USED = (
         "part_moment",
         "rising_pressure",
     ),
-    *("r_left", "r_right"),
+    *("r_left", "r_right", "k_left", "k_right"),
     *("second_term", "third_term", "curve_of", "excess", "polynomial", "kernel"),
     *("Array", "exists", "first", "second", "order", "mixed", "own", "asked", "piece", "side"),
     *("contact", "contact_at_tilt", "tilt", "load", "moment", "pressure", "pieces"),
@@ -125,5 +125,5 @@ _ALSO_USED = (
 )
 
 RESERVED: frozenset[str] = frozenset(QUANTITIES) | frozenset(_ALSO_USED)
-"""Names that no parameter may have; names such as theta_1, w_1, L_1, q_left_1 or m_1 are reserved,
-too."""
+"""Names that no parameter may have; names such as theta_1, w_1, L_1, q_left_1, m_1 or sin_x are
+reserved, too."""

@@ -8,7 +8,7 @@ import os
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from shutil import which
 from threading import Timer
@@ -33,11 +33,13 @@ def status(words: str) -> Iterator[Callable[[str], None]]:
     """A spinner with a caption that the yielded function changes."""
     console = _console(stderr=True)
     now = [words]
-    with _told_after_a_while(console, now), console.status(words) as status:
+    spinner = console.status(words) if console.is_terminal else None
+    with _told_after_a_while(console, now), spinner or nullcontext():
 
         def update(words: str) -> None:
             now[0] = words
-            status.update(words)
+            if spinner is not None:
+                spinner.update(words)
 
         yield update
 
@@ -47,8 +49,7 @@ def _told_after_a_while(console: Console, now: Sequence[str]) -> Iterator[None]:
     """Print once what is taking so long, if no spinner or bar is shown."""
 
     def tell() -> None:
-        with suppress(OSError, ValueError):  # standard error is closed
-            click.echo(f"Still working after {PATIENCE:g} s: {now[0]}", err=True)
+        remark(f"Still working after {PATIENCE:g} s: {now[0]}")
 
     timer = Timer(PATIENCE, tell)
     timer.daemon = True
@@ -62,7 +63,10 @@ def _told_after_a_while(console: Console, now: Sequence[str]) -> Iterator[None]:
 
 @contextmanager
 def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str], None]]:
-    """A progress bar; the yielded function tells it which stage a body enters, or "" at the end."""
+    """A progress bar; the yielded function tells it which stage a body enters.
+
+    A word that is not a stage says that the body is finished.
+    """
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
     console = _console(stderr=True)
     bar = Progress(
@@ -76,11 +80,15 @@ def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str]
     with _told_after_a_while(console, now), bar:
         task = bar.add_task("", total=bodies * len(stages))
         passed: dict[str, int] = {}
+        at_work: dict[str, str] = {}
 
         def step(body: str, stage: str) -> None:
             passed[body] = stages.index(stage) if stage in stages else len(stages)
-            others = sum(n < len(stages) for name, n in passed.items() if name != body)
-            words = f"{body}: {stage}" + (f", {others} more in progress" if others else "")
+            at_work.pop(body, None)
+            if stage in stages:
+                at_work[body] = stage
+            *others, last = at_work.items() or [(body, "finishing")]
+            words = ": ".join(last) + (f", {len(others)} more in progress" if others else "")
             now[0] = words
             bar.update(task, description=words, completed=sum(passed.values()))
 
@@ -89,7 +97,8 @@ def progress(bodies: int, stages: Sequence[str]) -> Iterator[Callable[[str, str]
 
 def _console(stderr: bool = False, columns: str = "") -> Console:
     """A console: FORCE_COLOR also colours piped output, but progress is shown on terminals only."""
-    is_terminal = (sys.stderr if stderr else sys.stdout).isatty()
+    stream = sys.stderr if stderr else sys.stdout
+    is_terminal = stream is not None and stream.isatty()
     return Console(
         stderr=stderr,
         force_terminal=False if stderr and not is_terminal else None,
@@ -110,7 +119,7 @@ def output(what: RenderableType, columns: str = "") -> None:
 
 
 def output_table(what: RenderableType) -> None:
-    """Print a table; COLUMNS also applies to pipes, and formulas and file names are not broken."""
+    """Print a table or a sheet; COLUMNS also applies to pipes."""
     output(what, os.environ.get("COLUMNS", ""))
 
 
@@ -121,7 +130,13 @@ def is_narrow() -> bool:
 
 def complain(what: str, message: str) -> None:
     """Print on standard error what went wrong."""
-    click.echo(f"{click.style(f'{what}:', fg='red', bold=True)} {message}", err=True)
+    remark(f"{click.style(f'{what}:', fg='red', bold=True)} {message}")
+
+
+def remark(words: str) -> None:
+    """Print on standard error, unless that is closed or full."""
+    with suppress(OSError, ValueError):
+        click.echo(words, err=True)
 
 
 def command() -> str:

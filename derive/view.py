@@ -22,31 +22,37 @@ if TYPE_CHECKING:
     from derive.sheet import FormulaSheet
 
 
-def listing(sheets: "Iterable[FormulaSheet]", narrow: bool = False) -> Table:
-    """A table of all geometries: g(x), and which parts are in closed form or numerical.
+def listing(sheets: "Iterable[FormulaSheet]", narrow: bool = False) -> RenderableType:
+    """All geometries: g(x), and which parts are in closed form or numerical.
 
-    narrow: whether the columns of closed and numerical parts are as narrow as their words allow
+    narrow: whether there is too little room for a table, so that a list is shown
     """
     from derive.notation import text_of
 
-    most = 10 if narrow else None
-    table = Table(
-        Column("geometry", no_wrap=True),
-        Column("g(x)", overflow="fold"),
-        Column("closed form", overflow="fold", max_width=most),
-        Column("numerical", overflow="fold", max_width=most),
-        Column("body", overflow="fold"),
-    )
-    for sheet in sheets:
-        closed, numerical = by_form(sheet.is_closed)
-        table.add_row(
-            Text(sheet.geometry.name, style="bold cyan"),
+    heads = ("geometry", "g(x)", "closed form", "numerical", "body")
+    rows = [
+        (
+            sheet.geometry.name,
             text_of(sheet.geometry.g),
-            _row(closed),
-            _row(numerical),
+            *(_row(parts) for parts in by_form(sheet.is_closed)),
             sheet.geometry.title,
         )
+        for sheet in sheets
+    ]
+    if narrow:
+        return Group(*(_listed(*row) for row in rows))
+    table = Table(*(Column(head, no_wrap=head == "geometry", overflow="fold") for head in heads))
+    for name, *rest in rows:
+        table.add_row(Text(name, style="bold cyan"), *rest)
     return table
+
+
+def _listed(name: str, g: str, closed: str, numerical: str, title: str) -> Group:
+    """One geometry in a list."""
+    rest = Table.grid(padding=(0, 2, 0, 0))
+    for head, words in (("g(x)", g), ("closed form", closed), ("numerical", numerical)):
+        rest.add_row(Text(f"  {head}"), words)
+    return Group(Text.assemble((name, "bold cyan"), f"  {title}"), rest, "")
 
 
 def summary(bodies: Iterable[Body]) -> Table:

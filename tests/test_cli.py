@@ -25,6 +25,7 @@ from derive.cli import main
 from derive.codegen.mark import MARK
 from derive.derivation import derive_sheet
 from derive.library import library, load_geometry
+from derive.notation import text_of
 from derive.parallel import Bounds
 from derive.pipeline import DONE, GENERATED, KEPT, STAGES
 from derive.proof.verdict import Proof, Verdict
@@ -170,15 +171,28 @@ def test_list_names_every_geometry_and_its_profile(monkeypatch: pytest.MonkeyPat
 
 def test_tables_keep_to_the_columns_that_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     """Into a pipe, too; no name and no word is cut."""
-    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setenv("COLUMNS", "120")
     printed = done("list")
-    assert max(map(len, lines(printed))) == 80
+    assert max(map(len, lines(printed))) == 120
     assert "…" not in printed
     assert all(line[-1] in "┓┃┩│┘" for line in lines(printed))
     assert all(f" {name} " in printed for name in library())
     cells = [[cell.strip() for cell in line.split("│")] for line in lines(printed)]
     bodies = " ".join(row[-2] for row in cells if len(row) > 2)
     assert all(" ".join(load_geometry(name).title.split()) in bodies for name in library())
+
+
+@pytest.mark.parametrize("columns", [60, 80])
+def test_without_room_for_a_table_geometries_are_listed(
+    columns: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    printed = done("list")
+    assert max(map(len, lines(printed))) <= columns
+    for name in library():
+        geometry = load_geometry(name)
+        for word in (name, *geometry.title.split(), *text_of(geometry.g).split()):
+            assert word in printed
 
 
 def test_the_command_is_a_module_too(tmp_path: Path) -> None:
@@ -259,8 +273,8 @@ ENDS, LOOPS = f"import os\nos.abort()\n{CYLINDER}", "while True: pass\n"
 @pytest.mark.parametrize(
     ("text", "words", "form"),
     [
-        *((ENDS, "made its process fail", form) for form in FORMS),
-        *((LOOPS, "took longer than its limit of 1 s", form) for form in ((), ("--html",))),
+        *((ENDS, "crashed", form) for form in FORMS),
+        *((LOOPS, "took longer than the limit of 1 s", form) for form in ((), ("--html",))),
     ],
 )
 def test_show_refuses_a_file_that_ends_its_process_or_never_ends(
@@ -485,7 +499,7 @@ class TestGenerate:
         for name in ("wedge", "hertz"):
             done("generate", name, "--out", "new")
         own = {n for n in contents(here / "new") if not n.startswith(("_", "runtime/"))}
-        assert own == {"edge.py", "hertz.py", "full_stick.py", "py.typed"}
+        assert own == {"edge.py", "hertz.py", "full_stick.py", "py.typed", "files.sha256"}
 
     def test_out_may_be_a_link_to_a_directory(self, here: Path) -> None:
         (here / "there").mkdir()
@@ -712,7 +726,7 @@ class TestSlip:
         """For a body of the library, too."""
         monkeypatch.setattr(derive.pipeline, "STRANGERS", Bounds(seconds=0.2, gigabytes=4))
         told = refused("show", "hertz", "--slip", "4")
-        assert "took longer than its limit of 0.2 s: give a lower order" in told
+        assert "took longer than the limit of 0.2 s: give a lower order" in told
 
 
 def test_code_in_another_language(unproven: None) -> None:

@@ -51,6 +51,48 @@ def test_a_closed_output(tmp_path: Path) -> None:
     demand_one_line(derive(tmp_path, "list >&-"), "output is closed")
 
 
+@pytest.mark.parametrize("errors", ["2>&-", "2>/dev/full"])
+@pytest.mark.parametrize("command", ["new nn 'x**2/(2*R)'", "show hertz", "list"])
+def test_a_closed_or_full_standard_error_changes_nothing(
+    tmp_path: Path, command: str, errors: str
+) -> None:
+    done, plain = (
+        derive(tmp_path, f"{command}{end}", "rm -f nn.py;") for end in ("", f" {errors}")
+    )
+    assert (done.returncode, done.stdout) == (0, plain.stdout)
+
+
+@pytest.mark.parametrize(
+    ("table", "part"),
+    [
+        ("x [m], p [Pa]\n" + "1" * 10**6 + ", 2\n", "characters; at most 20000"),
+        (", ".join(f"c{i}" for i in range(10**5)) + "\n1, 2\n", "characters; at most 20000"),
+        ("x [m], p [Pa]\n" + "".join(f"{i}, 1\n" for i in range(30_000)), "30000 nodes"),
+    ],
+    ids=["a long cell", "a long header", "many nodes"],
+)
+def test_a_table_without_measure(tmp_path: Path, table: str, part: str) -> None:
+    (tmp_path / "table.csv").write_text(table)
+    demand_one_line(derive(tmp_path, "edge table.csv --f 0.5"), part)
+
+
+def test_a_body_of_claims_that_runs_away(tmp_path: Path) -> None:
+    """Its abort ends another process."""
+    (tmp_path / "claims.toml").write_text(
+        "body = { g = 'exp(exp(exp(exp(x/R))))*R' }\n[[claims]]\nlabel = 'it'\n"
+        "printed = 'load(a, a) = 1'\n"
+    )
+    demand_one_line(
+        derive(tmp_path, "check claims.toml"), "body: g(x): the stage 'reading' crashed"
+    )
+
+
+def test_many_parameters(tmp_path: Path) -> None:
+    terms = "+".join(f"x**2/R{i}" for i in range(150))
+    done = derive(tmp_path, f"new many '{terms}'")
+    demand_one_line(done, "has 150 parameters, and at most 40 are allowed")
+
+
 def test_a_reader_that_has_seen_enough(tmp_path: Path) -> None:
     done = derive(tmp_path, "show hertz | head -1")
     told = [line for line in done.stderr.splitlines() if not line.startswith("Still at work")]

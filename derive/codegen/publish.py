@@ -4,7 +4,6 @@ In:  the texts of the modules.
 Out: a list of differences, or the replaced directory.  It is replaced completely or not at all.
 """
 
-import ast
 import os
 import re
 import shutil
@@ -19,15 +18,13 @@ from pathlib import Path
 from derive.codegen.mark import MARK
 from derive.errors import BadOutput
 from derive.exchange import put_in_place
+from derive.manifest import MANIFEST, not_written, with_manifest
 from derive.runtime import edge
 
 _RUNTIME = Path(__file__).parent.parent / "runtime"
 _TITLE = (
     '"""Contact laws as NumPy functions, one module for each body; every formula is proven."""\n'
 )
-
-_LISTED = "__all__"
-"""The list of the modules of a package; a module that is not in it belongs to the user."""
 
 _FRESH, _PREVIOUS = "fresh", "old"
 """The new and the previous package in the hidden directory of a run."""
@@ -81,16 +78,16 @@ class Difference:
 
 
 def package_files(modules: Files) -> dict[str, str]:
-    """All files of a package: `modules`, given as texts by module name, and the runtime."""
+    """All files of a package: `modules`, given as texts by name, the runtime, and a list of all."""
     names = sorted({*modules, "edge"})
-    listed = "\n".join([f"{_LISTED} = [", *(f'    "{name}",' for name in names), "]"])
+    listed = "\n".join(["__all__ = [", *(f'    "{name}",' for name in names), "]"])
     files = {"__init__.py": f"{MARK}\n{_TITLE}\n{listed}\n", "py.typed": ""}
     files |= {f"{name}.py": text for name, text in sorted(modules.items())}
     files["edge.py"] = f"{MARK}\n{_EDGE}"
     for path in sorted(_RUNTIME.rglob("*.py")):
         name = path.relative_to(_RUNTIME.parent).as_posix()
         files[name] = f"{MARK}\n{path.read_text(encoding='utf-8')}"
-    return files
+    return with_manifest(files)
 
 
 def modules_in(folder: Path) -> dict[str, str]:
@@ -123,12 +120,15 @@ def _diff(name: str, path: Path, wanted: str) -> str:
     return "".join(lines)
 
 
-def publish(files: Files, folder: Path) -> None:
+def publish(files: Files, folder: Path, edited: bool = True) -> None:
     """Replace `folder` by a package, completely or not at all.
 
-    Raises BadOutput if `folder` contains a file that was not generated, or cannot be written.
+    edited: whether a generated file that was changed later belongs to the user.
+
+    Raises BadOutput if `folder` contains a file that was not generated, or was changed since, or
+    cannot be written.
     """
-    demand_replaceable(folder)
+    demand_replaceable(folder, edited)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         workshop = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
@@ -237,35 +237,16 @@ def resolved(folder: Path) -> Path:
         raise BadOutput(str(folder), f"cannot be reached ({error.strerror})") from error
 
 
-def demand_replaceable(folder: Path) -> None:
+def demand_replaceable(folder: Path, edited: bool = True) -> None:
     """Raise BadOutput unless `folder` does not exist, is empty, or is a generated package."""
     if not folder.exists() and not folder.is_symlink():
         return
     if folder.is_symlink() or not folder.is_dir():
         raise BadOutput(str(folder), "is not a directory")
-    listed = _modules_listed(folder / "__init__.py")
-    for path in _entries(folder):
-        if not _is_ours(path) or (path.parent == folder and listed and path.stem not in listed):
-            name = path.relative_to(folder).as_posix()
-            edited = path.is_file() and path.suffix == ".py" and path.stem in listed
-            why = "was changed after it was generated" if edited else "was not generated"
-            raise BadOutput(str(folder), f"contains {name!r}, which {why}")
+    if stranger := not_written(folder, _entries(folder), edited):
+        raise BadOutput(str(folder), f"contains {stranger}")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
         raise BadOutput(str(folder), "is the current directory or contains it")
-
-
-def _modules_listed(init: Path) -> set[str]:
-    """Names of the files that were generated into a folder; empty if they are not listed.
-
-    Early versions did not list them.
-    """
-    try:
-        tree = ast.parse(init.read_bytes())
-        lists = [n.value for n in tree.body if isinstance(n, ast.Assign)]
-        names = [name for each in lists for name in ast.literal_eval(each)]
-    except (OSError, ValueError, TypeError, SyntaxError, RecursionError, MemoryError):
-        return set()
-    return {*names, "__init__", "py"} if names else set()
 
 
 def _entries(folder: Path) -> list[Path]:
@@ -291,4 +272,4 @@ def _is_ours(path: Path) -> bool:
     if not path.is_file():
         return False
     first = path.read_bytes()[: len(MARK)]
-    return first == MARK.encode() if path.suffix == ".py" else path.name == "py.typed"
+    return first == MARK.encode() if path.suffix == ".py" else path.name in ("py.typed", MANIFEST)

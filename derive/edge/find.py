@@ -113,11 +113,11 @@ def find(
             )
         stuck = _from_loads(last, dQ or 0.0, dsigma or 0.0)
     if not stuck and all(np.isnan(e.pressure.edge) for e in last.values()):
-        notes.append("no slip zone: neither edge was found")
+        notes.append("the slip zones cannot be computed, because neither edge was found")
     elif not stuck:
         notes.append(
-            "no slip zone: the shear traction is missing; add that of a run without slip to the "
-            "table, or give --dQ and --dsigma"
+            "the slip zones cannot be computed, because the shear traction is missing: add that of "
+            "a run without slip to the table, or give --dQ and --dsigma"
         )
     moves = {side: _move(first.get(side), last[side]) for side in last}
     zones = tuple(

@@ -20,6 +20,12 @@ from derive.files import Unreadable, bytes_of
 LARGEST = 20_000_000
 """The largest size of a file, in bytes."""
 
+_LONGEST_LINE, _LONGEST_NUMBER = 20_000, 50
+"""The largest number of characters in a line and in a number."""
+
+MOST_NODES = 20_000
+"""The largest number of nodes of a load step."""
+
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "in": 0.0254}
 STRESSES = {
     **{"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9, "n/m2": 1.0, "n/mm2": 1e6},
@@ -115,6 +121,12 @@ def read(path: Path, units: Mapping[str, str] | None = None) -> tuple[Step, ...]
             rows = [i for i, of in enumerate(labels) if of == label] if labels else slice(None)
             name = label or (names[column] if len(columns["p"]) > 1 else "")
             x = place[rows]
+            if x.size > MOST_NODES:
+                raise BadTable(
+                    shown,
+                    f"a load step has {x.size} nodes, and at most {MOST_NODES} are allowed",
+                    "export every second node, say, or fewer",
+                )
             order = slice(None, None, -1 if np.all(np.diff(x) < 0) else 1)  # from left to right
             shear_here = None if q is None else q[rows][order]
             steps.append(Step(name, x[order], p[rows][order], shear_here))
@@ -143,6 +155,8 @@ def _text(path: Path) -> str:
 
 
 def _is_number(field: str, comma: bool) -> bool:
+    if len(field) > _LONGEST_NUMBER:
+        return False
     return _NUMBER.fullmatch(field.replace(",", ".") if comma else field) is not None
 
 
@@ -151,6 +165,13 @@ def _split(text: str, shown: str) -> _Lines:
 
     Raises BadTable.
     """
+    for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > _LONGEST_LINE:
+            raise BadTable(
+                shown,
+                f"line {number} has {len(line)} characters; at most {_LONGEST_LINE} are allowed",
+                "export only the columns that are needed",
+            )
     lines = [
         (number, line.strip())
         for number, line in enumerate(text.splitlines(), 1)
@@ -194,7 +215,10 @@ def _better(
 def _fields(line: str, separator: str) -> tuple[str, ...]:
     if not separator:
         return tuple(line.split())
-    (row,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+    try:
+        (row,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+    except csv.Error:  # the line has no such separator, or a field that is too long
+        return (line,)
     fields = [field.strip() for field in row]
     while len(fields) > 1 and not fields[-1]:  # some programs end lines with a separator
         fields.pop()
@@ -248,7 +272,7 @@ def _header(
         commas = " (commas may be decimal commas or separators)"
         raise BadTable(
             shown,
-            f"the table has {len(names)} names for {width} columns"
+            f"the table has {len(names)} name{'s' * (len(names) > 1)} for {width} columns"
             + (commas if width == 2 * len(names) else ""),
             "give each column a name, and separate columns by ; if numbers have decimal commas",
         )

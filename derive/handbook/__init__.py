@@ -7,7 +7,6 @@
     picture   curves                             an SVG picture
     curves    a sheet, the text of its module    g(x), and the pressure of some contacts
     page      a sheet, its Body                  one page; the index of several pages
-    shelf     pages, a file or a directory       the pages on disk, written completely or not at all
 
 Only the commands import this package.  A page contains its own style, pictures and formulas, so
 that nothing is downloaded when it is viewed.

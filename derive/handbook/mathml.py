@@ -18,8 +18,18 @@ _RAISED = r'<mrow>\1<mo lspace="0" rspace="0">\2</mo></mrow>'
 """A prime is raised in every font, and would be too small to read as a superscript."""
 
 
+_LEFT = re.compile(r"<m\w>(&(?!#|\w+;)|\\|\$)")
+"""LaTeX that the converter has left as it is."""
+
+
 @cache
 def mathml(latex: str, display: str = "block") -> Markup:
-    """One formula as MathML; `display` is "inline" for a formula within a line of text."""
-    formula = convert(latex, display=display)  # the LaTeX is never the input of a user
+    """One formula as MathML; `display` is "inline" for a formula within a line of text.
+
+    Raises ValueError if part of the LaTeX would appear as it is.
+    """
+    # the LaTeX is never the input of a user; the converter does not know `aligned`
+    formula = convert(latex.replace("{aligned}", "{split}"), display=display)
+    if _LEFT.search(formula):
+        raise ValueError(f"the formula is not typeset completely: {latex}")
     return Markup(_PRIME.sub(_RAISED, _SIGN.sub(_PREFIX, formula.replace(_ASTERISK, _OPERATOR))))

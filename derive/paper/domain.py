@@ -15,7 +15,7 @@ _MOST_TERMS = 500
 
 
 def is_continuous(expr: Expr, ranges: Mapping[Symbol, Range]) -> bool:
-    """Whether it is shown that no switch of the expression has a zero in the ranges."""
+    """Whether every switch of the expression is proven to be nonzero throughout the ranges."""
     return all(_has_one_sign(switch.of, ranges) for switch in switches(expr))
 
 

@@ -119,7 +119,7 @@ class Draft:
         return described(self.source)
 
     def drop_bound(self) -> None:
-        """Leave out the symbols that are only known inside integrals, sums and limits."""
+        """Drop the symbols that are bound by an integral, sum or limit."""
         read = [part.read for part in self.parts]
         texts = [text for r in read for text in (r.understood, r.require, *r.limit.split("->"))]
         argued = {a for n in self.spelled.values() for a in n.partition("_at_")[2].split("_")}

@@ -33,9 +33,10 @@ body { font: 16px/1.45 Georgia, serif; max-width: 60rem; margin: 2rem auto; padd
 table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: .2rem .6rem; }
 tr + tr td { border-top: 1px solid #ddd; } code { font-size: .85rem; overflow-wrap: anywhere; }
 section { border-top: 2px solid #999; margin-top: 1.5rem; break-inside: avoid; }
-dt { color: #666; } dd { margin: 0 0 .5rem 1.5rem; } math { font-size: 1.1rem; }
+dt { color: #666; } dd { margin: 0 0 .5rem 1.5rem; overflow-x: auto; } math { font-size: 1.1rem; }
+math { font-family: "Latin Modern Math", "STIX Two Math", "Cambria Math", math; }
 .fails, .convention { color: #b00020; } .holds, .numerical, .by { color: #1b6e2d; }
-.unchecked { color: #8a6100; } svg { max-width: 26rem; }
+.unchecked { color: #8a6100; } svg { max-width: 26rem; width: 100%; }
 """
 _TAGS = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}m[a-z]+")
 _FOR_THE_EYE = re.compile(
@@ -55,8 +56,9 @@ def as_html(paper: Paper, findings: Sequence[Finding]) -> str:
     )
     sign_items = "".join(f"<li>{escape(line)}</li>" for line in signs(paper, findings))
     return (
-        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
-        f"<style>{_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
+        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>{title}</title><style>{_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
         f"<p>{escape(summary(findings))}.</p>\n"
         f"<table><tr><th>claim</th><th>description</th><th>verdict</th></tr>\n{rows}</table>\n"
         + (f"<h2>Signs, section by section</h2><ul>{sign_items}</ul>\n" if sign_items else "")
@@ -182,9 +184,15 @@ def _picture(name: str, lines: list[list[tuple[float, float]]]) -> str:
             for x, y in line
         )
         drawn += f'<polyline fill="none" stroke="#333" points="{polyline}"{dash}/>'
-    words = f"{escape(name)} from {left:.3g} to {right:.3g}; values from {low:.3g} to {high:.3g}"
+    ticks = "".join(
+        f'<text x="{x}" y="{y}" font-size="11" text-anchor="{anchor}">{words}</text>'
+        for x, y, anchor, words in (
+            *((20, 205, "start", f"{left:.3g}"), (380, 205, "end", f"{right:.3g}")),
+            *((24, 34, "start", f"{high:.3g}"), (24, 184, "start", f"{low:.3g}")),
+            (200, 205, "middle", escape(name)),
+        )
+    )
     return (
-        f'<svg viewBox="0 0 400 220"><rect x="20" y="20" width="360" height="170" fill="none" '
-        f'stroke="#bbb"/>{drawn}<text x="20" y="212" font-size="12">{words}; left side solid, '
-        f"right side dashed</text></svg>"
+        f'<svg viewBox="0 0 400 215"><rect x="20" y="20" width="360" height="170" fill="none" '
+        f'stroke="#bbb"/>{drawn}{ticks}</svg><br>left side solid, right side dashed'
     )

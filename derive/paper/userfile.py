@@ -137,7 +137,8 @@ def source(path: Path) -> tuple[str, dict[str, Any]]:
         why = f"its tables are nested {_depth(text)} deep, and {_DEEPEST} levels are enough"
         raise BadClaimsFile(str(path), why, remedy) from None
     except ValueError as error:
-        raise BadClaimsFile(str(path), f"the file cannot be read ({error})", remedy) from error
+        why = "an integer has too many digits" if "digits" in str(error) else str(error)
+        raise BadClaimsFile(str(path), f"the file cannot be read ({why})", remedy) from error
 
 
 def _depth(text: str) -> int:
@@ -179,7 +180,7 @@ def _limit(file: Entries) -> TimeLimit:
     given = file.data.get("seconds", _SECONDS)
     if type(given) not in (int, float) or not 0 < given <= _MOST_SECONDS:
         remedy = f"write a number above 0 and at most {_MOST_SECONDS}"
-        raise file.place.bad(f"seconds = {given!r} is not a time limit", remedy)
+        raise file.place.bad(f"seconds = {given!r} is not a valid time limit", remedy)
     return TimeLimit(float(given))
 
 
@@ -196,9 +197,12 @@ def _contexts(file: Entries, variables: Variables) -> list[Context]:
 def _claims(file: Entries, text: str, reader: ClaimReader, errors: Collected) -> tuple[Claim, ...]:
     """Read all claims; each must be a table with a label of its own."""
     given = file.data.get("claims", [])
-    if not isinstance(given, list) or not given or len(given) > _MOST:
-        why = f"the number of [[claims]] is not between 1 and {_MOST}"
-        errors.errors.append(file.place.bad(why, "add claims, or split the file"))
+    if not isinstance(given, list) or not given:
+        errors.errors.append(file.place.bad("the file has no [[claims]]", "add at least one"))
+        return ()
+    if len(given) > _MOST:
+        why = f"the file has {len(given)} claims, and at most {_MOST} are allowed"
+        errors.errors.append(file.place.bad(why, "split it"))
         return ()
     lines = heads(text, len(given))
     made, labels = list[Claim](), set[str]()

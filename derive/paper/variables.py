@@ -22,8 +22,10 @@ from derive.paper.formula import usable
 from derive.paper.geometry_file import profile_of
 from derive.paper.lines import line_of
 from derive.paper.mistakes import Collected
+from derive.parallel import Report, in_processes
 from derive.symbols import E_star, f
 from derive.units import Dimension, parse_unit
+from derive.writing.apart import BOUNDS
 from derive.writing.draft import Wanted, draft
 
 _FAR = 1e6
@@ -108,8 +110,7 @@ class Variables:
 def read_variables(file: Entries, text: str, errors: Collected) -> Variables:
     """Read the body and the variables of a file, and record the errors in them."""
     found = Variables()
-    with errors.noted():
-        found.body = _body(file.data.get("body"), file.place)
+    found.body = _body(file.data.get("body"), file.place)  # without it, all else seems wrong
     table = dict[str, Any]()
     with errors.noted():
         table = file.table("variables")
@@ -166,5 +167,18 @@ def _body(given: object, place: Place) -> Body | None:
 
 @cache
 def _own_body(profile: str, units: tuple[tuple[str, str], ...]) -> Body:
-    """Return a body whose profile is text in the claims file, which is never executed."""
-    return Body(draft(Wanted("own_body", profile, units=dict(units))).geometry)
+    """Return a body whose profile is text in the claims file, which is never executed.
+
+    It is first derived in another process, because SymPy can run without end or abort.
+    """
+    wanted = Wanted("own_body", profile, units=dict(units))
+    in_processes(_derived, [wanted], lambda *_: None, 1, BOUNDS)
+    return Body(draft(wanted).geometry)
+
+
+def _derived(wanted: Wanted, report: Report) -> None:
+    """Read and derive a body, without a result."""
+    report("g(x)", "reading")
+    made = draft(wanted)
+    report("g(x)", "deriving")
+    Body(made.geometry)

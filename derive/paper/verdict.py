@@ -302,11 +302,11 @@ class _Judging:
 
     def _too_few(self) -> str:
         """Explain why there are too few points."""
-        reasons = [f"both sides are real numbers at only {len(self.found)} points"]
+        reasons = [f"both sides are real numbers at only {_points(len(self.found))}"]
         if self.unreal:
-            reasons.append(f"a side is not real at {self.unreal} points")
+            reasons.append(f"one side is not real at {_points(self.unreal)}")
         if self.left_out:
-            reasons.append(f"there is no value at {self.left_out} points")
+            reasons.append(f"there is no value at {_points(self.left_out)}")
         if self.claim.conditions:
             listed = " and ".join(map(str, self.claim.conditions))
             reasons.append(f"the points must satisfy {listed}")
@@ -411,7 +411,7 @@ class _Judging:
         if self.claim.cases:
             return f"in {count} {'case' if count == 1 else 'cases'}"
         left_out = f"; no value at {self.left_out} more points" if self.left_out else ""
-        left_out += f"; a side is not real at {self.unreal} more points" if self.unreal else ""
+        left_out += f"; one side is not real at {self.unreal} more points" if self.unreal else ""
         return f"at {count} points" + (f" ({ranges}{left_out})" if ranges else "")
 
     def _fails(self) -> Judged:
@@ -730,3 +730,8 @@ def _exactly(value: mpf) -> Rational:
     """Return the exact value of a binary number as a SymPy rational."""
     above, below = to_rational(value._mpf_)
     return Rational(int(above), int(below))
+
+
+def _points(count: int) -> str:
+    """The number of points, in words."""
+    return f"{count} point{'' if count == 1 else 's'}"

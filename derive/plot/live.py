@@ -60,7 +60,7 @@ class Live:
         self.top = 1.6 * largest.P / float(np.nanmin(farthest.a + farthest.c))
         self.length, self.stress = unit(self.reach, "m"), unit(self.top, "Pa")
         with style():
-            self.figure = Figure(figsize=(8.4, 4.6), dpi=90)
+            self.figure = Figure(figsize=(8.4, 4.6), dpi=200)
             # The layout is fixed, because computing a new one takes longer than drawing the axes.
             self.figure.set_layout_engine("none")
             self.canvas = FigureCanvasAgg(self.figure)
@@ -202,7 +202,8 @@ def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) 
 
     live = Live(body, largest, **constants)
     _demand_start(start, largest)
-    picture, line = ipywidgets.Image(format="png"), ipywidgets.HTML()
+    picture = ipywidgets.Image(format="png", width=840)
+    line = ipywidgets.HTML()
     scales = {"P": "N/m", "M": "N", "dQ": "N/m", "dsigma": "Pa", "f": ""}
     controls = {}
     for name, of in scales.items():

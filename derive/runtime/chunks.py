@@ -40,7 +40,7 @@ def demand_array(value: Any, label: str) -> None:
 def over_chunks(
     function: Callable[..., Any], given: Mapping[str, Any], in_time: bool = False
 ) -> Any:
-    """Apply `function` to arguments of which some are lazy; the result is lazy in the same way.
+    """Apply `function` to arguments, some of which are lazy arrays; the result is then also lazy.
 
     given: numbers and arrays that broadcast, by name; "first.a" is the field a of `first`.
     in_time: whether the last axis is time and must therefore lie in one chunk.

@@ -25,6 +25,9 @@ from derive.writing.vocabulary import refusal
 NEUTRAL = "parameter of the profile"
 """The meaning of a parameter for which none is given."""
 
+_MOST_PARAMETERS = 40
+"""The largest number of parameters of a body."""
+
 _LONGEST_UNIT = 60
 _TITLE_WIDTH = 80
 
@@ -88,6 +91,9 @@ def draft(wanted: Wanted) -> Draft:
         _demand_plain(unit)
     if "x" not in (node.name for node in walk(tree) if isinstance(node, Name)):
         raise without_x(wanted.name, names(tree))
+    if (count := len(names(tree))) > _MOST_PARAMETERS:
+        why = f"has {count} parameters, and at most {_MOST_PARAMETERS} are allowed"
+        raise BadProfile(wanted.name, why, "replace some of them by numbers")
     parameters = _parameters(wanted, tree)
     return Draft(_geometry(wanted, tree, parameters), _text(wanted, tree, parameters))
 
@@ -136,7 +142,7 @@ def _geometry(wanted: Wanted, tree: Node, parameters: Parameters) -> Geometry:
     except Exception as error:
         raise BadProfile(
             wanted.name,
-            f"cannot be read ({type(error).__name__}: {error})",
+            "has too many terms" if isinstance(error, RecursionError) else "cannot be evaluated",
             "write it as polynomials in x on intervals, with Abs, Piecewise, Max, ...",
         ) from error
 

@@ -225,7 +225,7 @@ def why(
     zone = stick_zone(asked, first, second, dQ, dsigma, f=f, E_star=E_star)
     if np.ndim(zone.regime):
         raise ValueError(
-            "why takes one cycle, with numbers as arguments; got arrays of shape "
+            "`why` takes one cycle, with numbers as arguments; got arrays of shape "
             f"{np.shape(zone.regime)}"
         )
     return reason(
@@ -240,7 +240,7 @@ def why(
 def tension_threshold(
     asked: Asked, first: Contact, second: Contact, dQ: Array, *, f: Array, E_star: Array
 ) -> Threshold:
-    """Changes in bulk tension between which tension is moderate and its solution exact.
+    """The two changes in bulk tension between which tension is moderate and the solution is exact.
 
         constant loads: dsigma = -/+ 8 dQ/(pi (a + c))
 

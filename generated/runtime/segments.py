@@ -9,7 +9,7 @@ roots of distances,
     sin = sqrt((a + s)/h),    cos = sqrt((c - s)/h).
 
 Every result is computed as a sum of positive terms, or is expanded in a series where its terms
-would cancel.  All functions take numbers and arrays, and are compiled for numbers.
+would cancel.  All functions accept numbers or arrays; the versions for numbers are compiled.
 """
 
 from math import factorial

@@ -25,8 +25,8 @@ This page is written by `make accuracy`.  The tables give the largest relative e
 function at random float64 inputs, with up to %d points per region, or fewer if the reference is
 expensive to compute.  The reference values are computed with many digits by mpmath and
 python-flint.  The reference of a formula is the formula on the sheet, and that of an integral is
-its definition.  The reference of a quantity that is solved for is the solution of the equations
-for exactly the same inputs.
+its definition.  For a quantity that is found by solving equations, it is their solution for exactly
+the same inputs.
 
 Errors are relative to the value itself, with the following exceptions:
 

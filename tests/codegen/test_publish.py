@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,7 @@ from derive.codegen.publish import (
     publish,
 )
 from derive.errors import BadOutput
+from derive.manifest import MANIFEST
 from derive.pipeline import GENERATED
 
 OLD = package_files({"cylinder": f"{MARK}\nold = 1\n", "wedge": f"{MARK}\nwedge = 1\n"})
@@ -58,11 +60,11 @@ def test_modules_of_a_package_are_read_back(package: Path) -> None:
     assert modules_in(package / "nowhere") == {}
 
 
-def test_a_package_of_an_earlier_version_may_be_replaced(package: Path) -> None:
-    """It does not list its modules."""
-    (package / "__init__.py").write_text(f'{MARK}\n"""Contact laws."""\n')
-    publish(NEW, package)
-    assert contents(package) == as_bytes(NEW)
+def test_the_list_is_one_for_sha256sum(package: Path) -> None:
+    lines = (package / MANIFEST).read_text().splitlines()
+    told = {name: checksum for checksum, name in (line.split("  ") for line in lines)}
+    assert told.keys() | {MANIFEST} == OLD.keys()
+    assert all(sha256((package / name).read_bytes()).hexdigest() == told[name] for name in told)
 
 
 def test_the_committed_package_may_be_replaced() -> None:
@@ -106,13 +108,44 @@ def take_the_mark_off(folder: Path) -> None:
     (folder / "cylinder.py").write_text("mine = 1\n")
 
 
-def copy_a_module(folder: Path) -> None:
-    (folder / "my_wedge.py").write_text(f"{MARK}\nmine = 1\n")
-    (folder / "__init__.py").write_text(NEW["__init__.py"])
+def copy_a_module(name: str, init: Callable[[Path], object]) -> Callable[[Path], object]:
+    """A user's copy of a module, with or without a change to the list of modules."""
+
+    def add(folder: Path) -> None:
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(OLD["wedge.py"])
+        init(folder / "__init__.py")
+
+    return add
+
+
+def nothing(_: Path) -> None:
+    pass
+
+
+def listed(init: Path) -> None:
+    init.write_text(NEW["__init__.py"].replace('"punch"', '"my_wedge"'))
+
+
+def with_code(init: Path) -> None:
+    init.write_text(NEW["__init__.py"] + "N = len(__all__)\n")
 
 
 FOREIGN: dict[str, Callable[[Path], object]] = {
-    "a copied module": copy_a_module,
+    "a copied module": copy_a_module("my_wedge.py", nothing),
+    "a copied module in runtime": copy_a_module("runtime/my_wedge.py", nothing),
+    "a copied module that is listed": copy_a_module("my_wedge.py", listed),
+    "a copied module and code": copy_a_module("my_wedge.py", with_code),
+    "a copied module without a list": copy_a_module(
+        "my_wedge.py", lambda init: init.unlink(missing_ok=True)
+    ),
+    "no list of files": lambda folder: (
+        (folder / MANIFEST).unlink(missing_ok=True),
+        (folder / "wedge.py").write_text(OLD["wedge.py"]),
+    ),
+    "another list of files": lambda folder: (folder / MANIFEST).write_text("mine"),
+    "text in the mark of types": lambda folder: (folder / "py.typed").write_text("mine"),
+    "an edited module": lambda folder: (folder / "cylinder.py").write_text(f"{MARK}\nmine = 1\n"),
     "no mark": take_the_mark_off,
     "notes": lambda folder: (folder / "notes.txt").write_text("mine"),
     "a module": lambda folder: (folder / "mine.py").write_text('"""Mine."""\n'),
@@ -292,9 +325,7 @@ def test_what_a_killed_run_left_is_removed_by_the_next(package: Path) -> None:
 
 def test_a_module_that_was_edited_is_called_so(package: Path) -> None:
     (package / "cylinder.py").write_text("mine = 1\n")
-    with pytest.raises(
-        BadOutput, match=r"'cylinder\.py', which was changed after it was generated"
-    ):
+    with pytest.raises(BadOutput, match=r"'cylinder\.py', which was changed after it was written"):
         publish(OLD, package)
 
 
@@ -309,7 +340,8 @@ def test_every_file_that_differs_is_named_and_its_change_shown_line_by_line(pack
     found = {d.name: d for d in differences(NEW, package)}
     assert {"-old = 1", "+new = 2"} <= set(found["cylinder.py"].diff.splitlines())
     assert {name: d.what for name, d in found.items()} == {
-        **{"__init__.py": "changed", "cylinder.py": "changed", "notes.txt": "not generated"},
+        **dict.fromkeys(("__init__.py", "cylinder.py", MANIFEST), "changed"),
+        "notes.txt": "not generated",
         **{"punch.py": "missing", "py.typed": "missing", "wedge.py": "not generated"},
     }
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
-from sympy import Expr, Max, Symbol, atan, log, pi, simplify, sqrt
+from sympy import Expr, Max, Piecewise, Symbol, atan, log, pi, simplify, sqrt
 
 from derive import Geometry, parameter, x
 from derive.derivation import derive_sheet, slip_series
@@ -228,3 +228,15 @@ def test_the_printed_series_are_the_slip_zones(
         found = sum(terms[edge])
         total = found.xreplace({s: numbers[s.name] for s in found.free_symbols}).evalf()
         assert float(total) == pytest.approx(float(zone), rel=1e-10)
+
+
+def test_ratios_of_the_series_have_other_names_than_the_body_s_parameters() -> None:
+    rho, D_left = parameter("rho", "radius", unit="m"), parameter("D_left", "radius", unit="m")
+    body = Geometry("own", g=Piecewise((x**2 / (2 * D_left), x < 0), (x**2 / (2 * rho), True)))
+    terms, known = slip_series(derive_sheet(body), 2)
+    assert {"rho_ratio", "D_left_ratio"} <= {s.name for s in known}
+    assert not {s.name for s in known} & {"rho", "D_left"}
+    assert not {s.name for found in terms.values() for t in found for s in t.free_symbols} & {
+        "rho",
+        "D_left",
+    }

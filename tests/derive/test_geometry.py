@@ -13,7 +13,7 @@ phi = parameter("phi", "slope", unit="rad")
 
 @pytest.mark.parametrize(
     "name",
-    ["alpha", "theta_1", "w_12", "q_left_1", "np", "pi", *sorted(RESERVED)[::20]],
+    ["alpha", "theta_1", "w_12", "q_left_1", "sin_x", "t_1", "np", "pi", *sorted(RESERVED)[::20]],
 )
 def test_a_name_of_the_theory_is_refused(name: str) -> None:
     with pytest.raises(BadName) as caught:

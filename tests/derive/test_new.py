@@ -190,7 +190,7 @@ def test_a_fault_of_the_reader_is_no_traceback(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr("derive.geometry.check", raising(RecursionError("too deep")))
     with pytest.raises(BadProfile) as caught:
         draft(wanted)
-    assert "RecursionError: too deep" in caught.value.why
+    assert caught.value.why == "has too many terms"
 
 
 # Options

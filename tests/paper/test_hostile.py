@@ -85,6 +85,7 @@ FILES = {
     "body is a number": claim("a = b", "body = 3"),
     "body is code": claim("a = b", "body = { g = '__import__(\"os\")' }"),
     "body is empty": claim("a = b", "body = { }"),
+    "body aborts": claim("a = b", "body = { g = 'exp(exp(exp(exp(x/R))))*R' }"),
     "body is flat": claim("a = b", "body = { g = 'x' }"),
     "body has odd units": claim("a = b", "body = { g = 'x**2/R', units = { R = 'parsec' } }"),
     "body has units of code": claim("a = b", "body = { g = 'x**2/R', units = { R = 'exec(1)' } }"),

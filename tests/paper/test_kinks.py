@@ -225,20 +225,20 @@ def test_strict_inequalities_where_the_sides_touch(
 def test_a_side_that_is_not_real_is_no_counter_example(tmp_path: Path, printed: str) -> None:
     finding = judged(tmp_path, printed)
     assert finding.verdict in GOOD
-    assert "a side is not real at " in evidence(finding)
+    assert "one side is not real at " in evidence(finding)
 
 
 def test_branches_where_neither_side_is_real_do_not_count(tmp_path: Path) -> None:
     """log of a negative quotient is +pi i or -pi i away; where it is real both sides agree."""
     finding = judged(tmp_path, "log((1 - a)/(1 - b)) = log(1 - a) - log(1 - b)")
     assert finding.verdict == Verdict.NUMERICAL
-    assert "a side is not real at " in evidence(finding)
+    assert "one side is not real at " in evidence(finding)
     assert len(finding.judged.pairs) >= 20
     assert judged(tmp_path, "a*sqrt(1 - b) = 2*a*sqrt(1 - b)").verdict == Verdict.FAILS
     assert judged(tmp_path, "a*sqrt(1 - b) = a*sqrt(1 - b)").verdict == Verdict.HOLDS
     hidden = judged(tmp_path, "sqrt(w - 2) = 2*sqrt(w - 2)")
     assert hidden.verdict == Verdict.UNCHECKED
-    assert "a side is not real at " in evidence(hidden)
+    assert "one side is not real at " in evidence(hidden)
 
 
 def test_a_range_is_kept_where_its_variable_cancels(tmp_path: Path) -> None:
@@ -314,7 +314,7 @@ def test_a_search_that_takes_too_long_leaves_the_verdict(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("given", ["0", "-1", '"long"', "true", "1e9", "nan"])
 def test_what_is_no_limit_is_refused(tmp_path: Path, given: str) -> None:
-    with pytest.raises(BadClaimsFile, match="is not a time limit"):
+    with pytest.raises(BadClaimsFile, match="is not a valid time limit"):
         judged(tmp_path, "a = a", f"seconds = {given}\n" + HEAD)
 
 

@@ -127,8 +127,8 @@ def test_the_worked_example() -> None:
 BAD = {
     "no TOML": ("title = ", "not valid TOML"),
     "a deep list": ("a = " + "[" * 3000 + '"]"' + "]" * 3000, "nested 3000 deep, and 8 levels"),
-    "no claims": (HEAD, "number of [[claims]]"),
-    "claims no list": (HEAD + "\n[claims]\n", "number of [[claims]]"),
+    "no claims": (HEAD, "the file has no [[claims]]"),
+    "claims no list": (HEAD + "\n[claims]\n", "the file has no [[claims]]"),
     "unknown key": ('colour = "red"\n' + CIRCLE, "'colour'"),
     "a key of a variable": (CIRCLE.replace("high = 0.9", "high = 0.9, step = 1"), "'step'"),
     "no label": (HEAD + '[[claims]]\nprinted = "A = R"\n', "no label"),

@@ -224,6 +224,26 @@ def test_what_grows_in_proportion_sticks(tol):
     assert found.work[-1] < 1e-6 * F * LOAD
 
 
+@pytest.mark.parametrize("tol", [1e-3, 1e-5])
+def test_a_contact_slips_until_it_is_lost(tol):
+    """P and Q fall in proportion to nothing and rise again, without slip.
+
+    While the half-width is a, [-a/sqrt 2, a/sqrt 2] sticks, and x slips until a = x.
+    """
+    part, x = np.array([1.0, 0.0, 1.0]), np.array([0.49, 0.735, 0.9, 0.98])
+    found = history(hertz, part * LOAD, 0.0, 0.5 * F * part * LOAD, 0.0, x=x, tol=tol)
+    assert found.regime[1] == Regime.NONE and np.isnan(found.work[1])
+    assert found.slip[2] == pytest.approx(F * gap(x / math.sqrt(2), x), abs=found.slip_error[2])
+    # int int f p d(slip) dx, p = sqrt(a^2 - x^2)/2
+    places = np.linspace(0, 1, 1001)[:, None]
+    widths = places + (1 - places) * np.linspace(0, 1, 401) ** 2
+    slip = F * gap(np.maximum(widths, 1e-9) / math.sqrt(2), places)
+    p = np.sqrt(widths**2 - places**2) / 2
+    density = -F * np.sum((p[:, 1:] + p[:, :-1]) / 2 * np.diff(slip), axis=1)
+    work = 2 * np.trapezoid(density, places[:, 0])
+    assert found.work[2] - found.work[0] == pytest.approx(work, rel=2e-3)
+
+
 @pytest.mark.parametrize("P", [[0.0, 1.0], [1.0, 0.0, 1.0]])
 def test_a_flat_body_sticks_from_its_first_touch_on(P):
     """Its contact is wide from the start: q = (Q/P) p again, p being from the law."""
@@ -496,7 +516,7 @@ def distances(law, own, f, loads, other, count):
     for i in range(count):
         for j in range(count):
             z[i] += B[i, j] * w[j]
-    one, two = np.zeros((5, count)), np.zeros((5, count))
+    one, two = np.zeros((6, count)), np.zeros((6, count))
     room, space = np.zeros((count + 1, count)), np.zeros((count + 1, count))
     found, since, series = np.zeros(rows.shape[0]), 0, np.empty(TERMS)
     for k in range(rows.shape[0]):

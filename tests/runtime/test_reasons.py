@@ -49,5 +49,5 @@ def test_a_contact_that_the_body_cannot_make() -> None:
 
 
 def test_one_cycle_at_a_time() -> None:
-    with pytest.raises(ValueError, match=r"why takes one cycle.*; got arrays of shape \(2,\)"):
+    with pytest.raises(ValueError, match=r"`why` takes one cycle.*; got arrays of shape \(2,\)"):
         hertz.why(HERE, HERE, np.array([0.1, 0.2]), 0.0, **GIVEN)

@@ -5,9 +5,9 @@ zone that were found on it.  The refinement stops when two meshes agree to the t
 results of the last mesh are returned.  The estimated error is the difference between the last two
 meshes, which exceeds the error of the last one.  For m and n half an element is added, because
 a stick-slip boundary lies between two elements.  The estimated error of the frictional work is the
-sum of the differences between the last two meshes from instant to instant, in a cycle at least the
-work of their difference in slip range, times a factor.  The factor also applies to slip, where the
-largest difference counts, and to the shear traction of a cycle.
+sum of the differences between the last two meshes, in a cycle over the elements, in a history over
+the instants and times a factor.  A factor also applies to slip, where the largest difference
+counts, and to the shear traction of a cycle.
 """
 
 import math
@@ -34,6 +34,7 @@ from .steps import (
     SLIP,
     SLIP_OF_STEP,
     UNSOLVED,
+    WORK_OF_STEP,
     at_point,
     mesh_for,
     step,
@@ -41,15 +42,15 @@ from .steps import (
     value_at,
 )
 
-TOTAL, RANGE, ALWAYS, FIRST_SHEAR = range(4)
+TOTAL, RANGE, ALWAYS, FIRST_SHEAR, DENSITY = range(5)
 """Rows of the results of a cycle on the elements."""
 
 NO_STICK = 10.0
 """Another code of Regime: every point slips at some time, though the contact never slides."""
 
 FEWEST = 64
-"""Elements of the first mesh.  On a mesh with k times as many, a cycle takes at least k steps from
-one instant to the next, and a history at least k**2/8."""
+"""Elements of the first mesh.  On a mesh with k times as many, at least k steps are taken from one
+instant to the next, and in a history at least k**2/8."""
 
 REACH = 3.84
 """Largest motion of an edge in a step, relative to the contact width, times the number of
@@ -68,8 +69,9 @@ DISTINCT = 1e-4
 APART = 3.0
 """Stick-slip boundaries closer together than this times `tol` count as one in the refinement."""
 
-CAUTION = 2.0
-"""Factor on differences between two meshes that are small by chance on some."""
+CAUTION, WORK = 2.0, 3.0
+"""Factors on differences between two meshes, which are small by chance on some; WORK is that on the
+work of a history."""
 
 MOST_ROUNDS = 100
 """Largest number of repetitions of a cycle."""
@@ -161,7 +163,7 @@ def _discretised(law: Any, own: Any, rows: Any, count: int, stick_ends: Any) -> 
     A_ = influence(ends)
     B = inverse_of(A_)
     z = _inverse_times(B, ends[1:] - ends[:-1])
-    return ends, bends, A_, B, z, np.zeros((count + 1, count)), np.zeros((5, count))
+    return ends, bends, A_, B, z, np.zeros((count + 1, count)), np.zeros((6, count))
 
 
 @kernel(truth(vector, vector))
@@ -204,7 +206,7 @@ def history_on_mesh(
     values = np.full((instants, FEATURES + 2 * asked), math.nan)
     fields, nothing = np.full((instants, 2, count), math.nan), np.empty(0)
     values[:, 5] = NONE
-    least = max((count // FEWEST) ** 2 // 8, 1)
+    least = max((count // FEWEST) ** 2 // 8, count // FEWEST)
     rows = path(law, own, loads, f, REACH / count, least, LAST)
     touches, unknown = False, UNSOLVED if np.all(np.isfinite(loads)) else NONE
     for k in range(rows.shape[0]):
@@ -248,32 +250,46 @@ def history_on_mesh(
     return values, fields, ends, bends
 
 
-@kernel(results(3)(vector, vector, vector, vector, vector, real, real))
+@kernel(results(2)(vector, vector, vector, vector, vector, vector, real, real))
 def _differences(
-    ends: Any, values: Any, coarse_ends: Any, coarse_bends: Any, coarse: Any, a: float, c: float
+    ends: Any,
+    bends: Any,
+    values: Any,
+    coarse_ends: Any,
+    coarse_bends: Any,
+    coarse: Any,
+    a: float,
+    c: float,
 ) -> Any:
-    """Of the values of elements on two meshes in [-a, c]: the largest difference and two means.
-
-    The second mean is weighted by a semi-elliptical pressure.
-    """
+    """The largest and the mean difference of values of elements on two meshes in [-a, c]."""
     x, coarse_x = (ends[1:] + ends[:-1]) / 2, (coarse_ends[1:] + coarse_ends[:-1]) / 2
-    largest = mean = weighted = 0.0
+    largest = mean = 0.0
     for i in range(x.size):
         if -a < x[i] < c:
-            off = abs(values[i] - value_at(coarse_ends, coarse_x, coarse_bends, coarse, x[i]))
-            largest = max(largest, off)
-            off *= ends[i + 1] - ends[i]
-            mean += off / (a + c)
-            weighted += off * math.sqrt((a + x[i]) * (c - x[i])) * 8 / math.pi / (a + c) ** 2
-    return largest, mean, weighted
+            for part in (-0.499999, 0.499999, 0.0):
+                point = x[i] + part * (ends[i + 1] - ends[i])
+                fine = value_at(ends, x, bends, values, point)
+                off = abs(fine - value_at(coarse_ends, coarse_x, coarse_bends, coarse, point))
+                largest = max(largest, off)
+            mean += off * (ends[i + 1] - ends[i]) / (a + c)
+    return largest, mean
 
 
 @kernel(real(vector, vector, vector, vector, real, real))
 def _of_shear(ends: Any, q: Any, coarse_ends: Any, coarse_q: Any, a: float, c: float) -> float:
     """The mean difference of shear traction between two meshes in [-a, c]."""
-    smooth = np.zeros(coarse_ends.size)
-    smooth[0] = smooth[-1] = JUMP
-    return _differences(ends, q, coarse_ends, smooth, coarse_q, a, c)[1]
+    smooth, coarse_smooth = np.zeros(ends.size), np.zeros(coarse_ends.size)
+    smooth[0] = smooth[-1] = coarse_smooth[0] = coarse_smooth[-1] = JUMP
+    return _differences(ends, smooth, q, coarse_ends, coarse_smooth, coarse_q, a, c)[1]
+
+
+@kernel(real(vector, vector, vector, vector, vector, vector))
+def _of_slip(
+    ends: Any, bends: Any, slip: Any, coarse_ends: Any, coarse_bends: Any, coarse_slip: Any
+) -> float:
+    """The largest difference of slip between two meshes."""
+    a, c = -ends[0], ends[-1]
+    return _differences(ends, bends, slip, coarse_ends, coarse_bends, coarse_slip, a, c)[0]
 
 
 @kernel(real(vector, vector))
@@ -320,23 +336,14 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
                     shear = _of_shear(ends, field[0], coarse_ends, last[0], a, c)
                     here[7] = max(_error(here, coarse[k]), shear * (a + c) / (f * loads[0, k]))
                     if not math.isnan(field[1, 0]):
-                        here[9] = (
-                            CAUTION
-                            * _differences(
-                                ends,
-                                field[1],
-                                coarse_ends,
-                                coarse_bends,
-                                last[1],
-                                -ends[0],
-                                ends[-1],
-                            )[0]
+                        here[9] = CAUTION * _of_slip(
+                            ends, bends, field[1], coarse_ends, coarse_bends, last[1]
                         )
                     met = met and (here[7] <= tol or here[5] in (NONE, SLIDING, UNSOLVED))
                     if here[5] != NONE:
                         work_error += abs((here[6] - fine_work) - (coarse[k, 6] - coarse_work))
                         fine_work, coarse_work = here[6], coarse[k, 6]
-                        here[8] = CAUTION * work_error
+                        here[8] = WORK * work_error
             if met or elements >= _finest(tol):
                 break
             coarse, coarse_fields, elements = fine, fields, 2 * elements
@@ -424,9 +431,9 @@ def cycle_on_mesh(
     m and n are the edges of the smallest contact, and the error of work is only that due to the
     drift; the other errors are NaN.  Also returns the ends of the elements, where slip has jumps or
     kinks, and rows: the total slip and the slip range of the elements in a cycle, 1 for those that
-    are always in contact, and first q.
+    are always in contact, and first q, and the work per length in a cycle.
     """
-    nothing, fields = np.empty(0), np.ones((4, count))
+    nothing, fields = np.empty(0), np.ones((5, count))
     asked = points.size
     values = np.full(ZONE + 2 * asked, math.nan)
     values[2] = NONE
@@ -445,7 +452,7 @@ def cycle_on_mesh(
     for round_ in range(MOST_ROUNDS + 1):
         # round 0 applies the loads of the first instant; each later round is one cycle
         start, end = (0, least + 1) if round_ == 0 else (least + 1, rows.shape[0])
-        total_slip[:], work = 0.0, 0.0
+        total_slip[:], fields[DENSITY], work = 0.0, 0.0, 0.0
         low[:] = high[:] = state[SLIP]
         for k in range(start, end):
             row, previous = rows[k], rows[max(k - 1, 0)]
@@ -458,6 +465,7 @@ def cycle_on_mesh(
             work += more
             for i in range(x.size):
                 total_slip[i] += abs(state[SLIP_OF_STEP, i])
+                fields[DENSITY, i] += state[WORK_OF_STEP, i]
                 low[i], high[i] = min(low[i], state[SLIP, i]), max(high[i], state[SLIP, i])
                 if state[BOUND, i] == 0:
                     always[i] = 0.0
@@ -547,7 +555,7 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
         loads = given[row, 3 : 3 + 4 * count].reshape((4, count))
         points = given[row, 3 + 4 * count :]
         elements, met, stick_ends = FEWEST, False, np.empty(0)
-        coarse_ends, coarse_bends, coarse_fields = stick_ends, stick_ends, np.empty((4, 0))
+        coarse_ends, coarse_bends, coarse_fields = stick_ends, stick_ends, np.empty((5, 0))
         coarse = np.full(ZONE + 2 * asked, math.nan)
         coarse_direct, coarse_less = coarse, coarse
         first = contact(law, own[row], loads[0, 0], loads[1, 0])
@@ -569,11 +577,15 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
             if elements > FEWEST:
                 met = fine[2] == coarse[2]
                 if coarse_ends.size > 0 and ends.size > 0:
-                    largest, _, weighted = _differences(
-                        ends, fields[RANGE], coarse_ends, coarse_bends, coarse_fields[RANGE], a, c
+                    slip, last = fields[RANGE], coarse_fields[RANGE]
+                    largest, _ = _differences(
+                        ends, bends, slip, coarse_ends, coarse_bends, last, a, c
                     )
-                    slipped = 2 * f * np.max(loads[0]) * weighted
-                    fine[7] += CAUTION * max(abs(fine[3] - coarse[3]), slipped)
+                    work, last = fields[DENSITY], coarse_fields[DENSITY]
+                    _, mean = _differences(
+                        ends, bends, work, coarse_ends, coarse_bends, last, -ends[0], ends[-1]
+                    )
+                    fine[7] += mean * (ends[-1] - ends[0])
                     q, coarse_q = fields[FIRST_SHEAR], coarse_fields[FIRST_SHEAR]
                     fine[8] = CAUTION * largest
                     fine[9] = CAUTION * _of_shear(

@@ -2,7 +2,8 @@ r"""Load steps along a path: shear traction, slip, frictional work, and the stic
 
 E* = 1 throughout.  The state is a matrix with one column per element.  Its rows are the shear
 traction, the bound f p, the status (0: sticks; 1 and -1: slips forward and backward, or is not in
-contact), the forward slip since the start, and the forward slip in the last step.
+contact), the forward slip since the start, and the forward slip and the frictional work per length
+in the last step.
 """
 
 import math
@@ -24,7 +25,7 @@ from .elements import (
 from .nearest import nearest
 from .path import SIGMA, A, C, P, Q
 
-SHEAR, BOUND, STATUS, SLIP, SLIP_OF_STEP = range(5)
+SHEAR, BOUND, STATUS, SLIP, SLIP_OF_STEP, WORK_OF_STEP = range(6)
 """Rows of the state."""
 
 NONE, SLIDING, FULL_STICK, UNSOLVED, COMPUTED = 0.0, 4.0, 5.0, 6.0, 9.0
@@ -256,12 +257,13 @@ def _add_slip(
     """
     work, first, last = 0.0, w.size, -1
     for i in range(w.size):
-        state[SLIP_OF_STEP, i] = 0.0
+        state[SLIP_OF_STEP, i] = state[WORK_OF_STEP, i] = 0.0
         if state[BOUND, i] > 0 and state[STATUS, i] != 0:
             state[SLIP_OF_STEP, i] = -2 * s[i]
-            work += w[i] * (bound[i] + state[BOUND, i]) / 2 * abs(state[SLIP_OF_STEP, i])
+            state[WORK_OF_STEP, i] = (bound[i] + state[BOUND, i]) * abs(s[i])
         elif bound[i] > 0 and state[BOUND, i] == 0:
-            work -= w[i] * q[i] * s[i]
+            state[WORK_OF_STEP, i] = -q[i] * s[i]
+        work += w[i] * state[WORK_OF_STEP, i]
         outside = max(-ends[i] - min(before[0], now[0]), ends[i + 1] - min(before[1], now[1]))
         if outside <= OUTSIDE * w[i]:
             first, last = min(first, i), i

@@ -23,7 +23,10 @@ STEPS = 100
 
 @kernel(results(2)(LAW, vector, matrix, whole, whole, real, vector))
 def patch(law: Any, own: Any, path: Any, one: int, other: int, part: float, cycle: Any) -> Any:
-    """m and n between two contacts, rows of `path`, after a part of the change in shear."""
+    """m and n once a fraction `part` of the change in shear has been applied.
+
+    one, other: the rows of `path` with the contacts at the start and at the end.
+    """
     load = (path[one, LOAD] + path[other, LOAD]) / 2 - part * cycle[4] / (2 * cycle[6])
     tilt = (path[one, TILT] + path[other, TILT]) / 2 - part * cycle[5] / (4 * cycle[6])
     return contact_at_tilt(law, own, load, tilt)

@@ -63,7 +63,7 @@ POOR = 0.075
 lie within two thirds of it, 5 %."""
 
 WORST = 3.0
-"""Squared misfit over squared scatter above which no stretch shows the square root."""
+"""Squared misfit over squared scatter above which no range of nodes follows the square-root law."""
 
 
 class PressureFit(NamedTuple):
@@ -143,7 +143,7 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
     Returns
     -------
     PressureFit
-        NaN, with a warning that gives the reason, if no stretch shows the square root.
+        NaN, with a warning that gives the reason, if no range of nodes follows the square-root law.
 
     Raises
     ------
@@ -204,8 +204,8 @@ def fit_pressure(x: Array, p: Array) -> PressureFit:
     found = _chosen(places, squares, sd, DEGREES, 1, edge_of)
     if found is None:
         return _no_pressure(
-            "no stretch of nodes shows the square root: the mesh is too coarse, a kink lies next "
-            "to the edge, or the contact is complete",
+            "no range of nodes follows the square-root law: the mesh is too coarse, a kink lies "
+            "next to the edge, or the contact is complete",
             half,
         )
     (edge, K_N, L_N), errors = found.values, found.errors
@@ -244,7 +244,7 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
     Returns
     -------
     ShearFit
-        NaN, with a warning that gives the reason, if no stretch shows the square root.
+        NaN, with a warning that gives the reason, if no range of nodes follows the square-root law.
 
     Raises
     ------
@@ -292,7 +292,8 @@ def fit_stuck_shear(x: Array, dq: Array, edge: float, edge_error: float = 0.0) -
     found = _chosen(s[:half], y[:half], sd, STUCK, 0, _ends)
     if found is None:
         return _no_shear(
-            "no stretch of nodes shows the square root: the mesh is too coarse, or there is slip",
+            "no range of nodes follows the square-root law: the mesh is too coarse, or there is "
+            "slip",
             half,
         )
     values, errors = np.array(found.values), np.array(found.errors)
@@ -534,8 +535,8 @@ def _warning(nodes: int, misfit: float, part: float, name: str) -> str:
         )
     if misfit**2 > WORST:
         reasons.append(
-            f"no stretch of nodes shows the square root (misfit {misfit:.1f} times the scatter): "
-            "the mesh is too coarse, or there is a kink"
+            f"no range of nodes follows the square-root law (misfit {misfit:.1f} times the "
+            "scatter): the mesh is too coarse, or there is a kink"
             + (" or slip next to the edge" if name == "K_T" else " next to the edge")
         )
     if not part < POOR:

@@ -50,13 +50,14 @@ def _watch(tasks: list[Future[None]], finished: Any, progress: Any) -> None:
 
     An exception in a task is raised again here.
     """
-    bar = _bar(len(tasks))
-    for task in tasks:
-        while not wait([task], timeout=EVERY).done:
-            if bar is not None:
-                done = np.where(finished, 1.0, np.clip(np.nan_to_num(-progress), 0.0, 1.0))
-                bar.update(float(done.sum()) - bar.n)
-        task.result()
+    bar, waiting = _bar(len(tasks)), set(tasks)
+    while waiting:
+        ended, waiting = wait(waiting, timeout=EVERY)
+        for task in ended:
+            task.result()
+        if bar is not None:
+            done = np.where(finished, 1.0, np.clip(np.nan_to_num(-progress), 0.0, 1.0))
+            bar.update(float(done.sum()) - bar.n)
     if bar is not None:
         bar.close()
 

@@ -3,9 +3,10 @@ r"""The loads and contacts of a history; between two instants all loads vary lin
 
 Rows of a path hold P, M, Q, sigma, a, c, and the number of the instant, or -1 between instants.
 Steps are so short that no edge moves farther than `reach` times the widest contact, and a step ends
-wherever |Q| reaches f P or falls below it.  After a loss of contact, the path begins with a small
-contact, or that of a flat body under a small load.  If there is neither, because the contact
-appears far away and rolls in, its shear traction is not known, and Q in the first row is NaN.
+wherever |Q| reaches f P or falls below it.  The contact before a loss of contact is small.  So is
+the first one after it, or it is that of a flat body under a small load.  If there is neither,
+because the contact appears far away and rolls in, its shear traction is not known, and Q in the
+first row is NaN.
 """
 
 import math
@@ -20,7 +21,8 @@ P, M, Q, SIGMA, A, C, INSTANT = range(7)
 """Columns of a path."""
 
 SMALL = 0.02
-"""Width of the first contact after a loss of contact, relative to that at the next instant."""
+"""Width of the last contact before a loss and of the first after it, relative to that at the
+previous and the next instant."""
 
 UNLOADED = 1e-4
 """A flat body begins with a wide contact, under less than this fraction of the load at the next
@@ -86,7 +88,7 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
             moved = max(abs(there[A] - here[A]), abs(there[C] - here[C])) / widest
             if math.isfinite(moved):
                 parts[k] = max(least, math.ceil(min(moved / reach, 1e5)))
-            elif math.isfinite(there[A]):
+            elif math.isfinite(there[A]) or math.isfinite(here[A]):
                 parts[k] = math.ceil(1 / reach)
         most += parts[k] + 4
     rows = np.empty((most, 7))
@@ -98,7 +100,7 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
         rows[count, INSTANT] = 0 if k == least else -1
         count += 1
     for k in range(1, number):
-        start, power = 0.0, 1.0
+        start, stop, power = 0.0, 1.0, 1.0
         if math.isnan(instants[k - 1, A]) and math.isfinite(instants[k, A]):
             # find, by bisection, the first contact that is neither too small nor far away
             high, power, w = 1.0, 2.0, instants[k, A] + instants[k, C]
@@ -119,13 +121,29 @@ def path(law: Any, own: Any, loads: Any, f: float, reach: float, least: int, sho
             if not (small or rows[count, P] < UNLOADED * instants[k, P]):
                 rows[count, Q] = math.nan
             count += 1
+        elif math.isnan(instants[k, A]) and math.isfinite(instants[k - 1, A]):
+            # find, by bisection, the last contact that is not too small
+            high, power, w = 1.0, 2.0, instants[k - 1, A] + instants[k - 1, C]
+            stop = 0.0
+            for _ in range(50):
+                t = (stop + high) / 2
+                _between(law, own, instants, k, t, rows[count])
+                if rows[count, A] + rows[count, C] > SMALL * w:
+                    stop = t
+                else:
+                    high = t
         limits = _sliding_limits(loads, k, f)
         last = start
         for j in range(1, parts[k] + 2):
             if j == parts[k] and short == 0:
                 continue
             fraction = j / parts[k] if j < parts[k] else 1 - short / parts[k]
-            t = 1.0 if j > parts[k] else start + (1 - start) * fraction**power
+            if j > parts[k]:
+                t = 1.0
+            elif stop < 1:
+                t = stop * (1 - (1 - fraction) ** power)
+            else:
+                t = start + (1 - start) * fraction**power
             for limit in (min(limits[0], limits[1]), max(limits[0], limits[1])):
                 if last < limit < t:
                     _between(law, own, instants, k, limit, rows[count])

@@ -22,12 +22,14 @@ from derive.body import Body
 from derive.cli import main
 from derive.errors import BadPage
 from derive.handbook.curves import pictures
+from derive.handbook.mathml import mathml
 from derive.handbook.page import entry, index, page, proven
 from derive.handbook.picture import Line, svg
-from derive.handbook.shelf import put_page, put_pages
+from derive.manifest import MANIFEST
 from derive.pipeline import GENERATED
 from derive.proof.verdict import Verdict
 from derive.sheet import FormulaSheet
+from derive.shelf import put_page, put_pages
 from tests.derive.bodies import assumed
 
 pytestmark = pytest.mark.slow
@@ -160,8 +162,23 @@ def test_pages_made_here_are_replaced_whole(pages: Path, tmp_path: Path) -> None
     folder = tmp_path / "book"
     shutil.copytree(pages, folder)
     put_pages({"index.html": index([])}, folder)
-    assert [p.name for p in folder.iterdir()] == ["index.html"]
+    assert sorted(p.name for p in folder.iterdir()) == [MANIFEST, "index.html"]
+    shutil.copy(folder / "index.html", folder / "mine.html")
+    with pytest.raises(BadPage, match=r"'mine\.html', which is not in the list"):
+        put_pages({"index.html": index([])}, folder)
+    assert (folder / "mine.html").exists()
     put_page(index([]), folder / "index.html")
+
+
+@pytest.mark.parametrize("latex", ["a & b", r"\unknown{x}", "a $ b"])
+def test_latex_that_would_show_is_refused(latex: str) -> None:
+    with pytest.raises(ValueError, match="not typeset"):
+        mathml(latex)
+
+
+def test_lines_of_equations_are_a_table() -> None:
+    shown = mathml(r"\begin{aligned}a &= b \\ c &= d\end{aligned}")
+    assert shown.count("<mtr>") == 2 and "&" not in re.sub(r"&#\w+;", "", shown)
 
 
 def test_what_killed_runs_have_left_is_removed(pages: Path, tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 from derive.errors import BadPage
 from derive.exchange import put_in_place
 from derive.files import write_whole
+from derive.manifest import MANIFEST, not_written, with_manifest
 
 MARK = '<meta name="generator" content="derive '
 """A tag in every page made by a command of this package; only such pages are replaced."""
@@ -52,7 +53,7 @@ def put_pages(pages: Mapping[str, str], folder: Path) -> None:
     fresh, old = workshop / "fresh", workshop / "old"
     try:
         fresh.mkdir()
-        for name, text in pages.items():
+        for name, text in with_manifest(pages).items():
             (fresh / name).write_bytes(text.encode())
         put_in_place(fresh, folder, old)
     except OSError as error:
@@ -68,8 +69,13 @@ def _remove_leftovers(folder: Path) -> None:
     """Remove the hidden directories of pages that killed runs have left beside a directory."""
     for path in folder.parent.glob(f".{escape(folder.name)}-????????"):
         with suppress(OSError):
+            if not {each.name for each in path.iterdir()} <= {"fresh", "old"}:
+                continue
             files = [each for each in path.rglob("*") if not each.is_dir() or each.is_symlink()]
-            ours = all(_is_ours(each) or each.stat().st_size == 0 for each in files)
+            ours = all(
+                _is_ours(each) or each.name == MANIFEST or each.stat().st_size == 0
+                for each in files
+            )
             if ours and time.time() - path.stat().st_mtime > _OLD:
                 shutil.rmtree(path)
 
@@ -83,10 +89,8 @@ def demand_replaceable(folder: Path) -> None:
         raise BadPage(str(folder), "is not a directory")
     if folder.resolve() in (Path.cwd(), *Path.cwd().parents):
         raise BadPage(str(folder), "is the current directory or contains it")
-    for path in sorted(folder.iterdir()):
-        if not _is_ours(path):
-            why = f"contains {path.name!r}, which was not made by `derive`"
-            raise BadPage(str(folder), why)
+    if stranger := not_written(folder, sorted(folder.iterdir())):
+        raise BadPage(str(folder), f"contains {stranger}")
 
 
 def _demand_reachable(path: Path, option: str = "--out") -> None:

@@ -1,0 +1,92 @@
+"""The package as its users have it: installed from a wheel, without the optional libraries."""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+OPTIONAL = ("jinja2", "latex2mathml", "matplotlib", "tqdm", "dask", "ipywidgets", "nbformat")
+
+BLOCKING = f"""
+import sys
+sys.modules.update(dict.fromkeys({OPTIONAL}))  # an import then fails
+"""
+
+EXAMPLES = """
+import doctest, sys
+from pathlib import Path
+text = Path(sys.argv[1]).read_text(encoding="utf-8")
+test = doctest.DocTestParser().get_doctest(text, {}, "README", None, 0)
+done = doctest.DocTestRunner().run(test)
+assert done.attempted >= 14, done
+sys.exit(done.failed)
+"""
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the installed package, its command, and nothing optional."""
+    folder = tmp_path_factory.mktemp("installed")
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--quiet"]
+    made = [*pip, "wheel", ".", "--no-deps", "--wheel-dir", str(folder)]
+    done = subprocess.run(made, cwd=ROOT, capture_output=True, text=True)
+    if done.returncode and "No matching distribution" in done.stderr:
+        pytest.skip("no setuptools can be downloaded, which builds the wheel")
+    assert done.returncode == 0, done.stderr
+    (wheel,) = folder.glob("*.whl")
+    into = [*pip, "install", "--no-deps", "--no-index", "--target", str(folder / "site")]
+    subprocess.run([*into, str(wheel)], check=True)
+    (folder / "site" / "sitecustomize.py").write_text(BLOCKING)
+    return folder
+
+
+def run(installed: Path, folder: Path, *arguments: str) -> "subprocess.CompletedProcess[str]":
+    """Python in a folder of the user's, with the installed package."""
+    settings = os.environ | {"PYTHONPATH": str(installed / "site"), "DERIVE_CACHE": ""}
+    command = [sys.executable, *arguments]
+    return subprocess.run(command, cwd=folder, env=settings, capture_output=True, text=True)
+
+
+def derive(installed: Path, folder: Path, line: str) -> "subprocess.CompletedProcess[str]":
+    main = "import sys; from derive.cli import main; sys.argv[0] = 'derive'; main()"
+    return run(installed, folder, "-c", main, *shlex.split(line))
+
+
+def test_it_is_the_wheel(installed: Path, tmp_path: Path) -> None:
+    where = "import derive, generated; print(derive.__file__); print(generated.__file__)"
+    done = run(installed, tmp_path, "-c", where)
+    assert all(line.startswith(str(installed)) for line in done.stdout.splitlines()), done
+
+
+def test_the_readme_s_lines_run_as_printed(installed: Path, tmp_path: Path) -> None:
+    """Its commands in their order, then all examples; the plot needs an extra."""
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"```sh\n(derive new.*?)```", readme, re.S)
+    lines = re.findall(r"^derive (.*?)(?: +#.*)?$", block, re.M)
+    lines += [f"check {ROOT / 'examples' / 'cattaneo_mindlin.toml'}"]
+    lines += [f"edge {ROOT / 'examples' / 'edge_flat_rounded.csv'} --f 0.5"]
+    assert len(lines) >= 5
+    for line in lines:
+        done = derive(installed, tmp_path, line)
+        assert done.returncode == 0, (line, done.stderr)
+    done = run(installed, tmp_path, "-c", EXAMPLES, str(ROOT / "README.md"))
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_what_needs_an_extra_says_which(installed: Path, tmp_path: Path) -> None:
+    done = derive(installed, tmp_path, "show hertz --html")
+    assert done.returncode == 2
+    assert "pip install 'contact-derive[handbook]'" in done.stderr
+
+
+def test_the_installed_package_is_not_written_to(installed: Path, tmp_path: Path) -> None:
+    done = derive(installed, tmp_path, "generate hertz")
+    assert done.returncode == 2 and "--out" in done.stderr
