@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -36,8 +37,14 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the installed package, its command, and nothing optional."""
     folder = tmp_path_factory.mktemp("installed")
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--quiet"]
-    made = [*pip, "wheel", ".", "--no-deps", "--wheel-dir", str(folder)]
-    done = subprocess.run(made, cwd=ROOT, capture_output=True, text=True)
+    source, names = folder / "source", ("pyproject.toml", "README.md", "LICENSE")
+    for package in ("derive", "generated"):
+        compiled = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(ROOT / package, source / package, ignore=compiled)
+    for name in names:  # a build in the clone would leave files there, and take up old ones
+        shutil.copy(ROOT / name, source / name)
+    made = [*pip, "wheel", str(source), "--no-deps", "--wheel-dir", str(folder)]
+    done = subprocess.run(made, capture_output=True, text=True)
     if done.returncode and "No matching distribution" in done.stderr:
         pytest.skip("no setuptools can be downloaded, which builds the wheel")
     assert done.returncode == 0, done.stderr
