@@ -56,10 +56,11 @@ def test_a_closed_output(tmp_path: Path) -> None:
 def test_a_closed_or_full_standard_error_changes_nothing(
     tmp_path: Path, command: str, errors: str
 ) -> None:
-    done, plain = (
+    plain, done = (
         derive(tmp_path, f"{command}{end}", "rm -f nn.py;") for end in ("", f" {errors}")
     )
-    assert (done.returncode, done.stdout) == (0, plain.stdout)
+    assert (plain.returncode, done.returncode) == (0, 0)
+    assert done.stdout == plain.stdout
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,8 @@ LARGEST = 20_000_000
 """The largest size of a file, in bytes."""
 
 _LONGEST_LINE, _LONGEST_NUMBER = 20_000, 50
-"""The largest number of characters in a line and in a number."""
+"""The largest number of characters in a line, below the limit of the module csv for one field, and
+in a number."""
 
 MOST_NODES = 20_000
 """The largest number of nodes of a load step."""
@@ -165,7 +166,8 @@ def _split(text: str, shown: str) -> _Lines:
 
     Raises BadTable.
     """
-    for number, line in enumerate(text.splitlines(), 1):
+    numbered = list(enumerate(text.splitlines(), 1))
+    for number, line in numbered:
         if len(line) > _LONGEST_LINE:
             raise BadTable(
                 shown,
@@ -174,7 +176,7 @@ def _split(text: str, shown: str) -> _Lines:
             )
     lines = [
         (number, line.strip())
-        for number, line in enumerate(text.splitlines(), 1)
+        for number, line in numbered
         if line.strip() and not _COMMENT.match(line.strip())
     ]
     best: tuple[tuple[int, int], _Lines] = ((0, 0), _Lines((), False))
@@ -215,10 +217,7 @@ def _better(
 def _fields(line: str, separator: str) -> tuple[str, ...]:
     if not separator:
         return tuple(line.split())
-    try:
-        (row,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
-    except csv.Error:  # the line has no such separator, or a field that is too long
-        return (line,)
+    (row,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
     fields = [field.strip() for field in row]
     while len(fields) > 1 and not fields[-1]:  # some programs end lines with a separator
         fields.pop()
