@@ -250,8 +250,8 @@ def history_on_mesh(
     return values, fields, ends, bends
 
 
-@kernel(results(2)(vector, vector, vector, vector, vector, vector, real, real))
-def _differences(
+@kernel(real(vector, vector, vector, vector, vector, vector, real, real))
+def _largest_difference(
     ends: Any,
     bends: Any,
     values: Any,
@@ -260,36 +260,43 @@ def _differences(
     coarse: Any,
     a: float,
     c: float,
-) -> Any:
-    """The largest and the mean difference of values of elements on two meshes in [-a, c]."""
+) -> float:
+    """The largest difference between two meshes in [-a, c], at the middle and the ends of elements.
+
+    values, coarse: values of the elements of each mesh.
+    """
     x, coarse_x = (ends[1:] + ends[:-1]) / 2, (coarse_ends[1:] + coarse_ends[:-1]) / 2
-    largest = mean = 0.0
+    largest = 0.0
     for i in range(x.size):
         if -a < x[i] < c:
-            for part in (-0.499999, 0.499999, 0.0):
+            for part in (-0.499999, 0.0, 0.499999):
                 point = x[i] + part * (ends[i + 1] - ends[i])
                 fine = value_at(ends, x, bends, values, point)
-                off = abs(fine - value_at(coarse_ends, coarse_x, coarse_bends, coarse, point))
-                largest = max(largest, off)
+                there = value_at(coarse_ends, coarse_x, coarse_bends, coarse, point)
+                largest = max(largest, abs(fine - there))
+    return largest
+
+
+@kernel(real(vector, vector, vector, vector, vector, real, real))
+def _mean_difference(
+    ends: Any, values: Any, coarse_ends: Any, coarse_bends: Any, coarse: Any, a: float, c: float
+) -> float:
+    """The mean difference between two meshes in [-a, c]."""
+    coarse_x, mean = (coarse_ends[1:] + coarse_ends[:-1]) / 2, 0.0
+    for i in range(values.size):
+        x = (ends[i] + ends[i + 1]) / 2
+        if -a < x < c:
+            off = abs(values[i] - value_at(coarse_ends, coarse_x, coarse_bends, coarse, x))
             mean += off * (ends[i + 1] - ends[i]) / (a + c)
-    return largest, mean
+    return mean
 
 
 @kernel(real(vector, vector, vector, vector, real, real))
 def _of_shear(ends: Any, q: Any, coarse_ends: Any, coarse_q: Any, a: float, c: float) -> float:
-    """The mean difference of shear traction between two meshes in [-a, c]."""
-    smooth, coarse_smooth = np.zeros(ends.size), np.zeros(coarse_ends.size)
-    smooth[0] = smooth[-1] = coarse_smooth[0] = coarse_smooth[-1] = JUMP
-    return _differences(ends, smooth, q, coarse_ends, coarse_smooth, coarse_q, a, c)[1]
-
-
-@kernel(real(vector, vector, vector, vector, vector, vector))
-def _of_slip(
-    ends: Any, bends: Any, slip: Any, coarse_ends: Any, coarse_bends: Any, coarse_slip: Any
-) -> float:
-    """The largest difference of slip between two meshes."""
-    a, c = -ends[0], ends[-1]
-    return _differences(ends, bends, slip, coarse_ends, coarse_bends, coarse_slip, a, c)[0]
+    """The mean difference of shear traction, which has no jumps, between two meshes in [-a, c]."""
+    smooth = np.zeros(coarse_ends.size)
+    smooth[0] = smooth[-1] = JUMP
+    return _mean_difference(ends, q, coarse_ends, smooth, coarse_q, a, c)
 
 
 @kernel(real(vector, vector))
@@ -336,8 +343,15 @@ def each_history(law: Any, given: Any, own: Any, out: Any) -> None:
                     shear = _of_shear(ends, field[0], coarse_ends, last[0], a, c)
                     here[7] = max(_error(here, coarse[k]), shear * (a + c) / (f * loads[0, k]))
                     if not math.isnan(field[1, 0]):
-                        here[9] = CAUTION * _of_slip(
-                            ends, bends, field[1], coarse_ends, coarse_bends, last[1]
+                        here[9] = CAUTION * _largest_difference(
+                            ends,
+                            bends,
+                            field[1],
+                            coarse_ends,
+                            coarse_bends,
+                            last[1],
+                            -ends[0],
+                            ends[-1],
                         )
                     met = met and (here[7] <= tol or here[5] in (NONE, SLIDING, UNSOLVED))
                     if here[5] != NONE:
@@ -431,7 +445,7 @@ def cycle_on_mesh(
     m and n are the edges of the smallest contact, and the error of work is only that due to the
     drift; the other errors are NaN.  Also returns the ends of the elements, where slip has jumps or
     kinks, and rows: the total slip and the slip range of the elements in a cycle, 1 for those that
-    are always in contact, and first q, and the work per length in a cycle.
+    are always in contact, first q, and the work per length in a cycle.
     """
     nothing, fields = np.empty(0), np.ones((5, count))
     asked = points.size
@@ -578,12 +592,12 @@ def each_cycle(law: Any, given: Any, own: Any, out: Any) -> None:
                 met = fine[2] == coarse[2]
                 if coarse_ends.size > 0 and ends.size > 0:
                     slip, last = fields[RANGE], coarse_fields[RANGE]
-                    largest, _ = _differences(
+                    largest = _largest_difference(
                         ends, bends, slip, coarse_ends, coarse_bends, last, a, c
                     )
                     work, last = fields[DENSITY], coarse_fields[DENSITY]
-                    _, mean = _differences(
-                        ends, bends, work, coarse_ends, coarse_bends, last, -ends[0], ends[-1]
+                    mean = _mean_difference(
+                        ends, work, coarse_ends, coarse_bends, last, -ends[0], ends[-1]
                     )
                     fine[7] += mean * (ends[-1] - ends[0])
                     q, coarse_q = fields[FIRST_SHEAR], coarse_fields[FIRST_SHEAR]
