@@ -9,6 +9,7 @@ import math
 import os
 import subprocess
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from pathlib import Path
@@ -648,6 +649,33 @@ def test_the_bar_shows_one_long_history(monkeypatch):
     assert exact[-1] == 1.0
     assert all(0 <= done <= 1 for done in exact)
     assert len(computed) > 10 and computed[0] < 0.5 and np.all(np.diff(computed) >= -1e-12)
+
+
+def test_the_bar_never_goes_back(monkeypatch):
+    """A kernel stores its result where the progress stood before it returns."""
+    progress, finished, shown = np.array([0.0]), np.array([False]), []
+
+    def kernel():
+        for value in (-0.5, 1.2):
+            progress[0] = value
+            time.sleep(0.1)
+        finished[0] = True
+
+    class Bar:
+        n = 0.0
+
+        def update(self, by):
+            self.n += by
+            shown.append(by)
+
+        def close(self):
+            pass
+
+    monkeypatch.setattr(batch, "_bar", lambda _: Bar())
+    monkeypatch.setattr(batch, "EVERY", 0.01)
+    with ThreadPoolExecutor(1) as pool:
+        batch._watch([pool.submit(kernel)], finished, progress)
+    assert min(shown) >= 0 and sum(shown) == 1
 
 
 def short():

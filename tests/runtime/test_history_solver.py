@@ -87,6 +87,35 @@ def test_slip_that_recedes_towards_an_edge_is_solved_on_fine_meshes(tol):
     assert max(abs(found.m - plain.m), abs(found.n - plain.n)) / h < plain.error
 
 
+def test_the_stated_error_knows_of_time_steps_that_are_too_long():
+    """One straight path to tension, shear and moment: the right stick-slip boundary comes back.
+
+    Meshes of 1,024 elements and 64 to 1,024 steps a leg agree on n = 0.97343.
+    """
+    case = CASES["hertz"]
+    for tol in (1e-3, 1e-4):
+        found = case.module.history(
+            case.load, 0.0191884192, [-0.27608239], [-0.68441338], tol=tol, **case.constants
+        )
+        off = abs(found.n[0] - 0.97343) / (found.a[0] + found.c[0])
+        assert off < found.error[0] < 60 * tol
+
+
+def test_the_work_of_a_cycle_counts_what_slips_outside_the_smallest_contact():
+    """A loop of P and Q whose zone is exact: what slips does so in contacts of 0.869 to 1.116.
+
+    Against the work of the loads; 1e-2 of it is for its sums over time and place.
+    """
+    case, t = CASES["hertz"], np.arange(9) * np.pi / 4
+    P = case.load * (1 + 0.24455 * np.cos(t) - 0.01563 * np.sin(t))
+    Q = 0.00399 + 0.06699 * np.cos(t) - 0.01692 * np.sin(t)
+    truth = works(case, (P, 0 * P, Q, 0 * P)).by_shear
+    for tol in (1e-3, 1e-5):
+        found = case.module.steady_cycle(P, 0, Q, 0, tol=tol, **case.constants)
+        assert found.error == 0 and abs(found.work - truth) < found.work_error + 0.01 * truth
+    assert abs(found.work / truth - 1) < 0.03 and found.work_error < 0.1 * truth
+
+
 @pytest.mark.parametrize("body", ["hertz", "rounded_wedge"])
 def test_every_cycle_in_phase_is_answered_and_agrees_with_the_exact_one(body):
     case, rng, exact = CASES[body], np.random.default_rng(6), 0

@@ -49,13 +49,15 @@ def _watch(tasks: list[Future[None]], finished: Any, progress: Any) -> None:
 
     An exception in a task is raised again here.
     """
-    bar, waiting = _bar(len(tasks)), set(tasks)
+    bar, waiting, done = _bar(len(tasks)), set(tasks), np.zeros(len(tasks))
     while waiting:
         ended, waiting = wait(waiting, timeout=EVERY)
         for task in ended:
             task.result()
         if bar is not None:
-            done = np.where(finished, 1.0, np.clip(np.nan_to_num(-progress), 0.0, 1.0))
+            # A kernel may have stored its result in the first column and not yet be finished.
+            seen = np.where(finished, 1.0, np.clip(np.nan_to_num(-progress), 0.0, 1.0))
+            done = np.maximum(done, seen)
             bar.update(float(done.sum()) - bar.n)
     if bar is not None:
         bar.close()
