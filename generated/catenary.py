@@ -59,6 +59,13 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, R=1.0, b=1.0):.6g}"
@@ -90,6 +97,13 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -123,6 +137,13 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -159,6 +180,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     p : ndarray
         [Pa]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, b=1.0):.6g}"
@@ -194,6 +222,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -234,6 +269,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -58,6 +58,13 @@ def tilt(a: Array, c: Array, *, R: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and a < R and c < R.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(0.75, 0.5, R=1.0):.6g}"
@@ -88,6 +95,13 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and a < R and c < R.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -120,6 +134,13 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and a < R and c < R.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -155,6 +176,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array) -> Array:
     p : ndarray
         [Pa]; NaN unless a + c > 0 and a < R and c < R.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{pressure(0.5, 0.75, 0.5, E_star=1.0, R=1.0):.6g}"
@@ -189,6 +217,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and a < R and c < R.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -228,6 +263,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and a < R and c < R.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -82,6 +82,13 @@ def tilt(a: Array, c: Array, *, R: Array, b: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and (a > b or c > b).
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(3.0, 2.0, R=1.0, b=1.0):.6g}"
@@ -118,6 +125,13 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     P : ndarray
         [N/m]; NaN unless a + c > 0 and (a > b or c > b).
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{load(3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
@@ -150,6 +164,13 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and (a > b or c > b).
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -191,6 +212,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, b: Array)
     p : ndarray
         [Pa]; NaN unless a + c > 0 and (a > b or c > b).
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{pressure(0.5, 3.0, 2.0, E_star=1.0, R=1.0, b=1.0):.6g}"
@@ -227,6 +255,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b or c > b).
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -271,6 +306,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, b: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b or c > b).
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

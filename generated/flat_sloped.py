@@ -66,6 +66,13 @@ def tilt(a: Array, c: Array, *, b: Array, phi: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(3.0, 2.0, b=1.0, phi=0.125):.6g}"
@@ -100,6 +107,13 @@ def load(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -136,6 +150,13 @@ def moment(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -178,6 +199,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, b: Array, phi: Arra
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0 and (a > b or c > b) and a > -b and c > -b.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -226,6 +254,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and (a > b or c > b) and a > -b
         and c > -b.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> [f"{v:.6g}" for v in K_N(3.0, 2.0, E_star=1.0, b=1.0, phi=0.125)]
@@ -270,6 +305,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, b: Array, phi: Array) -> Edges:
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and (a > b or c > b) and a >
         -b and c > -b.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -36,6 +36,13 @@ def K_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     Edges
         left [Pa*sqrt(m)], right [Pa*sqrt(m)]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> [f"{v:.6g}" for v in K_T(1.5, 1.0, 0.25, 0.125)]
@@ -72,6 +79,13 @@ def L_T(a: Array, c: Array, dQ: Array, dsigma: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -117,6 +131,13 @@ def stick_margin(
     -------
     Edges
         left [N/m], right [N/m]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -59,6 +59,13 @@ def tilt(a: Array, c: Array, *, L: Array, R: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, L=1.0, R=1.0):.6g}"
@@ -97,6 +104,13 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     P : ndarray
         [N/m]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{load(1.5, 1.0, E_star=1.0, L=1.0, R=1.0):.6g}"
@@ -134,6 +148,13 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -176,6 +197,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, R: Array)
     -------
     p : ndarray
         [Pa]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -225,6 +253,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0, R=1.0)]
@@ -261,6 +296,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, R: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -59,6 +59,13 @@ def tilt(a: Array, c: Array, *, L: Array, k: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and k > 1.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, L=1.0, k=2.0):.6g}"
@@ -91,6 +98,13 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and k > 1.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -125,6 +139,13 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and k > 1.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -162,6 +183,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array, k: Array)
     p : ndarray
         [Pa]; NaN unless a + c > 0 and k > 1.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0, k=2.0):.6g}"
@@ -198,6 +226,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and k > 1.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -239,6 +274,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array, k: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and k > 1.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

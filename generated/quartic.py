@@ -58,6 +58,13 @@ def tilt(a: Array, c: Array, *, L: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, L=1.0):.6g}"
@@ -89,6 +96,13 @@ def load(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -122,6 +136,13 @@ def moment(a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -164,6 +185,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, L: Array) -> Array:
     p : ndarray
         [Pa]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, L=1.0):.6g}"
@@ -203,6 +231,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, L=1.0)]
@@ -238,6 +273,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, L: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -64,6 +64,13 @@ def contact(P: Array, M: Array = 0.0, *, E_star: Array, phi: Array) -> Contact:
     Contact
         a [m], c [m], alpha [rad]; NaN unless P > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> [f"{v:.6g}" for v in contact(1.0, 0.25, E_star=1.0, phi=0.125)]
@@ -111,6 +118,13 @@ def contact_at_tilt(P: Array, alpha: Array = 0.0, *, E_star: Array, phi: Array) 
     Contact
         a [m], c [m], alpha as given; NaN unless P > 0 and alpha > -phi and alpha < phi.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> [f"{v:.6g}" for v in contact_at_tilt(1.0, 0.03125, E_star=1.0, phi=0.125)]
@@ -157,6 +171,13 @@ def tilt(a: Array, c: Array, *, phi: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a > 0 and c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, phi=0.125):.6g}"
@@ -188,6 +209,13 @@ def load(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a > 0 and c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -221,6 +249,13 @@ def moment(a: Array, c: Array, *, E_star: Array, phi: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a > 0 and c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -260,6 +295,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, phi: Array) -> Arra
     p : ndarray
         [Pa]; NaN unless a > 0 and c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, phi=0.125):.6g}"
@@ -296,6 +338,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a > 0 and c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> [f"{v:.6g}" for v in K_N(1.5, 1.0, E_star=1.0, phi=0.125)]
@@ -331,6 +380,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, phi: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a > 0 and c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -90,6 +90,13 @@ def tilt(a: Array, c: Array, *, R: Array, phi: Array) -> Array:
     alpha : ndarray
         [rad]; NaN unless a + c > 0 and c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{tilt(1.5, 1.0, R=1.0, phi=0.125):.6g}"
@@ -122,6 +129,13 @@ def load(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     -------
     P : ndarray
         [N/m]; NaN unless a + c > 0 and c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -158,6 +172,13 @@ def moment(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Array:
     -------
     M : ndarray
         [N]; NaN unless a + c > 0 and c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -199,6 +220,13 @@ def pressure(x: Array, a: Array, c: Array, *, E_star: Array, R: Array, phi: Arra
     p : ndarray
         [Pa]; NaN unless a + c > 0 and c > 0.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
+
     Examples
     --------
     >>> f"{pressure(0.5, 1.5, 1.0, E_star=1.0, R=1.0, phi=0.125):.6g}"
@@ -239,6 +267,13 @@ def K_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     -------
     Edges
         left [Pa/sqrt(m)], right [Pa/sqrt(m)]; NaN unless a + c > 0 and c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------
@@ -289,6 +324,13 @@ def L_N(a: Array, c: Array, *, E_star: Array, R: Array, phi: Array) -> Edges:
     -------
     Edges
         left [Pa/m**(3/2)], right [Pa/m**(3/2)]; NaN unless a + c > 0 and c > 0.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Examples
     --------

@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+from inspect import getdoc
 from pathlib import Path
 from typing import Any
 
@@ -65,14 +66,16 @@ def test_the_theory_numbers_every_formula_of_its_sheets() -> None:
         assert len(re.findall(rf"^\$\$ \({body}-", text, re.M)) == len(sheet)
 
 
-DOCSTRING = """The slip zone, |K_T|/(f K_N) + O(d**2) of `edge`.
+DOCSTRING = """Slip zone, |K_T|/(f K_N) + O(d**2) of `edge`.
 
-    d = K_T/(f*K_N)
+    d = K_T/(f*K_N
+        *E_star)
+
+    order 1: d = -int p x dx,
         for any body
+    order 2: sqrt(s)
 
-K_N  coefficient of s**(1/2),
-     signed
-E*   a modulus
+Not -1 <= h^2/8.
 
 Parameters
 ----------
@@ -85,16 +88,18 @@ Examples
 6
 """.splitlines()
 
-RESTRUCTURED = r"""The slip zone, \|K_T\|/(f K_N) + O(d\ :sup:`2`\ ) of ``edge``.
+RESTRUCTURED = r"""Slip zone, \|K\ :sub:`T`\ \|/(f K\ :sub:`N`\ ) + O(d\ :sup:`2`\ ) of ``edge``.
 
 .. code-block:: text
 
-       d = K_T/(f*K_N)
-           for any body
+   d = K_T/(f*K_N
+       *E_star)
 
-K_N  coefficient of s\ :sup:`1/2`\ ,
-     signed
-E\*   a modulus
+| order 1: d = −∫ p x dx,
+  for any body
+| order 2: √s
+
+Not −1 ≤ h\ :sup:`2`\ /8.
 
 Parameters
 ----------
@@ -109,21 +114,22 @@ Examples
 
 
 def test_docstrings_become_restructured_text() -> None:
-    docstrings = module("docstrings")
-    found = docstrings.restructured(DOCSTRING, ("K_N", "a", "K_T_"), "Parameters")
+    found = module("docstrings").restructured(DOCSTRING)
     assert [line for line in found if line] == [line for line in RESTRUCTURED if line]
 
 
-def test_a_list_of_names_becomes_a_list_of_fields() -> None:
-    docstrings = module("docstrings")
-    lines = ["a, c  the edges,", "      signed", "f: of friction"]
-    assert docstrings.restructured(lines, ("a", "c", "f"), "Fields") == [
-        ":Fields:",
-        "   * **a, c** -- the edges,",
-        "     signed",
-        "   * **f** -- of friction",
-        "",
-    ]
+def test_prose_in_docstrings_is_no_block_of_code() -> None:
+    """An indented block of code contains formulas in Python's notation only."""
+    restructured = module("docstrings").restructured
+    from generated import wedge
+
+    of_wedge = {
+        name: restructured((getdoc(getattr(wedge, name)) or "").splitlines())
+        for name in wedge.__all__
+    }
+    assert ".. code-block:: text" in of_wedge["load"]
+    for name in ("history", "shear", "steady_cycle", "stick_zone"):
+        assert ".. code-block:: text" not in of_wedge[name], name
 
 
 def test_the_references_describe_all_public_names() -> None:

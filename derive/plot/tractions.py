@@ -114,9 +114,9 @@ def tractions(
 ) -> Sequence[Axes]:
     """Draw the pressure at both ends of a half-cycle, and below it the change in shear traction.
 
-    The surfaces slip where the change in shear traction reaches the bound f (p1 + p2).  These zones
-    are shaded in the colour of the direction of slip.  A zone in which slip reverses within the
-    half-cycle is dotted; the shear traction may then be unknown, and a note in the picture says
+    The surfaces slip where the change in shear traction reaches the bound f (p_1 + p_2).  These
+    zones are shaded in the colour of the direction of slip.  A zone in which slip reverses within
+    the half-cycle is dotted; the shear traction may then be unknown, and a note in the picture says
     so.
 
     body           a generated module

@@ -92,8 +92,9 @@ def integrated(asked: Asked, a: Array, c: Array, *, E_star: Array = 1.0, x: Arra
 def contact(asked: Asked, P: Array, M: Array = 0.0, *, E_star: Array) -> Contact:
     """Contact and tilt under the load P and the moment M.
 
-        P = load(a, c), M = moment(a, c); solved for a and c by Newton's method
-        alpha = tilt(a, c)
+        P = load(a, c), M = moment(a, c), alpha = tilt(a, c)
+
+    The first two equations are solved for a and c by Newton's method.
 
     Parameters
     ----------
@@ -115,7 +116,9 @@ def contact(asked: Asked, P: Array, M: Array = 0.0, *, E_star: Array) -> Contact
 def contact_at_tilt(asked: Asked, P: Array, alpha: Array = 0.0, *, E_star: Array) -> Contact:
     """Contact under the load P at the tilt alpha.
 
-        P = load(a, c), alpha = tilt(a, c); solved for a and c by Newton's method
+        P = load(a, c), alpha = tilt(a, c)
+
+    The equations are solved for a and c by Newton's method.
 
     Parameters
     ----------
@@ -154,11 +157,11 @@ def stick_zone(
 ) -> StickZone:
     """The zone [-m, n] that sticks throughout a steady cycle, and how the cycle slips.
 
-        moderate tension: load(m, n) = (P1 + P2)/2 - dQ/(2 f),
-            tilt(m, n) = (alpha1 + alpha2)/2 - dsigma/(4 f E*)
+        moderate tension: load(m, n) = (P_1 + P_2)/2 - dQ/(2 f),
+            tilt(m, n) = (alpha_1 + alpha_2)/2 - dsigma/(4 f E*)
         large tension: int r sqrt((xi + m)/(xi - n)) dxi = dQ - pi dsigma (m + n)/8,
             int r sqrt((xi - n)/(xi + m)) dxi = dQ + pi dsigma (m + n)/8 over the slip zones,
-            r = +/- f (p1 + p2), the upper sign on the left if dsigma > 0
+            r = +/- f (p_1 + p_2), the upper sign on the left if dsigma > 0
 
     Parameters
     ----------
@@ -168,13 +171,21 @@ def stick_zone(
     -------
     StickZone
         m [m], n [m], and regime, a code of Regime.  m and n are NaN unless the regime is
-        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P1 + P2),
+        MODERATE, LARGE or FULL_STICK.  They are also NaN if dQ < 0, or if dQ >= f (P_1 + P_2),
         because the contact then slides.  If slip reverses within a half-cycle (MIXED), they are
         given only under constant normal loads: if forward slip finally overtakes the reversed
         slip, or if `mixed` is True.  This function knows only the changes in the loads.  Under
         large tension, or if a moment rocks the contact, no zone sticks if the mean shear load is
         too high; march and steady_cycle check this.  steady_cycle solves every cycle and
         estimates the error of computed results.
+
+    Raises
+    ------
+    TypeError
+        If a contact is not a Contact, or another argument is not a real number or an array of them,
+        or `mixed` is not True or False.
+    ValueError
+        If the shapes of the arguments do not broadcast.
     """
     if not isinstance(mixed, bool | np.bool_):
         raise TypeError(f"mixed must be True or False, one value for all; got {mixed!r:.60}")
@@ -213,6 +224,8 @@ def why(
 
     Raises
     ------
+    TypeError
+        If `first` or `second` is not a Contact, or another argument is not a real number.
     ValueError
         If an argument is an array.
 
@@ -251,7 +264,14 @@ def tension_threshold(
     -------
     Threshold
         lower [Pa], upper [Pa].  NaN unless such a range exists.  Also NaN where dQ < 0, and where
-        dQ >= f (P1 + P2), which is sliding.
+        dQ >= f (P_1 + P_2), which is sliding.
+
+    Raises
+    ------
+    TypeError
+        If a contact is not a Contact, or another argument is not a real number or an array of them.
+    ValueError
+        If the shapes of the arguments do not broadcast.
     """
     return _tensions(asked, "tension_threshold", first, second, dQ, f, E_star)
 
@@ -261,8 +281,8 @@ def closing_tension(
 ) -> Threshold:
     """Changes in bulk tension at which the moderate solution closes one slip zone.
 
-        upper: load(m, c) = (P1 + P2)/2 - dQ/(2 f),
-            dsigma = 4 f E* ((alpha1 + alpha2)/2 - tilt(m, c)), c that of the smaller contact
+        upper: load(m, c) = (P_1 + P_2)/2 - dQ/(2 f),
+            dsigma = 4 f E* ((alpha_1 + alpha_2)/2 - tilt(m, c)), c that of the smaller contact
         lower: the same with load(a, n) and tilt(a, n), a that of the smaller contact
 
     Parameters
@@ -274,7 +294,14 @@ def closing_tension(
     Threshold
         lower [Pa], upper [Pa].  Slip reverses before the zone closes; see tension_threshold.
         NaN unless the reduced load is positive.  Also NaN where dQ < 0, and where
-        dQ >= f (P1 + P2), which is sliding.
+        dQ >= f (P_1 + P_2), which is sliding.
+
+    Raises
+    ------
+    TypeError
+        If a contact is not a Contact, or another argument is not a real number or an array of them.
+    ValueError
+        If the shapes of the arguments do not broadcast.
     """
     return _tensions(asked, "closing_tension", first, second, dQ, f, E_star)
 
@@ -313,9 +340,10 @@ def slip_zones(
     """Lengths of the slip zones, by series in these lengths.
 
         order 1: d = |K_T|/(f K_N) + da/2, and dc/2 at the right edge
-        orders 2 and 3: the conditions of stick_zone with the first two or three terms of the
-            pressure at each edge of both contacts, truncated after that power of d and then solved
-            without further approximation
+
+    Orders 2 and 3 use the conditions of stick_zone with the first two or three terms of the
+    pressure at each edge of both contacts, truncated after that power of d and then solved without
+    further approximation.
 
     Parameters
     ----------
@@ -325,7 +353,15 @@ def slip_zones(
     -------
     Edges
         left [m], right [m].  NaN unless both edges slip and part of the contact sticks.  Also NaN
-        where dQ < 0, and where dQ >= f (P1 + P2), which is sliding.
+        where dQ < 0, and where dQ >= f (P_1 + P_2), which is sliding.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, or the order is
+        not a whole number.
+    ValueError
+        If the shapes of the arguments do not broadcast, or the order is not one of 1, 2 and 3.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 3)
@@ -357,7 +393,15 @@ def slip_error(
     -------
     Edges
         left [m], right [m].  NaN unless both orders give slip zones.  Also NaN where dQ < 0, and
-        where dQ >= f (P1 + P2), which is sliding.
+        where dQ >= f (P_1 + P_2), which is sliding.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, or the order is
+        not a whole number.
+    ValueError
+        If the shapes of the arguments do not broadcast, or the order is not one of 1 and 2.
     """
     given = {"a": a, "c": c, "dQ": dQ, "dsigma": dsigma, "da": da, "dc": dc}
     _demand_order(order, 1, 2)
@@ -396,8 +440,8 @@ def shear_change(
 ) -> Array:
     """Change in the shear traction at x over the half-cycle; zero outside the contacts.
 
-        dq = kappa f (p1 + p2) in the slip zones
-        moderate tension: dq = f (p1 + p2) - 2 f p(x; m, n)
+        dq = kappa f (p_1 + p_2) in the slip zones
+        moderate tension: dq = f (p_1 + p_2) - 2 f p(x; m, n)
         large tension: dq = sqrt((x + m)(n - x))/pi int r/(w (xi - x)) dxi in the stick zone,
             w = sqrt((xi + m)(xi - n)), negative on the left
 
@@ -411,7 +455,14 @@ def shear_change(
         [Pa].  If `second`, dQ and dsigma describe a part of a half-cycle, dq is the change up
         to that point, provided that the regime of the whole half-cycle is MODERATE or LARGE.
         NaN unless the stick zone is known without `mixed`.  Also NaN in full stick between two
-        different contacts, where dQ < 0, and where dQ >= f (P1 + P2), which is sliding.
+        different contacts, where dQ < 0, and where dQ >= f (P_1 + P_2), which is sliding.
+
+    Raises
+    ------
+    TypeError
+        If a contact is not a Contact, or another argument is not a real number or an array of them.
+    ValueError
+        If the shapes of the arguments do not broadcast.
     """
     return _at_places(asked, "shear_change", x, first, second, dQ, dsigma, f, E_star)
 
@@ -440,7 +491,14 @@ def slip_range(
     -------
     slip : ndarray
         [m], positive.  NaN unless x lies in both contacts and the regime is MODERATE, LARGE
-        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P1 + P2), which is sliding.
+        or FULL_STICK.  Also NaN where dQ < 0, and where dQ >= f (P_1 + P_2), which is sliding.
+
+    Raises
+    ------
+    TypeError
+        If a contact is not a Contact, or another argument is not a real number or an array of them.
+    ValueError
+        If the shapes of the arguments do not broadcast.
     """
     return _at_places(asked, "slip_range", x, first, second, dQ, dsigma, f, E_star)
 
@@ -493,10 +551,11 @@ def shear(
     """Shear traction at x in a cycle at constant normal loads; zero outside the contact.
 
         q = dq(2 Q, 2 sigma)/2 - dq(dQ, dsigma), dq from shear_change
-        first the shear load rises from zero to Q and the tension to sigma, in proportion; then
-            they fall by dQ and dsigma, again in proportion.  A fall of zero gives q at the upper
-            end of a cycle.  The fall of a whole half-cycle gives q at the lower end, from which
-            it rises again by shear_change
+
+    First the shear load rises from zero to Q and the tension to sigma, in proportion; then they
+    fall by dQ and dsigma, again in proportion.  A fall of zero gives q at the upper end of a cycle.
+    The fall of a whole half-cycle gives q at the lower end, from which it rises again by
+    shear_change.
 
     Parameters
     ----------
@@ -512,6 +571,13 @@ def shear(
         in the same direction, and dQ <= 2 Q.  If the shear load is larger in magnitude at the lower
         end, reverse all signs, including that of q.  Also NaN where Q < 0 or dQ < 0, and where
         Q >= f P, which is sliding.
+
+    Raises
+    ------
+    TypeError
+        If a contact is not a Contact, or another argument is not a real number or an array of them.
+    ValueError
+        If the shapes of the arguments do not broadcast.
     """
     given = {"x": x, **_edges_of(contact, "contact"), "Q": Q, "sigma": sigma}
     given |= {"dQ": dQ, "dsigma": dsigma}
@@ -547,9 +613,9 @@ def march(
 ) -> March:
     """A steady cycle instant by instant: contact, stick zone, direction of slip at the edges.
 
-        since the last reversal of the loads, at the least or the greatest Q, slip has grown as in
-            a half-cycle that ends now: by stick_zone, or by slip_zones if an order is given; this
-            does not hold if the whole half-cycle is MIXED, where only its end may be known
+    Since the last reversal of the loads, at the least or the greatest Q, slip has grown as in a
+    half-cycle that ends now: by stick_zone, or by slip_zones if an order is given.  This does not
+    hold if the whole half-cycle is MIXED, where only its end may be known.
 
     Parameters
     ----------
@@ -566,6 +632,15 @@ def march(
         first loading), SLIDING (|Q| >= f P at some instant), NO_STICK (no stick zone can hold the
         mean of Q, to 1e-3 of f P) or NONE (a contact does not exist).  Use steady_cycle for
         cycles out of phase, and history for load histories that are not cycles.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, or the order is
+        not a whole number.
+    ValueError
+        If the shapes of the arguments do not broadcast, there are fewer than two instants, f,
+        E_star or a parameter of the body changes in time, or the order is not one of 0, 1, 2 and 3.
 
     Notes
     -----

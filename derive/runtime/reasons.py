@@ -10,7 +10,7 @@ MEANINGS = {
     Regime.LARGE: "the edges slip in opposite directions: m and n are exact",
     Regime.MIXED: "slip reverses within a half-cycle: use stick_zone(..., mixed=True) for constant "
     "normal loads, or steady_cycle for any loads",
-    Regime.SLIDING: "dQ reaches f (P1 + P2): the contact slides and nothing sticks",
+    Regime.SLIDING: "dQ reaches f (P_1 + P_2): the contact slides and nothing sticks",
     Regime.FULL_STICK: "friction holds everywhere: nothing slips",
     Regime.UNSOLVED: "the iteration did not converge, or the tilts do not determine the edges to "
     "1e-6 of the width: use steady_cycle, which estimates its error",

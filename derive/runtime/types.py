@@ -8,7 +8,15 @@ Array: TypeAlias = Any
 
 
 class Contact(NamedTuple):
-    """The contact [-a, c] and the tilt alpha of the body."""
+    """The contact [-a, c] and the tilt alpha of the body.
+
+    Attributes
+    ----------
+    a, c : ndarray
+        Edges of the contact at x = -a and x = c [m].
+    alpha : ndarray
+        Tilt, positive anticlockwise [rad].
+    """
 
     a: Array
     c: Array
@@ -16,7 +24,13 @@ class Contact(NamedTuple):
 
 
 class Edges(NamedTuple):
-    """One value at the left edge x = -a and one at the right edge x = c."""
+    """One value at the left edge x = -a and one at the right edge x = c.
+
+    Attributes
+    ----------
+    left, right : ndarray
+        The values, in the unit that the function states.
+    """
 
     left: Array
     right: Array
@@ -25,23 +39,36 @@ class Edges(NamedTuple):
 class Regime(IntEnum):
     """How a cycle slips.
 
-    NONE        there is no such cycle, or one of its numbers is invalid: `why` gives the reason
-    MODERATE    both edges slip in the same direction: m and n are exact
-    LARGE       the edges slip in opposite directions: m and n are exact
-    MIXED       slip reverses within a half-cycle, or one edge sticks: m and n are NaN, except
-                under constant normal loads if forward slip finally overtakes the reversed slip, or
-                if `mixed=True` makes stick_zone solve the cycle
-    SLIDING     nothing sticks: m and n are NaN
-    FULL_STICK  nothing slips: m and n are the smallest a and c of all contacts on the way
-    UNSOLVED    the iteration did not converge, the tilts do not determine the edges, the phases of
-                a mixed cycle were not found, or a contact rolled in from far away, so that its
-                shear is not known: m and n are NaN
-    OUT_OF_PHASE  the loads of a march are not in proportion at every instant, or turn within a
-                half-cycle: NaN at all instants
-    NOT_CLOSED  the instants of a march are those of a first loading: NaN at all instants
-    COMPUTED    solved on elements, with an estimate of the error
-    NO_STICK    every point slips at some time, although the contact never slides, because no stick
-                zone can hold the mean shear load: m and n are NaN
+    Attributes
+    ----------
+    NONE : 0
+        There is no such cycle, or one of its numbers is invalid: `why` gives the reason.
+    MODERATE : 1
+        Both edges slip in the same direction: m and n are exact.
+    LARGE : 2
+        The edges slip in opposite directions: m and n are exact.
+    MIXED : 3
+        Slip reverses within a half-cycle, or one edge sticks: m and n are NaN, except under
+        constant normal loads if forward slip finally overtakes the reversed slip, or if
+        `mixed=True` makes stick_zone solve the cycle.
+    SLIDING : 4
+        Nothing sticks: m and n are NaN.
+    FULL_STICK : 5
+        Nothing slips: m and n are the smallest a and c of all contacts on the way.
+    UNSOLVED : 6
+        The iteration did not converge, the tilts do not determine the edges, the phases of a mixed
+        cycle were not found, or a contact rolled in from far away, so that its shear is not known:
+        m and n are NaN.
+    OUT_OF_PHASE : 7
+        The loads of a march are not in proportion at every instant, or turn within a half-cycle:
+        NaN at all instants.
+    NOT_CLOSED : 8
+        The instants of a march are those of a first loading: NaN at all instants.
+    COMPUTED : 9
+        Solved on elements, with an estimate of the error.
+    NO_STICK : 10
+        Every point slips at some time, although the contact never slides, because no stick zone can
+        hold the mean shear load: m and n are NaN.
     """
 
     NONE = 0
@@ -58,7 +85,15 @@ class Regime(IntEnum):
 
 
 class StickZone(NamedTuple):
-    """The zone [-m, n] that sticks throughout the cycle, and a code of Regime."""
+    """The zone [-m, n] that sticks throughout the cycle, and how the cycle slips.
+
+    Attributes
+    ----------
+    m, n : ndarray
+        Ends of the stick zone at x = -m and x = n [m].
+    regime : ndarray of int
+        A code of Regime.
+    """
 
     m: Array
     n: Array
@@ -66,7 +101,13 @@ class StickZone(NamedTuple):
 
 
 class Threshold(NamedTuple):
-    """Lower and upper limits of the change in bulk tension between which tension is moderate."""
+    """Lower and upper limits of the change in bulk tension between which tension is moderate.
+
+    Attributes
+    ----------
+    lower, upper : ndarray
+        The limits [Pa].
+    """
 
     lower: Array
     upper: Array
@@ -75,10 +116,16 @@ class Threshold(NamedTuple):
 class March(NamedTuple):
     """A cycle instant by instant.
 
-    a, c         the contact [-a, c]
-    m, n         the zone [-m, n] that has not slipped since the last reversal of the loads
-    left, right  direction of slip at each edge: +1 forward, -1 reverse, 0 none or not known
-    regime       a code of Regime; where a series gives m and n, it follows from the signs of K_T
+    Attributes
+    ----------
+    a, c : ndarray
+        The contact [-a, c] [m].
+    m, n : ndarray
+        The zone [-m, n] that has not slipped since the last reversal of the loads [m].
+    left, right : ndarray of int
+        Direction of slip at each edge: +1 forward, -1 reverse, 0 none or not known.
+    regime : ndarray of int
+        A code of Regime; where a series gives m and n, it follows from the signs of K_T.
     """
 
     a: Array
@@ -91,24 +138,34 @@ class March(NamedTuple):
 
 
 class History(NamedTuple):
-    """A load history instant by instant.
+    """A load history instant by instant; time lies along the last axis.
 
-    a, c       the contact [-a, c]
-    m, n       [-m, n] spans all points that stick during the last change in the loads up to this
-               instant, also while the loads rest; NaN where nothing sticks
-    intervals  the number of stick intervals
-    regime     a code of Regime: COMPUTED, or MODERATE where all results are exact; FULL_STICK,
-               SLIDING, NONE, UNSOLVED
-    q, slip    shear traction and accumulated forward slip at x, with one more axis than the other
-               fields; None without x
-    work       work dissipated by friction up to this instant
-    error      the larger of the estimated errors of m and n, relative to the contact width, and
-               of the shear traction, on average and relative to f P/(a + c); 0 where all results
-               are exact
-    work_error estimated error of work; its difference between two instants is the estimated error
-               of the work done between them
-    slip_error estimated error of slip, the largest wherever the bodies have been in contact, next
-               to moving edges as a rule
+    Attributes
+    ----------
+    a, c : ndarray
+        The contact [-a, c] [m].
+    m, n : ndarray
+        [-m, n] spans all points that stick during the last change in the loads up to this instant,
+        also while the loads rest [m]; NaN where nothing sticks.
+    intervals : ndarray of int
+        The number of stick intervals.
+    regime : ndarray of int
+        A code of Regime: COMPUTED, or MODERATE where all results are exact; FULL_STICK, SLIDING,
+        NONE, UNSOLVED.
+    q, slip : ndarray or None
+        Shear traction [Pa] and accumulated forward slip [m] at x; the axes of x follow that of
+        time.  None without x.
+    work : ndarray
+        Work dissipated by friction up to this instant [J/m].
+    error : ndarray
+        The larger of the estimated errors of m and n, relative to the contact width, and of the
+        shear traction, on average and relative to f P/(a + c); 0 where all results are exact.
+    work_error : ndarray
+        Estimated error of work [J/m]; its difference between two instants is the estimated error of
+        the work done between them.
+    slip_error : ndarray
+        Estimated error of slip [m], the largest wherever the bodies have been in contact, next to
+        moving edges as a rule.
     """
 
     a: Array
@@ -126,21 +183,34 @@ class History(NamedTuple):
 
 
 class SteadyCycle(NamedTuple):
-    """The steady cycle that a repeated load history settles to.
+    """The steady cycle to which a repeated load history settles.
 
-    m, n        the permanent stick zone [-m, n]
-    regime      a code of Regime: that of stick_zone where m and n are exact, otherwise COMPUTED,
-                NO_STICK, SLIDING, ...
-    slip_range  the slip range in a cycle at x; None without x
-    q           shear traction at x at the first instant; None without x
-    work        work dissipated by friction in one cycle
-    rounds      how many times the cycle was repeated
-    drift       change in slip between the last two rounds, relative to the largest slip
-    error       estimated error of m and n alone, relative to the contact width; 0 if they are
-                exact, inf if slip does not repeat to 1e-6 within 100 rounds
-    work_error  estimated error of work, which is always computed numerically
-    slip_error  estimated error of the slip range, the largest in the smallest contact
-    shear_error estimated error of q, on average over the contact, 2e-3 of f P/(a + c) as a rule
+    Attributes
+    ----------
+    m, n : ndarray
+        The stick zone [-m, n] [m].
+    regime : ndarray of int
+        A code of Regime: that of stick_zone where m and n are exact, otherwise COMPUTED, NO_STICK,
+        SLIDING, ...
+    slip_range : ndarray or None
+        The slip range in a cycle at x [m]; None without x.
+    q : ndarray or None
+        Shear traction at x at the first instant [Pa]; None without x.
+    work : ndarray
+        Work dissipated by friction in one cycle [J/m].
+    rounds : ndarray of int
+        How many times the cycle was repeated.
+    drift : ndarray
+        Change in slip between the last two rounds, relative to the largest slip.
+    error : ndarray
+        Estimated error of m and n alone, relative to the contact width; 0 if they are exact, inf if
+        slip does not repeat to 1e-6 within 100 rounds.
+    work_error : ndarray
+        Estimated error of work [J/m]; work is always computed numerically.
+    slip_error : ndarray
+        Estimated error of the slip range [m], the largest in the smallest contact.
+    shear_error : ndarray
+        Estimated error of q [Pa], on average over the contact, 2e-3 of f P/(a + c) as a rule.
     """
 
     m: Array

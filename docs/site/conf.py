@@ -16,7 +16,7 @@ from derive.handbook.mathml import mathml
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from docstrings import label_of, names_of, restructured
+from docstrings import restructured
 
 NUMBER = re.compile(r"[~−-]?\d[\d.,e+×% −-]*(\w{1,2}|\([^()]{1,12}\))?")
 """A cell such as 7.7e-16 (2 of 9)."""
@@ -50,6 +50,7 @@ autodoc_typehints = "none"  # the docstrings say what each argument is
 napoleon_google_docstring = False
 napoleon_use_param = False  # several arguments share one description
 napoleon_use_rtype = False
+napoleon_custom_sections = [("Attributes", "params_style")]  # a list, not one entry for each
 suppress_warnings = [
     "mystnb.mime_priority",  # a slider has no static image, so its code is shown
     "misc.highlighting_failure",  # the output of a terminal is not Python
@@ -80,7 +81,7 @@ def _restructured(
     app: Sphinx, what: str, name: str, obj: object, options: object, lines: list[str]
 ) -> None:
     """Rewrite a docstring, which is written for a terminal, before napoleon reads it."""
-    lines[:] = restructured(lines, names_of(obj), label_of(obj))
+    lines[:] = restructured(lines)
 
 
 def _called(

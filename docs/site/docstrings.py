@@ -1,57 +1,46 @@
-"""Docstrings as reStructuredText: numpydoc sections, formulas in Python's notation, lists of names.
+"""Docstrings as reStructuredText: numpydoc sections, formulas, Python's notation.
 
-The docstrings are written to be read in a terminal.  Before napoleon reads them, an indented block
-becomes a literal block, a list of names with their meanings becomes a list of fields, and the
-characters that reStructuredText would interpret are escaped.
+The docstrings are written to be read in a terminal.  Before napoleon reads them, formulas in prose
+are typeset, an indented block of Python's notation becomes a literal block, any other indented
+block keeps its lines, and the characters that reStructuredText would interpret are escaped.
 """
 
-import inspect
+import ast
 import re
-from collections.abc import Collection, Iterator
-from enum import EnumType
+from collections.abc import Iterator
+from html import unescape
 from itertools import groupby
+from textwrap import dedent
 
-_SPECIAL = re.compile(
-    r"``(?P<shown>.+?)``|`(?P<code>[^`]+)`"
-    r"|(?<=[\w)\]])(?:\*\*\((?P<power>[^()]+)\)|(?:\*\*|\^)(?P<exponent>\w+))"
-    r"|(?P<escaped>[\\*|`]|(?<=\w)_(?!\w))"
-)
-_NAMES = re.compile(r"(?P<names>\w+(?:, \w+)*)(?:: | +)(?P<meaning>\S.*)")
+from derive.handbook.prose import prose
+
+_CODE = re.compile(r"``(.+?)``|`([^`]+)`")
+_SPECIAL = re.compile(r"<(su[bp])>(.*?)</su[bp]>|([\\*|`]|(?<=\w)_(?!\w))")
 
 
 def inline(text: str) -> str:
-    r"""A line of prose, with powers raised and special characters escaped.
+    r"""A line of prose, with its formulas typeset and special characters escaped.
 
     >>> print(inline("|K_T| s**(3/2) of `slip_zone`, E*"))
-    \|K_T\| s\ :sup:`3/2`\  of ``slip_zone``, E\*
+    \|K\ :sub:`T`\ \| s\ :sup:`3/2`\  of ``slip_zone``, E\*
     """
+    pieces, end = [], 0
+    for code in _CODE.finditer(text):
+        pieces += [_typeset(text[end : code.start()]), f"``{code[1] or code[2]}``"]
+        end = code.end()
+    return "".join([*pieces, _typeset(text[end:])])
 
+
+def _typeset(text: str) -> str:
     def shown(match: re.Match[str]) -> str:
-        if code := match["shown"] or match["code"]:
-            return f"``{code}``"
-        if power := match["power"] or match["exponent"]:
-            return rf"\ :sup:`{power}`\ "
-        return rf"\{match['escaped']}"
+        role, words, character = match.groups()
+        return rf"\ :{role}:`{words}`\ " if role else rf"\{character}"
 
-    return _SPECIAL.sub(shown, text)
+    return _SPECIAL.sub(shown, unescape(prose(text)))
 
 
-def names_of(obj: object) -> Collection[str]:
-    """The parameters, fields or members that a docstring may list."""
-    if isinstance(obj, EnumType):
-        return obj.__members__
-    try:
-        return inspect.signature(obj).parameters  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        return ()
-
-
-def restructured(lines: list[str], names: Collection[str], label: str) -> list[str]:
-    """The lines of a docstring as numpydoc sections in reStructuredText.
-
-    names: parameters, fields or members of the object
-    label: what they are called
-    """
+def restructured(lines: list[str]) -> list[str]:
+    """The lines of a docstring as numpydoc sections in reStructuredText."""
     text: list[str] = []
     section = ""
     for paragraph in _paragraphs(lines):
@@ -63,14 +52,30 @@ def restructured(lines: list[str], names: Collection[str], label: str) -> list[s
             text += paragraph
         elif section not in ("", "Notes"):  # names and types are read by napoleon
             text += [line if line[:1] != " " else inline(line) for line in paragraph]
-        elif fields := _fields(paragraph, names):
-            text += [f":{label}:", *(f"   {line}" for line in fields)]
         elif paragraph[0].startswith(" "):
-            text += [".. code-block:: text", "", *(f"   {line}" for line in paragraph)]
+            text += _block(dedent("\n".join(paragraph)).splitlines())
         else:
             text += [inline(line) for line in paragraph]
         text.append("")
     return text
+
+
+def _block(lines: list[str]) -> list[str]:
+    """An indented block: code if it is Python's notation, otherwise lines of prose.
+
+    A line that is indented further continues the one before it.
+    """
+    if _is_python("\n".join(lines)):
+        return [".. code-block:: text", "", *(f"   {line}" for line in lines)]
+    return [f"{'  ' if line[:1] == ' ' else '| '}{inline(line.strip())}" for line in lines]
+
+
+def _is_python(text: str) -> bool:
+    try:
+        ast.parse(re.sub(r"\n +", " ", text))
+    except SyntaxError:
+        return False
+    return True
 
 
 def _paragraphs(lines: list[str]) -> Iterator[list[str]]:
@@ -78,25 +83,3 @@ def _paragraphs(lines: list[str]) -> Iterator[list[str]]:
     for filled, group in groupby(lines, key=lambda line: bool(line.strip())):
         if filled:
             yield list(group)
-
-
-def _fields(paragraph: list[str], names: Collection[str]) -> list[str]:
-    """The paragraph as a list of names and meanings, or nothing if it is anything else."""
-    indent = len(paragraph[0]) - len(paragraph[0].lstrip())
-    fields: list[str] = []
-    for line in paragraph:
-        if line[indent : indent + 1] == " ":
-            fields.append(f"  {inline(line.strip())}")
-            continue
-        found = _NAMES.fullmatch(line[indent:])
-        if found is None or not set(found["names"].split(", ")) <= {*names}:
-            return []
-        fields.append(f"* **{found['names']}** -- {inline(found['meaning'].strip())}")
-    return fields
-
-
-def label_of(obj: object) -> str:
-    """What the names in a docstring are called."""
-    if isinstance(obj, EnumType):
-        return "Members"
-    return "Fields" if inspect.isclass(obj) and issubclass(obj, tuple) else "Parameters"

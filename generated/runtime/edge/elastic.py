@@ -36,6 +36,13 @@ def E_star(E: Array, nu: Array, E_2: Array = None, nu_2: Array = None) -> Array:
         zero, because the formulas of this package hold for similar bodies, in which shear does
         not change the pressure.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast, or only one of E_2 and nu_2 is given.
+
     Notes
     -----
     Arguments broadcast; results are float64 of the broadcast shape.
@@ -84,6 +91,13 @@ def dundurs(E: Array, nu: Array, E_2: Array, nu_2: Array) -> Array:
     ndarray
         Beta [-], between -1/2 and 1/2; its sign changes if the bodies are exchanged. NaN where
         E_star is NaN.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Notes
     -----

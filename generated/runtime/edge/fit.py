@@ -69,13 +69,26 @@ WORST = 3.0
 class PressureFit(NamedTuple):
     """An edge from nodal pressures.  Errors are one standard deviation.
 
-    edge, K_N, L_N  position [m], coefficients [Pa/sqrt(m), Pa/m**(3/2)] for s inward
-    edge_error, K_N_error, L_N_error  errors of these
-    nodes, stretch  number of nodes used, and their largest distance from the edge [m]
-    degree          degree of p**2
-    misfit          misfit of the nodes used, over the scatter; about 1 if the fit is good
-    why             why this stretch was chosen, in words
-    warning         reasons to doubt the result, in words; "" if there are none
+    Attributes
+    ----------
+    edge : float
+        Position of the edge [m].
+    K_N, L_N : float
+        Coefficients of sqrt(s) and s**(3/2), s the distance inward [Pa/sqrt(m), Pa/m**(3/2)].
+    edge_error, K_N_error, L_N_error : float
+        Errors of these.
+    nodes : int
+        Number of nodes used.
+    stretch : float
+        Largest distance of these nodes from the edge [m].
+    degree : int
+        Degree of p**2.
+    misfit : float
+        Misfit of these nodes, over the scatter; about 1 if the fit is good.
+    why : str
+        Why this stretch was chosen.
+    warning : str
+        Reasons to doubt the result; "" if there are none.
     """
 
     edge: float
@@ -95,9 +108,14 @@ class PressureFit(NamedTuple):
 class ShearFit(NamedTuple):
     """Full stick next to an edge.  Errors are one standard deviation.
 
-    K_T, L_T  coefficients of 1/sqrt(s) and sqrt(s) [Pa sqrt(m), Pa/sqrt(m)], signed as dq
-
-    The other fields are as in PressureFit.
+    Attributes
+    ----------
+    K_T, L_T : float
+        Coefficients of 1/sqrt(s) and sqrt(s) [Pa sqrt(m), Pa/sqrt(m)], signed as dq.
+    K_T_error, L_T_error : float
+        Errors of these.
+    nodes, stretch, degree, misfit, why, warning
+        As in PressureFit.
     """
 
     K_T: float

@@ -39,11 +39,16 @@ WORK = tuple(
 
 
 class Tractions(NamedTuple):
-    """Tractions at a point next to an edge, at one instant [Pa].
+    """Tractions at a point next to an edge, at one instant.
 
-    p   pressure
-    q   shear traction; NaN where it depends on the path of the loads
-    dq  change in the shear traction since the last reversal of the loads
+    Attributes
+    ----------
+    p : ndarray
+        Pressure [Pa].
+    q : ndarray
+        Shear traction [Pa]; NaN where it depends on the path of the loads.
+    dq : ndarray
+        Change in the shear traction since the last reversal of the loads [Pa].
     """
 
     p: Array
@@ -52,7 +57,15 @@ class Tractions(NamedTuple):
 
 
 class Peak(NamedTuple):
-    """The largest shear traction over a cycle [Pa] and its distance from the edge [m]."""
+    """The largest shear traction over a cycle.
+
+    Attributes
+    ----------
+    s : ndarray
+        Its distance from the edge [m].
+    q : ndarray
+        The shear traction [Pa].
+    """
 
     s: Array
     q: Array
@@ -187,6 +200,14 @@ def tractions(
         p [Pa], q [Pa], dq [Pa].  NaN where slip_zone gives NaN; q is also NaN where the edge moves
         and the surfaces do not slip at s. Accurate where s is small compared with `reach`.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, or the order is
+        not a whole number.
+    ValueError
+        If the shapes of the arguments do not broadcast, or the coefficients do not allow the order.
+
     Notes
     -----
     Arguments broadcast; results are float64 of the broadcast shape.
@@ -259,6 +280,14 @@ def slip_range(
         The slip range [m]; 0 where the surfaces stick. NaN where slip_zone gives NaN, and at
         points that leave the contact during the cycle.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, or the order is
+        not a whole number.
+    ValueError
+        If the shapes of the arguments do not broadcast, or the coefficients do not allow the order.
+
     Notes
     -----
     Arguments broadcast; results are float64 of the broadcast shape.
@@ -310,6 +339,14 @@ def work(
     ndarray
         The work [J/m]. NaN where slip_zone gives NaN.
 
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, or the order is
+        not a whole number.
+    ValueError
+        If the shapes of the arguments do not broadcast, or the coefficients do not allow the order.
+
     Notes
     -----
     Arguments broadcast; results are float64 of the broadcast shape.
@@ -350,8 +387,9 @@ def peak(
 ) -> Peak:
     """The largest shear traction of a cycle next to a single edge, at constant normal loads.
 
-        f p(s) at the end of the slip zone at the highest load (s = d if mean = 0).  Closer to the
-        edge, q = f p, and q/p is largest
+        q = f p(s) at the end of the slip zone at the highest load; s = d if mean = 0
+
+    Closer to the edge, q = f p, and q/p is largest.
 
     Parameters
     ----------
@@ -366,6 +404,14 @@ def peak(
     Peak
         s [m], q [Pa], positive in the direction of slip there. NaN where slip_zone
         gives NaN.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, or the order is
+        not a whole number.
+    ValueError
+        If the shapes of the arguments do not broadcast, or the coefficients do not allow the order.
 
     Notes
     -----
@@ -407,6 +453,13 @@ def reach(
     ndarray
         The distance [m]; the relative error of a first-order slip zone d is about d divided by it.
         NaN if none of L_N, L_T and h is given.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If the shapes of the arguments do not broadcast.
 
     Notes
     -----

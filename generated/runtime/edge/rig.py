@@ -49,12 +49,19 @@ WIDE = 0.2
 class Edge(NamedTuple):
     """One edge at the end of the half-cycle that raises Q.
 
-    K_N  coefficient of sqrt(s) in the pressure [Pa/sqrt(m)]
-    K_T  coefficient of 1/sqrt(s) in the full-stick change in shear, signed [Pa sqrt(m)]
-    da   how much further out the edge is than at the other end of the half-cycle [m]
-    L_N, L_T  coefficients of s**(3/2) and s**(1/2) [Pa/m**(3/2), Pa/sqrt(m)]; None if not known or
-         not requested
-    side "left" or "right"
+    Parameters
+    ----------
+    K_N : float
+        Coefficient of sqrt(s) in the pressure [Pa/sqrt(m)].
+    K_T : float
+        Coefficient of 1/sqrt(s) in the full-stick change in shear, signed [Pa sqrt(m)].
+    da : float, optional
+        How much further out the edge is than at the other end of the half-cycle [m].
+    L_N, L_T : float, optional
+        Coefficients of s**(3/2) and s**(1/2) [Pa/m**(3/2), Pa/sqrt(m)]; None if not known or not
+        requested.
+    side : str, optional
+        "left" or "right".
     """
 
     K_N: float
@@ -66,19 +73,31 @@ class Edge(NamedTuple):
 
 
 class Rig(NamedTuple):
-    """Loads of a rig, and the resulting data of its edges.  describe() gives them in words.
+    """Loads of a rig, and the resulting data of its edges; `describe` gives them in words.
 
-    P, M            at the end of the half-cycle that raises Q [N/m, N]
-    dQ, dsigma, dP, dM  changes over this half-cycle [N/m, Pa, N/m, N]
-    parameters      of the body, including the free one
-    first, second   Contact at the start and at the end of the half-cycle
-    edges           Edges of Edge: the data of both edges of the rig
-    d               Edges: exact slip zones at `second` [m]; NaN where none is known
-    regime          a code of Regime, as returned by stick_zone
-    met, missed     requests that are met, and those that are not, in words
-    next_order      Edges: relative change in the rig's slip zone due to L_N and L_T; NaN where they
-                    are not known or nothing was requested
-    warning         reasons against these loads, in words; "" if there are none
+    Attributes
+    ----------
+    P, M : float
+        Normal load and moment at the end of the half-cycle that raises Q [N/m, N].
+    dQ, dsigma, dP, dM : float
+        Changes over this half-cycle [N/m, Pa, N/m, N].
+    parameters : dict
+        Parameters of the body, including the free one.
+    first, second : Contact
+        Contacts at the start and at the end of the half-cycle.
+    edges : Edges
+        An Edge for each edge of the rig.
+    d : Edges
+        Exact slip zones at `second` [m]; NaN where none is known.
+    regime : int
+        A code of Regime, as returned by stick_zone.
+    met, missed : tuple of str
+        Requests that are met, and those that are not.
+    next_order : Edges
+        Relative change in the rig's slip zone due to L_N and L_T; NaN where they are not known or
+        nothing was requested.
+    warning : str
+        Reasons against these loads; "" if there are none.
     """
 
     P: float
@@ -202,6 +221,18 @@ def match(
 def describe(rig: Rig) -> str:
     """A rig in words and numbers, one item per line, in SI units.
 
+    Parameters
+    ----------
+    rig : Rig
+        A result of `match`.
+
+    Returns
+    -------
+    str
+        The lines.
+
+    Examples
+    --------
     >>> from generated import hertz
     >>> rig = match(Edge(2.5e10, 2e6), hertz, f=0.5, E_star=115e9, R=0.1)
     >>> print(describe(rig).splitlines()[0])

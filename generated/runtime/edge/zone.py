@@ -44,14 +44,30 @@ Coefficients = tuple[Any, Any, Any]
 
 
 class SlipZone(NamedTuple):
-    """Length of a slip zone, and its change due to the next term of the series [m]."""
+    """Length of a slip zone.
+
+    Attributes
+    ----------
+    d : ndarray
+        The length [m].
+    error : ndarray
+        Its change due to the next term of the series [m].
+    """
 
     d: Array
     error: Array
 
 
 class Pressure(NamedTuple):
-    """p = K_N s**(1/2) + L_N s**(3/2) + N_N s**(5/2) next to an edge; None means not known."""
+    """p = K_N s**(1/2) + L_N s**(3/2) + N_N s**(5/2) next to an edge.
+
+    Parameters
+    ----------
+    K_N : array_like
+        Coefficient of s**(1/2) [Pa/sqrt(m)].
+    L_N, N_N : array_like, optional
+        Coefficients of s**(3/2) and s**(5/2) [Pa/m**(3/2), Pa/m**(5/2)]; None if not known.
+    """
 
     K_N: Array
     L_N: Array = None
@@ -59,12 +75,20 @@ class Pressure(NamedTuple):
 
 
 class OtherEdge(NamedTuple):
-    """The other edge as slip_zone takes it; signs as at that edge.
+    """The other edge of a contact, as slip_zone takes it; signs as at that edge.
 
-    K_N, L_N, N_N  coefficients of the pressure
-    K_T   coefficient of the full-stick change in shear
-    da    how much further out the edge is than at the other end of the half-cycle
-    then  Pressure next to this edge at the other end of the half-cycle
+    Parameters
+    ----------
+    K_N : array_like
+        Coefficient of s**(1/2) in the pressure [Pa/sqrt(m)].
+    K_T : array_like
+        Coefficient of 1/sqrt(s) in the full-stick change in shear [Pa sqrt(m)].
+    L_N, N_N : array_like, optional
+        Coefficients of s**(3/2) and s**(5/2) in the pressure [Pa/m**(3/2), Pa/m**(5/2)].
+    da : array_like, optional
+        How much further out the edge is than at the other end of the half-cycle [m].
+    then : Pressure, optional
+        Pressure next to this edge at the other end of the half-cycle.
     """
 
     K_N: Array

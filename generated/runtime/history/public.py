@@ -56,13 +56,14 @@ def history(
 ) -> History:
     """Stick zone, shear traction, slip and frictional work at each instant of any load history.
 
-        |q| <= f p, int q dx = Q, and slip only where |q| = f p, opposite to q; solved on elements,
-            one convex problem per load step.  The history begins with the contact under P[0],
-            M[0] without shear; then Q[0] and sigma[0] are applied.
-        Constant P and M, sigma = k Q, |k| <= 8/(pi (a + c)), |Q| < f P: exact, MODERATE; a stack
-            of reversals.  For each of them, load(m, n) = P - dQ/(2 f) and tilt(m, n) = alpha -
-            dsigma/(4 f E*) with the changes since the reversal, or 2 Q and 2 sigma before the
-            first one.
+        |q| <= f p, int q dx = Q, slip only where |q| = f p and opposite to q
+        constant P and M, sigma = k Q, |k| <= 8/(pi (a + c)), |Q| < f P:
+            load(m, n) = P - dQ/(2 f), tilt(m, n) = alpha - dsigma/(4 f E*)
+
+    The first conditions are solved on elements, one convex problem per load step.  The history
+    begins with the contact under P[0], M[0] without shear; then Q[0] and sigma[0] are applied.  In
+    the second case the results are exact and the regime is MODERATE: dQ and dsigma are the changes
+    since each reversal of the loads, or 2 Q and 2 sigma before the first one.
 
     Parameters
     ----------
@@ -77,6 +78,15 @@ def history(
         a and c are known, as from P = 0 with M != 0 on, from where the contact rolls in from far
         away.  Slip rates are not returned, because time is not an argument; for a 1-D x, the slip
         between two instants is np.diff(slip, axis=-2).
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, x is a Dask array,
+        or tol is not a number.
+    ValueError
+        If the shapes of the arguments do not broadcast, there is no instant, f, E_star or a
+        parameter of the body changes in time, or tol is not positive.
 
     Notes
     -----
@@ -130,13 +140,15 @@ def steady_cycle(
 ) -> SteadyCycle:
     """The steady cycle to which a closed load history settles: stick zone, slip range and work.
 
-        Where stick_zone is exact: its m and n, with mixed=True if the normal loads are constant.
-        M = 0, tilt and sigma constant, |Q| < f P: exact, MODERATE; [-m, n] is the contact under
-            P_E = -(max(Q - f P) + max(-Q - f P))/(2 f), whatever the phase between P and Q.
-        Otherwise the history is repeated until slip repeats.  The stick zone consists of points
-            whose total slip in the last cycle, forward plus reverse, is below 1e-4 of the largest,
-            or 5e-4 on fewer than 512 elements.  The shift of its ends at a threshold of 3e-3 is
-            part of the error.
+        M = 0, tilt and sigma constant, |Q| < f P: [-m, n] is the contact under
+            P_E = -(max(Q - f P) + max(-Q - f P))/(2 f)
+
+    In this case m and n are exact, whatever the phase between P and Q, and the regime is MODERATE.
+    Where stick_zone is exact, m and n are its results, with mixed=True if the normal loads are
+    constant.  Otherwise the history is repeated until slip repeats.  The stick zone then consists
+    of the points whose total slip in the last cycle, forward plus reverse, is below 1e-4 of the
+    largest, or 5e-4 on fewer than 512 elements.  The shift of its ends at a threshold of 3e-3 is
+    part of the error.
 
     Parameters
     ----------
@@ -150,6 +162,15 @@ def steady_cycle(
         are computed on elements, even where m and n are exact; the slip range is NaN where x is
         not in contact throughout the cycle.  All are NaN if the contact is lost or slides; m and
         n are NaN if no point sticks throughout the cycle.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers, x is a Dask array,
+        or tol is not a number.
+    ValueError
+        If the shapes of the arguments do not broadcast, there is no instant, f, E_star or a
+        parameter of the body changes in time, or tol is not positive.
 
     Notes
     -----
