@@ -16,6 +16,7 @@ from nbclient import NotebookClient
 from nbformat import NotebookNode
 
 from derive.files import write_whole
+from derive.runtime.words import COMPILING
 
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parent
@@ -80,7 +81,8 @@ def clean(notebook: NotebookNode) -> NotebookNode:
         cell.id = f"cell-{number:02d}"
         cell.metadata = nbformat.from_dict({})
         if cell.cell_type == "code":
-            cell.outputs = [_steady(output) for output in _merged(cell.outputs)]
+            outputs = [output for output in cell.outputs if not _compiles(output)]
+            cell.outputs = [_steady(output) for output in _merged(outputs)]
     for number, cell in enumerate(_code(notebook), start=1):
         cell.execution_count = number
         for output in cell.outputs:
@@ -91,6 +93,11 @@ def clean(notebook: NotebookNode) -> NotebookNode:
 
 def _code(notebook: NotebookNode) -> Iterator[NotebookNode]:
     return (cell for cell in notebook.cells if cell.cell_type == "code")
+
+
+def _compiles(output: NotebookNode) -> bool:
+    """Whether an output only says that solvers are compiled, as at the first call in a clone."""
+    return output.get("name") == "stderr" and set(output.text.splitlines()) == {COMPILING}
 
 
 def _merged(outputs: list[NotebookNode]) -> Iterator[NotebookNode]:

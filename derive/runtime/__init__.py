@@ -10,7 +10,7 @@ shared      functions of arrays that kernels can also call, compiled by numba
 body        one body: its law, its parameters, its functions of a cycle
 cycle       the public functions of a cycle; they load the kernels on first use
 reasons     the meaning of a regime, and why a cycle has none
-words       words and examples for the docstrings of one body
+words       words and examples for the docstrings of one body, and for waiting users
 
 Kernels, each written for one case, in plain Python with `math`, compiled by numba:
 

@@ -1,5 +1,8 @@
 """Words and examples for the docstrings of the functions in cycle.py when bound to one body."""
 
+COMPILING = "compiling the solver of this call, once per installation: up to half a minute ..."
+"""What a user reads while kernels are compiled."""
+
 MEANINGS = {
     "P": "normal load per unit depth [N/m]",
     "M": "moment per unit depth, M = -int p x dx [N]",

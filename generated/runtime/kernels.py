@@ -13,15 +13,16 @@ restores it with `opened`, because numba itself takes ten microseconds to unwrap
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from functools import cache
 from pathlib import Path
 from threading import Timer
+from time import monotonic
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from .elementary import where
 from .shared import SHARED
+from .words import COMPILING
 
 try:
     import numba
@@ -31,8 +32,14 @@ else:
     COMPILED = not numba.config.DISABLE_JIT
 
 PATIENCE = 0.7
-"""Seconds after which the user is told that kernels are being compiled; loading them from disk
-takes about a hundredth of the compilation time."""
+"""Seconds after which a line says that kernels are being compiled; loading them from disk takes
+about a hundredth of the compilation time."""
+
+AGAIN = 20.0
+"""Seconds after which the line may be repeated for another solver."""
+
+_announced = [-AGAIN]
+"""When the line was last written."""
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
@@ -137,13 +144,12 @@ if COMPILED:
         """`where` for two numbers."""
         return lambda condition, first, second: first if condition else second
 
-    @cache
     def _announce() -> None:
-        """Inform a user at a terminal once that compilation takes some time."""
-        if not sys.stderr.isatty():
-            return
-        text = "compiling the solvers, once per installation: about twenty seconds ..."
-        print(text, file=sys.stderr, flush=True)
+        """Say in one line on standard error why a call takes long; again only after a while."""
+        now = monotonic()
+        if sys.stderr is not None and now - _announced[0] > AGAIN:
+            _announced[0] = now
+            print(COMPILING, file=sys.stderr, flush=True)
 
     def _function_value(signature: Any, context: Any, builder: Any, address: Any) -> Any:
         """A function as a value, from the address of its code."""

@@ -9,6 +9,7 @@ import matplotlib
 import nbformat
 import pytest
 
+from derive.runtime.words import COMPILING
 from notebooks import picture, running
 
 matplotlib.use("Agg")
@@ -72,6 +73,13 @@ def test_warnings_errors_and_paths_are_faults() -> None:
     found = running.faults(notebook_of(stream("w", "stderr"), error, stream(f"in {there}")))
     assert [fault.split(":")[0] for fault in found] == ["a path", "a warning", "an error"]
     assert running.faults(notebook_of(stream("N/m and Pa/sqrt(m)"))) == []
+
+
+def test_a_line_about_compilation_is_not_kept() -> None:
+    """It comes at the first call in a fresh clone only."""
+    notebook = notebook_of(stream(f"{COMPILING}\n", "stderr"), stream("2\n"))
+    (cell,) = running.clean(notebook).cells
+    assert [output.text for output in cell.outputs] == ["2\n"]
 
 
 @pytest.mark.slow

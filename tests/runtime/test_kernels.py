@@ -9,7 +9,9 @@ from typing import Any
 
 import pytest
 
+from generated.runtime import kernels
 from generated.runtime.kernels import COMPILED, kernel, real
+from generated.runtime.words import COMPILING
 
 ROOT = Path(__file__).parents[2]
 
@@ -24,6 +26,23 @@ def test_a_kernel_takes_one_signature_alone() -> None:
     assert _half(1.0) == 0.5
     with pytest.raises(TypeError, match="No matching definition"):
         _half("a")
+
+
+@pytest.mark.skipif(not COMPILED, reason="numba does not compile here")
+def test_a_line_says_that_a_solver_is_compiled(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """On standard error, which here is neither a terminal nor Jupyter; later once more."""
+    now = 100.0
+    monkeypatch.setattr(kernels, "monotonic", lambda: now)
+    monkeypatch.setattr(kernels, "_announced", [now - 2 * kernels.AGAIN])
+    for later, lines in ((0.0, 1), (1.0, 0), (kernels.AGAIN, 1)):
+        now += later
+        kernels._announce()
+        assert capsys.readouterr() == ("", f"{COMPILING}\n" * lines)
+    now += 2 * kernels.AGAIN
+    monkeypatch.setattr(sys, "stderr", None)  # as in a program without a console
+    kernels._announce()
 
 
 WITHOUT_NUMBA = """
