@@ -4,6 +4,7 @@ A notebook runs in this folder and uses ``from common import ...``.  This module
 the checkout importable.
 """
 
+import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
@@ -20,6 +21,7 @@ if str(ROOT) not in sys.path:
     sys.path.insert(0, str(ROOT))
 
 from derive import plot  # noqa: E402
+from derive.handbook.prose import prose  # noqa: E402
 from derive.paper.userfile import built_in as paper  # noqa: E402
 
 Array = Any
@@ -47,14 +49,12 @@ def in_cell(latex: str) -> str:
 
 
 def plainly(text: str) -> str:
-    """Text in which *, | and _ are escaped for Markdown.
+    """Text for Markdown, with its formulas typeset and *, | and _ escaped.
 
-    >>> plainly("P = (E*/2) I_1")
-    'P = (E\\\\*/2) I\\\\_1'
+    >>> plainly("P = (E*/2) I_1, the coefficient of s**(3/2)")
+    'P = (E\\\\*/2) I<sub>1</sub>, the coefficient of s<sup>3/2</sup>'
     """
-    for sign in "*_|":
-        text = text.replace(sign, "\\" + sign)
-    return text
+    return re.sub(r"[*_|]", r"\\\g<0>", prose(text))
 
 
 def percent(part: float, digits: int = 2) -> str:

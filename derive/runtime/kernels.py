@@ -1,7 +1,7 @@
 """Compilation of the kernels by numba, and their use without it.
 
 A kernel solves one case, in plain Python with `math`.  This module compiles it and keeps the result
-on disk beside its source.  Where numba is missing, or NUMBA_DISABLE_JIT is set, the source runs as
+on disk next to its source.  Where numba is missing, or NUMBA_DISABLE_JIT is set, the source runs as
 Python.
 
 A body reaches the kernels as a `Law`, a few functions of fixed signature, so that the kernels are
