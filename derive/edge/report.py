@@ -10,8 +10,9 @@ import numpy as np
 
 from derive.edge.find import SIDES, Findings, FittedEdge
 from derive.edge.table import Step
+from derive.prose import prose
 
-HEAD = ("load step", "edge", "x [mm]", "K_N [MPa/sqrt(mm)]", "L_N [MPa/mm^1.5]", "nodes")
+HEAD = ("load step", "edge", "x [mm]", "K_N [MPa/sqrt(mm)]", "L_N [MPa/mm**(3/2)]", "nodes")
 ZONES = (
     "edge",
     "K_T [MPa sqrt(mm)]",
@@ -150,14 +151,14 @@ def as_page(findings: Findings, steps: Sequence[Step], title: str) -> str:
             _table(ZONES, zone_rows(findings)),
         ]
     legend = ["± is one standard deviation", *([SERIES, REACH] if findings.zones else [])]
-    body.append(f"<p>{'; '.join(legend)}.</p>")
+    body.append(f"<p>{prose('; '.join(legend))}.</p>")
     last = [e for e in findings.edges if e.step == steps[-1].name and np.isfinite(e.pressure.edge)]
     zones = {zone.side: zone.d for zone in findings.zones}
     for e in last:
         body += [
             f"<h2>Pressure next to the {e.side} edge</h2>",
             _picture(e, steps[-1], zones.get(e.side, float("nan"))),
-            f"<p>{escape(e.pressure.why)}.</p>",
+            f"<p>{prose(e.pressure.why)}.</p>",
         ]
     if findings.notes:
         body += ["<h2>Notes</h2>", "<ul>"]
@@ -167,10 +168,10 @@ def as_page(findings: Findings, steps: Sequence[Step], title: str) -> str:
 
 def _table(head: Iterable[str], rows: Iterable[Sequence[str]]) -> str:
     def line(cells: Iterable[str], tag: str) -> str:
-        shown = (escape(cell).replace("+-", "±") for cell in cells)
-        return "<tr>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in shown) + "</tr>"
+        return "<tr>" + "".join(f"<{tag}>{cell}</{tag}>" for cell in cells) + "</tr>"
 
-    lines = f"{line(head, 'th')}{''.join(line(row, 'td') for row in rows)}"
+    shown = ([escape(cell).replace("+-", "±") for cell in row] for row in rows)
+    lines = f"{line(map(prose, head), 'th')}{''.join(line(row, 'td') for row in shown)}"
     return f'<div class="wide"><table>{lines}</table></div>'
 
 
@@ -228,11 +229,11 @@ def _picture(e: FittedEdge, step: Step, d: float) -> str:
         parts.append(f'<text x="{x + 4:.1f}" y="{MARGIN + 12}" fill="#c30">slip zone</text>')
     below = f'x="{(LEFT + WIDTH) / 2}" y="{HEIGHT - 8}" text-anchor="middle"'
     parts.append(f"<text {below}>distance from the edge [mm]</text>")
-    beside = f'transform="translate(16 {HEIGHT / 2}) rotate(-90)" text-anchor="middle"'
-    parts.append(f"<text {beside}>pressure [MPa]</text>")
+    upright = f'transform="translate(16 {HEIGHT / 2}) rotate(-90)" text-anchor="middle"'
+    parts.append(f"<text {upright}>pressure [MPa]</text>")
     parts.append("</svg></div>")
-    legend = "dots: nodes; dashed line: K_N sqrt(s); blue line: K_N sqrt(s) + L_N s^1.5"
-    return "\n".join(parts) + f"\n<p>{legend}</p>"
+    legend = "dots: nodes; dashed line: K_N sqrt(s); blue line: K_N sqrt(s) + L_N s**(3/2)"
+    return "\n".join(parts) + f"\n<p>{prose(legend)}</p>"
 
 
 def _ticks(low: float, high: float) -> list[float]:

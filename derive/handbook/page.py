@@ -15,9 +15,9 @@ from derive.body import Body
 from derive.errors import NotProven
 from derive.handbook.curves import pictures, profile
 from derive.handbook.mathml import mathml
-from derive.handbook.prose import prose, unit
 from derive.notation import latex_of
 from derive.proof.verdict import Verdict
+from derive.prose import prose, unit
 from derive.sheet import FormulaSheet
 
 SHOWN = 40
@@ -160,5 +160,8 @@ def _templates() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    templates.filters |= {"prose": prose, "unit": unit}
+    templates.filters |= {
+        "prose": lambda text: Markup(prose(text)),
+        "unit": lambda text: Markup(unit(text)),
+    }
     return templates

@@ -18,10 +18,10 @@ from sympy import together
 
 from derive import symbols
 from derive.derivation import derive_sheet
-from derive.handbook.prose import prose, unit
 from derive.library import library, load_geometry
 from derive.notation import latex_of
 from derive.proof.prove import prove_sheet
+from derive.prose import prose, unit
 from derive.symbols import QUANTITIES
 from derive.theory import stick
 

@@ -15,7 +15,6 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from threading import Timer
-from time import monotonic
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -35,11 +34,8 @@ PATIENCE = 0.7
 """Seconds after which a line says that kernels are being compiled; loading them from disk takes
 about a hundredth of the compilation time."""
 
-AGAIN = 20.0
-"""Seconds after which the line may be repeated for another solver."""
-
-_announced = [-AGAIN]
-"""When the line was last written."""
+SAID: list[str] = []
+"""The line, once it has been written for the solver that is being loaded."""
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
@@ -145,10 +141,9 @@ if COMPILED:
         return lambda condition, first, second: first if condition else second
 
     def _announce() -> None:
-        """Say in one line on standard error why a call takes long; again only after a while."""
-        now = monotonic()
-        if sys.stderr is not None and now - _announced[0] > AGAIN:
-            _announced[0] = now
+        """Say in one line on standard error why a call takes long."""
+        if sys.stderr is not None and not SAID:
+            SAID.append(COMPILING)
             print(COMPILING, file=sys.stderr, flush=True)
 
     def _function_value(signature: Any, context: Any, builder: Any, address: Any) -> Any:

@@ -188,7 +188,10 @@ def test_the_command_by_hand(path: Path, tmp_path: Path) -> None:
         assert_allclose(edge.pressure.K_N, 200e6 * np.sqrt(2) * np.sqrt(1000), rtol=0.01)
     for zone in found.zones:
         assert_allclose(zone.d, 1e-3 * (1 - np.sqrt(0.7)), rtol=0.01)
-    assert "<svg" in page.read_text() and table.read_text().startswith("load_step,side,edge")
+    shown = page.read_text()
+    assert "<svg" in shown and "^" not in shown and "sqrt" not in shown and "**" not in shown
+    assert "L<sub>N</sub> [MPa/mm<sup>3/2</sup>]" in shown and "K<sub>N</sub> √s" in shown
+    assert table.read_text().startswith("load_step,side,edge")
 
 
 def test_loads_in_place_of_shear(path: Path) -> None:

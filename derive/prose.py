@@ -1,9 +1,7 @@
-"""Typesets the formulas in the descriptions of a sheet: powers, roots, indices, Greek letters."""
+"""Typesets the formulas in plain text as HTML: powers, roots, indices, Greek letters."""
 
 import re
 from html import escape
-
-from markupsafe import Markup
 
 _GREEK = {"alpha": "α", "phi": "φ", "pi": "π", "nu": "ν", "sigma": "σ", "theta": "θ", "xi": "ξ"}
 
@@ -11,7 +9,7 @@ _SET = (
     (r"\*\*\(([^()]+)\)", r"<sup>\1</sup>"),
     (r"(?:\*\*|\^)(\w+)", r"<sup>\1</sup>"),
     (r"\bE_star\b", "E*"),
-    (r"sqrt\((\w)\)", r"√\1"),
+    (r"sqrt\((\w+)\)", r"√\1"),
     (r"sqrt(?=\()", "√"),
     (r"\bdsigma\b", "Δσ"),
     (r"\bdQ\b", "ΔQ"),
@@ -26,24 +24,24 @@ _SET = (
 )
 
 
-def prose(text: str) -> Markup:
+def prose(text: str) -> str:
     """Plain text as HTML, with its formulas typeset.
 
     >>> print(prose("coefficient of s**(3/2) at x = -a; M = -int p x dx, alpha <= K_N_left"))
     coefficient of s<sup>3/2</sup> at x = −a; M = −∫ p x dx, α ≤ K<sub>N, left</sub>
-    >>> print(prose("P'(c), the contact law's slope; 1/E* = 2 (1 - nu^2)/E"))
+    >>> print(prose("P'(c), the contact law's slope; 1/E_star = 2 (1 - nu^2)/E"))
     P′(c), the contact law's slope; 1/E* = 2 (1 − ν<sup>2</sup>)/E
     """
     words = escape(text, quote=False)
     for written, shown in _SET:
         words = re.sub(written, shown, words)
-    return Markup(words)
+    return words
 
 
-def unit(text: str) -> Markup:
+def unit(text: str) -> str:
     """A unit as HTML.
 
     >>> print(unit("Pa/m**(3/2)"), unit("Pa*sqrt(m)"))
     Pa/m<sup>3/2</sup> Pa √m
     """
-    return Markup(re.sub(r"√\((\w+)\)", r"√\1", prose(text)).replace("*", " "))
+    return prose(text).replace("*", " ")
