@@ -41,6 +41,18 @@ _CLASSIC = "singular integral equation of the half-plane, pressure bounded at bo
 def derive_sheet(geometry: Geometry) -> FormulaSheet:
     """Derive all formulas that the theory provides for one body; nothing is proven yet.
 
+    Parameters
+    ----------
+    geometry : Geometry
+        The body.
+
+    Returns
+    -------
+    FormulaSheet
+        The formulas by name, with their meanings, units, conditions and sources.
+
+    Examples
+    --------
     >>> from derive.library import load_geometry
     >>> sheet = derive_sheet(load_geometry("wedge"))
     >>> sheet.flat("load")

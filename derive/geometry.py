@@ -40,12 +40,29 @@ class Parameter(Symbol):
 def parameter(name: str, meaning: str, *, unit: str = "m") -> Parameter:
     """Make a positive real parameter of a profile.
 
-    name: a Python identifier that is not one of the theory's own symbols.
-    meaning: a few words for the formula sheet and the docstrings.
-    unit: a product of powers of m, Pa, N, rad; '-' for a pure number.
+    Parameters
+    ----------
+    name : str
+        A Python identifier that is not one of the theory's own symbols.
+    meaning : str
+        A few words for the formula sheet and the docstrings.
+    unit : str, optional
+        A product of powers of m, Pa, N, rad; '-' for a pure number.
 
-    Raises BadName or BadUnit.
+    Returns
+    -------
+    Parameter
+        A SymPy symbol.
 
+    Raises
+    ------
+    BadName
+        If the name is not allowed.
+    BadUnit
+        If the unit cannot be read.
+
+    Examples
+    --------
     >>> R = parameter("R", "relative radius of curvature", unit="m")
     >>> R.is_positive
     True
@@ -151,12 +168,27 @@ def without_x(name: str, parameters: Iterable[str]) -> BadProfile:
 class Geometry:
     """One body that is pressed on a half-plane, given by its profile g(x) before loading.
 
-    name: a Python identifier; it becomes the name of the generated module.
-    g: SymPy expression in x and parameters, in metres, positive upward, and convex wherever
-       contact can occur.  The tilt is never part of g.
+    Parameters
+    ----------
+    name : str
+        A Python identifier; it becomes the name of the generated module.
+    g : Expr
+        SymPy expression in x and parameters [m], positive upwards, and convex wherever contact can
+        occur.  The tilt is never part of g.
 
-    Raises BadName, UnknownSymbol, BadUnit, DimensionMismatch or BadProfile.
+    Raises
+    ------
+    BadName
+        If the name is not allowed.
+    UnknownSymbol
+        If g contains a symbol that is neither x nor a parameter.
+    DimensionMismatch
+        If g is not a length.
+    BadProfile
+        If g is not a real convex profile that the package can read.
 
+    Examples
+    --------
     >>> from derive import parameter, x
     >>> R = parameter("R", "radius", unit="m")
     >>> Geometry("cylinder", g=x**2 / (2 * R)).slope.base

@@ -34,8 +34,27 @@ def is_in_library(name: str) -> bool:
 def load_geometry(name_or_path: str | Path) -> "Geometry":
     """Load a geometry, given by its name in the library or by the path of its file.
 
-    Raises UnknownGeometry or BadGeometryFile; a fault in g(x) itself is raised by Geometry.
+    Parameters
+    ----------
+    name_or_path : str or Path
+        Such as "hertz" or "skid.py".
 
+    Returns
+    -------
+    Geometry
+        The body.
+
+    Raises
+    ------
+    UnknownGeometry
+        If the library does not contain the name.
+    BadGeometryFile
+        If the file cannot be read or does not define `geometry`.
+    UserError
+        If g(x) has a fault, as in Geometry.
+
+    Examples
+    --------
     >>> load_geometry("hertz").g
     x**2/(2*R)
     """

@@ -99,13 +99,31 @@ def slip_map(
     Each interval between two instants is coloured by its slip, so that any number of stick zones
     can be seen.
 
-    history  a result of `history` of a generated module, for one history
-    x        the positions that were given to `history`, which must increase; about two hundred
-             make a smooth map
-    time     the time of each instant, which must increase; 0, 1, 2, ... by default
-    axes     Axes to draw into; new ones by default
-    length   the unit of x; a suitable one by default
-    legend   whether to draw a legend
+    Parameters
+    ----------
+    history : History
+        A result of `history` of a generated module, for one history.
+    x : array_like, shape (n,)
+        The positions that were given to `history` [m], which must increase; about two hundred
+        make a smooth map.
+    time : array_like, optional
+        The time of each instant, which must increase; 0, 1, 2, ... by default.
+    axes : Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    legend : bool, optional
+        Whether to draw a legend.
+
+    Returns
+    -------
+    Axes
+        The Axes with the picture.
+
+    Raises
+    ------
+    ValueError
+        If the history does not fit x, has fewer than two instants, or has no contact.
     """
     x, at = _positions(history, x), _times(history, time)
     if at.size < 2:
@@ -233,15 +251,38 @@ def instants(
 
     Slip is drawn only where the bodies touch at all instants, because they move freely elsewhere.
 
-    body        a generated module
-    history, x  see `slip_map`
-    at          indices of the instants, starting at 0; -1 is the last one
-    labels      labels of the instants in the legend; their indices by default
-    f           coefficient of friction, as given to `history`
-    axes        two Axes to draw into; new ones by default
-    length      the unit of x; a suitable one by default
-    stress      the unit of the shear traction; a suitable one by default
-    constants   E_star and the parameters of the body
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    history : History
+        A result of `history` of a generated module, for one history.
+    x : array_like, shape (n,)
+        The positions that were given to `history` [m], which must increase.
+    at : sequence of int
+        Indices of the instants, starting at 0; -1 is the last one.
+    labels : sequence of str, optional
+        Labels of the instants in the legend; their indices by default.
+    f : float
+        Coefficient of friction, as given to `history` [-].
+    axes : sequence of two Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    stress : Measure, optional
+        The unit of the shear traction; a suitable one by default.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Returns
+    -------
+    sequence of Axes
+        The two Axes with the pictures.
+
+    Raises
+    ------
+    ValueError
+        If the history does not fit x, f, the body or the constants; the message says what is wrong.
     """
     x, count = _positions(history, x), np.size(history.a)
     _demand_indices(at, count)
@@ -279,12 +320,34 @@ def instants(
 def friction_work(
     body: ModuleType, history: Any, x: Array, *, f: float, **constants: float
 ) -> Array:
-    """The frictional work per unit area at every position [J/m²].
+    """The frictional work per unit area at every position.
 
         sum of f (p_1 + p_2)/2 |slip_2 - slip_1| over all intervals between two instants
 
     The sum is exact if, between two instants, slip has one direction and the pressure is constant.
-    For the arguments, see `instants`.
+
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    history : History
+        A result of `history` of a generated module, for one history.
+    x : array_like, shape (n,)
+        The positions that were given to `history` [m], which must increase.
+    f : float
+        Coefficient of friction, as given to `history` [-].
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        The work [J/m²]; NaN where the slip is not known.
+
+    Raises
+    ------
+    ValueError
+        If the history does not fit x, f, the body or the constants; the message says what is wrong.
     """
     bound = _bounds(body, history, _positions(history, x), f, constants)
     step = np.abs(_steps(history))
@@ -305,9 +368,34 @@ def work(
 ) -> Axes:
     """Draw the frictional work of the whole history over x; see `friction_work`.
 
-    label      the label of the curve in a legend
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    history : History
+        A result of `history` of a generated module, for one history.
+    x : array_like, shape (n,)
+        The positions that were given to `history` [m], which must increase.
+    f : float
+        Coefficient of friction, as given to `history` [-].
+    axes : Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    label : str, optional
+        The label of the curve in a legend.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
 
-    For the other arguments, see `instants`.
+    Returns
+    -------
+    Axes
+        The Axes with the picture.
+
+    Raises
+    ------
+    ValueError
+        If the history does not fit x, f, the body or the constants; the message says what is wrong.
     """
     done = friction_work(body, history, x, f=f, **constants)
     length, joule = length or unit(x, "m"), unit(done, "J/m²")
@@ -334,11 +422,38 @@ def film(
 ) -> FuncAnimation:
     """Make an animation of the shear traction and the friction bounds, with one frame per instant.
 
-    The method `save` of the result writes a GIF, and `to_jshtml` makes a player for a notebook.
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    history : History
+        A result of `history` of a generated module, for one history.
+    x : array_like, shape (n,)
+        The positions that were given to `history` [m], which must increase.
+    time : array_like, optional
+        The time of each instant, which must increase; 0, 1, 2, ... by default.
+    f : float
+        Coefficient of friction, as given to `history` [-].
+    interval : float, optional
+        The duration of a frame [ms].
+    axes : Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    stress : Measure, optional
+        The unit of the shear traction; a suitable one by default.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
 
-    interval   the duration of a frame in milliseconds
+    Returns
+    -------
+    FuncAnimation
+        Its method `save` writes a GIF, and `to_jshtml` makes a player for a notebook.
 
-    For the other arguments, see `instants`, and for `time`, see `slip_map`.
+    Raises
+    ------
+    ValueError
+        If the history does not fit x, f, the body or the constants; the message says what is wrong.
     """
     x, at = _positions(history, x), _times(history, time)
     bound = _bounds(body, history, x, f, constants)

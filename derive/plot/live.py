@@ -26,7 +26,21 @@ STEPS = 200
 
 
 class Loads(NamedTuple):
-    """The values that the sliders set, in N/m, N, N/m, Pa and 1."""
+    """The loads that the sliders set.
+
+    Parameters
+    ----------
+    P : float
+        Normal load [N/m].
+    M : float
+        Moment [N].
+    dQ : float
+        Change in the shear load over a half-cycle [N/m].
+    dsigma : float
+        Change in the bulk tension over a half-cycle [Pa].
+    f : float
+        Coefficient of friction [-].
+    """
 
     P: float
     M: float
@@ -38,12 +52,22 @@ class Loads(NamedTuple):
 class Live:
     """A picture of a steady cycle under constant normal loads, which can be redrawn in place.
 
-    body       a generated module
-    largest    the largest loads; the axes show the contacts under their P and M, and under P and -M
-    constants  E_star and the parameters of the body
+    The axes are moved or widened for a contact beyond their limits, such as one under M and a small
+    P.
 
-    The axes are moved or widened for a contact beyond their limits, such as one under M and a
-    small P.
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    largest : Loads
+        The largest loads; the axes show the contacts under their P and M, and under P and -M.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Raises
+    ------
+    ValueError
+        If a load is not finite, or if the body cannot carry the largest loads.
     """
 
     def __init__(self, body: ModuleType, largest: Loads, **constants: float) -> None:
@@ -85,7 +109,18 @@ class Live:
         ]
 
     def show(self, loads: Loads) -> str:
-        """Draw the cycle under these loads, and return a description of it in one line."""
+        """Draw the cycle under these loads.
+
+        Parameters
+        ----------
+        loads : Loads
+            The loads of the cycle.
+
+        Returns
+        -------
+        str
+            A description of the cycle in one line.
+        """
         state = self.body.contact(loads.P, loads.M, **self.constants)
         law = {"f": loads.f, **self.constants}
         zone = self.body.stick_zone(state, state, loads.dQ, loads.dsigma, **law)
@@ -155,7 +190,13 @@ class Live:
         return "; ".join(parts)
 
     def png(self) -> bytes:
-        """The current picture."""
+        """The current picture.
+
+        Returns
+        -------
+        bytes
+            A file in the format PNG.
+        """
         target = BytesIO()
         with style():
             self.canvas.print_png(target, pil_kwargs={"compress_level": 1})  # type: ignore[no-untyped-call]
@@ -189,12 +230,28 @@ def _demand_start(start: Loads, largest: Loads) -> None:
 def sliders(body: ModuleType, largest: Loads, start: Loads, **constants: float) -> Any:
     """Sliders for the loads, and a picture that follows them.
 
-    body       a generated module
-    largest    the loads at the ends of the sliders
-    start      the loads at which the sliders start
-    constants  E_star and the parameters of the body
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    largest : Loads
+        The loads at the ends of the sliders.
+    start : Loads
+        The loads at which the sliders start.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
 
-    Raises MissingLibrary if ipywidgets is not installed.
+    Returns
+    -------
+    ipywidgets.VBox
+        The sliders and the picture, to be shown in a notebook.
+
+    Raises
+    ------
+    MissingLibrary
+        If ipywidgets is not installed.
+    ValueError
+        If a load is not allowed at the end of a slider, or `start` is outside the sliders.
     """
     if find_spec("ipywidgets") is None:
         raise MissingLibrary("ipywidgets", "changing the loads with sliders", "notebooks")

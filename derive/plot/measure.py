@@ -12,9 +12,25 @@ Array = Any
 class Measure:
     """The unit or quantity by which values are divided before they are drawn.
 
-    size   its value in SI units, e.g. 1e-3, or the half-width of a contact
-    name   its name on the axis: a unit, or a symbol in LaTeX
-    ratio  whether it is a quantity of the problem, so that ratios are drawn
+    Parameters
+    ----------
+    size : float
+        Its value in SI units, such as 1e-3, or the half-width of a contact.
+    name : str
+        Its name on the axis: a unit, or a symbol in LaTeX.
+    ratio : bool, optional
+        Whether it is a quantity of the problem, so that ratios are drawn.
+
+    Raises
+    ------
+    ValueError
+        If the size is not finite and positive.
+
+    Examples
+    --------
+    >>> mm = Measure(1e-3, "mm")
+    >>> float(mm(0.25)), mm.label("x")
+    (250.0, '$x$  [mm]')
     """
 
     size: float
@@ -43,7 +59,30 @@ class Measure:
 
 
 def over(size: float, name: str) -> Measure:
-    """A measure for ratios to a quantity of the problem, such as ``over(state.a, "a")``."""
+    """A measure for ratios to a quantity of the problem.
+
+    Parameters
+    ----------
+    size : float
+        The quantity in SI units.
+    name : str
+        Its symbol in LaTeX.
+
+    Returns
+    -------
+    Measure
+        The measure.
+
+    Raises
+    ------
+    ValueError
+        If the size is not finite and positive.
+
+    Examples
+    --------
+    >>> over(0.5, "a").label("x")
+    '$x/a$'
+    """
     return Measure(float(size), name, ratio=True)
 
 
@@ -60,8 +99,27 @@ _LEAST = 0.1
 
 
 def unit(values: Array, of: str) -> Measure:
-    """The suitable unit for the values: m, Pa, N/m, N, rad or J/m², with a prefix.
+    """The suitable unit for the values, with a prefix.
 
+    Parameters
+    ----------
+    values : array_like
+        The values that will be drawn, in SI units.
+    of : str
+        Their SI unit: m, Pa, N/m, N, rad or J/m².
+
+    Returns
+    -------
+    Measure
+        The unit.
+
+    Raises
+    ------
+    ValueError
+        If the unit is not one of these.
+
+    Examples
+    --------
     >>> unit([2e-4, 7e-4], "m").name, unit(890e6, "Pa").name
     ('mm', 'MPa')
     """

@@ -14,8 +14,12 @@ from derive.plot.style import LINES, style, subplots
 class Errors(NamedTuple):
     """Slip zones and their errors, for the left and the right edge along the first axis.
 
-    size      the size of the slip zone over the contact width
-    relative  the relative error |series/exact - 1| of each order
+    Attributes
+    ----------
+    size : ndarray, shape (2, ...)
+        The size of the slip zone over the contact width [-].
+    relative : dict of ndarray
+        The relative error abs(series/exact - 1) of each order, in the shape of `size` [-].
     """
 
     size: Array
@@ -34,12 +38,32 @@ def relative_errors(
 ) -> Errors:
     """Errors of the series of the slip zones of a body under constant normal loads.
 
-    body        a generated module
-    state       Contact under the normal loads
-    dQ, dsigma  changes in the shear load and in the tension over the half-cycle: numbers or arrays
-    f           coefficient of friction
-    orders      orders of the series
-    constants   E_star and the parameters of the body
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    state : Contact
+        The contact under the normal loads, as returned by `contact`.
+    dQ, dsigma : array_like
+        Changes in the shear load [N/m] and in the tension [Pa] over the half-cycle.
+    f : float
+        Coefficient of friction [-].
+    orders : sequence of int, optional
+        Orders of the series.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Returns
+    -------
+    Errors
+        NaN where the stick zone is not known.
+
+    Raises
+    ------
+    TypeError
+        If `state` is not a Contact, or another argument is not a number or an array of numbers.
+    ValueError
+        If an order is not 1, 2 or 3, or the shapes of the arguments do not broadcast.
     """
     law = {"f": f, **constants}
     zone = body.stick_zone(state, state, dQ, dsigma, **law)
@@ -65,8 +89,34 @@ def errors(
 ) -> Axes:
     """Draw the relative errors of the series over the size of the slip zone, on logarithmic axes.
 
-    Filled markers are for the left edge, and open markers for the right edge.  For the arguments,
-    see `relative_errors`.
+    Filled markers are for the left edge, and open markers for the right edge.
+
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    state : Contact
+        The contact under the normal loads, as returned by `contact`.
+    dQ, dsigma : array_like
+        Changes in the shear load [N/m] and in the tension [Pa] over the half-cycle.
+    f : float
+        Coefficient of friction [-].
+    orders : sequence of int, optional
+        Orders of the series.
+    axes : Axes, optional
+        The Axes to draw into; new ones by default.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Returns
+    -------
+    Axes
+        The Axes with the picture.
+
+    Raises
+    ------
+    TypeError, ValueError
+        As in `relative_errors`.
     """
     computed = relative_errors(body, state, dQ, dsigma, f=f, orders=orders, **constants)
     with style():

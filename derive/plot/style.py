@@ -74,6 +74,11 @@ def style() -> Iterator[None]:
     Unlike the context manager of matplotlib, this one restores only the settings that it has
     changed.  A notebook that makes its first figure inside the block sets up its display there, and
     these settings must remain.
+
+    Returns
+    -------
+    context manager
+        To be used in a `with` statement.
     """
     before = {name: mpl.rcParams[name] for name in _STYLE}
     mpl.rcParams.update(_STYLE)
@@ -93,10 +98,23 @@ def subplots(
 ) -> tuple[Figure, Any]:
     """Make a figure and its Axes in this style, like `subplots` of matplotlib.
 
-    rows, columns  numbers of rows and columns of Axes
-    size           the size of the figure in inches
-    titles         the titles of the Axes, row by row
-    more           other arguments of `matplotlib.pyplot.subplots`
+    Parameters
+    ----------
+    rows, columns : int, optional
+        Numbers of rows and columns of Axes.
+    size : tuple of float, optional
+        Width and height of the figure in inches.
+    titles : sequence of str, optional
+        The titles of the Axes, row by row.
+    **more
+        Other arguments of `matplotlib.pyplot.subplots`.
+
+    Returns
+    -------
+    figure : Figure
+        The figure.
+    axes : Axes or ndarray of Axes
+        As `matplotlib.pyplot.subplots` returns them.
     """
     with style():
         figure, axes = plt.subplots(
@@ -108,7 +126,22 @@ def subplots(
 
 
 def save(figure: Figure, path: str | Path) -> None:
-    """Write a picture as a reproducible file, in the format given by the suffix of its path."""
+    """Write a picture as a reproducible file, in the format given by the suffix of its path.
+
+    Parameters
+    ----------
+    figure : Figure
+        The picture.
+    path : str or Path
+        The file, such as slip.pdf; the folder must exist.
+
+    Raises
+    ------
+    ValueError
+        If matplotlib does not know the format.
+    OSError
+        If the file cannot be written.
+    """
     suffix = Path(path).suffix
     dated = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
     with style():

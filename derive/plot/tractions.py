@@ -49,13 +49,32 @@ def pressures(
 ) -> Axes:
     """Draw the pressure of one or more contacts of a body.
 
-    body       a generated module
-    states     Contacts, as returned by `body.contact`
-    labels     the label of each contact; without labels, no legend is drawn
-    axes       Axes to draw into; new ones by default
-    length     the unit of x; a suitable one by default
-    stress     the unit of the pressure; a suitable one by default
-    constants  E_star and the parameters of the body
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    states : sequence of Contact
+        The contacts, as returned by `contact`.
+    labels : sequence of str, optional
+        The label of each contact; without labels, no legend is drawn.
+    axes : Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    stress : Measure, optional
+        The unit of the pressure; a suitable one by default.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Returns
+    -------
+    Axes
+        The Axes with the picture.
+
+    Raises
+    ------
+    ValueError
+        If a contact is not one of this body with these constants, or the number of labels is wrong.
     """
     demand_contacts(states, labels)
     lines = []
@@ -119,15 +138,36 @@ def tractions(
     the half-cycle is dotted; the shear traction may then be unknown, and a note in the picture says
     so.
 
-    body           a generated module
-    first, second  Contacts at the start and at the end of the half-cycle that raises the shear load
-    dQ, dsigma     changes in the shear load and in the tension over this half-cycle
-    f              coefficient of friction
-    mixed          whether to compute stick zones where slip reverses; see `stick_zone`
-    axes           two Axes to draw into; new ones by default
-    length         the unit of x; a suitable one by default
-    stress         the unit of pressure and shear traction; a suitable one by default
-    constants      E_star and the parameters of the body
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    first, second : Contact
+        Contacts at the start and at the end of the half-cycle that raises the shear load.
+    dQ, dsigma : float
+        Changes in the shear load [N/m] and in the tension [Pa] over this half-cycle.
+    f : float
+        Coefficient of friction [-].
+    mixed : bool, optional
+        Whether to compute stick zones where slip reverses; see `stick_zone`.
+    axes : sequence of two Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    stress : Measure, optional
+        The unit of pressure and shear traction; a suitable one by default.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Returns
+    -------
+    sequence of Axes
+        The two Axes with the pictures.
+
+    Raises
+    ------
+    ValueError
+        If a contact is not one of this body with these constants, dQ < 0, or f is not positive.
     """
     _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
     law = {"f": f, **constants}
@@ -184,16 +224,39 @@ def shear(
 
     The surfaces slip where the shear traction reaches the bound f p.
 
-    body        a generated module
-    contact     Contact under the normal loads, as returned by `body.contact`
-    Q, sigma    shear load and tension at the upper end, which is reached first, starting from zero
-    dQ, dsigma  changes in both over the half-cycle
-    f           coefficient of friction
-    between     number of states that are drawn between the upper and the lower end
-    axes        Axes to draw into; new ones by default
-    length      the unit of x; a suitable one by default
-    stress      the unit of the shear traction; a suitable one by default
-    constants   E_star and the parameters of the body
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    contact : Contact
+        The contact under the normal loads, as returned by `contact`.
+    Q, sigma : float
+        Shear load [N/m] and tension [Pa] at the upper end, reached first, starting from zero.
+    dQ, dsigma : float
+        Changes in both over the half-cycle [N/m, Pa].
+    f : float
+        Coefficient of friction [-].
+    between : int, optional
+        Number of states that are drawn between the upper and the lower end.
+    axes : Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    stress : Measure, optional
+        The unit of the shear traction; a suitable one by default.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Returns
+    -------
+    Axes
+        The Axes with the picture.
+
+    Raises
+    ------
+    ValueError
+        If the contact is not one of this body with these constants, or the shear traction is not
+        known; the message gives the reason.
     """
     demand_numbers(Q=Q, sigma=sigma)
     if not isinstance(between, int) or between < 0:
@@ -328,7 +391,34 @@ def slip(
     Here s is the slip and p is the mean of the pressures at both ends of the half-cycle.  Under
     constant normal loads, f p s is the frictional work per unit area in every half-cycle.
 
-    For the arguments, see `tractions`.
+    Parameters
+    ----------
+    body : module
+        A generated module, such as generated.wedge.
+    first, second : Contact
+        Contacts at the start and at the end of the half-cycle that raises the shear load.
+    dQ, dsigma : float
+        Changes in the shear load [N/m] and in the tension [Pa] over this half-cycle.
+    f : float
+        Coefficient of friction [-].
+    mixed : bool, optional
+        Whether to compute stick zones where slip reverses; see `stick_zone`.
+    axes : sequence of two Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    **constants : float
+        E_star [Pa] and the parameters of the body.
+
+    Returns
+    -------
+    sequence of Axes
+        The two Axes with the pictures.
+
+    Raises
+    ------
+    ValueError
+        If a contact is not one of this body with these constants, dQ < 0, or f is not positive.
     """
     _demand_half_cycle(body, first, second, dQ, dsigma, f, constants)
     law = {"f": f, **constants}

@@ -42,11 +42,28 @@ def stick_slip(
 ) -> Axes:
     """Draw stick and slip at the instants of a cycle.
 
-    cycle   a result of `march` of a generated module, for one cycle
-    time    the time of each instant; equal steps over one cycle by default
-    axes    Axes to draw into; new ones by default
-    length  the unit of x; a suitable one by default
-    legend  whether to draw a legend
+    Parameters
+    ----------
+    cycle : March
+        A result of `march` of a generated module, for one cycle.
+    time : array_like, optional
+        The time of each instant; equal steps over one cycle by default.
+    axes : Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    legend : bool, optional
+        Whether to draw a legend.
+
+    Returns
+    -------
+    Axes
+        The Axes with the picture.
+
+    Raises
+    ------
+    ValueError
+        If there is more than one cycle, or the times do not increase.
     """
     a = np.asarray(cycle.a)
     if a.ndim != 1:
@@ -78,15 +95,35 @@ def sweep(
 ) -> Axes:
     """Draw contact, stick and slip at the end of a half-cycle, over a parameter.
 
-    parameter  the values of the parameter
-    contact    Contact at the end of the half-cycle: one for all values, or one for each
-    zone       StickZone for each value, as returned by `stick_zone`
-    dsigma     change in the tension: one for all values, or one for each; its sign determines the
-               direction of slip at each edge
-    label      the label of the axis of the parameter
-    axes       Axes to draw into; new ones by default
-    length     the unit of x; a suitable one by default
-    legend     whether to draw a legend
+    Parameters
+    ----------
+    parameter : array_like, shape (n,)
+        The values of the parameter.
+    contact : Contact
+        Contacts at the end of the half-cycle: one for all values, or one for each.
+    zone : StickZone
+        The stick zone for each value, as returned by `stick_zone`.
+    dsigma : array_like
+        Change in the tension: one for all values, or one for each [Pa].  Its sign determines the
+        direction of slip at each edge.
+    label : str, optional
+        The label of the axis of the parameter.
+    axes : Axes, optional
+        The Axes to draw into; new ones by default.
+    length : Measure, optional
+        The unit of x; a suitable one by default.
+    legend : bool, optional
+        Whether to draw a legend.
+
+    Returns
+    -------
+    Axes
+        The Axes with the picture.
+
+    Raises
+    ------
+    ValueError
+        If the shapes do not fit, or dsigma is not the one that was given to `stick_zone`.
     """
     at = np.asarray(parameter, dtype=float)
     demand_row("parameter", at)
@@ -196,7 +233,13 @@ def widened(unknown: Array) -> Array:
 
 
 def key(axes: Axes) -> None:
-    """Draw the legend of a map above it; call it again after drawing more lines."""
+    """Draw the legend of a map above it; call it again after drawing more lines.
+
+    Parameters
+    ----------
+    axes : Axes
+        The Axes of the map.
+    """
     handles, labels = axes.get_legend_handles_labels()
     spec = axes.get_subplotspec()
     columns = spec.get_gridspec().ncols if spec else 1
@@ -234,13 +277,25 @@ def boundaries(
 ) -> None:
     """Draw the stick-slip boundaries from another source, as lines over a map.
 
-    axes    the Axes of the map
-    at      the times, or the values of the parameter, on the axis of the map
-    zones   the stick zones, with fields m and n: a result of `march` or `stick_zone`, or a
-            StickZone of your own
-    kind    the line style: "exact", "printed", "order 1", "order 2", "order 3" or "solver"
-    length  the unit of x in the map
-    label   the label in the legend; `kind` by default
+    Parameters
+    ----------
+    axes : Axes
+        The Axes of the map.
+    at : array_like
+        The times, or the values of the parameter, on the axis of the map.
+    zones : March or StickZone
+        The stick zones: a result of `march` or `stick_zone`, or a StickZone of your own.
+    kind : str
+        The line style: "exact", "printed", "order 1", "order 2", "order 3" or "solver".
+    length : Measure
+        The unit of x in the map.
+    label : str, optional
+        The label in the legend; `kind` by default.
+
+    Raises
+    ------
+    ValueError
+        If the kind is not one of these.
     """
     if kind not in LINES:
         raise ValueError(f"the kind of line {kind!r} is not known; give one of {', '.join(LINES)}")

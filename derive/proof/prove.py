@@ -18,6 +18,18 @@ def prove_sheet(sheet: FormulaSheet) -> FormulaSheet:
 
     A closed form of an integral is left out if it is not proven.
 
+    Parameters
+    ----------
+    sheet : FormulaSheet
+        A result of `derive_sheet`.
+
+    Returns
+    -------
+    FormulaSheet
+        The same formulas with their proofs.
+
+    Examples
+    --------
     >>> from derive.derivation import derive_sheet
     >>> from derive.library import load_geometry
     >>> sheet = derive_sheet(load_geometry("hertz"))
