@@ -3,7 +3,10 @@
 import re
 from html import escape
 
-_GREEK = {"alpha": "α", "phi": "φ", "pi": "π", "nu": "ν", "sigma": "σ", "theta": "θ", "xi": "ξ"}
+_GREEK = {
+    **{"alpha": "α", "beta": "β", "chi": "χ", "gamma": "γ", "kappa": "κ", "nu": "ν", "phi": "φ"},
+    **{"pi": "π", "sigma": "σ", "theta": "θ", "xi": "ξ", "Delta": "Δ"},
+}
 
 _SET = (
     (r"\*\*\(([^()]+)\)", r"<sup>\1</sup>"),

@@ -20,7 +20,7 @@ Sample = Mapping[str, Any]
 Placed = Iterator[tuple[str, Sample]]
 """Samples by region."""
 
-BULK, KINKS, EXTREME = "bulk", "beside kinks and edges", "extreme"
+BULK, KINKS, EXTREME = "bulk", "near kinks and edges", "extreme"
 REGIONS = (BULK, KINKS, EXTREME)
 
 NEAREST = -9.0

@@ -42,8 +42,8 @@ Errors are relative to the value itself, with the following exceptions:
 There are three regions of inputs:
 
 - "Bulk" means ordinary contacts and positions.
-- "Beside kinks and edges" means that an edge or a stick-slip boundary lies beside a kink, or that
-  the position x lies beside a kink or an edge, at a distance of 1e-9 to 0.1 of the width.
+- "Near kinks and edges" means that an edge or a stick-slip boundary lies next to a kink, or that
+  the position x lies next to a kink or an edge, at a distance of 1e-9 to 0.1 of the width.
 - "Extreme" means widths over 24 decades (six decades if the pressure is an integral), contacts that
   reach only 1e-8 of the width to one side, and dimensions of the body that differ by up to six
   decades.
