@@ -21,7 +21,7 @@ _SET = (
     (r"\b(\w)_(\w+)", lambda m: f"{m[1]}<sub>{m[2].replace('_', ', ')}</sub>"),
     (r"\b(\w)''", r"\1″"),
     (r"\b(\w)'(?=\()", r"\1′"),
-    (r"(?<=[ =(])-(?=[\w∫(√ ])", "−"),
+    (r"(?<=[ =(\[])-(?=[\w∫(√ ])", "−"),
     ("&lt;=", "≤"),
     ("&gt;=", "≥"),
 )
@@ -30,8 +30,8 @@ _SET = (
 def prose(text: str) -> str:
     """Plain text as HTML, with its formulas typeset.
 
-    >>> print(prose("coefficient of s**(3/2) at x = -a; M = -int p x dx, alpha <= K_N_left"))
-    coefficient of s<sup>3/2</sup> at x = −a; M = −∫ p x dx, α ≤ K<sub>N, left</sub>
+    >>> print(prose("coefficient of s**(3/2) in [-a, c]; M = -int p x dx, alpha <= K_N_left"))
+    coefficient of s<sup>3/2</sup> in [−a, c]; M = −∫ p x dx, α ≤ K<sub>N, left</sub>
     >>> print(prose("P'(c), the contact law's slope; 1/E_star = 2 (1 - nu^2)/E"))
     P′(c), the contact law's slope; 1/E* = 2 (1 − ν<sup>2</sup>)/E
     """

@@ -76,7 +76,7 @@ def history(
         slides, m and n are NaN at that instant, and slip and work from then on.  UNSOLVED: only
         a and c are known, as from P = 0 with M != 0 on, from where the contact rolls in from far
         away.  Slip rates are not returned, because time is not an argument; for a 1-D x, the slip
-        between two instants is np.diff(slip, axis=-2).
+        between two instants is `np.diff(slip, axis=-2)`.
 
     Raises
     ------
