@@ -18,6 +18,7 @@ _SET = (
     (r"\bdQ\b", "ΔQ"),
     (rf"\b(d?)({'|'.join(_GREEK)})(?=\b|_)", lambda m: m[1] + _GREEK[m[2]]),
     (r"\bint\b", "∫"),
+    (r"\bum\b", "µm"),
     (r"\b(\w)_(\w+)", lambda m: f"{m[1]}<sub>{m[2].replace('_', ', ')}</sub>"),
     (r"\b(\w)''", r"\1″"),
     (r"\b(\w)'(?=\()", r"\1′"),

@@ -191,6 +191,7 @@ def test_the_command_by_hand(path: Path, tmp_path: Path) -> None:
     shown = page.read_text()
     assert "<svg" in shown and "^" not in shown and "sqrt" not in shown and "**" not in shown
     assert "L<sub>N</sub> [MPa/mm<sup>3/2</sup>]" in shown and "K<sub>N</sub> √s" in shown
+    assert "slip zone [µm]" in shown
     assert table.read_text().startswith("load_step,side,edge")
 
 
