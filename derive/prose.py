@@ -23,6 +23,7 @@ _SET = (
     (r"\b(\w)''", r"\1″"),
     (r"\b(\w)'(?=\()", r"\1′"),
     (r"(?<=[ =(\[])-(?=[\w∫(√ ])", "−"),
+    (r"Δ (?=\w\b|\w<sub>)", "Δ"),
     ("&lt;=", "≤"),
     ("&gt;=", "≥"),
 )
@@ -33,6 +34,8 @@ def prose(text: str) -> str:
 
     >>> print(prose("coefficient of s**(3/2) in [-a, c]; M = -int p x dx, alpha <= K_N_left"))
     coefficient of s<sup>3/2</sup> in [−a, c]; M = −∫ p x dx, α ≤ K<sub>N, left</sub>
+    >>> print(prose("Delta K_T at Delta Q = 0"))
+    ΔK<sub>T</sub> at ΔQ = 0
     >>> print(prose("P'(c), the contact law's slope; 1/E_star = 2 (1 - nu^2)/E"))
     P′(c), the contact law's slope; 1/E* = 2 (1 − ν<sup>2</sup>)/E
     """
