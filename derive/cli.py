@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from derive.errors import BadLimit, NotProven, UserError
+from derive.errors import BadLimit, BadPage, NotProven, UserError
 from derive.limit import DEFAULT
 from derive.parallel import end
 from derive.terminal import (
@@ -227,12 +227,13 @@ def _show_page(name: str, out: Path | None, limit: float) -> None:
 def _show_pages(out: Path | None, limit: float) -> None:
     """Write the pages of the library with their index."""
     import derive.handbook  # noqa: F401 - reports a missing library at once
+    from derive.folder import demand_replaceable
     from derive.library import library
-    from derive.shelf import demand_replaceable, put_pages
+    from derive.shelf import put_pages
     from derive.showing import handbook
 
     folder = out or Path("handbook")
-    demand_replaceable(folder)
+    demand_replaceable(folder, BadPage)
     bodies = _built(library(), None, False, limit)
     put_pages(handbook(bodies, limit), folder)
     index = path_of((folder / "index.html").resolve())

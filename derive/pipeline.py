@@ -32,14 +32,13 @@ from derive.cache import key_of, program_as_loaded, program_digest, users_cache
 from derive.codegen.publish import (
     FULL_STICK,
     Difference,
-    demand_replaceable,
     differences,
     modules_in,
     package_files,
     publish,
-    remove_leftovers,
 )
-from derive.errors import BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
+from derive.errors import BadOutput, BadProfile, InstalledPackage, NeedsOutput, TwoOfOneName
+from derive.folder import demand_replaceable, remove_leftovers
 from derive.library import FOLDER, is_in_library, library, load_geometry
 from derive.limit import DEFAULT
 from derive.parallel import Bounds, Report, in_processes
@@ -217,7 +216,7 @@ class Order:
     def __post_init__(self) -> None:
         if self.folder is not None:
             if self.writes:
-                demand_replaceable(self.folder)
+                demand_replaceable(self.folder, BadOutput)
             return
         for source in self.sources:
             if not is_in_library(source):
