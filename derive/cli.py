@@ -1,7 +1,8 @@
 """The command `derive`: read the arguments, call the package, print the results.
 
-Exit status: 0 if all went well, 1 if a check failed, 2 if the input was bad.  SymPy is imported
-only by the commands that need it, so that help appears at once.
+Exit status: 0 if all went well, 1 if a check failed, 2 if the input was bad, 130 after Ctrl-C, 141
+if the reader of the output has closed it.  SymPy is imported only by the commands that need it, so
+that help appears at once.
 """
 
 import errno
@@ -9,8 +10,8 @@ import os
 import shlex
 import signal
 import sys
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from math import inf
 from pathlib import Path
@@ -40,7 +41,9 @@ if TYPE_CHECKING:
     from derive.paper.claim import Paper
     from derive.pipeline import Order
 
-FELL_SHORT, BAD_INPUT = 1, 2
+FELL_SHORT, BAD_INPUT, INTERRUPTED, UNREAD = 1, 2, 130, 141
+"""Exit statuses; the last two are what a shell reports for SIGINT and SIGPIPE."""
+
 _PATH = click.Path(path_type=Path)
 
 
@@ -65,11 +68,17 @@ _limit = click.option(
 class _Commands(click.Group):
     """Show a user's mistake as a single message, and exit with the matching status."""
 
+    def make_context(self, *args: Any, **more: Any) -> click.Context:
+        """Read the arguments; `--help` and `--version` print here."""
+        with _stopped_from_outside():
+            return super().make_context(*args, **more)
+
     def invoke(self, ctx: click.Context) -> object:
         try:
-            done = super().invoke(ctx)
-            sys.stdout.flush()
-            return done
+            with _stopped_from_outside():
+                done = super().invoke(ctx)
+                sys.stdout.flush()
+                return done
         except UserError as error:
             complain("Error", error.message.replace("`derive ", f"`{command()} "))
             ctx.exit(BAD_INPUT)
@@ -78,15 +87,29 @@ class _Commands(click.Group):
             ctx.exit(FELL_SHORT)
 
     def main(self, *args: Any, **more: Any) -> Any:
-        """Run a command; `--help` and `--version` print before `invoke` is called."""
+        """Run a command, and report what the system refused."""
         try:
             _demand_surroundings()
             signal.signal(signal.SIGTERM, end)
             return super().main(*args, **more)
-        except OSError as error:  # a closed pipe never gets here
+        except OSError as error:
             complain("Error", _what_failed(error))
             _forget_the_output()
             sys.exit(BAD_INPUT)
+
+
+@contextmanager
+def _stopped_from_outside() -> Iterator[None]:
+    """End with the status that shells use if Ctrl-C is pressed, or the output is closed."""
+    try:
+        yield
+    except (KeyboardInterrupt, click.Abort):  # a question ends with Abort
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        remark("Interrupted")
+        sys.exit(INTERRUPTED)
+    except BrokenPipeError:
+        _forget_the_output()
+        sys.exit(UNREAD)
 
 
 def _what_failed(error: OSError) -> str:
