@@ -10,7 +10,7 @@ from pathlib import Path
 
 from derive.errors import BadPage
 from derive.exchange import put_in_place
-from derive.files import write_whole
+from derive.files import demand_writable, write_whole
 from derive.manifest import MANIFEST, not_written, with_manifest
 
 MARK = '<meta name="generator" content="derive '
@@ -27,16 +27,21 @@ def put_page(text: str, path: Path, option: str = "--out", mark: str = MARK) -> 
 
     Raises BadPage if the path must not be replaced or cannot be written.
     """
-    _demand_reachable(path, option)
-    if path.is_dir():
-        raise BadPage(str(path), "is a directory", option)
-    if (path.exists() or path.is_symlink()) and not _is_ours(path, mark):
-        raise BadPage(str(path), "exists and was not made by `derive`", option)
+    demand_page(path, option, mark)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(text.encode(), path)
     except OSError as error:
         raise BadPage(str(path), f"cannot be written ({error.strerror})", option) from error
+
+
+def demand_page(path: Path, option: str = "--out", mark: str = MARK) -> None:
+    """Raise BadPage if `put_page` would not write this path; call this before a long task."""
+    _demand_writable(path, option)
+    if path.is_dir():
+        raise BadPage(str(path), "is a directory", option)
+    if (path.exists() or path.is_symlink()) and not _is_ours(path, mark):
+        raise BadPage(str(path), "exists and was not made by `derive`", option)
 
 
 def put_pages(pages: Mapping[str, str], folder: Path) -> None:
@@ -81,8 +86,8 @@ def _remove_leftovers(folder: Path) -> None:
 
 
 def demand_replaceable(folder: Path) -> None:
-    """Raise BadPage unless `folder` does not exist, or contains only pages made by this package."""
-    _demand_reachable(folder)
+    """Raise BadPage unless `folder` can be created, or contains only pages made by this package."""
+    _demand_writable(folder)
     if not folder.exists() and not folder.is_symlink():
         return
     if folder.is_symlink() or not folder.is_dir():
@@ -93,12 +98,11 @@ def demand_replaceable(folder: Path) -> None:
         raise BadPage(str(folder), f"contains {stranger}")
 
 
-def _demand_reachable(path: Path, option: str = "--out") -> None:
-    """Raise BadPage for a path that cannot exist, for example because its name is too long."""
+def _demand_writable(path: Path, option: str = "--out") -> None:
     try:
-        path.exists()
+        demand_writable(path)
     except OSError as error:
-        raise BadPage(str(path), f"cannot be reached ({error.strerror})", option) from error
+        raise BadPage(str(path), f"cannot be written ({error.strerror})", option) from error
 
 
 def _is_ours(path: Path, mark: str = MARK) -> bool:

@@ -18,6 +18,7 @@ from pathlib import Path
 from derive.codegen.mark import MARK
 from derive.errors import BadOutput
 from derive.exchange import put_in_place
+from derive.files import demand_writable
 from derive.manifest import MANIFEST, not_written, with_manifest
 from derive.runtime import edge
 
@@ -238,7 +239,11 @@ def resolved(folder: Path) -> Path:
 
 
 def demand_replaceable(folder: Path, edited: bool = True) -> None:
-    """Raise BadOutput unless `folder` does not exist, is empty, or is a generated package."""
+    """Raise BadOutput unless `folder` is empty or a generated package, or can be created."""
+    try:
+        demand_writable(folder)
+    except OSError as error:
+        raise BadOutput(str(folder), f"cannot be written ({error.strerror})") from error
     if not folder.exists() and not folder.is_symlink():
         return
     if folder.is_symlink() or not folder.is_dir():
