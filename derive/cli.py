@@ -606,10 +606,8 @@ def _built(sources: Sequence[str], jobs: int | None, fresh: bool, limit: float) 
     from derive.parallel import cores
     from derive.pipeline import STAGES, build_all
 
-    if folder := distrusted():
-        why = "nothing is kept in this directory, because other users can write to it"
-        remedy = "remove their permission to write, or set DERIVE_CACHE to another directory"
-        remark(f"{folder}: {why}: {remedy}")
+    if why := distrusted():
+        remark(why)
     with progress(len(sources), STAGES) as step:
         bodies = build_all(sources, step, jobs or cores(), fresh, limit)
     for body in bodies:

@@ -1,6 +1,7 @@
 """Hostile surroundings: one clear line each, the right exit status, and nothing is lost."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -138,3 +139,9 @@ def test_a_cache_that_others_may_write_to(tmp_path: Path) -> None:
     assert done.returncode == 0
     assert "nothing is kept in this directory, because other users can write to it" in done.stderr
     assert list((tmp_path / "open").iterdir()) == []
+    advised = re.search("`(.*)`", done.stderr)
+    assert advised is not None
+    subprocess.run(["sh", "-c", advised[1]], cwd=tmp_path, check=True)
+    done = derive(tmp_path, "generate hertz --out made", DERIVE_CACHE="open")
+    assert "nothing is kept" not in done.stderr
+    assert len(list((tmp_path / "open").iterdir())) == 1
