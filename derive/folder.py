@@ -19,6 +19,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from derive.files import demand_writable
 from derive.manifest import not_written
 
 _FRESH, _PREVIOUS = "fresh", "old"
@@ -57,12 +58,13 @@ def replace_folder(
 
 
 def demand_replaceable(folder: Path, refusal: Refusal, edited: bool = True) -> None:
-    """Raise `refusal` unless `folder` does not exist, is empty, or holds only files of a list."""
+    """Raise `refusal` unless `folder` can be created, is empty, or holds only files of a list."""
     try:
-        if not folder.exists() and not folder.is_symlink():
-            return
-    except OSError as error:  # for example, the name is too long
-        raise refusal(str(folder), f"cannot be reached ({error.strerror})") from error
+        demand_writable(folder)
+    except OSError as error:
+        raise refusal(str(folder), f"cannot be written ({error.strerror})") from error
+    if not folder.exists() and not folder.is_symlink():
+        return
     if folder.is_symlink() or not folder.is_dir():
         raise refusal(str(folder), "is not a directory")
     if stranger := not_written(folder, edited):

@@ -43,7 +43,7 @@ def load_geometry(name_or_path: str | Path) -> "Geometry":
     if is_in_library(given):
         return _execute(FOLDER / f"{given}.py")
     path = Path(given)
-    if path.suffix == ".py" or _exists(path):
+    if given and (path.suffix == ".py" or _exists(path)):
         return _execute(path)
     raise UnknownGeometry(given, library())
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from derive.errors import BadPage
-from derive.files import write_whole
+from derive.files import demand_writable, write_whole
 from derive.folder import replace_folder
 from derive.manifest import with_manifest
 
@@ -19,16 +19,24 @@ def put_page(text: str, path: Path, option: str = "--out", mark: str = MARK) -> 
 
     Raises BadPage if the path must not be replaced or cannot be written.
     """
-    _demand_reachable(path, option)
-    if path.is_dir():
-        raise BadPage(str(path), "is a directory", option)
-    if (path.exists() or path.is_symlink()) and not _is_ours(path, mark):
-        raise BadPage(str(path), "exists and was not made by `derive`", option)
+    demand_page(path, option, mark)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(text.encode(), path)
     except OSError as error:
         raise BadPage(str(path), f"cannot be written ({error.strerror})", option) from error
+
+
+def demand_page(path: Path, option: str = "--out", mark: str = MARK) -> None:
+    """Raise BadPage if `put_page` would not write this path; call this before a long task."""
+    try:
+        demand_writable(path)
+    except OSError as error:
+        raise BadPage(str(path), f"cannot be written ({error.strerror})", option) from error
+    if path.is_dir():
+        raise BadPage(str(path), "is a directory", option)
+    if (path.exists() or path.is_symlink()) and not _is_ours(path, mark):
+        raise BadPage(str(path), "exists and was not made by `derive`", option)
 
 
 def put_pages(pages: Mapping[str, str], folder: Path) -> None:
@@ -37,14 +45,6 @@ def put_pages(pages: Mapping[str, str], folder: Path) -> None:
     Raises BadPage if it contains any other file, or cannot be written.
     """
     replace_folder(with_manifest(pages), folder, BadPage)
-
-
-def _demand_reachable(path: Path, option: str = "--out") -> None:
-    """Raise BadPage for a path that cannot exist, for example because its name is too long."""
-    try:
-        path.exists()
-    except OSError as error:
-        raise BadPage(str(path), f"cannot be reached ({error.strerror})", option) from error
 
 
 def _is_ours(path: Path, mark: str = MARK) -> bool:
